@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/commands.h"
+
+namespace limitcheck::cli {
+
+void add_audit(CLI::App& /*app*/, int& /*exit_code*/) {}
+
+}  // namespace limitcheck::cli

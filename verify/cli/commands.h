@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The commands of the program. Each adds itself to the parser and stores what it returned in `exit_code`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace limitcheck::cli {
+
+/// The exit codes of every command: stable, scripts rely on them.
+enum ExitCode : int { kHeld = 0, kFindings = 1, kBadInput = 2 };
+
+void add_generate(CLI::App& app, int& exit_code);
+void add_eval(CLI::App& app, int& exit_code);
+void add_audit(CLI::App& app, int& exit_code);
+void add_tessellate(CLI::App& app, int& exit_code);
+
+}  // namespace limitcheck::cli

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The door: the one interface through which limitcheck reaches a tessellator, its own included. Plain C99.
+ *
+ * A subject is a table of functions. For each control mesh the host calls create() once and tessellate() any number
+ * of times, each followed by release(), then destroy().
+ *
+ * Output memory comes from the host: the subject asks request->allocate() for each array. Every byte of it is 0xFF
+ * beforehand (a NaN in both precisions, an impossible index) and it has guard zones on both sides, so what a subject
+ * forgets to write, or writes beyond the end, is found.
+ *
+ * Conventions: faces counter-clockwise seen from outside; corners c0, c1, c2; barycentric l0 = 1 - l1 - l2 at c0,
+ * l1 at c1, l2 at c2; normals of unit length along ds/dl1 x ds/dl2.
+ */
+#ifndef LIMITCHECK_SUBJECT_H
+#define LIMITCHECK_SUBJECT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LC_SUBJECT_ABI 1u
+
+typedef enum lc_status {
+  LC_OK = 0,
+  LC_NOT_SUPPORTED = 1, /* the subject does not offer what was asked; not a fault */
+  LC_INVALID_INPUT = 2, /* the subject refuses this mesh or these options */
+  LC_FAILED = 3         /* it tried and could not */
+} lc_status;
+
+typedef enum lc_precision { LC_FLOAT32 = 0, LC_FLOAT64 = 1 } lc_precision;
+
+typedef enum lc_weights {
+  LC_WEIGHTS_LOOP = 0,  /* Loop 1987: a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64 */
+  LC_WEIGHTS_WARREN = 1 /* Warren: 3/(8n), 3/16 at n = 3. Another surface. */
+} lc_weights;
+
+typedef enum lc_boundary {
+  LC_BOUNDARY_SPLINE = 0, /* cubic B-spline boundary curve, ordinary rule on all interior edges */
+  LC_BOUNDARY_NONE = 1    /* closed meshes only */
+} lc_boundary;
+
+typedef enum lc_points {
+  LC_POINTS_LIMIT = 0,  /* points of the limit surface */
+  LC_POINTS_REFINED = 1 /* vertices of the control mesh refined `depth` times; not on the limit surface */
+} lc_points;
+
+typedef struct lc_capabilities {
+  lc_precision precision; /* of positions and normals; the control mesh is rounded to it beforehand */
+  lc_weights weights;
+  lc_boundary boundary;
+  lc_points points;
+  int32_t max_depth;
+  int32_t normals;        /* 1: delivers unit normals */
+  int32_t per_face_depth; /* 1: accepts another depth for each face, and -1 (culled) */
+  int32_t exact_lattice;  /* 1: claims to be exact at lattice points; 0: documented as an approximation */
+} lc_capabilities;
+
+typedef struct lc_mesh {
+  const double* positions; /* 3 * vertex_count, representable in the subject's precision */
+  int64_t vertex_count;
+  const int32_t* triangles; /* 3 * triangle_count */
+  int64_t triangle_count;
+} lc_mesh;
+
+typedef struct lc_request {
+  const int32_t* face_depth; /* triangle_count entries: 0..max_depth, or -1 for a culled face */
+  int32_t threads;           /* at most so many; results must not depend on it */
+  void* host;
+  void* (*allocate)(void* host, size_t bytes); /* NULL if refused; aligned to 64 bytes; never freed by the subject */
+} lc_request;
+
+/* Where a vertex lies: l1 = i / denominator, l2 = j / denominator on control face `face`.
+ * Lattice points of depth d have denominator 2^d; the centre of a face is i = j = 1, denominator 3. */
+typedef struct lc_provenance {
+  int32_t face;
+  uint32_t i, j;
+  uint32_t denominator;
+} lc_provenance;
+
+typedef struct lc_tessellation {
+  int64_t vertex_count;
+  int64_t triangle_count;
+  void* positions;           /* 3 * vertex_count floats or doubles, by capabilities.precision */
+  void* normals;             /* likewise, or NULL */
+  lc_provenance* provenance; /* vertex_count. A vertex shared by faces names any one of them. */
+  uint32_t* triangles;       /* 3 * triangle_count vertex indices, counter-clockwise from outside */
+  int32_t* triangle_face;    /* triangle_count: the control face each triangle is part of */
+  void* owner;               /* the subject's own; untouched by the host */
+} lc_tessellation;
+
+typedef struct lc_subject {
+  uint32_t abi; /* LC_SUBJECT_ABI */
+  const char* name;
+  const char* description; /* one line: what it is, and of which version */
+  const char* options;     /* help text for the options of create(), or NULL */
+
+  void (*capabilities)(lc_capabilities* out);
+
+  /* Prepares a mesh. `options` is "key=value,key=value" or NULL. *instance stays valid until destroy(); the mesh
+   * arrays stay valid as long. On failure *instance may be NULL and *message points to a static or
+   * instance-owned text. */
+  lc_status (*create)(const lc_mesh* mesh, const char* options, void** instance, const char** message);
+  lc_status (*tessellate)(void* instance, const lc_request* request, lc_tessellation* out, const char** message);
+  void (*release)(void* instance, lc_tessellation* out);
+  void (*destroy)(void* instance);
+} lc_subject;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -98,12 +98,18 @@ class DepthHeuristics {
   bool faces_away(std::int32_t v, const Camera& camera) const;
   std::vector<std::uint8_t> away(const Camera& camera) const;
   Facing facing(std::int32_t face, std::span<const std::uint8_t> away) const;
+  Facing vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const;
   void prepare_cones() const;
 
   const data::ControlMesh& mesh_;
   const Adjacency& adjacency_;
   int max_depth_;
+  struct Sphere {
+    Point3 centre;
+    double radius = 0;
+  };
   std::vector<Point3> limit_, normal_;  // per vertex
+  std::vector<Sphere> spheres_;         // per face, round the centroid
   std::int64_t degenerate_normals_ = 0;
   mutable std::once_flag cones_ready_;
   mutable std::vector<float>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Crack prevention between faces of different depth.                                    [mueller2000, section 5]
+// Crack prevention between faces of different depth.                                    [mueller2000, section
+// 5]
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ enum class Repair : std::uint8_t {
 enum class FanCentre : std::uint8_t {
   kLimit,       // the limit position of (1/3, 1/3, 1/3)
   kFlatLimit,   // centroid of the three corners' limit positions
-  kFlatControl  // centroid of the control triangle                                                       [C62]
+  kFlatControl  // centroid of the control triangle [C62]
 };
 
 /// Up to which depth a face collects points on its edge to a neighbour.                           [C57, C58]

@@ -103,8 +103,9 @@ DepthHeuristics::DepthHeuristics(const data::ControlMesh& mesh, const Adjacency&
   degenerate_normals_ = degenerate_count;
   spheres_.resize(mesh.triangles.size());
   for_each_index(spheres_.size(), [&](std::int32_t f) {
-    const Point3 a = mesh_.positions[adjacency_.corner(f, 0)], b = mesh_.positions[adjacency_.corner(f, 1)],
-                 c = mesh_.positions[adjacency_.corner(f, 2)];
+    const Point3 a = to_point(mesh_.positions[adjacency_.corner(f, 0)]),
+                 b = to_point(mesh_.positions[adjacency_.corner(f, 1)]),
+                 c = to_point(mesh_.positions[adjacency_.corner(f, 2)]);
     const Point3 centroid = (1. / 3) * (a + b + c);
     spheres_[f] = {centroid, std::max({length(a - centroid), length(b - centroid), length(c - centroid)})};
   });

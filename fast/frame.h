@@ -31,18 +31,19 @@ struct FrameStats {
   std::int64_t strips = 0, draws = 0;
   std::int64_t triangles = 0, vertices = 0;  // as delivered
   std::int64_t limit_points = 0;             // evaluated in windows, along edges and at centres
-  std::int64_t zero_normals = 0;             // vertices whose normal came from the rule for vanishing tangents
+  std::int64_t zero_normals = 0;  // vertices whose normal came from the rule for vanishing tangents
   double seconds_heuristics = 0, seconds_pairing = 0, seconds_planning = 0, seconds_evaluation = 0;
   double seconds_total = 0;
 };
 
 /// Prepared once per control mesh (copied); then one frame per call. Real is float or double.
-///   throws      std::invalid_argument: a mesh that Adjacency refuses or without faces, coordinates that are not
+///   throws      std::invalid_argument: a mesh that Adjacency refuses or without faces, coordinates that are
+///   not
 ///               finite, not one depth per face, a depth outside -1 .. kDeepest, a camera that makes no view,
 ///               more vertices than 32-bit indices reach (indexed mesh)
 ///   precision   the control points are rounded to Real (exact if they are representable)
-/// Every point of a control edge or vertex comes out with the same bits from every face that touches it. [D14]
-/// One frame at a time per object; inside, pairs run in parallel.
+/// Every point of a control edge or vertex comes out with the same bits from every face that touches it.
+/// [D14] One frame at a time per object; inside, pairs run in parallel.
 template <class Real>
 class Tessellator {
  public:

@@ -28,15 +28,15 @@ struct LatticePoint {
   friend constexpr bool operator==(const LatticePoint&, const LatticePoint&) = default;
 };
 
-/// How a triangle came about: a pair's strip, a strip of a face without partner, a fan around the centre (section
-/// 5), or an outer ring stitched to finer borders.
+/// How a triangle came about: a pair's strip, a strip of a face without partner, a fan around the centre
+/// (section 5), or an outer ring stitched to finer borders.
 enum class Kind : std::uint8_t { kPair, kSingleton, kFan, kStitched };
 
 enum class DrawMode : std::uint8_t { kStrip, kFan, kTriangles };
 
-/// One call of the graphics library: `count` vertices from `first`, or all of them if they come by themselves.
-/// The first `split` triangles belong to control face `face`, the rest to `face_after`. Of a strip or fan they
-/// are count - 2.
+/// One call of the graphics library: `count` vertices from `first`, or all of them if they come by
+/// themselves. The first `split` triangles belong to control face `face`, the rest to `face_after`. Of a
+/// strip or fan they are count - 2.
 struct Draw {
   std::int64_t first = 0;
   std::int32_t count = 0;

@@ -276,13 +276,11 @@ const std::vector<PlantedFault<Real>>& table() {
 class FaultySubject {
  public:
   static lc_capabilities capabilities(Options& options) {
-    return verify::capabilities(inner(options), options.rest());
+    const Inner inner(options);
+    return verify::capabilities(inner.subject, inner.options);
   }
 
-  FaultySubject(const lc_mesh& mesh, Options& options)
-      : lent_(mesh),
-        fault_(static_cast<std::size_t>(options.choice("fault", names()))),
-        session_(inner(options), control_mesh(mesh), options.rest()) {}
+  FaultySubject(const lc_mesh& mesh, Options& options) : FaultySubject(mesh, Inner(options)) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     if (session_.capabilities().precision == LC_FLOAT32) {
@@ -299,16 +297,28 @@ class FaultySubject {
   }
 
  private:
-  // Reads `fault` too, so that rest() leaves the inner subject its own options only.
-  static const lc_subject& inner(Options& options) {
-    (void)options.choice("fault", names());
-    const std::string name = options.value("of", "null");
-    const lc_subject* subject = find_subject(name);
-    if (subject == nullptr || subject == lc_subject_faulty()) {
-      throw SubjectError(LC_INVALID_INPUT, fmt::format("option of={}: there is no such subject", name));
+  // What the options say: the fault, the subject it is planted in, and the options for that one.
+  struct Inner {
+    explicit Inner(Options& given)
+        : fault(static_cast<std::size_t>(given.choice("fault", names()))),
+          subject(find(given.value("of", "null"))),
+          options(given.rest()) {}
+
+    static const lc_subject& find(const std::string& name) {
+      const lc_subject* subject = find_subject(name);
+      if (subject == nullptr || subject == lc_subject_faulty()) {
+        throw SubjectError(LC_INVALID_INPUT, fmt::format("option of={}: there is no such subject", name));
+      }
+      return *subject;
     }
-    return *subject;
-  }
+
+    std::size_t fault;
+    const lc_subject& subject;
+    std::string options;
+  };
+
+  FaultySubject(const lc_mesh& mesh, const Inner& inner)
+      : lent_(mesh), fault_(inner.fault), session_(inner.subject, control_mesh(mesh), inner.options) {}
 
   static data::ControlMesh control_mesh(const lc_mesh& mesh) {
     data::ControlMesh result;

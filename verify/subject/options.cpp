@@ -70,7 +70,7 @@ std::string Options::rest() {
 
 void Options::finish() const {
   for (const auto& [key, text] : values_) {
-    if (!read_.contains(key))
+    if (!rest_read_ && !read_.contains(key))
       throw SubjectError(LC_INVALID_INPUT, fmt::format("there is no option '{}'", key));
   }
 }

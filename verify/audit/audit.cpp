@@ -18,8 +18,8 @@ std::string label(const AuditSubject& s) {
   return s.options.empty() ? s.subject->name : fmt::format("{}:{}", s.subject->name, s.options);
 }
 
-// A control mesh is valid when it gets here, so a subject that calls it invalid is wrong; one that says it does not
-// offer this is not.
+// A control mesh is valid when it gets here, so a subject that calls it invalid is wrong; one that says it
+// does not offer this is not.
 Status status_of(lc_status status) {
   if (status == LC_NOT_SUPPORTED) return Status::kNotSupported;
   return status == LC_INVALID_INPUT ? Status::kFinding : Status::kError;
@@ -91,7 +91,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   ReferenceSurface& truth = reference(session->mesh(), capabilities.points);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
   const bool same_family = capabilities.weights == LC_WEIGHTS_LOOP;
-  std::string no_reference = same_family ? "" : "declares another family of weights than Loop's: another surface";
+  std::string no_reference =
+      same_family ? "" : "declares another family of weights than Loop's: another surface";
   if (same_family) {
     try {
       truth.prepare(points);
@@ -109,8 +110,9 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
       high[axis] = std::max(high[axis], p[axis]);
       magnitude = std::max(magnitude, std::abs(p[axis]));
     }
-  const Evidence evidence{name,          mesh.name,      capabilities,    session->mesh(), face_depth,
-                          *tessellation, truth.lattice(), truth,           std::move(points), norm(high - low), magnitude};
+  const Evidence evidence{name,          mesh.name,       capabilities, session->mesh(),   face_depth,
+                          *tessellation, truth.lattice(), truth,        std::move(points), norm(high - low),
+                          magnitude};
   for (const Check& check : checks()) {
     step(name, mesh.name, check.name);
     if (check.needs_reference && !no_reference.empty()) {
@@ -126,7 +128,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   return results;
 }
 
-std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes) {
+std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
+                                 const std::vector<AuditMesh>& meshes) {
   // Mesh by mesh, so that subjects share the reference; told subject by subject.
   done_ = 0;
   total_ = subjects.size() * meshes.size();

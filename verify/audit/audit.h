@@ -37,8 +37,8 @@ class Auditor {
   Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step = {});
   ~Auditor();
 
-  /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`. A subject
-  /// that refuses or fails gives rows, never an exception. `mesh` is valid (data/validate.h).
+  /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`.
+  /// A subject that refuses or fails gives rows, never an exception. `mesh` is valid (data/validate.h).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
 
   /// All of them, results ordered by subject, then mesh.

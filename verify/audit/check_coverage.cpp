@@ -25,8 +25,8 @@ void note(Verdict& v, std::int64_t by, std::int64_t i, std::int64_t j) {
   (by > 0 ? v.repeated : v.missing) += by > 0 ? by : -by;
 }
 
-// Row by row in l2, alternating up and down: the number of the unit triangle among n * n, or -1 if it is none.
-// `step` is the lattice coordinate of one side.
+// Row by row in l2, alternating up and down: the number of the unit triangle among n * n, or -1 if it is
+// none. `step` is the lattice coordinate of one side.
 std::int64_t unit_triangle(const Corners& c, std::int64_t step, std::int64_t n) {
   const std::int64_t i0 = std::min({c[0].i, c[1].i, c[2].i}), j0 = std::min({c[0].j, c[1].j, c[2].j});
   if (i0 % step != 0 || j0 % step != 0) return -1;
@@ -45,7 +45,8 @@ std::int64_t unit_triangle(const Corners& c, std::int64_t step, std::int64_t n) 
 }
 
 // A face whose neighbours ask for no more than itself: exactly the n * n unit triangles, once each.
-Verdict unit_tiling(std::span<const Corners> triangles, std::int64_t scale, int depth, std::vector<std::int32_t>& times) {
+Verdict unit_tiling(std::span<const Corners> triangles, std::int64_t scale, int depth,
+                    std::vector<std::int32_t>& times) {
   const std::int64_t n = std::int64_t{1} << depth, step = scale / n;
   times.assign(static_cast<std::size_t>(n * n), 0);
   Verdict v;
@@ -63,10 +64,10 @@ Verdict unit_tiling(std::span<const Corners> triangles, std::int64_t scale, int 
   return v;
 }
 
-// Any other tiling. Take every triangle counter-clockwise and add up the boundaries: how often a point is covered is
-// the winding number of the sum. So every point is covered exactly once if and only if the sum is the outline of the
-// face. Sides are cut into primitive lattice steps, so that a side may meet two shorter ones (a T-vertex is not the
-// business of this check).
+// Any other tiling. Take every triangle counter-clockwise and add up the boundaries: how often a point is
+// covered is the winding number of the sum. So every point is covered exactly once if and only if the sum is
+// the outline of the face. Sides are cut into primitive lattice steps, so that a side may meet two shorter
+// ones (a T-vertex is not the business of this check).
 Verdict free_tiling(std::span<const Corners> triangles, std::int64_t scale) {
   struct Step {
     std::int64_t i, j, di, dj;  // canonical direction
@@ -115,7 +116,8 @@ std::vector<Result> check_coverage(const Evidence& e) {
   std::vector<std::int64_t> start(static_cast<std::size_t>(faces) + 1, 0);
   std::vector<std::uint8_t> placed(static_cast<std::size_t>(t.triangle_count()));
   std::vector<Corners> corners(placed.size());
-  tbb::parallel_for(std::int64_t{0}, t.triangle_count(), [&](std::int64_t k) { placed[k] = e.place(k, corners[k]); });
+  tbb::parallel_for(std::int64_t{0}, t.triangle_count(),
+                    [&](std::int64_t k) { placed[k] = e.place(k, corners[k]); });
   std::int64_t misplaced = 0, misplaced_witness = -1;
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     if (placed[k]) {
@@ -135,7 +137,8 @@ std::vector<Result> check_coverage(const Evidence& e) {
   std::vector<Verdict> verdicts(static_cast<std::size_t>(faces));
   tbb::enumerable_thread_specific<std::vector<std::int32_t>> scratch;
   tbb::parallel_for(std::int32_t{0}, faces, [&](std::int32_t f) {
-    const std::span<const Corners> own(sorted.data() + start[f], static_cast<std::size_t>(start[f + 1] - start[f]));
+    const std::span<const Corners> own(sorted.data() + start[f],
+                                       static_cast<std::size_t>(start[f + 1] - start[f]));
     const int depth = e.face_depth[f];
     if (depth < 0) {
       if (!own.empty()) note(verdicts[f], static_cast<std::int64_t>(own.size()), own[0][0].i, own[0][0].j);
@@ -145,7 +148,8 @@ std::vector<Result> check_coverage(const Evidence& e) {
     for (int k = 0; k < 3; ++k)
       for (const std::int32_t g : e.lattice.edges()[e.lattice.edge_of(f, k)].face)
         plain = plain && (g < 0 || e.face_depth[g] <= depth);
-    verdicts[f] = plain ? unit_tiling(own, e.lattice.scale(), depth, scratch.local()) : free_tiling(own, e.lattice.scale());
+    verdicts[f] = plain ? unit_tiling(own, e.lattice.scale(), depth, scratch.local())
+                        : free_tiling(own, e.lattice.scale());
   });
 
   std::int64_t missing = 0, repeated = 0;
@@ -167,8 +171,9 @@ std::vector<Result> check_coverage(const Evidence& e) {
 
   r.status = Status::kFinding;
   if (r.bad == 0) r.bad = std::max(misplaced, off_lattice);
-  r.message = fmt::format("{} tiles missing, {} repeated or foreign, {} triangles in no face, {} vertices off the lattice",
-                          missing, repeated, misplaced, off_lattice);
+  r.message = fmt::format(
+      "{} tiles missing, {} repeated or foreign, {} triangles in no face, {} vertices off the lattice",
+      missing, repeated, misplaced, off_lattice);
   if (!r.witness) {
     r.witness = Witness{};
     r.witness->triangle = misplaced_witness;

@@ -61,8 +61,9 @@ std::vector<Result> check_normals(const Evidence& e) {
   // Where the surface has no normal any unit vector will do; say how many such points there are.
   const Statistics without = summarise(undefined, std::numeric_limits<double>::infinity());
   if (without.of > 0)
-    angle.message = fmt::format("{} more where the surface has no normal, up to {} degrees from the reference's choice",
-                                without.of, without.worst ? fmt::format("{:.3g}", *without.worst) : "infinitely many");
+    angle.message =
+        fmt::format("{} more where the surface has no normal, up to {} degrees from the reference's choice",
+                    without.of, without.worst ? fmt::format("{:.3g}", *without.worst) : "infinitely many");
 
   length.unit = "|n| - 1";
   length.bound = length_bound(e.capabilities.precision);

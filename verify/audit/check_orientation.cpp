@@ -12,8 +12,8 @@ namespace {
 
 enum class Verdict : std::uint8_t { kNotPlaced, kGood, kClockwise, kFacesBack };
 
-// A facet may only be judged by its points if no allowed error of them can turn it over: each corner may move by
-// `slack`, which turns the facet's area vector by at most about slack * (sum of sides).
+// A facet may only be judged by its points if no allowed error of them can turn it over: each corner may move
+// by `slack`, which turns the facet's area vector by at most about slack * (sum of sides).
 Verdict judge(const Evidence& e, std::int64_t triangle, double slack) {
   std::array<Lattice::Coordinates, 3> c;
   if (!e.place(triangle, c)) return Verdict::kNotPlaced;
@@ -58,7 +58,8 @@ std::vector<Result> check_orientation(const Evidence& e) {
   if (r.bad == 0) return {r};
 
   r.status = Status::kFinding;
-  r.message = fmt::format("{} triangles clockwise on their control face, {} face away from the exact facet", clockwise, back);
+  r.message = fmt::format("{} triangles clockwise on their control face, {} face away from the exact facet",
+                          clockwise, back);
   const auto bad = std::find_if(verdict.begin(), verdict.end(), [](Verdict v) { return v > Verdict::kGood; });
   const std::int64_t triangle = bad - verdict.begin();
   r.witness = e.at_vertex(e.tessellation.triangles()[triangle][0]);

@@ -80,7 +80,8 @@ void compare(const Evidence& e, const Groups& groups, Bits bits, Value value, Di
   r.status = Status::kFinding;
   std::size_t g = static_cast<std::size_t>(s.worst_at);
   if (other[g] < 0)  // they differ in the sign of a zero only: distance 0
-    g = static_cast<std::size_t>(std::find_if(other.begin(), other.end(), [](auto v) { return v >= 0; }) - other.begin());
+    g = static_cast<std::size_t>(std::find_if(other.begin(), other.end(), [](auto v) { return v >= 0; }) -
+                                 other.begin());
   const Vector expected = value(groups[g][0]), got = value(other[g]);
   r.witness = e.at_vertex(other[g]);
   r.witness->expected = {expected.begin(), expected.end()};
@@ -113,7 +114,8 @@ std::vector<Result> check_shared(const Evidence& e) {
     normals.status = Status::kNotRun;
   } else {
     compare(
-        e, groups, [&](auto v) { return t.normal_bits(v); }, [&](auto v) { return t.normal(v); }, angle_degrees, normals);
+        e, groups, [&](auto v) { return t.normal_bits(v); }, [&](auto v) { return t.normal(v); },
+        angle_degrees, normals);
   }
   return {positions, normals};
 }

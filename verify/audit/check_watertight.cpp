@@ -13,8 +13,8 @@ namespace {
 
 using OpenEdge = SurfaceReport::Edge;
 
-// The steps along the boundary of what was asked for: (point, next point) on control edges with one visible face, in
-// the direction in which that face runs along them.
+// The steps along the boundary of what was asked for: (point, next point) on control edges with one visible
+// face, in the direction in which that face runs along them.
 struct Boundary {
   std::vector<std::pair<Lattice::Id, Lattice::Id>> steps;  // sorted
   std::int64_t loops = 0;
@@ -45,7 +45,8 @@ Boundary expected_boundary(const Evidence& e) {
   }
   std::sort(b.steps.begin(), b.steps.end());
 
-  // Loops. A vertex between two culled faces may lie on several: then they branch, and their number is not asked for.
+  // Loops. A vertex between two culled faces may lie on several: then they branch, and their number is not
+  // asked for.
   std::vector<std::int32_t> leaving(e.mesh.positions.size(), -1);
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (leaving[sides[s].from] >= 0) b.loops = -1;
@@ -55,13 +56,14 @@ Boundary expected_boundary(const Evidence& e) {
   for (std::size_t s = 0; b.loops >= 0 && s < sides.size(); ++s) {
     if (walked[s]) continue;
     ++b.loops;
-    for (auto at = static_cast<std::int32_t>(s); at >= 0 && !walked[at]; at = leaving[sides[at].to]) walked[at] = true;
+    for (auto at = static_cast<std::int32_t>(s); at >= 0 && !walked[at]; at = leaving[sides[at].to])
+      walked[at] = true;
   }
   return b;
 }
 
-// A lattice point strictly inside the open edge that some vertex names, or kNone. The ends of an edge need a common
-// face to be compared in.
+// A lattice point strictly inside the open edge that some vertex names, or kNone. The ends of an edge need a
+// common face to be compared in.
 Lattice::Id point_inside(const Evidence& e, const OpenEdge& edge, Lattice::Id from, Lattice::Id to,
                          const std::vector<bool>& named) {
   const std::int32_t face = e.tessellation.triangle_face()[edge.triangle];
@@ -90,8 +92,10 @@ std::vector<Result> check_watertight(const Evidence& e) {
   }
 
   // Merge, look, and let CGAL look.
-  const MergedPoints merged = t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
-  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()), {-1, -1, -1});
+  const MergedPoints merged =
+      t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
+  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()),
+                                                     {-1, -1, -1});
   for (std::int64_t k = 0; k < t.triangle_count(); ++k)
     if (t.triangle_ok(k))
       for (int c = 0; c < 3; ++c) triangles[k][c] = merged.point_of[t.triangles()[k][c]];
@@ -102,7 +106,8 @@ std::vector<Result> check_watertight(const Evidence& e) {
                        [&] { judgement = judge_surface(points, triangles); });
 
   // Open edges: exactly the boundary that was asked for?
-  const auto corner_at = [&](const OpenEdge& edge, std::int32_t point) {  // the triangle's own vertex at this point
+  const auto corner_at = [&](const OpenEdge& edge,
+                             std::int32_t point) {  // the triangle's own vertex at this point
     for (const std::uint32_t v : t.triangles()[edge.triangle])
       if (merged.point_of[v] == point) return static_cast<std::int64_t>(v);
     return std::int64_t{-1};
@@ -142,12 +147,14 @@ std::vector<Result> check_watertight(const Evidence& e) {
   for (const TVertex& tee : find_t_vertices(places, merged.vertex_of, crack_edges)) {
     split[tee.edge] = true;
     if (!tees.witness)
-      tees.witness = e.at_vertex(merged.vertex_of[tee.point]), tees.witness->triangle = crack_edges[tee.edge].triangle;
+      tees.witness = e.at_vertex(merged.vertex_of[tee.point]),
+      tees.witness->triangle = crack_edges[tee.edge].triangle;
   }
   const auto cracks = static_cast<std::int64_t>(crack_edges.size());
   const auto missed = static_cast<std::int64_t>(std::count(met.begin(), met.end(), false));
   if (missed > 0 && !surface.witness)
-    surface.witness = e.at_point(boundary.steps[std::find(met.begin(), met.end(), false) - met.begin()].first);
+    surface.witness =
+        e.at_point(boundary.steps[std::find(met.begin(), met.end(), false) - met.begin()].first);
 
   const auto triangle_witness = [&](const std::vector<std::int32_t>& list) {
     if (list.empty() || surface.witness) return;
@@ -166,8 +173,8 @@ std::vector<Result> check_watertight(const Evidence& e) {
     surface.witness = e.at_vertex(merged.vertex_of[report.bow_tie_witness.front()]);
 
   surface.of = report.edges;
-  surface.bad = cracks + missed + report.degenerate_triangles + report.duplicate_triangles + report.crowded_edges +
-                report.clashing_edges + report.bow_tie_points;
+  surface.bad = cracks + missed + report.degenerate_triangles + report.duplicate_triangles +
+                report.crowded_edges + report.clashing_edges + report.bow_tie_points;
   std::vector<std::string> parts;
   const auto part = [&](std::int64_t count, const char* what) {
     if (count > 0) parts.push_back(fmt::format("{} {}", count, what));
@@ -192,10 +199,11 @@ std::vector<Result> check_watertight(const Evidence& e) {
                                              report.open_loops == judgement.boundary_cycles));
   if (!agree) {
     surface.status = Status::kError;
-    surface.message = fmt::format("our own count (manifold {}, {} open edges, {} loops) and CGAL's (manifold {}, closed {}, "
-                                  "{} cycles) disagree; ours: {}",
-                                  report.manifold(), report.open_edges.size(), report.open_loops, judgement.manifold(),
-                                  judgement.closed, judgement.boundary_cycles, surface.message);
+    surface.message = fmt::format(
+        "our own count (manifold {}, {} open edges, {} loops) and CGAL's (manifold {}, closed {}, "
+        "{} cycles) disagree; ours: {}",
+        report.manifold(), report.open_edges.size(), report.open_loops, judgement.manifold(),
+        judgement.closed, judgement.boundary_cycles, surface.message);
   }
 
   tees.of = static_cast<std::int64_t>(report.open_edges.size());

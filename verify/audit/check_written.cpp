@@ -30,7 +30,9 @@ std::vector<Result> check_written(const Evidence& e) {
     ++structural;
   }
   for (const Overrun& o : t.overruns())
-    add(r, 1, fmt::format("{} written {} bytes {} its memory", o.array, o.distance, o.before ? "in front of" : "behind"));
+    add(r, 1,
+        fmt::format("{} written {} bytes {} its memory", o.array, o.distance,
+                    o.before ? "in front of" : "behind"));
 
   // Entries that still hold the bytes they were handed out with.
   std::int64_t positions = 0, normals = 0, provenance = 0, triangles = 0, faces = 0;

@@ -54,10 +54,13 @@ Lattice::Lattice(const data::ControlMesh& mesh, int depth)
   for (std::int64_t j = 1; j + 1 < n_; ++j) row_start_[j + 1] = row_start_[j] + (n_ - 1 - j);
 }
 
-Lattice::Id Lattice::interior(std::int64_t i, std::int64_t j) const { return row_start_[j] + i - 1; }
+Lattice::Id Lattice::interior(std::int64_t i, std::int64_t j) const {
+  return row_start_[j] + i - 1;
+}
 
 Lattice::Id Lattice::id(const lc_provenance& p) const {
-  if (p.face < 0 || static_cast<std::size_t>(p.face) >= mesh_.triangles.size() || p.denominator == 0) return kNone;
+  if (p.face < 0 || static_cast<std::size_t>(p.face) >= mesh_.triangles.size() || p.denominator == 0)
+    return kNone;
   const std::int64_t denominator = p.denominator;
   if (std::int64_t{p.i} + p.j > denominator) return kNone;
   const Id first = first_interior_ + face_points_ * p.face;

@@ -13,11 +13,12 @@
 
 namespace limitcheck::verify {
 
-/// All points with barycentric multiples of 1 / n, n = 2^depth, on all control faces, and the face centres; shared
-/// points once. A point has an id:
+/// All points with barycentric multiples of 1 / n, n = 2^depth, on all control faces, and the face centres;
+/// shared points once. A point has an id:
 ///   0 .. V-1                   control vertices
 ///   then n-1 for each edge     by ascending (smaller vertex, larger vertex), counted from the smaller vertex
-///   then (n-1)(n-2)/2 + 1      for each face: its interior lattice points row by row in l2, then its centre (1/3, 1/3)
+///   then (n-1)(n-2)/2 + 1      for each face: its interior lattice points row by row in l2, then its centre
+///   (1/3, 1/3)
 /// An adjacency of its own: it must not depend on anything it helps to judge.
 class Lattice {
  public:
@@ -25,12 +26,14 @@ class Lattice {
   static constexpr Id kNone = -1;
 
   struct Edge {
-    std::int32_t a, b;                   // control vertices, a < b
-    std::array<std::int32_t, 2> face;    // the faces on both sides; -1 beyond the boundary
-    std::array<std::int8_t, 2> corner;   // in each face, the corner at which the edge begins (counter-clockwise)
+    std::int32_t a, b;                 // control vertices, a < b
+    std::array<std::int32_t, 2> face;  // the faces on both sides; -1 beyond the boundary
+    std::array<std::int8_t, 2>
+        corner;  // in each face, the corner at which the edge begins (counter-clockwise)
   };
 
-  /// l1 = i / scale(), l2 = j / scale(): coordinates fine enough for every lattice point, the centre included.
+  /// l1 = i / scale(), l2 = j / scale(): coordinates fine enough for every lattice point, the centre
+  /// included.
   struct Coordinates {
     std::int64_t i, j;
   };
@@ -67,9 +70,9 @@ class Lattice {
   Id first_edge_, first_interior_ = 0, face_points_;
   std::vector<Edge> edges_;
   std::vector<std::array<std::int32_t, 3>> face_edges_;
-  std::vector<std::int32_t> vertex_face_;         // one face at each vertex ...
-  std::vector<std::int8_t> vertex_corner_;        // ... and its corner there
-  std::vector<std::int64_t> row_start_;           // of the interior points with l2 = j / n
+  std::vector<std::int32_t> vertex_face_;   // one face at each vertex ...
+  std::vector<std::int8_t> vertex_corner_;  // ... and its corner there
+  std::vector<std::int64_t> row_start_;     // of the interior points with l2 = j / n
 };
 
 /// "3/8", "0", "1".

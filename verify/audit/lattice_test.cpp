@@ -25,7 +25,8 @@ TEST(Lattice, CountsEveryPointOfAClosedMeshOnce) {
     const Lattice lattice(mesh, depth);
     std::set<Lattice::Id> seen;
     for_each_point(lattice, [&](const lc_provenance& p) { seen.insert(lattice.id(p)); });
-    EXPECT_EQ(seen.size(), 10U * lattice.n() * lattice.n() + 2) << "Euler: V = F n^2 / 2 + 2 at depth " << depth;
+    EXPECT_EQ(seen.size(), 10U * lattice.n() * lattice.n() + 2)
+        << "Euler: V = F n^2 / 2 + 2 at depth " << depth;
     EXPECT_EQ(lattice.size(), static_cast<Lattice::Id>(seen.size()) + 20) << "and the 20 centres";
     EXPECT_EQ(seen.count(Lattice::kNone), 0U);
   }

@@ -9,7 +9,9 @@
 namespace limitcheck::verify {
 namespace {
 
-Vector vector(const reference::Vec3<double>& v) { return {v.x, v.y, v.z}; }
+Vector vector(const reference::Vec3<double>& v) {
+  return {v.x, v.y, v.z};
+}
 
 }  // namespace
 
@@ -44,11 +46,14 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
       const Lattice::Id id = wanted[k];
       const lc_provenance p = lattice_.provenance(id);
-      const auto parameter = [&](std::uint32_t numerator) {  // dyadic fractions are exact doubles
-        return p.denominator % 3 != 0 ? reference::Parameter(static_cast<double>(numerator) / p.denominator)
-                                      : reference::Parameter::fraction(numerator, p.denominator);
-      };
-      const auto point = evaluator_->limit->evaluate(p.face, parameter(p.i), parameter(p.j));
+      // Dyadic fractions are exact doubles; thirds are not.
+      const auto& limit = *evaluator_->limit;
+      const auto point =
+          p.denominator % 3 != 0
+              ? limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
+                               static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
+              : limit.evaluate(p.face, reference::Parameter::fraction(p.i, p.denominator),
+                               reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
       position_[id] = vector(point.position);
       normal_[id] = vector(point.normal);
       state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
@@ -57,10 +62,12 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   }
 
   if (!evaluator_->refined)
-    evaluator_->refined = std::make_unique<reference::RefinedMesh<double>>(reference::refine<double>(mesh_, lattice_.depth()));
+    evaluator_->refined =
+        std::make_unique<reference::RefinedMesh<double>>(reference::refine<double>(mesh_, lattice_.depth()));
   for (const Lattice::Id id : wanted) {
     const lc_provenance p = lattice_.provenance(id);
-    const auto scale = lattice_.n() / p.denominator;  // 0 for a face centre, which is no vertex of a refined mesh
+    const auto scale =
+        lattice_.n() / p.denominator;  // 0 for a face centre, which is no vertex of a refined mesh
     state_[id] = State::kNoNormal;
     position_[id] = scale == 0 || p.denominator % 3 == 0
                         ? Vector{}

@@ -13,8 +13,8 @@
 
 namespace limitcheck::verify {
 
-/// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that several
-/// subjects share it.
+/// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that
+/// several subjects share it.
 class ReferenceSurface {
  public:
   /// `mesh` is copied. `depth` is that of the lattice.
@@ -25,15 +25,16 @@ class ReferenceSurface {
   const Lattice& lattice() const { return lattice_; }
   lc_points points() const { return points_; }
 
-  /// Evaluates what is missing among these points (kNone is skipped), in parallel. Not to be called at the same time as
-  /// anything else.
+  /// Evaluates what is missing among these points (kNone is skipped), in parallel. Not to be called at the
+  /// same time as anything else.
   void prepare(std::span<const Lattice::Id> ids);
 
   /// The rest only for points that were prepared. Position: double, error see reference/stam.h.
   const Vector& position(Lattice::Id id) const { return position_[id]; }
   /// Unit normal; limit points only.
   const Vector& normal(Lattice::Id id) const { return normal_[id]; }
-  /// False where the surface has no normal (D12: zero by the masks; D5: boundary vertices without a tangent plane).
+  /// False where the surface has no normal (D12: zero by the masks; D5: boundary vertices without a tangent
+  /// plane).
   bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
 
  private:

@@ -30,7 +30,8 @@ struct Witness {
   std::vector<double> expected, got;
 };
 
-/// One row. `worst` and `bound` are in `unit`; so are rms and p99, which run over everything that was compared.
+/// One row. `worst` and `bound` are in `unit`; so are rms and p99, which run over everything that was
+/// compared.
 struct Result {
   std::string subject, mesh, check;
   int depth = 0;
@@ -45,7 +46,9 @@ struct Result {
 };
 
 /// A finding, or a breakdown.
-inline bool is_bad(const Result& r) { return r.status == Status::kFinding || r.status == Status::kError; }
+inline bool is_bad(const Result& r) {
+  return r.status == Status::kFinding || r.status == Status::kError;
+}
 
 /// What the audit was run on and with: the header of table and JSON.
 struct Report {

@@ -43,7 +43,8 @@ TEST(Statistics, NothingLookedAtIsNoConfirmation) {
 
 TEST(Angle, IsAccurateNearZeroAndNearAHalfTurn) {
   const double tiny = 1e-12;
-  EXPECT_NEAR(angle_degrees({1, 0, 0}, {2 * std::cos(tiny), 2 * std::sin(tiny), 0}) / 57.295779513082320877, tiny, 1e-22);
+  EXPECT_NEAR(angle_degrees({1, 0, 0}, {2 * std::cos(tiny), 2 * std::sin(tiny), 0}) / 57.295779513082320877,
+              tiny, 1e-22);
   EXPECT_EQ(angle_degrees({0, 3, 0}, {0, -1, 0}), 180);
   EXPECT_NEAR(angle_degrees({0, 0, 1}, {0, 1, 0}), 90, 1e-13);
   EXPECT_EQ(angle_degrees({0, 0, 0}, {0, 1, 0}), kInfinity);

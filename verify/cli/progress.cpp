@@ -27,7 +27,8 @@ void Progress::show(std::size_t done, std::size_t total, const std::string& text
   last_ = now;
   shown_ = true;
   const std::size_t filled = total == 0 ? 0 : std::min(kBar, kBar * done / total);
-  std::string line = fmt::format("[{}{}] {}/{} {}", std::string(filled, '#'), std::string(kBar - filled, '.'), done, total, text);
+  std::string line = fmt::format("[{}{}] {}/{} {}", std::string(filled, '#'), std::string(kBar - filled, '.'),
+                                 done, total, text);
   line.resize(std::min(line.size(), terminal_width() - 1));
   fmt::print(stderr, "\r\033[K{}", line);
   std::fflush(stderr);

@@ -6,8 +6,8 @@
 
 namespace limitcheck::cli {
 
-/// One line on standard error that says what is being done now, rewritten in place; nothing at all if standard error is
-/// no terminal. Not thread-safe.
+/// One line on standard error that says what is being done now, rewritten in place; nothing at all if
+/// standard error is no terminal. Not thread-safe.
 class Progress {
  public:
   Progress();

@@ -11,10 +11,10 @@
 #include <set>
 #include <string>
 
+#include "data/generators/named_mesh.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
-#include "verify/subject/test_shapes.h"
 
 namespace {
 
@@ -30,6 +30,16 @@ const std::vector<Named> kAdapters{
     {"opensubdiv-far", ""}, {"opensubdiv-far", "precision=double"},
     {"opensubdiv-bfr", ""}, {"opensubdiv-bfr", "precision=double,approx-level=4"},
     {"cgal", ""},           {"openmesh", ""}};
+
+// Every interior valence, every boundary situation, faces whose corners are all irregular.
+std::vector<std::pair<std::string, data::ControlMesh>> shapes() {
+  std::vector<std::pair<std::string, data::ControlMesh>> result;
+  for (const char* name : {"tetrahedron", "octahedron", "triangle", "strip:6", "wheel:3:1", "wheel:7:2",
+                           "fan:5:1", "fan:8:2", "ragged-disc", "holes", "two-components", "bumpy:200"}) {
+    result.emplace_back(name, data::named_mesh(name));
+  }
+  return result;
+}
 
 // Each control face is covered by 4^d triangles of the lattice, each once, corners on the face,
 // counter-clockwise.
@@ -79,7 +89,7 @@ TEST(Adapters, CoverEachFaceByItsLatticeOnceAndCounterClockwise) {
 }
 
 TEST(Adapters, TakeADepthForEachFaceWhereTheySaySo) {
-  const auto mesh = octahedron();
+  const auto mesh = data::named_mesh("octahedron");
   const std::vector<std::int32_t> depth{0, 3, -1, 1, 2, -1, 3, 0};
   for (const Named& named : kAdapters) {
     Session session(*find_subject(named.subject), mesh, named.options);
@@ -236,7 +246,7 @@ TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
   };
   const tbb::global_control four(tbb::global_control::max_allowed_parallelism,
                                  4);  // whatever this machine has
-  const auto mesh = disc(40);
+  const auto mesh = data::named_mesh("bumpy:800");
   for (const Named& named : kAdapters) {
     Session session(*find_subject(named.subject), mesh, named.options);
     const std::string one = bytes(session.tessellate(3, 1));
@@ -247,9 +257,9 @@ TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
 
 // OpenMesh reads beyond its weight table from valence 50 on: the adapter refuses in its place, and says why.
 TEST(OpenMesh, IsNotRunWhereItReadsOutOfBounds) {
-  EXPECT_NO_THROW(Session(*lc_subject_openmesh(), disc(49)));
+  EXPECT_NO_THROW(Session(*lc_subject_openmesh(), data::named_mesh("wheel:49")));
   try {
-    Session(*lc_subject_openmesh(), disc(50));
+    Session(*lc_subject_openmesh(), data::named_mesh("wheel:50"));
     FAIL() << "valence 50 was accepted";
   } catch (const SubjectError& error) {
     EXPECT_EQ(error.status(), LC_INVALID_INPUT);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "data/shapes.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/registry.h"
 
@@ -18,9 +19,11 @@ using namespace limitcheck;
 using namespace limitcheck::verify;
 using Kind = Defect::Kind;
 
+// One coordinate is not a float.
 data::ControlMesh octahedron() {
-  return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1.1}},
-          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  auto mesh = data::octahedron();
+  mesh.positions[5][2] = -1.1;
+  return mesh;
 }
 
 Tessellation planted(const char* fault, int depth = 2) {

@@ -9,6 +9,9 @@
 
 extern "C" {
 const lc_subject* lc_subject_opensubdiv_far();
+const lc_subject* lc_subject_opensubdiv_bfr();
+const lc_subject* lc_subject_cgal();
+const lc_subject* lc_subject_openmesh();
 const lc_subject* lc_subject_null();
 const lc_subject* lc_subject_faulty();  // options: verify/subject/faulty_subjects.h
 }

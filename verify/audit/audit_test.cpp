@@ -47,7 +47,7 @@ std::string describe(const std::vector<Result>& results) {
 }
 
 TEST(Audit, AGoodSubjectHoldsOnAClosedMeshInEveryCheck) {
-  for (const char* mesh : {"bumpy:200", "tetrahedron", "bipyramid:7", "torus:5:4"}) {
+  for (const char* mesh : {"bumpy:200", "tetrahedron", "bipyramid:7", "torus"}) {
     const auto results = run(find_subject(kBase), kBaseOptions, mesh, 3);
     EXPECT_TRUE(red(results).empty()) << mesh << "\n" << describe(results);
     EXPECT_EQ(row(results, "positions").status, Status::kHeld);
@@ -116,7 +116,7 @@ TEST_P(PlantedFault, IsSeenByTheChecksWhoseBusinessItIs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PlantedFault, testing::ValuesIn(kill_table()),
-                         [](const auto& info) { return std::string(info.param.fault); });
+                         [](const auto& instance) { return std::string(instance.param.fault); });
 
 TEST(PlantedFaults, AreAllInTheTableAndEveryRowOfTheAuditIsTurnedRedByOne) {
   std::set<std::string> planted, seen;
@@ -152,7 +152,7 @@ TEST(Audit, TheNullSubjectFailsCleanly) {
   const auto results = run(lc_subject_null(), "", "tetrahedron", 1);
   EXPECT_FALSE(red(results).empty()) << describe(results);
   for (const Result& r : results)
-    if (r.check != "tessellates") EXPECT_NE(r.status, Status::kHeld) << r.check << " held with nothing to look at";
+    EXPECT_TRUE(r.check == "tessellates" || r.status != Status::kHeld) << r.check << " held with nothing to look at";
 }
 
 TEST(Audit, ASubjectThatRefusesIsARowAndNothingElseIsConfirmed) {
@@ -163,11 +163,11 @@ TEST(Audit, ASubjectThatRefusesIsARowAndNothingElseIsConfirmed) {
   for (const Check& check : checks()) rows += check.rows.size();
   EXPECT_EQ(results.size(), rows);
   for (const Result& r : results)
-    if (r.check != "tessellates") EXPECT_EQ(r.status, Status::kNotRun) << r.check;
+    EXPECT_TRUE(r.check == "tessellates" || r.status == Status::kNotRun) << r.check;
 }
 
 TEST(Audit, TheBoundaryOfTheControlMeshIsTheOnlyBoundaryAllowed) {
-  for (const char* mesh : {"fan:1", "strip:3", "holes", "triangle", "two_components"}) {
+  for (const char* mesh : {"fan:1", "strip:3", "holes", "triangle", "two-components"}) {
     const auto results = run(find_subject(kBase), kBaseOptions, mesh, 2);
     EXPECT_EQ(row(results, "watertight").status, Status::kHeld) << mesh << "\n" << describe(results);
     EXPECT_EQ(row(results, "coverage").status, Status::kHeld) << mesh << "\n" << describe(results);

@@ -31,16 +31,6 @@ const std::vector<Named> kAdapters{
     {"opensubdiv-bfr", ""}, {"opensubdiv-bfr", "precision=double,approx-level=4"},
     {"cgal", ""},           {"openmesh", ""}};
 
-// Every interior valence, every boundary situation, faces whose corners are all irregular.
-std::vector<std::pair<std::string, data::ControlMesh>> shapes() {
-  std::vector<std::pair<std::string, data::ControlMesh>> result;
-  for (const char* name : {"tetrahedron", "octahedron", "triangle", "strip:6", "wheel:3:1", "wheel:7:2",
-                           "fan:5:1", "fan:8:2", "ragged-disc", "holes", "two-components", "bumpy:200"}) {
-    result.emplace_back(name, data::named_mesh(name));
-  }
-  return result;
-}
-
 // Each control face is covered by 4^d triangles of the lattice, each once, corners on the face,
 // counter-clockwise.
 void expect_full_lattice(const data::ControlMesh& mesh, const Tessellation& t,
@@ -168,68 +158,6 @@ TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
     }
   }
   RecordProperty("worst", std::to_string(worst));
-}
-
-// Limit points of a refined mesh by the masks C14 and D1, from its triangles alone: a way to Far's points
-// that shares nothing with OpenSubdiv.
-std::map<Place, std::array<double, 3>> limit_of_refined(const data::ControlMesh& control,
-                                                        const Tessellation& t) {
-  data::ControlMesh mesh;
-  for (std::int64_t v = 0; v < t.vertex_count(); ++v) mesh.positions.push_back(t.position(v));
-  std::map<std::pair<int, int>, int> faces_at;
-  std::vector<std::set<int>> ring(mesh.positions.size()), rim(mesh.positions.size());
-  for (const auto& corners : t.triangles()) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int a = static_cast<int>(corners[k]), b = static_cast<int>(corners[(k + 1) % 3]);
-      ++faces_at[std::minmax(a, b)];
-      ring[corners[k]].insert(b);
-      ring[static_cast<std::size_t>(b)].insert(a);
-    }
-  }
-  for (const auto& [edge, faces] : faces_at) {
-    if (faces == 2) continue;
-    rim[static_cast<std::size_t>(edge.first)].insert(edge.second);
-    rim[static_cast<std::size_t>(edge.second)].insert(edge.first);
-  }
-  std::map<Place, std::array<double, 3>> result;
-  for (std::size_t v = 0; v < ring.size(); ++v) {
-    const auto& neighbours = rim[v].empty() ? ring[v] : rim[v];
-    const double n = static_cast<double>(neighbours.size());
-    const double a = 0.625 - std::pow(3 + 2 * std::cos(2 * std::numbers::pi / n), 2) / 64;
-    const double centre = rim[v].empty() ? 3 * n / (8 * a) : 4;
-    auto& point = result[place(control, t.provenance()[v])];
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = centre * mesh.positions[v][c];
-      for (const int w : neighbours) sum += mesh.positions[static_cast<std::size_t>(w)][c];
-      point[c] = sum / (centre + n);
-    }
-  }
-  return result;
-}
-
-TEST(OpenSubdiv, DeliversTheLimitPointsThatCgalsRefinementConvergesTo) {
-  constexpr int kDepth = 3;
-  double far_worst = 0, bfr_worst = 0;
-  for (const auto& [name, mesh] : shapes()) {
-    Session cgal(*lc_subject_cgal(), mesh);
-    const auto expected = limit_of_refined(mesh, cgal.tessellate(kDepth));
-    const double unit = box_diagonal(mesh);
-    // Bfr at a level >= the depth is exact at lattice points, up to its own rounding.
-    for (const auto& [subject, options, worst] :
-         {std::tuple{"opensubdiv-far", "precision=double", &far_worst},
-          {"opensubdiv-bfr", "precision=double,approx-level=3", &bfr_worst}}) {
-      Session session(*find_subject(subject), mesh, options);
-      const Tessellation t = session.tessellate(kDepth);
-      for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-        const auto& p = t.provenance()[static_cast<std::size_t>(v)];
-        const double error = distance(t.position(v), expected.at(place(mesh, p))) / unit;
-        EXPECT_LE(error, 1e-14) << subject << " on " << name << " face " << p.face << " at " << p.i << ", "
-                                << p.j;
-        *worst = std::max(*worst, error);
-      }
-    }
-  }
-  std::printf("worst distance / box: far %.2g, bfr %.2g\n", far_worst, bfr_worst);
 }
 
 TEST(Adapters, DoNotDependOnTheNumberOfThreads) {

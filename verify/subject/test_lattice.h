@@ -2,16 +2,31 @@
 // Points by where they lie, the same name from every face that touches them. For tests of this folder.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "data/generators/named_mesh.h"
 #include "verify/subject/host.h"
 
 namespace limitcheck::verify::test {
+
+/// Every interior valence class, every boundary situation, faces whose corners are all irregular.
+inline std::vector<std::pair<std::string, data::ControlMesh>> shapes() {
+  std::vector<std::pair<std::string, data::ControlMesh>> result;
+  for (const char* name : {"tetrahedron", "octahedron", "triangle", "strip:6", "wheel:3:1", "wheel:7:2",
+                           "fan:5:1", "fan:8:2", "ragged-disc", "holes", "two-components", "bumpy:200"}) {
+    result.emplace_back(name, data::named_mesh(name));
+  }
+  return result;
+}
 
 /// (kind, a, b, c, d): control vertex a; or on edge a < b, c / d from a; or in face a at (b, c) / d.
 using Place = std::tuple<int, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
@@ -58,7 +73,7 @@ inline std::map<Place, std::vector<std::int64_t>> places(const data::ControlMesh
   return result;
 }
 
-/// Largest extent of the bounding box, as lengths are compared with.
+/// Diagonal of the bounding box, as lengths are compared with.
 inline double box_diagonal(const data::ControlMesh& mesh) {
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -99,11 +99,12 @@ TEST(OpenSubdivBfr, ComputesSharedPointsWithOtherBitsInEachFace) {
   for (const auto& [place, vertices] : places(mesh, t)) {
     if (vertices.size() < 2) continue;
     ++shared;
+    const std::int64_t first = vertices[0];
     positions += std::any_of(vertices.begin(), vertices.end(), [&](std::int64_t v) {
-      return differ(t.position_bits(v), t.position_bits(vertices[0]));
+      return differ(t.position_bits(v), t.position_bits(first));
     });
     normals += std::any_of(vertices.begin(), vertices.end(), [&](std::int64_t v) {
-      return differ(t.normal_bits(v), t.normal_bits(vertices[0]));
+      return differ(t.normal_bits(v), t.normal_bits(first));
     });
   }
   EXPECT_EQ(shared, 402 + 1200 * 15);

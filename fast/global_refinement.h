@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For the tests of this folder: the whole mesh refined at once, through maps, in long double. It shares no code with
-// the kernels.
+// For the tests of this folder: the whole mesh refined at once, through maps, in long double. It shares no
+// code with the kernels.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +19,21 @@ namespace limitcheck::fast {
 
 using Point = std::array<long double, 3>;
 
-inline Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Point operator*(long double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline Point operator+(const Point& a, const Point& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Point operator-(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Point operator*(long double s, const Point& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
 inline Point cross_product(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-inline long double norm(const Point& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+inline long double norm(const Point& a) {
+  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
 
 struct RefinedMesh {
   std::vector<Point> points;
@@ -76,7 +84,9 @@ struct RefinedMesh {
     const auto [open, r] = ring(v);
     const Point c = points[static_cast<std::size_t>(v)];
     const int n = static_cast<int>(r.size());
-    const auto p = [&, &rr = r](int i) { return points[static_cast<std::size_t>(rr[static_cast<std::size_t>(i)])]; };
+    const auto p = [&, &rr = r](int i) {
+      return points[static_cast<std::size_t>(rr[static_cast<std::size_t>(i)])];
+    };
     const long double pi = std::numbers::pi_v<long double>;
     Point position{}, u{}, w{};
     if (!open) {
@@ -129,7 +139,8 @@ struct RefinedMesh {
         continue;
       }
       const long double n = static_cast<long double>(r.size());
-      const long double a = .625L - std::pow(3 + 2 * std::cos(2 * std::numbers::pi_v<long double> / n), 2) / 64;
+      const long double a =
+          .625L - std::pow(3 + 2 * std::cos(2 * std::numbers::pi_v<long double> / n), 2) / 64;
       Point sum{};
       for (const int q : r) sum = sum + at(q);
       refined.push_back((1 - a) * points[v] + (a / n) * sum);
@@ -145,7 +156,8 @@ struct RefinedMesh {
     for (const auto& t : faces) {
       const int a = middle[std::minmax(t[0], t[1])], b = middle[std::minmax(t[1], t[2])],
                 c = middle[std::minmax(t[2], t[0])];
-      for (const auto& s : {std::array{t[0], a, c}, {a, t[1], b}, {c, b, t[2]}, {a, b, c}}) split.push_back(s);
+      for (const auto& s : {std::array{t[0], a, c}, {a, t[1], b}, {c, b, t[2]}, {a, b, c}})
+        split.push_back(s);
     }
     for (auto& face : lattice) {
       std::map<std::pair<int, int>, int> finer;

@@ -19,8 +19,8 @@ struct LimitFrame {
   Vec3<N> position, du, dv;
 };
 
-/// At a vertex of valence 6, (6 v + ring) / 12, du = 2 C and dv = 2 S / sqrt(3) of the ring started at e. Both
-/// tangents are sums of differences of near points. A half turn of the ring negates both exactly.
+/// At a vertex of valence 6, (6 v + ring) / 12, du = 2 C and dv = 2 S / sqrt(3) of the ring started at e.
+/// Both tangents are sums of differences of near points. A half turn of the ring negates both exactly.
 ///
 ///        1 --- 1             -1 --- 1              1 --- 1
 ///       / \   / \            / \   / \            / \   / \            .
@@ -34,8 +34,8 @@ constexpr LimitFrame<N> regular_limit(const Vec3<N>& v, const AxisRing<N>& r) {
           T::ratio(2, 1) * (r.e - r.w) + ((r.ne - r.nw) + (r.se - r.sw)), (r.ne - r.se) + (r.nw - r.sw)};
 }
 
-/// At a boundary vertex of three faces, ring e, ne, nw, w counter-clockwise: (4 v + e + w) / 6, along the boundary
-/// e - w, across it (-2; -1, 2, 2, -1).                                                             [D1, D2]
+/// At a boundary vertex of three faces, ring e, ne, nw, w counter-clockwise: (4 v + e + w) / 6, along the
+/// boundary e - w, across it (-2; -1, 2, 2, -1). [D1, D2]
 template <class N>
 constexpr LimitFrame<N> regular_boundary_limit(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& ne,
                                                const Vec3<N>& nw, const Vec3<N>& w) {
@@ -45,8 +45,8 @@ constexpr LimitFrame<N> regular_boundary_limit(const Vec3<N>& v, const Vec3<N>& 
 }
 
 /// At a control vertex. `ring` counter-clockwise from outside in a canonical order: any start for an interior
-/// vertex (n >= 3), r_0 .. r_K along the boundary from end to end (`open`, n = K + 1 >= 2). Summed in the wide
-/// number from differences to v.
+/// vertex (n >= 3), r_0 .. r_K along the boundary from end to end (`open`, n = K + 1 >= 2). Summed in the
+/// wide number from differences to v.
 template <class N>
 LimitFrame<typename NumberTraits<N>::Wide> vertex_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring,
                                                         bool open) {
@@ -86,23 +86,22 @@ LimitFrame<typename NumberTraits<N>::Wide> vertex_limit(const Vec3<N>& v, std::s
   return {c + T::ratio(1, 6) * (first + last), first - last, across};
 }
 
-/// Sum of the face normals of a fan, weighted by area; closed rings of even valence are added in opposite pairs,
-/// so that a half turn keeps the bits.
+/// Sum of the face normals of a fan, weighted by area; closed rings of even valence are added in opposite
+/// pairs, so that a half turn keeps the bits.
 template <class N>
 Vec3<N> fan_normal(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool open) {
   const std::size_t n = ring.size();
   const auto face = [&](std::size_t i) { return cross(ring[i] - v, ring[(i + 1) % n] - v); };
   Vec3<N> sum{};
-  if (!open && n == 6)
-    return (face(0) + face(3)) + ((face(1) + face(4)) + (face(2) + face(5)));
+  if (!open && n == 6) return (face(0) + face(3)) + ((face(1) + face(4)) + (face(2) + face(5)));
   for (std::size_t i = 0; i + (open ? 1 : 0) < n; ++i) sum = sum + face(i);
   return sum;
 }
 
 /// The unit vertex of a frame. If the tangents vanish or are parallel, |du x dv| <= 1e-12 |du| |dv| (1e-6 in
-/// float), the normal is that of the fan of `ring` around `centre`, weighted by area, and if that vanishes too
-/// (0, 0, 1); `zero_normals` counts both. Never NaN for finite input. [D12; the ring is taken as it is, not
-/// subdivided once more]
+/// float), the normal is that of the fan of `ring` around `centre`, weighted by area, and if that vanishes
+/// too (0, 0, 1); `zero_normals` counts both. Never NaN for finite input. [D12; the ring is taken as it is,
+/// not subdivided once more]
 template <class N>
 class LimitSurface {
  public:

@@ -24,9 +24,7 @@ struct NumberTraits<N> {
   using Scalar = N;
   using Wide = double;
   static constexpr Scalar ratio(int p, int q) { return static_cast<N>(p) / static_cast<N>(q); }
-  static Scalar cosine(int p, int q) {
-    return static_cast<N>(std::cos(2 * std::numbers::pi * p / q));
-  }
+  static Scalar cosine(int p, int q) { return static_cast<N>(std::cos(2 * std::numbers::pi * p / q)); }
   static Scalar sine(int p, int q) { return static_cast<N>(std::sin(2 * std::numbers::pi * p / q)); }
   static constexpr Wide widen(N v) { return static_cast<Wide>(v); }
   static constexpr N narrow(Wide v) { return static_cast<N>(v); }
@@ -44,9 +42,9 @@ constexpr Vec3<N> narrow(const WideVec3<N>& v) {
   return {NumberTraits<N>::narrow(v.x), NumberTraits<N>::narrow(v.y), NumberTraits<N>::narrow(v.z)};
 }
 
-/// The six neighbours of a regular vertex, counter-clockwise, seen from an axis W - v - E. A point on a control
-/// edge takes that edge as its axis; then a half turn (the same edge seen from its other face) swaps E with W,
-/// NE with SW, NW with SE, and every sum below keeps its bits.
+/// The six neighbours of a regular vertex, counter-clockwise, seen from an axis W - v - E. A point on a
+/// control edge takes that edge as its axis; then a half turn (the same edge seen from its other face) swaps
+/// E with W, NE with SW, NW with SE, and every sum below keeps its bits.
 ///
 ///        NW --- NE
 ///        / \   / \            .
@@ -98,7 +96,8 @@ auto loop_a(int n) {
   return T::ratio(5, 8) - T::ratio(1, 64) * b * b;
 }
 
-/// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}).      [eq. 1; C10]
+/// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}).      [eq. 1;
+/// C10]
 template <class N>
 struct VertexWeights {
   using Scalar = typename NumberTraits<typename NumberTraits<N>::Wide>::Scalar;

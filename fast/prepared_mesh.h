@@ -13,9 +13,9 @@
 namespace limitcheck::fast {
 
 /// Positions of the control vertices in N, their weights and their limit points, computed once per mesh in a
-/// canonical order: the ring from adjacency.outgoing(v). Every face that touches a vertex, at whatever depth, shows
-/// these very bits. [D14] Read-only afterwards, shared by all threads. Refers to the adjacency, which must outlive
-/// it.
+/// canonical order: the ring from adjacency.outgoing(v). Every face that touches a vertex, at whatever depth,
+/// shows these very bits. [D14] Read-only afterwards, shared by all threads. Refers to the adjacency, which
+/// must outlive it.
 template <class N, class Surface = LimitSurface<N>>
 class PreparedMesh {
  public:

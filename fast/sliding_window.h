@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sliding window: one pair of triangles at a time becomes 2^m strips.    [mueller2000, 4.3; C18-C21, C43-C55]
+// The sliding window: one pair of triangles at a time becomes 2^m strips.    [mueller2000, 4.3; C18-C21,
+// C43-C55]
 #pragma once
 
 #include <algorithm>
@@ -18,15 +19,19 @@ namespace limitcheck::fast {
 ///
 ///           outtop[1] outtop[2]                  The pair: face0 = corner0, corner2, corner3 (upper left),
 ///              /   \   /   \                               face1 = corner0, corner1, corner2 (lower right).
-///   corner3  top[0]--top[1]--top[2]  corner2     Row j counts from the top, column i from the left. The apex over
-///            /  \    /  \    /                   the edge from top[i] is outtop[i + 1], the apex under the edge
-///   corner0 bot[0]--bot[1]--bot[2]   corner1     from bottom[i] is outbottom[i]; the slots left over hold the next
+///   corner3  top[0]--top[1]--top[2]  corner2     Row j counts from the top, column i from the left. The apex
+///   over
+///            /  \    /  \    /                   the edge from top[i] is outtop[i + 1], the apex under the
+///            edge
+///   corner0 bot[0]--bot[1]--bot[2]   corner1     from bottom[i] is outbottom[i]; the slots left over hold
+///   the next
 ///              \   /   \   /                     neighbour of the corner (outtop[0], outbottom[last]). [C47]
 ///         outbottom[0] outbottom[1]
 ///
 ///   N        number type (NumberTraits);  Surface  makes a vertex of a limit frame
 ///   Count    NoCount or Counting
-///   Carry    true: a row's limit points are evaluated once and carried to the next strip; false: both rows of every
+///   Carry    true: a row's limit points are evaluated once and carried to the next strip; false: both rows
+///   of every
 ///            strip are evaluated, as printed [C51]. The output is the same, bit by bit.
 /// Nothing is allocated after construction; the mesh is only read.
 template <class N, class Surface = LimitSurface<N>, class Count = NoCount, bool Carry = true>
@@ -50,8 +55,8 @@ class SlidingWindow {
         *row = next;
         next += row_length(s);
       }
-      for (Corner<N, Vertex>* corner : {&level.corner[0], &level.corner[1], &level.corner[2], &level.corner[3],
-                                        &level.mcorner[0], &level.mcorner[1]}) {
+      for (Corner<N, Vertex>* corner : {&level.corner[0], &level.corner[1], &level.corner[2],
+                                        &level.corner[3], &level.mcorner[0], &level.mcorner[1]}) {
         corner->ring = next;
         next += corner_length();
       }
@@ -61,25 +66,27 @@ class SlidingWindow {
 
   int max_depth() const { return max_depth_; }
   int max_valence() const { return max_valence_; }
-  /// 3D vectors held: sum over the levels of 5 (2^l + 1) + 6 n_max, and 2 * 2 (2^m + 1) for the strip.     [C48, C49]
+  /// 3D vectors held: sum over the levels of 5 (2^l + 1) + 6 n_max, and 2 * 2 (2^m + 1) for the strip. [C48,
+  /// C49]
   std::size_t allocated_vectors() const { return storage_.size() + 2 * strip_.size(); }
-  /// Normals that came from the rule for vanishing tangents, in all runs so far.                             [D12]
+  /// Normals that came from the rule for vanishing tangents, in all runs so far. [D12]
   std::int64_t zero_normals() const { return zero_normals_; }
   Count& count() { return count_; }
 
   /// Tessellates the two faces on both sides of half-edge h0 (face0) and its twin (face1).
-  ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in row + 1,
+  ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in row +
+  ///   1,
   ///                      i = 0 .. 2^depth; as a triangle strip counter-clockwise from outside. Its first
-  ///                      2 (2^depth - row) - 1 triangles belong to face0, the last 2 row + 1 to face1. The array may
-  ///                      be read and overwritten until the call returns (with Carry: read only).
+  ///                      2 (2^depth - row) - 1 triangles belong to face0, the last 2 row + 1 to face1. The
+  ///                      array may be read and overwritten until the call returns (with Carry: read only).
   /// Throws std::invalid_argument: depth outside 0 .. max_depth(), no twin, a valence above max_valence().
   template <class Sink>
   void run(const PreparedMesh<N, Surface>& mesh, std::int32_t h0, int depth, Sink&& sink) {
     fill(mesh, h0, depth);
     Level& l = levels_[0];
     const bool over = l.corner[3].has_face_after(0), under = l.corner[1].has_face_after(0);
-    subdivide(depth, 0, l.top, l.bottom, over ? l.outtop : nullptr, under ? l.outbottom : nullptr, l.corner[0],
-              l.corner[1], l.corner[2], l.corner[3], sink);
+    subdivide(depth, 0, l.top, l.bottom, over ? l.outtop : nullptr, under ? l.outbottom : nullptr,
+              l.corner[0], l.corner[1], l.corner[2], l.corner[3], sink);
   }
 
  private:
@@ -211,8 +218,8 @@ class SlidingWindow {
     l.outtop[0] = l.corner[3].at(2);
   }
 
-  static void refine_outbottom(int n, const Vec3<N>* bottom, const Vec3<N>* outbottom, const CornerRing& corner0,
-                               const CornerRing& corner1, Level& l) {
+  static void refine_outbottom(int n, const Vec3<N>* bottom, const Vec3<N>* outbottom,
+                               const CornerRing& corner0, const CornerRing& corner1, Level& l) {
     const bool left = corner0.has_face_after(corner0.n - 2), right = corner1.has_face_after(1);
     l.outbottom[0] = left ? edge_point(bottom[0], outbottom[0], bottom[1], corner0.ring[corner0.n - 2])
                           : midpoint(bottom[0], outbottom[0]);
@@ -244,19 +251,20 @@ class SlidingWindow {
       out.gap = inside ? -1 : 2;
       ring[out.n - 1] = down;
     };
-    collect(l.mcorner[0], corner0.has_face_after(2), l.middle[1], l.top[1], l.top[0], l.corner[3], l.corner[0],
-            l.bottom[0]);
-    collect(l.mcorner[1], corner2.has_face_after(2), l.middle[2 * n - 1], l.bottom[2 * n - 1], l.bottom[2 * n],
-            l.corner[1], l.corner[2], l.top[2 * n]);
+    collect(l.mcorner[0], corner0.has_face_after(2), l.middle[1], l.top[1], l.top[0], l.corner[3],
+            l.corner[0], l.bottom[0]);
+    collect(l.mcorner[1], corner2.has_face_after(2), l.middle[2 * n - 1], l.bottom[2 * n - 1],
+            l.bottom[2 * n], l.corner[1], l.corner[2], l.top[2 * n]);
   }
 
   template <class Sink>
-  void emit(int row, const Vec3<N>* top, const Vec3<N>* bottom, const Vec3<N>* outtop, const Vec3<N>* outbottom,
-            const CornerRing& corner0, const CornerRing& corner1, const CornerRing& corner2,
-            const CornerRing& corner3, Sink& sink) {
+  void emit(int row, const Vec3<N>* top, const Vec3<N>* bottom, const Vec3<N>* outtop,
+            const Vec3<N>* outbottom, const CornerRing& corner0, const CornerRing& corner1,
+            const CornerRing& corner2, const CornerRing& corner3, Sink& sink) {
     const int n = 1 << depth_;
     if (Carry && row > 0) {
-      for (int i = 0; i <= n; ++i) strip_[2 * static_cast<std::size_t>(i)] = strip_[2 * static_cast<std::size_t>(i) + 1];
+      for (int i = 0; i <= n; ++i)
+        strip_[2 * static_cast<std::size_t>(i)] = strip_[2 * static_cast<std::size_t>(i) + 1];
       count_.add(&WindowCounts::carried, n + 1);
     } else {
       limit_row(n, n - row, top, outtop, bottom, corner3, corner2, strip_.data());
@@ -273,16 +281,17 @@ class SlidingWindow {
     out[2 * n] = limit_corner<N, Surface>(line[n], right, zero_normals_);
     if (above == nullptr) {
       for (int i = 1; i < n; ++i)
-        out[2 * i] = boundary_vertex_limit<N, Surface>(line[i], line[i - 1], below[i - 1], below[i], line[i + 1],
-                                                       zero_normals_);
+        out[2 * i] = boundary_vertex_limit<N, Surface>(line[i], line[i - 1], below[i - 1], below[i],
+                                                       line[i + 1], zero_normals_);
     } else if (below == nullptr) {
       for (int i = 1; i < n; ++i)
-        out[2 * i] = boundary_vertex_limit<N, Surface>(line[i], line[i + 1], above[i + 1], above[i], line[i - 1],
-                                                       zero_normals_);
+        out[2 * i] = boundary_vertex_limit<N, Surface>(line[i], line[i + 1], above[i + 1], above[i],
+                                                       line[i - 1], zero_normals_);
     } else {
       const auto regular = [&](int from, int to) {
         for (int i = from; i < to; ++i)
-          out[2 * i] = regular_vertex_limit<N, Surface>(line[i], along_row(line, above, below, i), zero_normals_);
+          out[2 * i] =
+              regular_vertex_limit<N, Surface>(line[i], along_row(line, above, below, i), zero_normals_);
       };
       if (diagonal > 0 && diagonal < n) {
         regular(1, diagonal);

@@ -77,10 +77,18 @@ struct Shape {
 };
 
 std::vector<Shape> shapes() {
-  return {{"tetrahedron", tetrahedron()}, {"octahedron", octahedron()},   {"bipyramid 3", bipyramid(3)},
-          {"bipyramid 7", bipyramid(7)},  {"torus", grid_torus(3, 4)},    {"bipyramid 60", bipyramid(60)},
-          {"sheet", grid_sheet(2, 3)},    {"wheel 3", wheel(3, .5)},      {"wheel 5", wheel(5, .3)},
-          {"fan 2", fan(2)},              {"fan 3", fan(3)},              {"fan 5", fan(5)}};
+  return {{"tetrahedron", tetrahedron()},
+          {"octahedron", octahedron()},
+          {"bipyramid 3", bipyramid(3)},
+          {"bipyramid 7", bipyramid(7)},
+          {"torus", grid_torus(3, 4)},
+          {"bipyramid 60", bipyramid(60)},
+          {"sheet", grid_sheet(2, 3)},
+          {"wheel 3", wheel(3, .5)},
+          {"wheel 5", wheel(5, .3)},
+          {"fan 2", fan(2)},
+          {"fan 3", fan(3)},
+          {"fan 5", fan(5)}};
 }
 
 TEST(Sec4_SlidingWindow, EqualsTheMeshRefinedAsAWhole) {

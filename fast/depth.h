@@ -112,8 +112,7 @@ class DepthHeuristics {
   std::vector<Sphere> spheres_;         // per face, round the centroid
   std::int64_t degenerate_normals_ = 0;
   mutable std::once_flag cones_ready_;
-  mutable std::vector<float>
-      cones_;  // (max_depth + 1) per vertex: cosines of levels 0 .. max_depth, rounded up
+  mutable std::vector<double> cones_;  // max_depth + 1 per vertex: the cosines of levels 0 .. max_depth
 };
 
 /// Throws std::invalid_argument with the face if `depth` has not one entry in -1 .. max_depth per face.

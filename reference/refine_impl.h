@@ -129,9 +129,12 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
   return result;
 }
 
-#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                                   \
-  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&);                \
-  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                                   \
-  template class RefinedMesh<N>;
+/// All of refine.h but `limits`, which needs square roots.
+#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                                         \
+  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&);                      \
+  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                                         \
+  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&);                                               \
+  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>);                            \
+  template void RefinedMesh<N>::refine();
 
 }  // namespace limitcheck::reference

@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "reference/naive_impl.h"
-
-namespace limitcheck::reference {
-template class NaiveSubdivider<double>;
-}  // namespace limitcheck::reference

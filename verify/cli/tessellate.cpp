@@ -3,12 +3,15 @@
 // normals.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/generators/named_mesh.h"
@@ -25,10 +28,9 @@ struct Arguments {
   std::vector<double> angles{30};
   int depth = 3, threads = 0;
   std::optional<int> max_depth;
-  std::optional<bool> cull;
   double pixels = 60, field_of_view = 45;
   std::uint64_t seed = 1;
-  bool json = false, view_given = false;
+  bool json = false, view_given = false, cull = false, cull_given = false;
 };
 
 /// The numbers of "a,b,c"; throws CLI::ValidationError unless there are `count` of them and nothing else.
@@ -86,7 +88,7 @@ fast::DepthOptions depth_options(const Arguments& a) {
   options.angle_front = a.angles.front();
   options.angle_silhouette = a.angles.size() > 1 ? a.angles[1] : a.angles[0];
   options.angle_back = a.angles.size() > 2 ? a.angles[2] : a.angles[0];
-  options.cull = a.cull;
+  if (a.cull_given) options.cull = a.cull;
   return options;
 }
 
@@ -136,13 +138,10 @@ std::string summary(const Arguments& a, const fast::FrameStats& s, const Timings
 }
 
 int tessellate(const Arguments& a) {
-  const auto clock = [last = std::chrono::steady_clock::now()]() mutable {
+  auto lap = [last = std::chrono::steady_clock::now()]() mutable {
     const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last).count();
-    last = now;
-    return seconds;
+    return std::chrono::duration<double>(now - std::exchange(last, now)).count();
   };
-  auto lap = clock;
   const fast::DepthOptions options = depth_options(a);
   const fast::Camera view = camera(a);
   view.validate();
@@ -219,7 +218,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   auto* eye = command->add_option("--camera", a->camera, "EYE:TARGET[:UP], as in 0,0,4:0,0,0 (the default)");
   auto* pixels =
       command->add_option("--pixels", a->pixels, "project-sphere: largest size of a triangle on the screen")
-          ->check(CLI::PositiveNumber)
+          ->check(CLI::Range(1e-6, 1e6))
           ->capture_default_str();
   auto* angles =
       command->add_option("--angle", a->angles, "curvature: degrees tolerated, FRONT[,SILHOUETTE[,BACK]]")
@@ -234,7 +233,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->add_option("--max-depth", a->max_depth,
                    "No face gets a larger depth; default 5, or --depth if that is larger")
       ->check(CLI::Range(0, fast::kDeepest));
-  command->add_flag(
+  auto* cull = command->add_flag(
       "--cull,!--no-cull", a->cull,
       "Leave out faces whose corners all face away; default: where the strategy depends on the view");
   command->add_option("--centre", a->centre, "Centre of a fan: on the limit surface, or the flat triangle's")
@@ -255,6 +254,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"depth", "kind"}));
   command->add_flag("--json", a->json, "Print counts and seconds as one JSON document");
   command->callback([=, &exit_code] {
+    a->cull_given = cull->count() > 0;
     a->view_given = eye->count() + pixels->count() + angles->count() > 0;
     exit_code = tessellate(*a);
   });

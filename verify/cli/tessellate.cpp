@@ -2,6 +2,7 @@
 // limitcheck tessellate: the engine of fast/ as a program, from a control mesh to a file of triangles with
 // normals.
 #include <fmt/core.h>
+#include <tbb/info.h>
 
 #include <algorithm>
 #include <chrono>
@@ -158,7 +159,7 @@ int tessellate(const Arguments& a) {
   fast::TessellatorOptions engine;
   engine.cracks.centre = a.centre == "flat" ? fast::FanCentre::kFlatControl : fast::FanCentre::kLimit;
   engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
-  engine.threads = a.threads;
+  engine.threads = std::min(a.threads, tbb::info::default_concurrency());
   engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
   fast::Tessellator<float> tessellator(mesh, engine);
   timings.prepare = lap();

@@ -204,13 +204,24 @@ class SlidingWindow {
       for (int i = 0; i < n; ++i) out[2 * i + 1] = midpoint(line[i], line[i + 1]);
       return;
     }
-    for (int i = 1; i < n; ++i) {
-      out[2 * i - 1] = edge_point(line[i - 1], line[i], above[i], below[i - 1]);
-      out[2 * i] = regular_vertex(line[i], along_row(line, above, below, i));
-    }
-    out[2 * n - 1] = edge_point(line[n - 1], line[n], above[n], below[n - 1]);
-    if (diagonal > 0 && diagonal < n)
+    const auto edge = [&](int i) {
+      out[2 * i + 1] = edge_point(line[i], line[i + 1], above[i + 1], below[i]);
+    };
+    const auto regular = [&](int from, int to) {
+      for (int i = from; i < to; ++i) {
+        out[2 * i] = regular_vertex(line[i], along_row(line, above, below, i));
+        edge(i);
+      }
+    };
+    edge(0);
+    if (diagonal > 0 && diagonal < n) {
+      regular(1, diagonal);
       out[2 * diagonal] = regular_vertex(line[diagonal], along_diagonal(line, above, below, diagonal));
+      edge(diagonal);
+      regular(diagonal + 1, n);
+    } else {
+      regular(1, n);
+    }
   }
 
   /// The edge points of the upright edges (even) and of the diagonals (odd).

@@ -216,7 +216,8 @@ void add_tessellate(CLI::App& app, int& exit_code) {
                    "uniform, random, project-sphere, curvature, combined; default uniform, or combined if a "
                    "view is given")
       ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
-  auto* eye = command->add_option("--camera", a->camera, "EYE:TARGET[:UP], as in 0,0,4:0,0,0 (the default)");
+  auto* eye =
+      command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
   auto* pixels =
       command->add_option("--pixels", a->pixels, "project-sphere: largest size of a triangle on the screen")
           ->check(CLI::Range(1e-6, 1e6))

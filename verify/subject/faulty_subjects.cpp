@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "verify/subject/adapter.h"
+#include "verify/subject/control_mesh.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
@@ -319,19 +320,6 @@ class FaultySubject {
 
   FaultySubject(const lc_mesh& mesh, const Inner& inner)
       : lent_(mesh), fault_(inner.fault), session_(inner.subject, control_mesh(mesh), inner.options) {}
-
-  static data::ControlMesh control_mesh(const lc_mesh& mesh) {
-    data::ControlMesh result;
-    for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {
-      const double* p = mesh.positions + 3 * v;
-      result.positions.push_back({p[0], p[1], p[2]});
-    }
-    for (std::int64_t f = 0; f < mesh.triangle_count; ++f) {
-      const std::int32_t* t = mesh.triangles + 3 * f;
-      result.triangles.push_back({t[0], t[1], t[2]});
-    }
-    return result;
-  }
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) {

@@ -103,9 +103,8 @@ TEST(OpenSubdivBfr, ComputesSharedPointsWithOtherBitsInEachFace) {
     positions += std::any_of(vertices.begin(), vertices.end(), [&](std::int64_t v) {
       return differ(t.position_bits(v), t.position_bits(first));
     });
-    normals += std::any_of(vertices.begin(), vertices.end(), [&](std::int64_t v) {
-      return differ(t.normal_bits(v), t.normal_bits(first));
-    });
+    normals += std::any_of(vertices.begin(), vertices.end(),
+                           [&](std::int64_t v) { return differ(t.normal_bits(v), t.normal_bits(first)); });
   }
   EXPECT_EQ(shared, 402 + 1200 * 15);
   EXPECT_GT(static_cast<double>(positions), 0.8 * static_cast<double>(shared));

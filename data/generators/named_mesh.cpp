@@ -8,6 +8,7 @@
 
 #include "data/error.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/io/read.h"
 #include "data/shapes.h"
 
 namespace limitcheck::data {
@@ -99,7 +100,18 @@ ControlMesh named_mesh(const std::string& specification) {
     if (parameters.size() > entry.most) bad_parameter(entry, "too many parameters");
     return entry.make(parameters);
   }
-  throw InputError("NAME_UNKNOWN", "", 0, "no mesh is called \"" + parts[0] + "\"");
+  throw InputError("NAME_UNKNOWN", "", 0,
+                   "no mesh is called \"" + parts[0] + "\"; \"limitcheck generate --list\" names them all");
+}
+
+ControlMesh open_mesh(const std::string& file_or_name) {
+  // What looks like a file is taken for one, so that a mistyped path is called a missing file, not an unknown
+  // name.
+  std::error_code ignored;
+  const std::filesystem::path file = file_or_name;
+  if (std::filesystem::exists(file, ignored) || file.has_extension() || file.has_parent_path())
+    return read_mesh(file);
+  return named_mesh(file_or_name);
 }
 
 std::vector<NamedMesh> named_meshes() {

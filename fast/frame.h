@@ -18,6 +18,7 @@ namespace limitcheck::fast {
 struct TessellatorOptions {
   PairingOptions pairing;
   CrackOptions cracks;
+  int max_depth = 5;        // the largest depth a strategy assigns; depths given by hand may be deeper
   int threads = 0;          // at most so many, 0: all. The output does not depend on it.
   bool provenance = false;  // fill the provenance of every vertex
 };
@@ -59,9 +60,10 @@ class Tessellator {
   FrameStats frame(std::span<const std::int32_t> depth, IndexedMesh<Real>& out);
   FrameStats frame(std::span<const std::int32_t> depth, DrawSink<Real>& sink);
 
-  /// Depths by a strategy of section 4.1.
-  template <class Sink>
-  FrameStats frame(const DepthOptions& strategy, const Camera& camera, Sink& sink);
+  /// Depths by a strategy of section 4.1, at most options.max_depth.
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, DrawList<Real>& out);
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, IndexedMesh<Real>& out);
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, DrawSink<Real>& sink);
 
   /// The depths of the last frame after pairing, one per face, and its pairs: to colour by, and to check.
   const PairingResult& last_pairing() const;
@@ -69,6 +71,8 @@ class Tessellator {
 
  private:
   struct State;
+  template <class Sink>
+  FrameStats frame_by_strategy(const DepthOptions& strategy, const Camera& camera, Sink& sink);
   std::unique_ptr<State> state_;
 };
 

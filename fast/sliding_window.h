@@ -15,6 +15,13 @@
 
 namespace limitcheck::fast {
 
+/// The argument order of the recursion as printed. Another can be put in its place to show that no other
+/// works. [C43]
+struct PrintedOrder {
+  static void upper(auto&& call, auto*... arguments) { call(arguments...); }
+  static void lower(auto&& call, auto*... arguments) { call(arguments...); }
+};
+
 /// The paper's eleven arrays per level, allocated once, and the recursion over them. One instance per thread.
 ///
 ///           outtop[1] outtop[2]                  The pair: face0 = corner0, corner2, corner3 (upper left),
@@ -34,7 +41,8 @@ namespace limitcheck::fast {
 ///   of every
 ///            strip are evaluated, as printed [C51]. The output is the same, bit by bit.
 /// Nothing is allocated after construction; the mesh is only read.
-template <class N, class Surface = LimitSurface<N>, class Count = NoCount, bool Carry = true>
+template <class N, class Surface = LimitSurface<N>, class Count = NoCount, bool Carry = true,
+          class Order = PrintedOrder>
 class SlidingWindow {
  public:
   using Vertex = typename Surface::Vertex;
@@ -158,11 +166,24 @@ class SlidingWindow {
     count_.add(&WindowCounts::corners, corner0.n + corner1.n + corner2.n + corner3.n);
     count_.add(&WindowCounts::middle_corners, l.mcorner[0].n + l.mcorner[1].n);
 
-    // upper row, then lower row: the arguments as printed (C43)
-    subdivide(level - 1, 2 * row, l.top, l.middle, outtop != nullptr ? l.outtop : nullptr, l.bottom,
-              l.mcorner[0], l.mcorner[1], l.corner[2], l.corner[3], sink);
-    subdivide(level - 1, 2 * row + 1, l.middle, l.bottom, l.top, outbottom != nullptr ? l.outbottom : nullptr,
-              l.corner[0], l.corner[1], l.mcorner[1], l.mcorner[0], sink);
+    using Row = const Vec3<N>*;
+    using Ring = const CornerRing*;
+    const auto subdivide_half = [&](int half_row) {
+      return [&, half_row](Row t, Row b, Row ot, Row ob, Ring c0, Ring c1, Ring c2, Ring c3) {
+        subdivide(level - 1, half_row, t, b, ot, ob, *c0, *c1, *c2, *c3, sink);
+      };
+    };
+    const Row new_top = l.top, middle = l.middle, new_bottom = l.bottom;
+    const Row new_outtop = outtop != nullptr ? l.outtop : nullptr;
+    const Row new_outbottom = outbottom != nullptr ? l.outbottom : nullptr;
+    const Ring c0 = &l.corner[0], c1 = &l.corner[1], c2 = &l.corner[2], c3 = &l.corner[3];
+    const Ring mcorner0 = &l.mcorner[0], mcorner1 = &l.mcorner[1];
+    // subdivide upper row
+    Order::upper(subdivide_half(2 * row), new_top, middle, new_outtop, new_bottom, mcorner0, mcorner1, c2,
+                 c3);
+    // subdivide the lower row
+    Order::lower(subdivide_half(2 * row + 1), middle, new_bottom, new_top, new_outbottom, c0, c1, mcorner1,
+                 mcorner0);
   }
 
   /// The six neighbours of line[i] in a row between two others, along the row, and along the pair's diagonal.
@@ -183,13 +204,24 @@ class SlidingWindow {
       for (int i = 0; i < n; ++i) out[2 * i + 1] = midpoint(line[i], line[i + 1]);
       return;
     }
-    for (int i = 1; i < n; ++i) {
-      out[2 * i - 1] = edge_point(line[i - 1], line[i], above[i], below[i - 1]);
-      out[2 * i] = regular_vertex(line[i], along_row(line, above, below, i));
-    }
-    out[2 * n - 1] = edge_point(line[n - 1], line[n], above[n], below[n - 1]);
-    if (diagonal > 0 && diagonal < n)
+    const auto edge = [&](int i) {
+      out[2 * i + 1] = edge_point(line[i], line[i + 1], above[i + 1], below[i]);
+    };
+    const auto regular = [&](int from, int to) {
+      for (int i = from; i < to; ++i) {
+        out[2 * i] = regular_vertex(line[i], along_row(line, above, below, i));
+        edge(i);
+      }
+    };
+    edge(0);
+    if (diagonal > 0 && diagonal < n) {
+      regular(1, diagonal);
       out[2 * diagonal] = regular_vertex(line[diagonal], along_diagonal(line, above, below, diagonal));
+      edge(diagonal);
+      regular(diagonal + 1, n);
+    } else {
+      regular(1, n);
+    }
   }
 
   /// The edge points of the upright edges (even) and of the diagonals (odd).

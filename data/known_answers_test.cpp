@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <boost/multiprecision/mpfr.hpp>
 #include <fstream>
@@ -106,8 +107,15 @@ TEST(KnownAnswers, TheNumbersAreInTheirPlaces) {
   };
   for (const auto& ring : answers.interior_rings) {
     EXPECT_TRUE(orthogonal(ring.unit_normal, ring.c) && orthogonal(ring.unit_normal, ring.s)) << ring.id;
-    EXPECT_TRUE(orthogonal(ring.unit_normal, ring.paper_u1) && orthogonal(ring.unit_normal, ring.paper_u2))
-        << ring.id;
+    // [C17] u1 = C, u2 = cos(2 pi / n) C + sin(2 pi / n) S
+    const Float50 angle = 2 * boost::math::constants::pi<Float50>() / ring.valence;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto c = parse<Float50>(ring.c[axis]), s = parse<Float50>(ring.s[axis]);
+      EXPECT_LT(abs(parse<Float50>(ring.paper_u1[axis]) - c), Float50("1e-38")) << ring.id;
+      EXPECT_LT(abs(parse<Float50>(ring.paper_u2[axis]) - (cos(angle) * c + sin(angle) * s)),
+                Float50("1e-38"))
+          << ring.id;
+    }
   }
   for (const auto& surface : answers.surfaces) {
     for (const auto& sample : surface.samples) {

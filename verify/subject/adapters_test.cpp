@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
@@ -15,6 +14,7 @@
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
+#include "verify/subject/test_limit.h"
 
 namespace {
 
@@ -157,7 +157,7 @@ TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
       }
     }
   }
-  RecordProperty("worst", std::to_string(worst));
+  record("worst_distance", worst);
 }
 
 TEST(Adapters, DoNotDependOnTheNumberOfThreads) {

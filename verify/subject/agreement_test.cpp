@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <string>
 #include <tuple>
@@ -71,8 +70,8 @@ Worst against_stam(const char* subject, const char* options, const std::string& 
     const double a = angle(t.normal(v), {exact.normal.x, exact.normal.y, exact.normal.z});
     if (!spare) worst.normal = std::max(worst.normal, std::isnan(a) ? 180 : a);
   }
-  std::printf("%s on %s: position %.2g of the box, normal %.2g degrees\n", subject, name.c_str(),
-              worst.position, worst.normal);
+  record("position_" + name, worst.position);
+  record("normal_" + name, worst.normal);
   return worst;
 }
 

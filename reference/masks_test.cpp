@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each mask against the definition it follows from: limits and tangents are left eigenvectors of the subdivision rules, the
-// basis is what subdivision of a regular patch converges to. Exact rationals where the weights are rational.
+// Each mask against the definition it follows from: limits and tangents are left eigenvectors of the
+// subdivision rules, the basis is what subdivision of a regular patch converges to. Exact rationals where the
+// weights are rational.
 #include <gtest/gtest.h>
 
 #include "reference/basis.h"
@@ -25,7 +26,9 @@ std::vector<Vec3<M>> scattered_ring(int n) {
   for (int i = 1; i <= n; ++i) ring.push_back(scattered<M>(i));
   return ring;
 }
-double distance(const Vec3<N>& a, const Vec3<N>& b) { return static_cast<N>(sqrt(dot(a - b, a - b))).convert_to<double>(); }
+double distance(const Vec3<N>& a, const Vec3<N>& b) {
+  return static_cast<N>(sqrt(dot(a - b, a - b))).convert_to<double>();
+}
 
 TEST(Sec31_VertexWeight, HasTheKnownValues) {
   EXPECT_EQ(loop_a<Rational>(3), Rational(9, 16));
@@ -111,18 +114,21 @@ RingedFace<Rational> regular_face(std::size_t which) {
   const int rings[3][7] = {{4, 7, 8, 5, 2, 1, 3}, {7, 8, 4, 3, 6, 10, 11}, {8, 4, 7, 11, 12, 9, 5}};
   for (std::size_t k = 0; k < 3; ++k) {
     face.corner[k].point = p[static_cast<std::size_t>(rings[k][0])];
-    for (std::size_t i = 1; i < 7; ++i) face.corner[k].ring.push_back(p[static_cast<std::size_t>(rings[k][i])]);
+    for (std::size_t i = 1; i < 7; ++i)
+      face.corner[k].ring.push_back(p[static_cast<std::size_t>(rings[k][i])]);
   }
   return face;
 }
 
 /// Depth-first over the sub-faces: limit positions at all corners against the basis function.
-void compare(const RingedFace<Rational>& face, int depth, const std::array<std::array<Rational, 2>, 3>& at, std::size_t which) {
+void compare(const RingedFace<Rational>& face, int depth, const std::array<std::array<Rational, 2>, 3>& at,
+             std::size_t which) {
   if (depth == 0) {
     for (std::size_t k = 0; k < 3; ++k) {
       Basis<Rational> basis;
       evaluate_basis(basis, at[k][0], at[k][1], Order::kPosition);
-      EXPECT_EQ(interior_limit<Rational>(face.corner[k].point, face.corner[k].span()).x, basis.value[which - 1])
+      EXPECT_EQ(interior_limit<Rational>(face.corner[k].point, face.corner[k].span()).x,
+                basis.value[which - 1])
           << "b" << which << " at " << at[k][0] << ", " << at[k][1];
     }
     return;
@@ -131,17 +137,19 @@ void compare(const RingedFace<Rational>& face, int depth, const std::array<std::
   std::array<std::array<Rational, 2>, 3> middle;
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t m = 0; m < 2; ++m) middle[k][m] = (at[k][m] + at[(k + 1) % 3][m]) / 2;
-  for (std::size_t k = 0; k < 3; ++k) compare(next.subface(static_cast<int>(k)), depth - 1, {at[k], middle[k], middle[(k + 2) % 3]}, which);
+  for (std::size_t k = 0; k < 3; ++k)
+    compare(next.subface(static_cast<int>(k)), depth - 1, {at[k], middle[k], middle[(k + 2) % 3]}, which);
   compare(next.subface(3), depth - 1, middle, which);
 }
 
 TEST(AppendixA, IsWhatSubdivisionConvergesToExactly) {
-  for (std::size_t which = 1; which <= 12; ++which) compare(regular_face(which), 3, {{{0, 0}, {1, 0}, {0, 1}}}, which);
+  for (std::size_t which = 1; which <= 12; ++which)
+    compare(regular_face(which), 3, {{{0, 0}, {1, 0}, {0, 1}}}, which);
 }
 
 TEST(AppendixA, DerivativesAreThoseOfTheValuesExactly) {
-  // A polynomial of degree 4 equals its Taylor polynomial; central differences of step h are off by f'''' h^2 only, and the
-  // combination with step 2h removes that.
+  // A polynomial of degree 4 equals its Taylor polynomial; central differences of step h are off by f'''' h^2
+  // only, and the combination with step 2h removes that.
   const Rational a(2, 7), b(3, 11), h(1, 10);
   const auto value = [&](const Rational& x, const Rational& y) {
     Basis<Rational> basis;
@@ -154,7 +162,8 @@ TEST(AppendixA, DerivativesAreThoseOfTheValuesExactly) {
     return Rational((8 * (at(h)[i] - at(-h)[i]) - (at(2 * h)[i] - at(-2 * h)[i])) / (12 * h));
   };
   const auto second = [&](auto at, std::size_t i) {
-    return Rational((16 * (at(h)[i] + at(-h)[i]) - (at(2 * h)[i] + at(-2 * h)[i]) - 30 * at(Rational(0))[i]) / (12 * h * h));
+    return Rational((16 * (at(h)[i] + at(-h)[i]) - (at(2 * h)[i] + at(-2 * h)[i]) - 30 * at(Rational(0))[i]) /
+                    (12 * h * h));
   };
   const auto along_a = [&](const Rational& t) { return value(a + t, b); };
   const auto along_b = [&](const Rational& t) { return value(a, b + t); };
@@ -172,24 +181,28 @@ TEST(Sec5_CentreWeights, AreTheBasisAtOneThird) {
   Basis<Rational> basis;
   evaluate_basis(basis, Rational(1, 3), Rational(1, 3), Order::kPosition);
   const Rational quarter(1, 4), seven_halves(7, 2);
-  const std::array<Rational, 12> paper{quarter, quarter, seven_halves, 23, seven_halves, quarter, 23, 23, quarter, quarter, seven_halves, quarter};
+  const std::array<Rational, 12> paper{quarter, quarter, seven_halves, 23,      seven_halves, quarter,
+                                       23,      23,      quarter,      quarter, seven_halves, quarter};
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(basis.value[i], paper[i] / 81) << "b" << i + 1;
 }
 
 TEST(D12_Normals, AreFiniteUnitVectorsWhateverTheRing) {
-  const auto check = [](const std::vector<Vec3<double>>& ring, bool boundary, NormalKind kind, const char* what) {
+  const auto check = [](const std::vector<Vec3<double>>& ring, bool boundary, NormalKind kind,
+                        const char* what) {
     const auto limit = vertex_limit<double>({0, 0, 0}, ring, boundary);
     EXPECT_EQ(limit.normal.kind, kind) << what;
     EXPECT_NEAR(dot(limit.normal.direction, limit.normal.direction), 1, 1e-15) << what;
   };
-  const std::vector<Vec3<double>> coincident(5), collinear{{1, 0, 0}, {2, 0, 0}, {-1, 0, 0}, {3, 0, 0}, {-2, 0, 0}};
+  const std::vector<Vec3<double>> coincident(5),
+      collinear{{1, 0, 0}, {2, 0, 0}, {-1, 0, 0}, {3, 0, 0}, {-2, 0, 0}};
   std::vector<Vec3<double>> twice;  // winds round twice: no first harmonic, but facets that face up
   for (int i = 0; i < 8; ++i) twice.push_back({NumberTraits<double>::cos_pi(i, 2), sin_pi<double>(i, 2), 0});
   check(coincident, false, NormalKind::kArbitrary, "coincident");
   check(coincident, true, NormalKind::kArbitrary, "coincident");
   check(collinear, false, NormalKind::kArbitrary, "collinear");
   check(twice, false, NormalKind::kFallback, "double winding");
-  check({{1e-300, 0, 0}, {0, 1e-300, 0}, {-1e-300, 0, 0}, {0, -1e-300, 0}}, false, NormalKind::kRegular, "tiny");
+  check({{1e-300, 0, 0}, {0, 1e-300, 0}, {-1e-300, 0, 0}, {0, -1e-300, 0}}, false, NormalKind::kRegular,
+        "tiny");
   check({{1e300, 0, 0}, {0, 1e300, 0}, {-1e300, 0, 0}, {0, -1e300, 0}}, false, NormalKind::kRegular, "huge");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The closed-form eigenstructure against Eigen's dense eigenvalue solver, and powers against repeated multiplication.
+// The closed-form eigenstructure against Eigen's dense eigenvalue solver, and powers against repeated
+// multiplication.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -34,9 +35,12 @@ struct Matrix {
     set(0, boundary ? M((6 * at(0) + at(r(0)) + at(r(count))) / 8) : M((1 - a) * at(0) + a * sum / count));
     for (int i = 0; i < rings; ++i) {
       const bool end = boundary && (i == 0 || i == count);
-      set(r(i), end ? M((at(0) + at(r(i))) / 2) : M((3 * (at(0) + at(r(i))) + at(r(i - 1)) + at(r(i + 1))) / 8));
-      set(p(i), end ? M((6 * at(r(i)) + at(0) + at(p(i))) / 8)
-                    : M((10 * at(r(i)) + at(0) + at(r(i - 1)) + at(r(i + 1)) + at(q(i)) + at(q(i - 1)) + at(p(i))) / 16));
+      set(r(i),
+          end ? M((at(0) + at(r(i))) / 2) : M((3 * (at(0) + at(r(i))) + at(r(i - 1)) + at(r(i + 1))) / 8));
+      set(p(i),
+          end ? M((6 * at(r(i)) + at(0) + at(p(i))) / 8)
+              : M((10 * at(r(i)) + at(0) + at(r(i - 1)) + at(r(i + 1)) + at(q(i)) + at(q(i - 1)) + at(p(i))) /
+                  16));
     }
     for (int i = 0; i < count; ++i) set(q(i), M((3 * (at(r(i)) + at(r(i + 1))) + at(0) + at(q(i))) / 8));
     return y;
@@ -57,8 +61,10 @@ struct Matrix {
 std::vector<double> closed_form(const Matrix& m) {
   std::vector<double> values{1};
   const int modes = m.boundary ? m.count : m.count - 1;
-  if (m.boundary) values.insert(values.end(), {0.5, 0.25, 0.125, 0.125});
-  else values.push_back(5.0 / 8 - loop_a<double>(m.count));
+  if (m.boundary)
+    values.insert(values.end(), {0.5, 0.25, 0.125, 0.125});
+  else
+    values.push_back(5.0 / 8 - loop_a<double>(m.count));
   for (int f = 1; m.boundary ? f < modes : f <= modes; ++f)
     values.push_back(3.0 / 8 + NumberTraits<double>::cos_pi(m.boundary ? f : 2 * f, m.count) / 4);
   values.insert(values.end(), static_cast<std::size_t>(m.count), 1.0 / 8);
@@ -80,7 +86,8 @@ TEST(Spider_Eigenvalues, AreThoseOfTheDenseMatrix) {
       ASSERT_EQ(got.size(), expected.size());
       for (std::size_t i = 0; i < got.size(); ++i) {
         worst = std::max(worst, std::abs(got[i] - expected[i]));
-        EXPECT_NEAR(got[i], expected[i], 1e-6) << count << (boundary ? " boundary" : " interior");  // sqrt(eps) at Jordan blocks
+        EXPECT_NEAR(got[i], expected[i], 1e-6)
+            << count << (boundary ? " boundary" : " interior");  // sqrt(eps) at Jordan blocks
       }
     }
   RecordProperty("worst", std::to_string(worst));
@@ -88,7 +95,8 @@ TEST(Spider_Eigenvalues, AreThoseOfTheDenseMatrix) {
 
 /// Dimension of the eigenspace.
 int geometric(const Matrix& m, double eigenvalue) {
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(m.dense() - eigenvalue * Eigen::MatrixXd::Identity(m.size(), m.size()));
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(m.dense() -
+                                       eigenvalue * Eigen::MatrixXd::Identity(m.size(), m.size()));
   lu.setThreshold(1e-10);
   return m.size() - static_cast<int>(lu.rank());
 }
@@ -98,7 +106,8 @@ TEST(Spider_JordanBlocks, AreAtValenceThreeAndAtMultiplesOfSixBoundaryFaces) {
   EXPECT_EQ(geometric({3, false}, 1.0 / 16), 3);
   for (int n = 4; n <= 12; ++n) EXPECT_EQ(geometric({n, false}, 1.0 / 16), n) << n;
   // Boundary: 1/2 is double where K is a multiple of 3, defective where it is one of 6.
-  for (int k = 1; k <= 24; ++k) EXPECT_EQ(geometric({k, true}, 0.5), k % 6 == 0 ? 1 : k % 3 == 0 ? 2 : 1) << k;
+  for (int k = 1; k <= 24; ++k)
+    EXPECT_EQ(geometric({k, true}, 0.5), k % 6 == 0 ? 1 : k % 3 == 0 ? 2 : 1) << k;
 }
 
 TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
@@ -124,13 +133,16 @@ TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
             Vec3<N> g1{}, g2{};
             spider.linear_part(i, step, g1, g2);
             const N shrink = power(N(1) / 2, step), growth = power(kind.growth(), step);
-            // Position of a lattice point (a, b) of the sector: limit + linear part + modes; relative to the slowest mode.
+            // Position of a lattice point (a, b) of the sector: limit + linear part + modes; relative to the
+            // slowest mode.
             const N scale = std::max(growth, shrink);
             const auto check = [&](const Vec3<N>& part, int a, int b, int index, const char* what) {
               const N got = spider.limit().x + (g1.x * a + g2.x * b) * shrink + part.x * growth;
-              const double e = static_cast<N>(abs(got - x[static_cast<std::size_t>(index)]) / scale).convert_to<double>();
+              const double e =
+                  static_cast<N>(abs(got - x[static_cast<std::size_t>(index)]) / scale).convert_to<double>();
               worst = std::max(worst, e);
-              EXPECT_LE(e, 1e-30) << count << (boundary ? " boundary " : " interior ") << "step " << step << " sector " << i << " " << what;
+              EXPECT_LE(e, 1e-30) << count << (boundary ? " boundary " : " interior ") << "step " << step
+                                  << " sector " << i << " " << what;
             };
             check(s.c, 0, 0, 0, "c");
             check(s.r[2], 1, 0, m.r(i), "r_i");

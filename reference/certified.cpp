@@ -94,7 +94,7 @@ Enclosure print(const Ball& a, long decimals) {
   Ball printed;
   arb_set_fmpz(printed.raw(), mantissa);
   const Ball difference = a - printed * power_of_ten(-decimals);  // holds every (true - printed)
-  Enclosure result{"", magnitude(difference)};
+  Enclosure result{"0", magnitude(difference)};
 
   // mantissa 10^-decimals as plain decimals, or with an exponent where that would be long.
   char* raw = fmpz_get_str(nullptr, 10, mantissa);
@@ -104,10 +104,7 @@ Enclosure print(const Ball& a, long decimals) {
   Ball::precision() = saved;
   const bool negative = digits.front() == '-';
   if (negative) digits.erase(0, 1);
-  if (digits == "0") {
-    result.value = "0";
-    return result;
-  }
+  if (digits == "0") return result;
   const long exponent = static_cast<long>(digits.size()) - 1 - decimals;
   if (exponent < -6 || decimals < 0) {
     std::string fraction = digits.substr(1);

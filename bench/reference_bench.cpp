@@ -12,7 +12,9 @@ namespace {
 using namespace limitcheck;
 using reference::Order;
 
-data::ControlMesh bumpy(std::int64_t faces) { return data::named_mesh("bumpy:" + std::to_string(faces)); }
+data::ControlMesh bumpy(std::int64_t faces) {
+  return data::named_mesh("bumpy:" + std::to_string(faces));
+}
 
 /// Lattice points of depth 5, face after face, as an audit visits them.
 void evaluate(benchmark::State& state, Order order) {
@@ -33,9 +35,17 @@ void evaluate(benchmark::State& state, Order order) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-void stam_position_normal(benchmark::State& state) { evaluate(state, Order::kFirst); }
-void stam_second(benchmark::State& state) { evaluate(state, Order::kSecond); }
-BENCHMARK(stam_position_normal)->Name("reference/stam/position+normal/bumpy")->ArgName("faces")->Arg(800)->Arg(4000);
+void stam_position_normal(benchmark::State& state) {
+  evaluate(state, Order::kFirst);
+}
+void stam_second(benchmark::State& state) {
+  evaluate(state, Order::kSecond);
+}
+BENCHMARK(stam_position_normal)
+    ->Name("reference/stam/position+normal/bumpy")
+    ->ArgName("faces")
+    ->Arg(800)
+    ->Arg(4000);
 BENCHMARK(stam_second)->Name("reference/stam/position+normal+second/bumpy")->ArgName("faces")->Arg(4000);
 
 void stam_set_up(benchmark::State& state) {
@@ -43,7 +53,12 @@ void stam_set_up(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(reference::StamEvaluator<double>(mesh));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
-BENCHMARK(stam_set_up)->Name("reference/stam/set-up/bumpy")->ArgName("faces")->Arg(4000)->Arg(100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(stam_set_up)
+    ->Name("reference/stam/set-up/bumpy")
+    ->ArgName("faces")
+    ->Arg(4000)
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
 
 void naive(benchmark::State& state) {
   const reference::NaiveSubdivider<double> subdivider(bumpy(state.range(0)));
@@ -57,13 +72,24 @@ void naive(benchmark::State& state) {
       });
   state.SetItemsProcessed(leaves);
 }
-BENCHMARK(naive)->Name("reference/naive/bumpy")->ArgNames({"faces", "depth"})->Args({800, 3})->Args({4000, 5})->Unit(benchmark::kMillisecond);
+BENCHMARK(naive)
+    ->Name("reference/naive/bumpy")
+    ->ArgNames({"faces", "depth"})
+    ->Args({800, 3})
+    ->Args({4000, 5})
+    ->Unit(benchmark::kMillisecond);
 
 void refine(benchmark::State& state) {
   const data::ControlMesh mesh = bumpy(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(reference::refine<double>(mesh, static_cast<int>(state.range(1))).limits());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(reference::refine<double>(mesh, static_cast<int>(state.range(1))).limits());
 }
-BENCHMARK(refine)->Name("reference/refine+limits/bumpy")->ArgNames({"faces", "depth"})->Args({800, 3})->Args({4000, 5})->Unit(benchmark::kMillisecond);
+BENCHMARK(refine)
+    ->Name("reference/refine+limits/bumpy")
+    ->ArgNames({"faces", "depth"})
+    ->Args({800, 3})
+    ->Args({4000, 5})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -11,7 +11,8 @@
 
 namespace limitcheck::reference {
 
-/// A midpoint with a radius. Constructors are exact; operations round to the thread's `precision()` and widen the radius.
+/// A midpoint with a radius. Constructors are exact; operations round to the thread's `precision()` and widen
+/// the radius.
 class Ball {
  public:
   Ball() { arb_init(value_); }
@@ -84,7 +85,8 @@ struct NumberTraits<Ball> {
     mag_t bound;
     mag_init(bound);
     arb_get_mag(bound, a.raw());
-    const long e = mag_is_zero(bound) != 0 || mag_is_inf(bound) != 0 ? kZeroExponent : fmpz_get_si(MAG_EXPREF(bound)) - 1;
+    const long e = mag_is_zero(bound) != 0 || mag_is_inf(bound) != 0 ? kZeroExponent
+                                                                     : fmpz_get_si(MAG_EXPREF(bound)) - 1;
     mag_clear(bound);
     return e;
   }

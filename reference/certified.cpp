@@ -28,7 +28,8 @@ struct Neighbourhood {
   std::vector<Triangle> triangles;
 };
 
-Neighbourhood neighbourhood(const Topology& topology, const std::vector<std::array<Rational, 3>>& positions, std::size_t face) {
+Neighbourhood neighbourhood(const Topology& topology, const std::vector<std::array<Rational, 3>>& positions,
+                            std::size_t face) {
   std::vector<std::int32_t> faces{static_cast<std::int32_t>(face)};
   for (const std::int32_t v : topology.triangles()[face])
     for (const std::int32_t f : topology.faces(v))
@@ -67,8 +68,9 @@ double magnitude(const Ball& a) {
 /// Largest decimal exponent e with 10^e <= the magnitude the ball may have; very small for an exact zero.
 long decimal_exponent(const Ball& a) {
   const long binary = NumberTraits<Ball>::exponent(a);
-  return binary == kZeroExponent ? std::numeric_limits<int>::min()
-                                 : static_cast<long>(std::floor(static_cast<double>(binary) * std::log10(2.0)));
+  return binary == kZeroExponent
+             ? std::numeric_limits<int>::min()
+             : static_cast<long>(std::floor(static_cast<double>(binary) * std::log10(2.0)));
 }
 
 /// 10^e as a ball
@@ -78,7 +80,8 @@ Ball power_of_ten(long e) {
   return e < 0 ? Ball(1) / result : result;
 }
 
-/// The ball's midpoint rounded to a multiple of 10^-decimals (10^-decimals may exceed 1), with a radius that covers both.
+/// The ball's midpoint rounded to a multiple of 10^-decimals (10^-decimals may exceed 1), with a radius that
+/// covers both.
 Enclosure print(const Ball& a, long decimals) {
   const long saved = Ball::precision();
   Ball::precision() = saved + 64;
@@ -91,7 +94,7 @@ Enclosure print(const Ball& a, long decimals) {
   Ball printed;
   arb_set_fmpz(printed.raw(), mantissa);
   const Ball difference = a - printed * power_of_ten(-decimals);  // holds every (true - printed)
-  Enclosure result{"", magnitude(difference)};
+  Enclosure result{"0", magnitude(difference)};
 
   // mantissa 10^-decimals as plain decimals, or with an exponent where that would be long.
   char* raw = fmpz_get_str(nullptr, 10, mantissa);
@@ -101,25 +104,25 @@ Enclosure print(const Ball& a, long decimals) {
   Ball::precision() = saved;
   const bool negative = digits.front() == '-';
   if (negative) digits.erase(0, 1);
-  if (digits == "0") {
-    result.value = "0";
-    return result;
-  }
+  if (digits == "0") return result;
   const long exponent = static_cast<long>(digits.size()) - 1 - decimals;
   if (exponent < -6 || decimals < 0) {
     std::string fraction = digits.substr(1);
-    result.value = digits.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" + std::to_string(exponent);
+    result.value =
+        digits.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" + std::to_string(exponent);
   } else if (decimals == 0) {
     result.value = digits;
   } else {
     if (exponent < 0) digits = std::string(static_cast<std::size_t>(-exponent), '0') + digits;
-    result.value = digits.substr(0, digits.size() - static_cast<std::size_t>(decimals)) + "." + digits.substr(digits.size() - static_cast<std::size_t>(decimals));
+    result.value = digits.substr(0, digits.size() - static_cast<std::size_t>(decimals)) + "." +
+                   digits.substr(digits.size() - static_cast<std::size_t>(decimals));
   }
   if (negative) result.value = std::string(1, '-').append(result.value);
   return result;
 }
 
-/// Prints a group of numbers to `digits` significant digits of the largest of them, or says that it cannot yet.
+/// Prints a group of numbers to `digits` significant digits of the largest of them, or says that it cannot
+/// yet.
 class Printer {
  public:
   Printer(int digits, bool last_chance) : digits_(digits), last_chance_(last_chance) {}
@@ -183,20 +186,24 @@ std::vector<std::array<Rational, 3>> exact_positions(const data::ControlMesh& me
 CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh)
     : data_(new Data{exact_positions(mesh), Topology(mesh.positions.size(), mesh.triangles)}) {}
 
-CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions, const std::vector<Triangle>& triangles) {
+CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
+                                       const std::vector<Triangle>& triangles) {
   std::vector<std::array<Rational, 3>> exact;
   for (const auto& p : positions)
-    exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])), exact_value(Parameter::parse(p[2]))});
+    exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
+                     exact_value(Parameter::parse(p[2]))});
   data_.reset(new Data{std::move(exact), Topology(positions.size(), triangles)});
 }
 
 CertifiedEvaluator::~CertifiedEvaluator() = default;
 
-CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const {
+CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const Parameter& l2,
+                                            int digits) const {
   if (digits < 1 || digits > 10000) throw std::invalid_argument("digits must be 1..10000");
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.triangles().size())
     throw std::out_of_range("no face " + std::to_string(face));
-  const Neighbourhood local = neighbourhood(data_->topology, data_->positions, static_cast<std::size_t>(face));
+  const Neighbourhood local =
+      neighbourhood(data_->topology, data_->positions, static_cast<std::size_t>(face));
 
   const long first = static_cast<long>(digits * 3.33) + 64;
   struct Restore {
@@ -208,10 +215,12 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
     const bool last_chance = bits >= 8 * first;
     std::vector<Vec3<Ball>> positions;
     for (const auto& p : local.positions)
-      positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]), NumberTraits<Ball>::from_rational(p[2])});
+      positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
+                           NumberTraits<Ball>::from_rational(p[2])});
     const StamEvaluator<Ball> evaluator(std::move(positions), local.triangles);
     const SurfacePoint<Ball> s = evaluator.evaluate(0, l1, l2);
-    const bool has_normal = s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
+    const bool has_normal =
+        s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
     if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
 
     Printer print(digits, last_chance);

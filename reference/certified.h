@@ -22,8 +22,8 @@ struct Enclosure {
 };
 using Enclosure3 = std::array<Enclosure, 3>;
 
-/// As SurfacePoint. Curvatures exist where second derivatives and the normal do; the mean curvature is positive where the
-/// surface is convex: 1/r on a sphere of radius r.
+/// As SurfacePoint. Curvatures exist where second derivatives and the normal do; the mean curvature is
+/// positive where the surface is convex: 1/r on a sphere of radius r.
 struct CertifiedPoint {
   Enclosure3 position, d1, d2, normal;
   std::optional<Enclosure3> d11, d12, d22;
@@ -34,20 +34,23 @@ struct CertifiedPoint {
   long precision;  ///< bits that were needed
 };
 
-/// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are, parameters as
-/// exact rationals.
+/// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are,
+/// parameters as exact rationals.
 class CertifiedEvaluator {
  public:
   /// As StamEvaluator.
   explicit CertifiedEvaluator(const data::ControlMesh& mesh);
-  /// Control points as text, "1/3" or "0.125", taken exactly. Throws std::invalid_argument as Parameter::parse does.
-  CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions, const std::vector<Triangle>& triangles);
+  /// Control points as text, "1/3" or "0.125", taken exactly. Throws std::invalid_argument as
+  /// Parameter::parse does.
+  CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
+                     const std::vector<Triangle>& triangles);
   ~CertifiedEvaluator();
 
   /// Only the face's own neighbourhood is evaluated: quick on large meshes.
-  ///   digits   1..10000 significant digits of the largest coordinate of each vector; each printed value is within one unit
-  ///            of its last decimal. Precision rises until that is certain; a vector that cannot be told from zero at
-  ///            eight times the digits is printed as 0 with its radius
+  ///   digits   1..10000 significant digits of the largest coordinate of each vector; each printed value is
+  ///   within one unit
+  ///            of its last decimal. Precision rises until that is certain; a vector that cannot be told from
+  ///            zero at eight times the digits is printed as 0 with its radius
   ///   throws   std::invalid_argument: digits or parameters out of range; std::out_of_range: no such face
   CertifiedPoint evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const;
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Two methods of different kind, and three precisions, against each other: on every stock shape, at fans of 1 to 13 faces,
-// at hubs of valence 3 to 200, down to 1e-300 from the vertex.
+// Two methods of different kind, and three precisions, against each other: on every stock shape, at fans of 1
+// to 13 faces, at hubs of valence 3 to 200, down to 1e-300 from the vertex.
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
-#include "reference/number_exact.h"
 #include "reference/normal.h"
+#include "reference/number_exact.h"
 #include "reference/stam.h"
 #include "reference/subdivision_evaluator.h"
 
@@ -21,9 +21,12 @@ template <class N>
 Vec3<Big> big(const Vec3<N>& a) {
   return {Big(a.x), Big(a.y), Big(a.z)};
 }
-Big length(const Vec3<Big>& a) { return sqrt(dot(a, a)); }
+Big length(const Vec3<Big>& a) {
+  return sqrt(dot(a, a));
+}
 
-/// |got - expected| / |expected|, or the distance itself where expected is tiny in the mesh (coordinates are about 1).
+/// |got - expected| / |expected|, or the distance itself where expected is tiny in the mesh (coordinates are
+/// about 1).
 template <class N>
 double error(const Vec3<N>& got, const Vec3<Big>& expected) {
   const Big size = sqrt(dot(expected, expected));
@@ -34,11 +37,14 @@ double error(const Vec3<N>& got, const Vec3<Big>& expected) {
 
 /// Points of a face: inside, on edges, corners, dyadic, near corners and edges.
 std::vector<std::array<Parameter, 2>> points(const std::string& near) {
-  const auto p = [](const char* a, const char* b) { return std::array{Parameter::parse(a), Parameter::parse(b)}; };
+  const auto p = [](const char* a, const char* b) {
+    return std::array{Parameter::parse(a), Parameter::parse(b)};
+  };
   const Parameter tiny = Parameter::parse(near);
-  std::vector<std::array<Parameter, 2>> result{p("1/3", "1/3"),  p("1/4", "1/4"),   p("1/2", "1/2"),    p("1/2", "0"),       p("0", "3/8"),
-                                               p("0.7", "0.3"),  p("1/7", "5/7"),   p("0.03", "0.005"), p("0.985", "0.004"), p("0.001", "0.998"),
-                                               p("1/1024", "0"), p("0", "1/65536"), p("3/4", "1/4"),    p("5/8", "1/8")};
+  std::vector<std::array<Parameter, 2>> result{
+      p("1/3", "1/3"),  p("1/4", "1/4"),   p("1/2", "1/2"),    p("1/2", "0"),       p("0", "3/8"),
+      p("0.7", "0.3"),  p("1/7", "5/7"),   p("0.03", "0.005"), p("0.985", "0.004"), p("0.001", "0.998"),
+      p("1/1024", "0"), p("0", "1/65536"), p("3/4", "1/4"),    p("5/8", "1/8")};
   result.push_back({tiny, Parameter::parse("0")});
   result.push_back({Parameter::parse("0"), tiny});
   result.push_back({tiny, tiny});
@@ -47,11 +53,13 @@ std::vector<std::array<Parameter, 2>> points(const std::string& near) {
 
 /// Everything of two points but the normal kind; `scale2` relates second derivatives to first ones.
 template <class A>
-void expect_same(const SurfacePoint<A>& a, const SurfacePoint<Big>& b, double tolerance, double& worst, const std::string& where) {
+void expect_same(const SurfacePoint<A>& a, const SurfacePoint<Big>& b, double tolerance, double& worst,
+                 const std::string& where) {
   const auto check = [&](const Vec3<A>& x, const Vec3<Big>& y, const char* what, const Big& size) {
     const double e = static_cast<Big>(length(big(x) - y) / size).convert_to<double>();
     worst = std::max(worst, e);
-    EXPECT_LE(e, tolerance) << where << ": " << what << " " << x.x << " " << x.y << " " << x.z << " against " << y.x;
+    EXPECT_LE(e, tolerance) << where << ": " << what << " " << x.x << " " << x.y << " " << x.z << " against "
+                            << y.x;
   };
   check(a.position, b.position, "position", 1);
   ASSERT_EQ(a.first_exist, b.first_exist) << where;
@@ -87,7 +95,8 @@ TEST(Evaluators, StamEqualsSubdivisionOnEveryShapeToNinetyDigits) {
     for (int i = 0; i < faces; ++i) {
       const int face = i * stam.face_count() / faces;
       for (const auto& [l1, l2] : points("1e-7")) {
-        const std::string where = name + " face " + std::to_string(face) + " (" + l1.to_string() + ", " + l2.to_string() + ")";
+        const std::string where =
+            name + " face " + std::to_string(face) + " (" + l1.to_string() + ", " + l2.to_string() + ")";
         expect_same(stam.evaluate(face, l1, l2), subdivision.evaluate(face, l1, l2), 1e-80, worst, where);
       }
     }
@@ -105,7 +114,8 @@ TEST(Evaluators, CornersAndTheirSurroundingsAgree) {
     const SubdivisionEvaluator<Big> subdivision(mesh);
     for (int face = 0; face < std::min(stam.face_count(), 40); ++face)
       for (const auto& [a, b] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}) {
-        const std::string where = name + " face " + std::to_string(face) + " corner " + std::to_string(a) + std::to_string(b);
+        const std::string where =
+            name + " face " + std::to_string(face) + " corner " + std::to_string(a) + std::to_string(b);
         expect_same(stam.evaluate(face, a, b), subdivision.evaluate(face, a, b), 1e-80, worst, where);
       }
   }
@@ -116,8 +126,9 @@ TEST(Evaluators, CornersAndTheirSurroundingsAgree) {
 TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
   double worst50 = 0, worst_double = 0, worst_normal = 0;
   std::string worst_where;
-  for (const std::string name : {"wheel:3", "wheel:4", "wheel:5", "wheel:7", "wheel:12", "wheel:50", "wheel:200", "fan:1", "fan:2", "fan:4", "fan:5", "fan:6",
-                                 "fan:7", "fan:9", "fan:12", "tetrahedron", "triangle", "octahedron"}) {
+  for (const std::string name :
+       {"wheel:3", "wheel:4", "wheel:5", "wheel:7", "wheel:12", "wheel:50", "wheel:200", "fan:1", "fan:2",
+        "fan:4", "fan:5", "fan:6", "fan:7", "fan:9", "fan:12", "tetrahedron", "triangle", "octahedron"}) {
     const data::ControlMesh mesh = data::named_mesh(name);
     const StamEvaluator<Big> exact(mesh);
     const StamEvaluator<Decimal50> fifty(mesh);
@@ -131,16 +142,21 @@ TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
       const std::string where = name + " at " + std::to_string(std::log10(distance));
       expect_same(fifty.evaluate(face, l1, l2), truth, 1e-40, worst50, where);
       const auto d = fast.evaluate(face, l1, l2);
-      for (const auto& [got, want] : {std::pair{d.position, truth.position}, {d.d1, truth.d1}, {d.d2, truth.d2}}) {
+      for (const auto& [got, want] :
+           {std::pair{d.position, truth.position}, {d.d1, truth.d1}, {d.d2, truth.d2}}) {
         const double e = error(got, want);
-        if (e > worst_double) { worst_double = e; worst_where = where; }
+        if (e > worst_double) {
+          worst_double = e;
+          worst_where = where;
+        }
         EXPECT_LE(e, 1e-11) << where;
       }
       const double n = error(d.normal, truth.normal);
       worst_normal = std::max(worst_normal, n);
     }
   }
-  std::printf("worst 50-digit %.2g, double %.2g (%s), normal %.2g\n", worst50, worst_double, worst_where.c_str(), worst_normal);
+  std::printf("worst 50-digit %.2g, double %.2g (%s), normal %.2g\n", worst50, worst_double,
+              worst_where.c_str(), worst_normal);
 }
 
 }  // namespace

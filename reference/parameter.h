@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A point's parameters on a face, kept apart from the number type of the evaluation: which piece of the surface a point
-// lies on is decided exactly, and the same for every number type.
+// A point's parameters on a face, kept apart from the number type of the evaluation: which piece of the
+// surface a point lies on is decided exactly, and the same for every number type.
 #pragma once
 
 #include <cstdint>

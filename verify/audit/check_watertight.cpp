@@ -119,6 +119,7 @@ std::vector<Result> check_watertight(const Evidence& e) {
     if (id != Lattice::kNone) named[id] = true;
   std::vector<OpenEdge> crack_edges;
   std::vector<bool> split;  // of each crack edge: another vertex lies inside it
+  bool placed = true;       // every crack edge has its place on the lattice
   for (const OpenEdge& edge : report.open_edges) {
     const std::int64_t from_vertex = corner_at(edge, edge.from);
     const Lattice::Id from = e.point[from_vertex], to = e.point[corner_at(edge, edge.to)];
@@ -134,17 +135,21 @@ std::vector<Result> check_watertight(const Evidence& e) {
     }
     crack_edges.push_back(edge);
     split.push_back(false);
-    if (from == Lattice::kNone || to == Lattice::kNone) continue;
+    if (from == Lattice::kNone || to == Lattice::kNone) {
+      placed = false;
+      continue;
+    }
     if (const Lattice::Id inside = point_inside(e, edge, from, to, named); inside != Lattice::kNone) {
       split.back() = true;
       if (!tees.witness) tees.witness = e.at_point(inside), tees.witness->triangle = edge.triangle;
     }
   }
-  // ... and in space, exactly: what provenance does not tell.
+  // In space, exactly, where provenance does not tell.
   std::vector<double> places;
-  for (std::int64_t v = 0; !crack_edges.empty() && v < t.vertex_count(); ++v)
+  for (std::int64_t v = 0; !placed && v < t.vertex_count(); ++v)
     for (const double x : t.position(v)) places.push_back(x);
-  for (const TVertex& tee : find_t_vertices(places, merged.vertex_of, crack_edges)) {
+  for (const TVertex& tee :
+       placed ? std::vector<TVertex>{} : find_t_vertices(places, merged.vertex_of, crack_edges)) {
     split[tee.edge] = true;
     if (!tees.witness)
       tees.witness = e.at_vertex(merged.vertex_of[tee.point]),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `limitcheck audit` as a user meets it: exit codes, what goes where, and the command it prints for a witness.
+// `limitcheck audit` as a user meets it: exit codes, what goes where, and the command it prints for a
+// witness.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -34,9 +35,11 @@ class AuditCommand : public testing::Test {
   // Runs the program in a folder of its own.
   Outcome run(const std::string& arguments) const {
     Outcome outcome;
-    const std::string command = "cd '" + folder_.string() + "' && '" LIMITCHECK_PROGRAM "' " + arguments + " 2> stderr.txt";
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" LIMITCHECK_PROGRAM "' " + arguments + " 2> stderr.txt";
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), [](FILE*) { return 0; });
-    for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get())) outcome.out += static_cast<char>(c);
+    for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get()))
+      outcome.out += static_cast<char>(c);
     const int status = pclose(pipe.get());
     outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     outcome.err = read("stderr.txt");
@@ -82,12 +85,14 @@ TEST_F(AuditCommand, JsonOnStandardOutputIsOneDocumentAndNothingElse) {
   EXPECT_EQ(json["depth"], 2);
   ASSERT_FALSE(json["results"].empty());
   for (const auto& row : json["results"])
-    for (const char* key : {"subject", "mesh", "check", "status", "count", "worst", "bound", "unit", "witness"})
+    for (const char* key :
+         {"subject", "mesh", "check", "status", "count", "worst", "bound", "unit", "witness"})
       EXPECT_TRUE(row.contains(key)) << key;
 }
 
 TEST_F(AuditCommand, JsonGoesToAFileBesideTheTable) {
-  const Outcome o = run("audit opensubdiv-far tetrahedron --depth 1 --option precision=double --json out/report.json");
+  const Outcome o =
+      run("audit opensubdiv-far tetrahedron --depth 1 --option precision=double --json out/report.json");
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.out.find("positions"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["held"], true);
@@ -97,8 +102,10 @@ TEST_F(AuditCommand, AnAuditOfAllSubjectsGoesOnWhenOneRefuses) {
   const Outcome o = run("audit all wheel:50:1 --depth 1 --json -");  // OpenMesh ends at valence 49
   EXPECT_EQ(o.code, 1) << o.err;
   bool refused = false, cgal = false;
-  for (const auto& row : nlohmann::json::parse(o.out)["results"]) {
-    refused = refused || (row["subject"] == "openmesh" && row["check"] == "tessellates" && row["status"] == "finding");
+  const auto report = nlohmann::json::parse(o.out);
+  for (const auto& row : report["results"]) {
+    refused = refused ||
+              (row["subject"] == "openmesh" && row["check"] == "tessellates" && row["status"] == "finding");
     cgal = cgal || (row["subject"] == "cgal" && row["check"] == "coverage" && row["status"] == "held");
   }
   EXPECT_TRUE(refused);
@@ -107,7 +114,8 @@ TEST_F(AuditCommand, AnAuditOfAllSubjectsGoesOnWhenOneRefuses) {
 
 // The subject is given in double, so the expected value is that of the mesh as it is.
 TEST_F(AuditCommand, TheCommandPrintedWithAFindingRecomputesTheExpectedValue) {
-  const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 3 --option precision=double --json report.json");
+  const Outcome o =
+      run("audit opensubdiv-bfr bumpy:20 --depth 3 --option precision=double --json report.json");
   ASSERT_EQ(o.code, 1) << o.err;
   const auto report = nlohmann::json::parse(read("report.json"));
   bool looked = false;
@@ -122,7 +130,8 @@ TEST_F(AuditCommand, TheCommandPrintedWithAFindingRecomputesTheExpectedValue) {
     ASSERT_EQ(e.code, 0) << e.err;
     const auto position = nlohmann::json::parse(e.out)["position"];
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(std::strtod(position[axis].get<std::string>().c_str(), nullptr), w["expected"][axis].get<double>(), 1e-14);
+      EXPECT_NEAR(std::strtod(position[axis].get<std::string>().c_str(), nullptr),
+                  w["expected"][axis].get<double>(), 1e-14);
   }
   EXPECT_TRUE(looked);
 }

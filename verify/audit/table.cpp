@@ -120,8 +120,9 @@ void add_line(std::string& out, const Result& r, const std::string& meshes, bool
   const bool has_worst = r.worst.has_value() || r.rms.has_value();
   const std::string count = r.of > 0 ? fmt::format("{}/{}", r.bad, r.of) : "-";
   out += fmt::format("  {:<17} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", r.check,
-                     painted(r.status, colour), meshes, count, has_worst ? amount(r.worst) : "-",
-                     has_worst ? amount(r.bound) : "-", has_worst ? amount(r.p99) : "-", r.unit, where(r));
+                     painted(r.status, colour), meshes, count,
+                     has_worst ? (r.worst ? amount(r.worst) : "nan") : "-", has_worst ? amount(r.bound) : "-",
+                     has_worst ? amount(r.p99) : "-", r.unit, where(r));
 }
 
 void add_finding(std::string& out, int number, const Line& line) {

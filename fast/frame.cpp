@@ -2,6 +2,7 @@
 #include "fast/frame.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -124,7 +125,10 @@ struct Tessellator<Real>::State {
     if (options.threads < 0) throw std::invalid_argument("tessellator: a negative number of threads");
     if (mesh.triangles.empty()) throw std::invalid_argument("tessellator: a mesh without faces");
     prepared.emplace(adjacency, place());
-    arena.initialize(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    // More threads than oneTBB has would only earn a warning on standard error.
+    const auto most =
+        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    arena.initialize(options.threads > 0 ? std::min(options.threads, most) : tbb::task_arena::automatic);
     for (std::int32_t f = 0; f < adjacency.face_count(); ++f)
       if (adjacency.neighbour(f, 0) < 0 && adjacency.neighbour(f, 1) < 0 && adjacency.neighbour(f, 2) < 0)
         isolated_faces = true;

@@ -71,7 +71,6 @@ void write_glb(const std::filesystem::path& file, const fast::IndexedMesh<float>
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "limitcheck";
-  tinygltf::Scene scene;
   if (!mesh.triangles.empty()) {
     tinygltf::Buffer buffer;
     buffer.data.resize(vertex_bytes + index_bytes);
@@ -113,10 +112,11 @@ void write_glb(const std::filesystem::path& file, const fast::IndexedMesh<float>
     tinygltf::Node node;
     node.mesh = 0;
     model.nodes.push_back(node);
+    tinygltf::Scene scene;
     scene.nodes = {0};
+    model.scenes = {scene};
+    model.defaultScene = 0;
   }
-  model.scenes = {scene};
-  model.defaultScene = 0;
 
   AtomicFile output(file);
   tinygltf::TinyGLTF writer;

@@ -166,8 +166,13 @@ TEST(MeshOutput, RefusesUnknownExtensionsAndPlacesItCannotWriteTo) {
   EXPECT_EQ(code(directory.path / "mesh.stl"), "FILE_UNKNOWN_FORMAT");
   EXPECT_EQ(code(directory.path / "mesh"), "FILE_UNKNOWN_FORMAT");
   EXPECT_EQ(code(directory.path / "absent" / "mesh.ply"), "FILE_CANNOT_WRITE");
-  EXPECT_EQ(code("/dev/full.ply"), "FILE_CANNOT_WRITE");
-  EXPECT_EQ(directory.files(), 0u);
+  fs::create_directory(directory.path / "directory.ply");
+  EXPECT_EQ(code(directory.path / "directory.ply"), "FILE_CANNOT_WRITE");
+  for (const char* name : {"full.ply", "full.obj", "full.glb"}) {  // a full disk
+    fs::create_symlink("/dev/full", directory.path / name);
+    EXPECT_EQ(code(directory.path / name), "FILE_CANNOT_WRITE") << name;
+  }
+  EXPECT_EQ(directory.files(), 4u) << "nothing but what was there before";
 }
 
 TEST(AtomicFile, WithoutCommitLeavesTheOldFileAndNothingElse) {

@@ -2,56 +2,16 @@
 // `limitcheck audit` as a user meets it: exit codes, what goes where, and the command it prints for a
 // witness.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-class AuditCommand : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("limitcheck-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  // Runs the program in a folder of its own.
-  Outcome run(const std::string& arguments) const {
-    Outcome outcome;
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" LIMITCHECK_PROGRAM "' " + arguments + " 2> stderr.txt";
-    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), [](FILE*) { return 0; });
-    for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get()))
-      outcome.out += static_cast<char>(c);
-    const int status = pclose(pipe.get());
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    outcome.err = read("stderr.txt");
-    return outcome;
-  }
-  std::string read(const fs::path& name) const {
-    std::ifstream in(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  fs::path folder_;
-};
+class AuditCommand : public CommandTest {};
 
 TEST_F(AuditCommand, ExitsWithZeroWhenAllHeld) {
   const Outcome o = run("audit opensubdiv-far tetrahedron --depth 2 --option precision=double");
@@ -137,3 +97,4 @@ TEST_F(AuditCommand, TheCommandPrintedWithAFindingRecomputesTheExpectedValue) {
 }
 
 }  // namespace
+}  // namespace limitcheck::cli

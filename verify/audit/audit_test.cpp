@@ -149,8 +149,9 @@ TEST(PlantedFaults, TheWitnessNamesThePointAndTheCommandThatRecomputesIt) {
   EXPECT_NE(r.witness->expected, r.witness->got);
   // The fault is at control vertices, which are corners.
   for (const std::string& l : {r.witness->l1, r.witness->l2}) EXPECT_TRUE(l == "0" || l == "1") << l;
-  EXPECT_EQ(eval_command(r.mesh, *r.witness),
-            fmt::format("limitcheck eval bumpy:60 {} {} {}", r.witness->face, r.witness->l1, r.witness->l2));
+  EXPECT_EQ(eval_command(r),
+            fmt::format("limitcheck eval bumpy:60 {} {} {}{}", r.witness->face, r.witness->l1, r.witness->l2,
+                        r.in_float ? " --precision float" : ""));
 }
 
 TEST(Audit, TheNullSubjectFailsCleanly) {

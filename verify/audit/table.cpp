@@ -160,14 +160,14 @@ void add_finding(std::string& out, int number, const Line& line) {
   if (!place.empty()) out += fmt::format("     witness   {}\n", fmt::join(place, ", "));
   if (!w.expected.empty()) out += fmt::format("     expected  {}\n", numbers(w.expected));
   if (!w.got.empty()) out += fmt::format("     got       {}\n", numbers(w.got));
-  if (const std::string command = eval_command(r.mesh, w); !command.empty())
-    out += fmt::format("     {}\n", command);
+  if (const std::string command = eval_command(r); !command.empty()) out += fmt::format("     {}\n", command);
 }
 
 }  // namespace
 
-std::string eval_command(const std::string& mesh, const Witness& witness) {
-  if (witness.face < 0 || witness.l1.empty()) return "";
+std::string eval_command(const Result& result) {
+  if (!result.witness || result.witness->face < 0 || result.witness->l1.empty()) return "";
+  const std::string& mesh = result.mesh;
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
   std::string quoted = mesh;
   if (mesh.find_first_not_of(kPlain) != std::string::npos) {
@@ -175,7 +175,8 @@ std::string eval_command(const std::string& mesh, const Witness& witness) {
     for (const char c : mesh) quoted += c == '\'' ? "'\\''" : std::string(1, c);
     quoted = fmt::format("'{}'", quoted);
   }
-  return fmt::format("limitcheck eval {} {} {} {}", quoted, witness.face, witness.l1, witness.l2);
+  return fmt::format("limitcheck eval {} {} {} {}{}", quoted, result.witness->face, result.witness->l1,
+                     result.witness->l2, result.in_float ? " --precision float" : "");
 }
 
 std::string to_table(const Report& report, bool colour, bool all) {

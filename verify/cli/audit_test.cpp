@@ -72,28 +72,31 @@ TEST_F(AuditCommand, AnAuditOfAllSubjectsGoesOnWhenOneRefuses) {
   EXPECT_TRUE(cgal);
 }
 
-// The subject is given in double, so the expected value is that of the mesh as it is.
 TEST_F(AuditCommand, TheCommandPrintedWithAFindingRecomputesTheExpectedValue) {
-  const Outcome o =
-      run("audit opensubdiv-bfr bumpy:20 --depth 3 --option precision=double --json report.json");
-  ASSERT_EQ(o.code, 1) << o.err;
-  const auto report = nlohmann::json::parse(read("report.json"));
-  bool looked = false;
-  for (const auto& row : report["results"]) {
-    if (row["check"] != "positions") continue;
-    looked = true;
-    const auto& w = row["witness"];
-    const std::string command = "eval bumpy:20 " + std::to_string(w["face"].get<int>()) + " " +
-                                w["l1"].get<std::string>() + " " + w["l2"].get<std::string>();
-    EXPECT_NE(o.out.find("limitcheck " + command + "\n"), std::string::npos) << command << "\n" << o.out;
-    const Outcome e = run(command + " --json");
-    ASSERT_EQ(e.code, 0) << e.err;
-    const auto position = nlohmann::json::parse(e.out)["position"];
-    for (int axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(std::strtod(position[axis].get<std::string>().c_str(), nullptr),
-                  w["expected"][axis].get<double>(), 1e-14);
+  for (const std::string precision : {"float", "double"}) {
+    const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 3 --option precision=" + precision +
+                          " --json report.json");
+    ASSERT_EQ(o.code, 1) << o.err;
+    const auto report = nlohmann::json::parse(read("report.json"));
+    bool looked = false;
+    for (const auto& row : report["results"]) {
+      if (row["check"] != "positions") continue;
+      looked = true;
+      const auto& w = row["witness"];
+      std::string command = "eval bumpy:20 " + std::to_string(w["face"].get<int>()) + " " +
+                            w["l1"].get<std::string>() + " " + w["l2"].get<std::string>();
+      if (precision == "float") command += " --precision float";
+      EXPECT_NE(o.out.find("limitcheck " + command + "\n"), std::string::npos) << command << "\n" << o.out;
+      const Outcome e = run(command + " --json");
+      ASSERT_EQ(e.code, 0) << e.err;
+      const auto position = nlohmann::json::parse(e.out)["position"];
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(std::stod(position[axis].get<std::string>()), w["expected"][axis].get<double>(), 1e-14)
+            << command;
+      }
+    }
+    EXPECT_TRUE(looked);
   }
-  EXPECT_TRUE(looked);
 }
 
 }  // namespace

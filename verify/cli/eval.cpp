@@ -22,6 +22,7 @@ struct Request {
   std::string mesh, l1, l2;
   std::int64_t face = 0;
   int digits = 16;
+  std::string precision = "double";
   bool json = false;
 };
 
@@ -109,7 +110,12 @@ void print_text(const Request& request, const std::array<std::string, 3>& baryce
 }
 
 void run(const Request& request) {
-  const data::ControlMesh mesh = data::open_mesh(request.mesh);
+  data::ControlMesh mesh = data::open_mesh(request.mesh);
+  if (request.precision == "float") {
+    for (auto& position : mesh.positions) {
+      for (double& x : position) x = static_cast<double>(static_cast<float>(x));
+    }
+  }
   if (request.face < 0 || static_cast<std::size_t>(request.face) >= mesh.triangles.size())
     throw std::out_of_range(fmt::format("{} has faces 0 to {}, not {}", request.mesh,
                                         static_cast<std::int64_t>(mesh.triangles.size()) - 1, request.face));
@@ -134,6 +140,11 @@ void add_eval(CLI::App& app, int& exit_code) {
   command->add_option("L2", request->l2, "Weight of its third corner; the first has 1 - L1 - L2")->required();
   command->add_option("--digits", request->digits, "Significant digits")
       ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command
+      ->add_option("--precision", request->precision,
+                   "Round the control mesh to it first, as a float tessellator sees it")
+      ->check(CLI::IsMember({"float", "double"}))
       ->capture_default_str();
   command->add_flag("--json", request->json, "One JSON document, numbers as decimal strings");
   command->callback([request, &exit_code] {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a frame costs before the first point is computed: adjacency, the per-mesh part of the heuristics, the
-// depths of one view, the pairing. Items are faces: read items_per_second as faces per second, ns/face beside
-// it. Names: stage/variant/shape/faces:N.
+// depths of one view, the pairing. `per_face` is the time per control face.
+// Names: stage/variant/shape/faces:N.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -190,7 +190,8 @@ std::int32_t DepthHeuristics::cone_depth(std::int32_t v, double cos_angle) const
 std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, const Camera& camera) const {
   const bool sphere = uses_sphere(options.strategy), cone = uses_cone(options.strategy),
              cull = options.culls();
-  if (options.depth < 0 || options.depth > max_depth_) {
+  const bool uses_depth = options.strategy == Strategy::kUniform || options.strategy == Strategy::kRandom;
+  if (uses_depth && (options.depth < 0 || options.depth > max_depth_)) {
     refuse(std::to_string(options.depth) + " is not in 0.." + std::to_string(max_depth_));
   }
   if (sphere && !(options.target_pixels > 0)) refuse("the target must be more than 0 pixels");

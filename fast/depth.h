@@ -42,7 +42,7 @@ enum class Facing : std::int8_t { kFront, kSilhouette, kBack };
 
 struct DepthOptions {
   Strategy strategy = Strategy::kCombined;
-  int depth = 3;              // uniform and random
+  int depth = 3;              // uniform; the largest of random
   std::uint64_t seed = 1;     // random
   double target_pixels = 60;  // project-sphere, > 0
   /// Largest angle between the limit normal at a corner and its incident sub-triangles, degrees, in (0, 180],

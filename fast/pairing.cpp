@@ -94,7 +94,9 @@ class Greedy {
     return -1;
   }
 
-  /// The edge of f towards its partner; -1 without a free neighbour.
+  /// The edge of f towards its partner; -1 without a free neighbour. "A neighbour in S0 first" decides
+  /// nothing as long as the sets are right: a face with a choice is taken only when S0 is empty. With the
+  /// printed step 3 they are not.
   int choose_partner(std::int32_t f) const {
     int chosen = -1;
     std::tuple<bool, bool, int, std::int32_t> best{true, true, kTaken,

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// `limitcheck tessellate` as a user meets it: what it prints, what it writes, what it refuses.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "data/io/read.h"
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Every call below is one of `limitcheck tessellate`.
+class TessellateCommand : public CommandTest {
+ protected:
+  Outcome run(const std::string& arguments) const { return CommandTest::run("tessellate " + arguments); }
+};
+
+TEST_F(TessellateCommand, WritesAClosedManifoldWithEveryTriangleItReports) {
+  for (const char* extension : {"ply", "obj"}) {
+    const std::string file = std::string("out.") + extension;
+    const Outcome o = run("bumpy:200 --strategy random --depth 4 --json -o " + file);
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "") << "no progress unless standard error is a terminal";
+    const auto json = nlohmann::json::parse(o.out);
+    const data::ControlMesh mesh = data::read_mesh(folder_ / file);  // validated
+    EXPECT_EQ(json["triangles"], mesh.triangles.size());
+    EXPECT_EQ(json["vertices"], mesh.positions.size());
+    EXPECT_GT(json["fans"], 0);
+    // Each edge in both directions, and Euler's formula of the sphere: closed, one piece, no T-vertices.
+    std::map<std::pair<int, int>, int> edges;
+    for (const auto& t : mesh.triangles) {
+      for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
+    }
+    for (const auto& [edge, count] : edges) {
+      ASSERT_EQ(count, 1);
+      ASSERT_TRUE(edges.contains({edge.second, edge.first}));
+    }
+    EXPECT_EQ(mesh.positions.size(), mesh.triangles.size() / 2 + 2);
+  }
+}
+
+TEST_F(TessellateCommand, CountsWhatTheDesignNamesAndTimesEachStage) {
+  const Outcome o = run("bumpy:800 --camera 0,0,4:0,0,0 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto json = nlohmann::json::parse(o.out);
+  for (const char* key : {"faces", "pairs", "singletons", "fans", "culled", "triangles", "vertices"}) {
+    EXPECT_TRUE(json[key].is_number_integer()) << key;
+  }
+  for (const char* key : {"heuristics", "pairing", "evaluation", "write"}) {
+    EXPECT_GE(json["seconds"][key].get<double>(), 0) << key;
+  }
+  EXPECT_EQ(json["faces"], 800);
+  EXPECT_EQ(2 * json["pairs"].get<int>() + json["singletons"].get<int>() + json["culled"].get<int>(), 800);
+  EXPECT_EQ(json["strategy"], "combined") << "a view is given";
+  EXPECT_GT(json["culled"], 200);
+  EXPECT_EQ(json["output"], nullptr);
+}
+
+// 4^3 triangles per face; a closed surface of genus 0 has F / 2 + 2 vertices.
+TEST_F(TessellateCommand, WithoutOptionsIsUniformOfDepthThree) {
+  const auto json = nlohmann::json::parse(run("octahedron --json").out);
+  EXPECT_EQ(json["strategy"], "uniform");
+  EXPECT_EQ(json["triangles"], 8 * 64);
+  EXPECT_EQ(json["vertices"], 8 * 32 + 2);
+  EXPECT_EQ(json["culled"], 0);
+  EXPECT_NE(run("octahedron")
+                .out.find("8 faces: 4 pairs, 0 singletons, 0 fans, 0 culled; 512 triangles, 258 vertices"),
+            std::string::npos);
+}
+
+TEST_F(TessellateCommand, WritesTheSameBytesWithAnyNumberOfThreadsAndOtherOnesWithAnotherSeed) {
+  const std::string what = "bumpy:400 --strategy random --depth 4 --colour kind -o ";
+  ASSERT_EQ(run(what + "1.ply --threads 1").code, 0);
+  ASSERT_EQ(run(what + "2.ply --threads 2").code, 0);
+  ASSERT_EQ(run(what + "8.ply --threads 8").code, 0);
+  ASSERT_EQ(run(what + "seed.ply --seed 2").code, 0);
+  EXPECT_FALSE(read("1.ply").empty());
+  EXPECT_EQ(read("1.ply"), read("2.ply"));
+  EXPECT_EQ(read("1.ply"), read("8.ply"));
+  EXPECT_NE(read("1.ply"), read("seed.ply"));
+}
+
+TEST_F(TessellateCommand, ObeysCullingCentreRepairAngleAndPixels) {
+  const auto count = [&](const std::string& arguments, const char* key) {
+    const Outcome o = run("bumpy:200 --json " + arguments);
+    EXPECT_EQ(o.code, 0) << arguments << o.err;
+    return nlohmann::json::parse(o.out)[key].get<std::int64_t>();
+  };
+  EXPECT_EQ(count("--strategy combined --no-cull", "culled"), 0);
+  EXPECT_GT(count("--strategy random --cull", "culled"), 0);
+  EXPECT_GT(count("--pixels 20", "triangles"), count("--pixels 60", "triangles"));
+  EXPECT_GT(count("--strategy curvature --angle 10", "triangles"),
+            count("--strategy curvature --angle 40", "triangles"));
+  EXPECT_GT(count("--strategy curvature --angle 40,10", "triangles"),
+            count("--strategy curvature --angle 40", "triangles"));
+  EXPECT_GT(count("--strategy random --depth 4 --repair stitch", "stitched"), 0);
+  EXPECT_LE(count("--strategy combined --max-depth 1", "triangles"), 200 * 4);
+  ASSERT_EQ(run("bumpy:200 --strategy random -o limit.ply").code, 0);
+  ASSERT_EQ(run("bumpy:200 --strategy random -o flat.ply --centre flat").code, 0);
+  EXPECT_EQ(read("limit.ply").size(), read("flat.ply").size());
+  EXPECT_NE(read("limit.ply"), read("flat.ply"));
+}
+
+TEST_F(TessellateCommand, FromInsideShowsNothingAndSaysWhy) {
+  const Outcome o = run("octahedron --camera 0.01,0,0:1,0,0 -o nothing.ply --json");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(nlohmann::json::parse(o.out)["triangles"], 0);
+  EXPECT_NE(o.err.find("is the camera inside?"), std::string::npos) << o.err;
+  EXPECT_TRUE(fs::exists(folder_ / "nothing.ply"));
+}
+
+TEST_F(TessellateCommand, RefusesBadArgumentsWithExitCodeTwoAndWritesNothing) {
+  write("empty.obj", "");
+  for (const char* arguments : {"",
+                                "no-such-mesh",
+                                "empty.obj",
+                                "octahedron --depth 40",
+                                "octahedron --depth -1",
+                                "octahedron --pixels 0",
+                                "octahedron --pixels nan",
+                                "octahedron --angle 0",
+                                "octahedron --angle 1,2,3,4",
+                                "octahedron --strategy best",
+                                "octahedron --camera 1,2",
+                                "octahedron --camera 1,2,3:1,2,3",
+                                "octahedron --camera 1,2,x:0,0,0",
+                                "octahedron --camera 0,0,4:0,0,0:0,0,1",
+                                "octahedron --camera 0,0,4:0,0,0:0,1,0:1",
+                                "octahedron --viewport 0x768",
+                                "octahedron --viewport 640",
+                                "octahedron --fov 180",
+                                "octahedron --threads -1",
+                                "octahedron --colour red",
+                                "octahedron --centre middle",
+                                "octahedron --strategy uniform --depth 4 --max-depth 3",
+                                "octahedron --nonsense",
+                                "octahedron -o out.stl",
+                                "octahedron -o absent/out.ply"}) {
+    const Outcome o = run(std::string(arguments) +
+                          (std::string(arguments).find("-o") == std::string::npos ? " -o out.ply" : ""));
+    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.out;
+    EXPECT_NE(o.err, "") << arguments;
+    EXPECT_EQ(o.out, "") << arguments;
+  }
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(name == ".stdout" || name == ".stderr" || name == "empty.obj") << name;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "data/shapes.h"
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -17,9 +18,13 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw InputError("NAME_BAD_PARAMETER", "", 0, message);
 }
 
-// Rounding to float also hides the last bits in which the sines of two C libraries may differ.
+// The nearest float (ties to even). It also hides the last bits in which the sines of two C libraries may
+// differ. By integers, because g++ 12 at -O2 drops a conversion to float and back where it vectorises the
+// two.
 double rounded(double x) {
-  return static_cast<float>(x);
+  auto bits = std::bit_cast<std::uint64_t>(x);
+  bits += 0x0fffffff + (bits >> 29 & 1);
+  return std::bit_cast<double>(bits & ~std::uint64_t{0x1fffffff});
 }
 
 std::array<double, 2> on_circle(double turns) {
@@ -67,7 +72,7 @@ ControlMesh sectors_of_lattice(const std::vector<std::array<double, 2>>& directi
 
 void append(ControlMesh& mesh, const ControlMesh& other, double shift_x) {
   const auto offset = static_cast<std::int32_t>(mesh.positions.size());
-  for (const auto& p : other.positions) mesh.positions.push_back({p[0] + shift_x, p[1], p[2]});
+  for (const auto& p : other.positions) mesh.positions.push_back({rounded(p[0] + shift_x), p[1], p[2]});
   for (const auto& t : other.triangles)
     mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }

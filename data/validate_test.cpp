@@ -71,15 +71,18 @@ TEST(Validate, AFaceWithARepeatedVertexIsDegenerate) {
 }
 
 TEST(Validate, TheSameThreeVerticesTwiceAreADuplicateInAnyOrder) {
-  for (const std::array<std::int32_t, 3> t :
-       {std::array{0, 1, 2}, std::array{1, 2, 0}, std::array{2, 0, 1}, std::array{0, 2, 1}}) {
-    ControlMesh tetra = tetrahedron();
-    tetra.triangles.push_back(t);
-    const auto findings = validate(tetra);
-    ASSERT_EQ(findings.size(), 1u);
-    EXPECT_EQ(findings[0].fault, MeshFault::kDuplicateFace);
-    EXPECT_EQ(findings[0].elements, (std::vector<std::int64_t>{0, 4}));
-    EXPECT_EQ(findings[0].face, 4);
+  constexpr std::array<std::array<int, 3>, 4> orders = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}}};
+  for (std::int64_t original = 0; original < 4; ++original) {
+    for (const auto& order : orders) {
+      ControlMesh mesh = tetrahedron();
+      const auto t = mesh.triangles[original];
+      mesh.triangles.push_back({t[order[0]], t[order[1]], t[order[2]]});
+      const auto findings = validate(mesh);
+      ASSERT_EQ(findings.size(), 1u);
+      EXPECT_EQ(findings[0].fault, MeshFault::kDuplicateFace);
+      EXPECT_EQ(findings[0].elements, (std::vector<std::int64_t>{original, 4}));
+      EXPECT_EQ(findings[0].face, 4);
+    }
   }
 }
 

@@ -140,6 +140,71 @@ void expect_watertight(int rounds, int deepest) {
 TEST(Sec5_Frame, IsWatertightBitByBitWithNormalsInFloat) {
   expect_watertight<float>(40, 3);
 }
+TEST(Sec4_Frame, OpensOnlyWhereCulledFacesBegin) {
+  data::ControlMesh mesh = shaken(grid_torus(12, 16), 14);
+  Camera camera;
+  camera.eye = {1, 5, 3};
+  for (const Strategy strategy : {Strategy::kUniform, Strategy::kRandom, Strategy::kProjectSphere,
+                                  Strategy::kCurvature, Strategy::kCombined}) {
+    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+      DepthOptions depth;
+      depth.strategy = strategy;
+      depth.cull = true;
+      TessellatorOptions options;
+      options.cracks.repair = repair;
+      Tessellator<float> tessellator(mesh, options);
+      DrawList<float> list;
+      const FrameStats stats = tessellator.frame(depth, camera, list);
+      EXPECT_GT(stats.culled, 0);
+      EXPECT_EQ(stats.revived, 0);
+      EXPECT_EQ(2 * stats.pairs + stats.singletons + stats.culled, stats.faces);
+      const Adjacency& adjacency = tessellator.adjacency();
+      const auto& final_depth = tessellator.last_pairing().depth;
+      std::int64_t expected = 0;
+      for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h)
+        if (final_depth[static_cast<std::size_t>(h / 3)] >= 0 &&
+            final_depth[static_cast<std::size_t>(adjacency.twin(h) / 3)] < 0)
+          expected += 1 << tessellator.last_plan().edge_depth[static_cast<std::size_t>(h)];
+      const WeldReport report = weld(triangles_of(list), true);
+      EXPECT_EQ(report.open, expected) << name(strategy);
+      EXPECT_EQ(report.repeated, 0);
+      EXPECT_EQ(report.degenerate, 0);
+    }
+  }
+}
+
+TEST(Sec4_Frame, KeepsItsNormalsAtAnyScaleAndFarFromTheOrigin) {
+  const data::ControlMesh mesh = shaken(grid_torus(4, 5), 13);
+  const std::vector<std::int32_t> depth(mesh.triangles.size(), 3);
+  DrawList<float> plain, other;
+  Tessellator<float>(mesh).frame(depth, plain);
+  for (const int exponent : {-60, -20, 20, 60}) {
+    data::ControlMesh scaled = mesh;
+    for (auto& p : scaled.positions)
+      for (double& x : p) x = std::ldexp(x, exponent);
+    Tessellator<float>(scaled).frame(depth, other);
+    for (std::size_t i = 0; i < plain.vertices.size(); ++i) {
+      ASSERT_EQ(plain.vertices[i].normal, other.vertices[i].normal) << exponent;
+      ASSERT_EQ(std::ldexp(plain.vertices[i].position.x, exponent), other.vertices[i].position.x) << exponent;
+    }
+  }
+  // moved by 1024, the control points lose digits when they are rounded; nothing more is lost afterwards
+  data::ControlMesh moved = mesh, rounded = mesh;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      moved.positions[i][k] = static_cast<float>(mesh.positions[i][k] + 1024);
+      rounded.positions[i][k] = moved.positions[i][k] - 1024;
+    }
+  }
+  Tessellator<float>(moved).frame(depth, other);
+  Tessellator<float>(rounded).frame(depth, plain);
+  for (std::size_t i = 0; i < plain.vertices.size(); ++i) {
+    const auto d = plain.vertices[i].normal - other.vertices[i].normal;
+    ASSERT_LE(dot(d, d), 1e-9f);
+    ASSERT_NEAR(plain.vertices[i].position.x + 1024, other.vertices[i].position.x, 1e-4);
+  }
+}
+
 TEST(Sec5_Frame, IsWatertightBitByBitWithNormalsInDouble) {
   expect_watertight<double>(10, 4);
 }

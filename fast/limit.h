@@ -116,7 +116,7 @@ class LimitSurface {
       ++zero_normals;
       normal = ring_normal();
       square = dot(normal, normal);
-      if (!(square >= kSmallest)) return {frame.position + Vec3<N>{}, {N(0), N(0), N(1)}};
+      if (!(square >= kSmallest)) return {frame.position, {N(0), N(0), N(1)}};
     }
     using std::sqrt;
     // + 0 turns a negative zero into zero: its sign would depend on the direction of the axis.

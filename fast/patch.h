@@ -78,10 +78,6 @@ struct Patch {
   }
 };
 
-/// Columns of row `row` that belong to a half, in its own frame.
-inline int columns_of_half(int k, int row) {
-  return k - row + 1;
-}
 /// Interior lattice points of a face at 2^depth = k, and the number of those in the rows before `row`.
 inline std::int64_t interior_points(std::int64_t k) {
   return k < 3 ? 0 : (k - 1) * (k - 2) / 2;

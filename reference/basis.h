@@ -3,7 +3,8 @@
 //
 //          1 --- 2            The patch is triangle (4, 7, 8): gamma = 1 at 4, alpha = 1 at 7, beta = 1 at 8;
 //         / \   / \           gamma = 1 - alpha - beta.
-//        3 --- 4 --- 5        First misprint of the appendix: b1 = gamma^4 + 2 gamma^3 alpha, not alpha^3. [C69, C70]
+//        3 --- 4 --- 5        First misprint of the appendix: b1 = gamma^4 + 2 gamma^3 alpha, not alpha^3.
+//        [C69, C70]
 //       / \   / \   / \       .
 //      6 --- 7 --- 8 --- 9
 //       \   / \   / \   /
@@ -17,14 +18,15 @@
 
 namespace limitcheck::reference {
 
-/// Values and derivatives at one (alpha, beta), in the order above. Derivatives are with respect to alpha and beta,
-/// gamma substituted (as in section 5); each derivative row sums to 0, the values to 1.               [C65, C68]
+/// Values and derivatives at one (alpha, beta), in the order above. Derivatives are with respect to alpha and
+/// beta, gamma substituted (as in section 5); each derivative row sums to 0, the values to 1. [C65, C68]
 template <class N>
 struct Basis {
   std::array<N, 12> value, da, db, daa, dab, dbb;
 };
 
-/// The twelve functions as Appendix A prints them (b1 corrected), over any ring: numbers, or jets for derivatives.
+/// The twelve functions as Appendix A prints them (b1 corrected), over any ring: numbers, or jets for
+/// derivatives.
 template <class T>
 std::array<T, 12> appendix_a(const T& alpha, const T& beta, const T& gamma) {
   const T a2 = alpha * alpha, a3 = a2 * alpha, a4 = a2 * a2;
@@ -36,14 +38,14 @@ std::array<T, 12> appendix_a(const T& alpha, const T& beta, const T& gamma) {
   return {g4 + 2 * g3a,
           g4 + 2 * g3b,
           g4 + 2 * g3b + 6 * g3a + 6 * g2ab + 12 * g2a2 + 6 * ga2b + 6 * ga3 + 2 * a3b + a4,
-          6 * g4 + 24 * g3b + 24 * g2b2 + 8 * gb3 + b4 + 24 * g3a + 60 * g2ab + 36 * gab2 + 6 * ab3 + 24 * g2a2 +
-              36 * ga2b + 12 * a2b2 + 8 * ga3 + 6 * a3b + a4,
+          6 * g4 + 24 * g3b + 24 * g2b2 + 8 * gb3 + b4 + 24 * g3a + 60 * g2ab + 36 * gab2 + 6 * ab3 +
+              24 * g2a2 + 36 * ga2b + 12 * a2b2 + 8 * ga3 + 6 * a3b + a4,
           g4 + 6 * g3b + 12 * g2b2 + 6 * gb3 + b4 + 2 * g3a + 6 * g2ab + 6 * gab2 + 2 * ab3,
           2 * ga3 + a4,
           g4 + 6 * g3b + 12 * g2b2 + 6 * gb3 + b4 + 8 * g3a + 36 * g2ab + 36 * gab2 + 8 * ab3 + 24 * g2a2 +
               60 * ga2b + 24 * a2b2 + 24 * ga3 + 24 * a3b + 6 * a4,
-          g4 + 8 * g3b + 24 * g2b2 + 24 * gb3 + 6 * b4 + 6 * g3a + 36 * g2ab + 60 * gab2 + 24 * ab3 + 12 * g2a2 +
-              36 * ga2b + 24 * a2b2 + 6 * ga3 + 8 * a3b + a4,
+          g4 + 8 * g3b + 24 * g2b2 + 24 * gb3 + 6 * b4 + 6 * g3a + 36 * g2ab + 60 * gab2 + 24 * ab3 +
+              12 * g2a2 + 36 * ga2b + 24 * a2b2 + 6 * ga3 + 8 * a3b + a4,
           2 * gb3 + b4,
           2 * a3b + a4,
           2 * gb3 + b4 + 6 * gab2 + 6 * ab3 + 6 * ga2b + 12 * a2b2 + 2 * ga3 + 6 * a3b + a4,
@@ -61,26 +63,31 @@ struct BasisTable {
 };
 const BasisTable& basis_table();
 
-/// All monomials alpha^i beta^j gamma^k of degree D, in the order of the table: i outer, j inner, both rising.
+/// All monomials alpha^i beta^j gamma^k of degree D, in the order of the table: i outer, j inner, both
+/// rising.
 template <int D, class N>
 auto monomials(const std::array<N, 5>& a, const std::array<N, 5>& b, const std::array<N, 5>& g) {
   std::array<N, (D + 1) * (D + 2) / 2> result;
   std::size_t t = 0;
   for (int i = 0; i <= D; ++i)
     for (int j = 0; i + j <= D; ++j)
-      result[t++] = a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)] * g[static_cast<std::size_t>(D - i - j)];
+      result[t++] = a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)] *
+                    g[static_cast<std::size_t>(D - i - j)];
   return result;
 }
 
 /// sum_t monomial[t] table[t][i] / 12
 template <class N, std::size_t T>
-void combine(std::array<N, 12>& result, const std::array<N, T>& monomial, const std::array<std::array<N, 12>, T>& table) {
+void combine(std::array<N, 12>& result, const std::array<N, T>& monomial,
+             const std::array<std::array<N, 12>, T>& table) {
   for (std::size_t i = 0; i < 12; ++i) result[i] = monomial[0] * table[0][i];
   for (std::size_t t = 1; t < T; ++t)
     for (std::size_t i = 0; i < 12; ++i) result[i] += monomial[t] * table[t][i];
+  const N twelfth = N(1) / N(12);
+  for (N& r : result) r *= twelfth;
 }
 
-/// The table in the number type, divided by 12.
+/// The table in the number type: small integers, exact in all of them.
 template <class N>
 struct BasisCoefficients {
   std::array<std::array<N, 12>, 15> value;
@@ -91,7 +98,7 @@ struct BasisCoefficients {
     const BasisTable& t = basis_table();
     const auto copy = [](auto& to, const auto& from) {
       for (std::size_t m = 0; m < from.size(); ++m)
-        for (std::size_t i = 0; i < 12; ++i) to[m][i] = N(from[m][i]) / N(12);
+        for (std::size_t i = 0; i < 12; ++i) to[m][i] = N(from[m][i]);
     };
     copy(value, t.value);
     copy(da, t.da);

@@ -4,6 +4,7 @@
 
 #include "data/known_answers.h"
 #include "reference/basis.h"
+#include "reference/certified.h"
 #include "reference/masks.h"
 #include "reference/normal.h"
 #include "reference/number_exact.h"
@@ -33,7 +34,8 @@ std::vector<Vec3<M>> vecs(const std::vector<data::Numeral3>& texts) {
 }
 
 double size(const Vec3<N>& a) {
-  return std::max({NumberTraits<N>::approximate(abs(a.x)), NumberTraits<N>::approximate(abs(a.y)), NumberTraits<N>::approximate(abs(a.z))});
+  return std::max({NumberTraits<N>::approximate(abs(a.x)), NumberTraits<N>::approximate(abs(a.y)),
+                   NumberTraits<N>::approximate(abs(a.z))});
 }
 
 /// Decimal digits in which two vectors agree, relative to the larger of 1 and the expected one's size.
@@ -43,8 +45,9 @@ double digits(const Vec3<N>& got, const Vec3<N>& expected) {
 }
 
 constexpr double kDigits = 39;
-#define EXPECT_DIGITS(got, expected, id) \
-  EXPECT_GE(digits(got, expected), kDigits) << (id) << ": " #got " " << (got).x << " " << (got).y << " " << (got).z
+#define EXPECT_DIGITS(got, expected, id)    \
+  EXPECT_GE(digits(got, expected), kDigits) \
+      << (id) << ": " #got " " << (got).x << " " << (got).y << " " << (got).z
 
 TEST(KnownAnswers_InteriorRings, LimitMaskAndTangentsToThirtyNineDigits) {
   ASSERT_EQ(answers().interior_rings.size(), 6U);
@@ -82,38 +85,103 @@ void check_surfaces() {
   for (const auto& a : answers().surfaces) {
     const Evaluator evaluator(vecs(a.vertices), a.faces);
     for (const auto& s : a.samples) {
-      const auto p = evaluator.evaluate(a.face, Parameter::parse(s.barycentric[1]), Parameter::parse(s.barycentric[2]), Order::kFirst);
-      const std::string id = a.id + " (" + s.barycentric[0] + ", " + s.barycentric[1] + ", " + s.barycentric[2] + ")";
+      const auto p = evaluator.evaluate(a.face, Parameter::parse(s.barycentric[1]),
+                                        Parameter::parse(s.barycentric[2]), Order::kFirst);
+      const std::string id =
+          a.id + " (" + s.barycentric[0] + ", " + s.barycentric[1] + ", " + s.barycentric[2] + ")";
       EXPECT_DIGITS(p.position, vec(s.position), id);
       EXPECT_DIGITS(p.d1, vec(s.d_dl1), id);
       EXPECT_DIGITS(p.d2, vec(s.d_dl2), id);
       EXPECT_DIGITS(p.normal, vec(s.unit_normal), id);
-      worst = std::min({worst, digits(p.position, vec(s.position)), digits(p.d1, vec(s.d_dl1)), digits(p.d2, vec(s.d_dl2)),
-                        digits(p.normal, vec(s.unit_normal))});
+      worst = std::min({worst, digits(p.position, vec(s.position)), digits(p.d1, vec(s.d_dl1)),
+                        digits(p.d2, vec(s.d_dl2)), digits(p.normal, vec(s.unit_normal))});
     }
   }
   testing::Test::RecordProperty("fewest_digits", std::to_string(worst));
 }
-TEST(KnownAnswers_SurfacePoints, ByStamToThirtyNineDigits) { check_surfaces<StamEvaluator<N>>(); }
-TEST(KnownAnswers_SurfacePoints, BySubdivisionToThirtyNineDigits) { check_surfaces<SubdivisionEvaluator<N>>(); }
+TEST(KnownAnswers_SurfacePoints, ByStamToThirtyNineDigits) {
+  check_surfaces<StamEvaluator<N>>();
+}
+TEST(KnownAnswers_SurfacePoints, BySubdivisionToThirtyNineDigits) {
+  check_surfaces<SubdivisionEvaluator<N>>();
+}
+
+TEST(KnownAnswers_SurfacePoints, AreInsideTheCertifiedEnclosures) {
+  for (const auto& a : answers().surfaces) {
+    const CertifiedEvaluator evaluator(a.vertices, a.faces);
+    for (const auto& s : a.samples) {
+      const auto p = evaluator.evaluate(a.face, Parameter::parse(s.barycentric[1]),
+                                        Parameter::parse(s.barycentric[2]), 45);
+      const auto check = [&](const Enclosure3& got, const data::Numeral3& expected) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Decimal100 want = data::parse<Decimal100>(expected[i]), value(got[i].value);
+          const Decimal100 rounding =
+              abs(want) * Decimal100("1e-41") + Decimal100("1e-43");  // of the answer's own 42 digits
+          EXPECT_LE(abs(want - value), Decimal100(got[i].radius) + rounding)
+              << a.id << " " << s.barycentric[1] << " " << s.barycentric[2];
+          EXPECT_LE(got[i].radius, 1e-43);
+        }
+      };
+      check(p.position, s.position);
+      check(p.d1, s.d_dl1);
+      check(p.d2, s.d_dl2);
+      check(p.normal, s.unit_normal);
+    }
+  }
+}
+
+TEST(KnownAnswers_SurfacePoints, InDoubleWithinAFewUlpOfTheControlPoints) {
+  // One ulp of the largest control coordinate, 2: 2^-52 * 2. The bounds stand in stam.h.
+  constexpr double kUlp = 0x1p-51;
+  double position = 0, first = 0, normal = 0;
+  for (const auto& a : answers().surfaces) {
+    // The control points are rounded to double first: the truth is that of the rounded mesh.
+    const data::ControlMesh mesh = data::control_mesh(a.vertices, a.faces);
+    const StamEvaluator<double> fast(mesh);
+    const StamEvaluator<N> exact(mesh);
+    for (const auto& s : a.samples) {
+      const Parameter l1 = Parameter::parse(s.barycentric[1]), l2 = Parameter::parse(s.barycentric[2]);
+      const auto got = fast.evaluate(a.face, l1, l2);
+      const auto want = exact.evaluate(a.face, l1, l2);
+      const auto error = [](const Vec3<double>& x, const Vec3<N>& y) {
+        return size(Vec3<N>{x.x, x.y, x.z} - y) / kUlp;
+      };
+      position = std::max(position, error(got.position, want.position));
+      first = std::max({first, error(got.d1, want.d1), error(got.d2, want.d2)});
+      normal = std::max(normal, error(got.normal, want.normal));
+    }
+  }
+  RecordProperty("position_ulp", std::to_string(position));
+  RecordProperty("first_ulp", std::to_string(first));
+  RecordProperty("normal_ulp", std::to_string(normal));
+  std::printf("worst in ulp of 2: position %.2f, d1 d2 %.2f, normal %.2f\n", position, first, normal);
+  EXPECT_LE(position, 2);
+  EXPECT_LE(first, 8);
+  EXPECT_LE(normal, 8);
+}
 
 TEST(KnownAnswers_ClosedMeshes, OneStepIsExactInRationals) {
   for (const auto& a : answers().closed_meshes) {
     const Topology topology(a.vertices.size(), a.faces);
     const auto refined = refine_once(topology, vecs<Rational>(a.vertices));
-    for (std::size_t v = 0; v < a.vertices.size(); ++v) EXPECT_EQ(refined[v], vec<Rational>(a.step1_vertex_points[v])) << a.id;
+    for (std::size_t v = 0; v < a.vertices.size(); ++v)
+      EXPECT_EQ(refined[v], vec<Rational>(a.step1_vertex_points[v])) << a.id;
     ASSERT_EQ(topology.edges().size(), a.step1_edge_points.size());
     for (std::size_t e = 0; e < topology.edges().size(); ++e) {
       const auto [low, high] = std::minmax(topology.edges()[e].a, topology.edges()[e].b);
       for (const auto& expected : a.step1_edge_points)
         if (expected.v0 == low && expected.v1 == high) {
-          EXPECT_EQ(refined[a.vertices.size() + e], vec<Rational>(expected.position)) << a.id << " edge " << low << "-" << high;
+          EXPECT_EQ(refined[a.vertices.size() + e], vec<Rational>(expected.position))
+              << a.id << " edge " << low << "-" << high;
         }
     }
     for (std::size_t v = 0; v < a.vertices.size(); ++v) {
       std::vector<Vec3<Rational>> ring;
-      for (const auto r : topology.ring(static_cast<std::int32_t>(v))) ring.push_back(vec<Rational>(a.vertices[static_cast<std::size_t>(r)]));
-      EXPECT_EQ(interior_limit<Rational>(vec<Rational>(a.vertices[v]), ring), vec<Rational>(a.limit_positions[v])) << a.id;
+      for (const auto r : topology.ring(static_cast<std::int32_t>(v)))
+        ring.push_back(vec<Rational>(a.vertices[static_cast<std::size_t>(r)]));
+      EXPECT_EQ(interior_limit<Rational>(vec<Rational>(a.vertices[v]), ring),
+                vec<Rational>(a.limit_positions[v]))
+          << a.id;
     }
   }
 }
@@ -122,8 +190,10 @@ TEST(KnownAnswers_ClosedMeshes, FaceCentreByBothEvaluators) {
   ASSERT_EQ(answers().closed_meshes.size(), 2U);
   const Parameter third = Parameter::fraction(1, 3);
   for (const auto& a : answers().closed_meshes) {
-    EXPECT_DIGITS(StamEvaluator<N>(vecs(a.vertices), a.faces).evaluate(0, third, third).position, vec(a.face0_center_limit), a.id);
-    EXPECT_DIGITS(SubdivisionEvaluator<N>(vecs(a.vertices), a.faces).evaluate(0, third, third).position, vec(a.face0_center_limit), a.id);
+    EXPECT_DIGITS(StamEvaluator<N>(vecs(a.vertices), a.faces).evaluate(0, third, third).position,
+                  vec(a.face0_center_limit), a.id);
+    EXPECT_DIGITS(SubdivisionEvaluator<N>(vecs(a.vertices), a.faces).evaluate(0, third, third).position,
+                  vec(a.face0_center_limit), a.id);
   }
 }
 

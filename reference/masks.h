@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Loop's masks: subdivision, limit position and tangents, at interior and boundary vertices.
 //
-// Rings are counter-clockwise seen from outside: v_1..v_n of an interior vertex (here ring[0]..ring[n-1]), r_0..r_K of
-// a boundary vertex with K faces, r_0 and r_K on the boundary. Weights are generic in the number type; only a(n) for
-// n other than 3, 4, 6 and the sines are irrational.
+// All are written as a point plus weighted differences, so that coincident points stay coincident in floating
+// point and a far-away origin does no harm.
+//
+// Rings are counter-clockwise seen from outside: v_1..v_n of an interior vertex (here ring[0]..ring[n-1]),
+// r_0..r_K of a boundary vertex with K faces, r_0 and r_K on the boundary. Weights are generic in the number
+// type; only a(n) for n other than 3, 4, 6 and the sines are irrational.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +19,8 @@
 
 namespace limitcheck::reference {
 
-/// The cosines and sines of the masks are computed once per thread and n. A number type whose precision can change
-/// between uses tells by `precision()`.
+/// The cosines and sines of the masks are computed once per thread and n. A number type whose precision can
+/// change between uses tells by `precision()`.
 template <class N>
 struct CircleTable {
   std::vector<N> cosine, sine;  ///< of pi i / m, i = 0..2m-1
@@ -43,7 +46,8 @@ const CircleTable<N>& circle_table(long m) {
   return *tables[index];
 }
 
-/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.      [section 3.1; C11]
+/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.      [section 3.1;
+/// C11]
 template <class N>
 N loop_a(int n) {
   if (n == 6) return N(3) / N(8);  // by far the most frequent
@@ -51,7 +55,8 @@ N loop_a(int n) {
   return N(5) / N(8) - s * s / N(64);
 }
 
-/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i.                               [equation 1; C10]
+/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i.                               [equation 1;
+/// C10]
 ///
 ///         a/n
 ///    a/n   |  a/n
@@ -63,13 +68,13 @@ N loop_a(int n) {
 template <class N>
 Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   const auto n = static_cast<int>(ring.size());
-  Vec3<N> sum = ring[0];
-  for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i];
-  const N a = loop_a<N>(n);
-  return v * (N(1) - a) + sum * (a / N(n));
+  Vec3<N> sum = ring[0] - v;
+  for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i] - v;
+  return v + sum * (loop_a<N>(n) / N(n));
 }
 
-/// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).                  [equation 2; C12]
+/// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).                  [equation 2;
+/// C12]
 ///
 ///        1/8
 ///       /   \        .
@@ -78,42 +83,43 @@ Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
 ///        1/8
 template <class N>
 Vec3<N> interior_edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
-  return ((a + b) * N(3) + (c + d)) * (N(1) / N(8));
+  return (a + b) * (N(1) / N(2)) + ((c - a) + (d - b)) * (N(1) / N(8));
 }
 
-/// Boundary vertex: 1/8 --- 3/4 --- 1/8, the cubic B-spline; whatever lies inside has no say.               [D1]
+/// Boundary vertex: 1/8 --- 3/4 --- 1/8, the cubic B-spline; whatever lies inside has no say. [D1]
 template <class N>
 Vec3<N> boundary_vertex_point(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& last) {
-  return (v * N(6) + first + last) * (N(1) / N(8));
+  return v + ((first - v) + (last - v)) * (N(1) / N(8));
 }
 
-/// Boundary edge: 1/2 --- 1/2.                                                                              [D1]
+/// Boundary edge: 1/2 --- 1/2. [D1]
 template <class N>
 Vec3<N> boundary_edge_point(const Vec3<N>& a, const Vec3<N>& b) {
   return (a + b) * (N(1) / N(2));
 }
 
-/// Linear ghost over the boundary edge a-b of face (a, b, c): makes the face an ordinary patch.            [D10]
+/// Linear ghost over the boundary edge a-b of face (a, b, c): makes the face an ordinary patch. [D10]
 template <class N>
 Vec3<N> ghost_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c) {
   return a + b - c;
 }
 
 /// Limit of an interior vertex: weights (3n / 8a) : 1 .. 1, that is
-/// (3 v + (8a / n) sum v_i) / (3 + 8a).                                                        [equation 3; C14]
+/// (3 v + (8a / n) sum v_i) / (3 + 8a).                                                        [equation 3;
+/// C14]
 template <class N>
 Vec3<N> interior_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   const auto n = static_cast<int>(ring.size());
-  Vec3<N> sum = ring[0];
-  for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i];
+  Vec3<N> sum = ring[0] - v;
+  for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i] - v;
   const N a8 = N(8) * loop_a<N>(n);
-  return (v * N(3) + sum * (a8 / N(n))) * (N(1) / (N(3) + a8));
+  return v + sum * (a8 / (N(n) * (N(3) + a8)));
 }
 
-/// Limit of a boundary vertex: 1/6 --- 2/3 --- 1/6.                                                         [D1]
+/// Limit of a boundary vertex: 1/6 --- 2/3 --- 1/6. [D1]
 template <class N>
 Vec3<N> boundary_limit(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& last) {
-  return (v * N(4) + first + last) * (N(1) / N(6));
+  return v + ((first - v) + (last - v)) * (N(1) / N(6));
 }
 
 /// Two tangents; first x second points outwards.
@@ -122,9 +128,9 @@ struct Tangents {
   Vec3<N> first, second;
 };
 
-/// C = sum cos(2 pi i / n) v_i and S = sum sin(2 pi i / n) v_i, i = 0..n-1 along `ring`, taken from v_i - v so that a
-/// far-away origin does no harm. The paper's (4), (5) divide by sums that are zero: errata 1.      [C16, C17, D12]
-/// The known answers start the ring at i = 1; that turns (C, S) within the plane and leaves C x S alone.
+/// C = sum cos(2 pi i / n) v_i and S = sum sin(2 pi i / n) v_i, i = 0..n-1 along `ring`, taken from v_i - v.
+/// The paper's (4), (5) divide by sums that are zero: errata 1.      [C16, C17, D12] The known answers start
+/// the ring at i = 1; that turns (C, S) within the plane and leaves C x S alone.
 template <class N>
 Tangents<N> interior_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   const CircleTable<N>& table = circle_table<N>(static_cast<long>(ring.size()));
@@ -137,8 +143,8 @@ Tangents<N> interior_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   return t;
 }
 
-/// Along the boundary r_0 - r_K, and across it into the surface.                                    [D1, D2; D5]
-/// Across weights with theta = pi / K, c = cos theta, s = sin theta (the left eigenvector of 3/8 + c/4):
+/// Along the boundary r_0 - r_K, and across it into the surface.                                    [D1, D2;
+/// D5] Across weights with theta = pi / K, c = cos theta, s = sin theta (the left eigenvector of 3/8 + c/4):
 ///
 ///        sin theta   sin 2 theta            K = 1: centre -2, ends 1, 1
 ///             \       /                     K = 2: centre -1, ends 0, inner 1

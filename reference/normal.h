@@ -33,17 +33,26 @@ Vec3<N> unit(const Vec3<N>& a) {
   return b * (N(1) / NumberTraits<N>::sqrt(dot(b, b)));
 }
 
-/// Whether t1 x t2 can be trusted: |t1 x t2| > threshold |t1| |t2|.                                        [D12]
+/// Whether t1 x t2 can be trusted: |t1 x t2| > threshold |t1| |t2|. [D12]
 ///   cross_product  receives t1 x t2 up to a positive factor
 template <class N>
 bool has_normal(const Vec3<N>& t1, const Vec3<N>& t2, Vec3<N>& cross_product) {
   const Vec3<N> a = rescaled(t1), b = rescaled(t2);
   cross_product = cross(a, b);
-  const N limit = dot(a, a) * dot(b, b) * (N(NumberTraits<N>::kNormalThreshold) * N(NumberTraits<N>::kNormalThreshold));
+  const N limit =
+      dot(a, a) * dot(b, b) * (N(NumberTraits<N>::kNormalThreshold) * N(NumberTraits<N>::kNormalThreshold));
   return dot(cross_product, cross_product) > limit;
 }
 
-/// The normal of tangents t1, t2; where they fail, that of `fallback`, a vector that may be zero; else (0, 0, 1). [D12]
+/// Whether t1 x t2 loses several digits: their angle has a sine below 1/100.
+template <class N>
+bool nearly_parallel(const Vec3<N>& t1, const Vec3<N>& t2) {
+  const Vec3<N> a = rescaled(t1), b = rescaled(t2), c = cross(a, b);
+  return N(10000) * dot(c, c) < dot(a, a) * dot(b, b);
+}
+
+/// The normal of tangents t1, t2; where they fail, that of `fallback`, a vector that may be zero; else (0, 0,
+/// 1). [D12]
 template <class N>
 Normal<N> unit_normal(const Vec3<N>& t1, const Vec3<N>& t2, const Vec3<N>& fallback) {
   Vec3<N> n;
@@ -52,7 +61,7 @@ Normal<N> unit_normal(const Vec3<N>& t1, const Vec3<N>& t2, const Vec3<N>& fallb
   return {{N(0), N(0), N(1)}, NormalKind::kArbitrary};
 }
 
-/// One subdivision step of a vertex and its ring, in place.                                                 [C29]
+/// One subdivision step of a vertex and its ring, in place. [C29]
 template <class N>
 void subdivide_ring(Vec3<N>& v, std::vector<Vec3<N>>& ring, bool on_boundary) {
   const std::vector<Vec3<N>> old = ring;
@@ -83,8 +92,8 @@ struct VertexLimit {
   Normal<N> normal;
 };
 
-/// Limit of a vertex from its ring (masks.h); D12 decides about normals that fail: the area-weighted normal of the ring
-/// after one to three steps, else of the control ring, else (0, 0, 1).
+/// Limit of a vertex from its ring (masks.h); D12 decides about normals that fail: the area-weighted normal
+/// of the ring after one to three steps, else of the control ring, else (0, 0, 1).
 ///   error    in double a few ulp of the ring's largest coordinate for the position (see stam.h)
 template <class N>
 VertexLimit<N> vertex_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary) {

@@ -19,17 +19,18 @@ struct NumberTraits<double> {
   static double cos_pi(long p, long q) {
     p %= 2 * q;
     if (p < 0) p += 2 * q;
-    if (p > q) p = 2 * q - p;            // cos is even about pi
+    if (p > q) p = 2 * q - p;  // cos is even about pi
     if (2 * p > q) return -cos_pi(q - p, q);
     if (2 * p == q) return 0.0;
     if (3 * p == q) return 0.5;
-    if (4 * p > q) return std::sin(std::numbers::pi * static_cast<double>(q - 2 * p) / static_cast<double>(2 * q));
+    if (4 * p > q)
+      return std::sin(std::numbers::pi * static_cast<double>(q - 2 * p) / static_cast<double>(2 * q));
     return std::cos(std::numbers::pi * static_cast<double>(p) / static_cast<double>(q));
   }
   static double sqrt(double a) { return std::sqrt(a); }
   /// Binary exponent of a, so that scale(a, -exponent(a)) is in [1, 2); very negative for zero.
   static long exponent(double a) { return a == 0 ? kZeroExponent : std::ilogb(a); }
-  /// Below this sine of the angle between two tangents their cross product is not trusted.                [D12]
+  /// Below this sine of the angle between two tangents their cross product is not trusted. [D12]
   static constexpr double kNormalThreshold = 1e-12;
   /// a * 2^e
   static double scale(double a, long e) { return std::ldexp(a, static_cast<int>(e)); }

@@ -10,10 +10,12 @@
 
 namespace limitcheck::reference {
 
-using Rational = boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 template <unsigned Digits>
-using Decimal = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<Digits>, boost::multiprecision::et_off>;
+using Decimal = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<Digits>,
+                                              boost::multiprecision::et_off>;
 using Decimal50 = Decimal<50>;
 using Decimal100 = Decimal<100>;
 

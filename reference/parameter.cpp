@@ -37,7 +37,8 @@ Rational parse_decimal(std::string_view whole, std::string_view text) {
     std::string_view digits = s.substr(e + 1);
     if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-    if (error == std::errc::result_out_of_range || std::abs(exponent) > kMaxExponent) refuse(whole, "has an exponent beyond 10000");
+    if (error == std::errc::result_out_of_range || std::abs(exponent) > kMaxExponent)
+      refuse(whole, "has an exponent beyond 10000");
     if (error != std::errc() || end != digits.data() + digits.size()) refuse(whole, "is not a number");
     s = s.substr(0, e);
   }
@@ -47,7 +48,8 @@ Rational parse_decimal(std::string_view whole, std::string_view text) {
     digits.erase(point, 1);
   }
   if (digits.empty() || !all_digits(digits)) refuse(whole, "is not a number");
-  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));  // a leading 0 would mean octal
+  digits.erase(0,
+               std::min(digits.find_first_not_of('0'), digits.size() - 1));  // a leading 0 would mean octal
   Integer mantissa(digits);
   const Integer power = boost::multiprecision::pow(Integer(10), static_cast<unsigned>(std::abs(exponent)));
   if (negative) mantissa = -mantissa;
@@ -78,6 +80,15 @@ Parameter Parameter::parse(std::string_view text) {
   return p;
 }
 
-std::string Parameter::to_string() const { return exact_value(*this).str(); }
+Parameter Parameter::complement(const Parameter& l1, const Parameter& l2) {
+  Rational value = 1 - exact_value(l1) - exact_value(l2);
+  Parameter p(value.convert_to<double>());
+  p.exact_ = std::make_shared<RationalParameter>(RationalParameter{std::move(value)});
+  return p;
+}
+
+std::string Parameter::to_string() const {
+  return exact_value(*this).str();
+}
 
 }  // namespace limitcheck::reference

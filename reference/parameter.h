@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A point's parameters on a face, kept apart from the number type of the evaluation: which piece of the surface a point
-// lies on is decided exactly, and the same for every number type.
+// A point's parameters on a face, kept apart from the number type of the evaluation: which piece of the
+// surface a point lies on is decided exactly, and the same for every number type.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,9 @@ class Parameter {
   /// "1/3", "0.25", "-2", "1e-300": exactly. At most 10000 characters and exponents of +-10000.
   /// Throws std::invalid_argument on anything else.
   static Parameter parse(std::string_view text);
+
+  /// 1 - l1 - l2, exactly
+  static Parameter complement(const Parameter& l1, const Parameter& l2);
 
   bool is_double() const { return !exact_; }
   double as_double() const { return value_; }  ///< nearest double

@@ -11,6 +11,8 @@ struct RationalParameter {
   Rational value;
 };
 
-inline Rational exact_value(const Parameter& p) { return p.exact() ? p.exact()->value : Rational(p.as_double()); }
+inline Rational exact_value(const Parameter& p) {
+  return p.exact() ? p.exact()->value : Rational(p.as_double());
+}
 
 }  // namespace limitcheck::reference

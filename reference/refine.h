@@ -12,7 +12,8 @@
 
 namespace limitcheck::reference {
 
-/// One step: the new vertex points, in the order of the vertices, then the edge points, in the order of the edges.
+/// One step: the new vertex points, in the order of the vertices, then the edge points, in the order of the
+/// edges.
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions);
 
@@ -20,8 +21,9 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
 template <class N>
 std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh);
 
-/// A mesh after `depth` steps. Lattice point (i, j) of a face, i, j >= 0, i + j <= 2^depth, has l1 = i / 2^depth and
-/// l2 = j / 2^depth. Vertices shared by faces appear once; the control vertices come first, in their order.
+/// A mesh after `depth` steps. Lattice point (i, j) of a face, i, j >= 0, i + j <= 2^depth, has l1 = i /
+/// 2^depth and l2 = j / 2^depth. Vertices shared by faces appear once; the control vertices come first, in
+/// their order.
 template <class N>
 class RefinedMesh {
  public:
@@ -29,20 +31,24 @@ class RefinedMesh {
   explicit RefinedMesh(const data::ControlMesh& mesh);
   RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles);
 
-  /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a few times.
+  /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
+  /// few times.
   ///   throws std::length_error if the refined mesh would have more than 2^31 - 1 vertices
   void refine();
 
   int depth() const { return depth_; }
   std::size_t face_count() const { return face_count_; }  ///< of the control mesh
   const std::vector<Vec3<N>>& positions() const { return positions_; }
-  /// 4^depth per control face, one face after the other: first the triangles (i, j) (i+1, j) (i, j+1), j outer, i inner,
-  /// then (i+1, j) (i+1, j+1) (i, j+1) likewise.
+  /// 4^depth per control face, one face after the other: first the triangles (i, j) (i+1, j) (i, j+1), j
+  /// outer, i inner, then (i+1, j) (i+1, j+1) (i, j+1) likewise.
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  std::int32_t vertex(std::size_t face, int i, int j) const { return lattice_[face * points_per_face() + point(i, j)]; }
+  std::int32_t vertex(std::size_t face, int i, int j) const {
+    return lattice_[face * points_per_face() + point(i, j)];
+  }
   const Topology& topology() const { return topology_; }
 
-  /// Limit positions and unit normals of all vertices.                                       [C14, D1, D2, D12]
+  /// Limit positions and unit normals of all vertices.                                       [C14, D1, D2,
+  /// D12]
   struct Limits {
     std::vector<Vec3<N>> positions, normals;
     std::vector<NormalKind> kinds;

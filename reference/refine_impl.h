@@ -41,12 +41,14 @@ std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
   std::vector<Vec3<N>> result;
   result.reserve(mesh.positions.size());
   for (const auto& p : mesh.positions)
-    result.push_back({NumberTraits<N>::from_double(p[0]), NumberTraits<N>::from_double(p[1]), NumberTraits<N>::from_double(p[2])});
+    result.push_back({NumberTraits<N>::from_double(p[0]), NumberTraits<N>::from_double(p[1]),
+                      NumberTraits<N>::from_double(p[2])});
   return result;
 }
 
 template <class N>
-RefinedMesh<N>::RefinedMesh(const data::ControlMesh& mesh) : RefinedMesh(positions_of<N>(mesh), mesh.triangles) {}
+RefinedMesh<N>::RefinedMesh(const data::ControlMesh& mesh)
+    : RefinedMesh(positions_of<N>(mesh), mesh.triangles) {}
 
 template <class N>
 RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles)
@@ -66,7 +68,8 @@ void RefinedMesh<N>::refine() {
   const auto old_vertices = static_cast<std::int32_t>(positions_.size());
   positions_ = refine_once(topology_, positions_);
 
-  // Lattice points of even coordinates were there before; the others lie on an edge of a triangle (i, j) (i+1, j) (i, j+1).
+  // Lattice points of even coordinates were there before; the others lie on an edge of a triangle (i, j)
+  // (i+1, j) (i, j+1).
   const std::vector<std::int32_t> old_lattice = std::move(lattice_);
   const std::size_t old_points = points_per_face(), triangles_per_face = triangles_.size() / face_count_;
   const int k = 1 << depth_;
@@ -97,7 +100,8 @@ void RefinedMesh<N>::triangulate() {
   triangles_.reserve(face_count_ * static_cast<std::size_t>(k) * static_cast<std::size_t>(k));
   for (std::size_t f = 0; f < face_count_; ++f) {
     for (int j = 0; j < k; ++j)
-      for (int i = 0; i + j < k; ++i) triangles_.push_back({vertex(f, i, j), vertex(f, i + 1, j), vertex(f, i, j + 1)});
+      for (int i = 0; i + j < k; ++i)
+        triangles_.push_back({vertex(f, i, j), vertex(f, i + 1, j), vertex(f, i, j + 1)});
     for (int j = 0; j < k; ++j)
       for (int i = 0; i + j + 1 < k; ++i)
         triangles_.push_back({vertex(f, i + 1, j), vertex(f, i + 1, j + 1), vertex(f, i, j + 1)});
@@ -130,11 +134,11 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
 }
 
 /// All of refine.h but `limits`, which needs square roots.
-#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                                         \
-  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&);                      \
-  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                                         \
-  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&);                                               \
-  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>);                            \
+#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                   \
+  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&); \
+  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                    \
+  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&);                          \
+  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>);       \
   template void RefinedMesh<N>::refine();
 
 }  // namespace limitcheck::reference

@@ -11,8 +11,8 @@
 
 namespace limitcheck::reference {
 
-/// A corner with its ring, counter-clockwise, boundary neighbours first and last (masks.h). The face lies between ring
-/// entries `sector` and `sector` + 1 (cyclically when interior).
+/// A corner with its ring, counter-clockwise, boundary neighbours first and last (masks.h). The face lies
+/// between ring entries `sector` and `sector` + 1 (cyclically when interior).
 template <class N>
 struct RingedCorner {
   Vec3<N> point;
@@ -36,7 +36,8 @@ struct RingedFace {
   std::array<bool, 3> edge_on_boundary{};  ///< edge k from corner k to k + 1
 
   /// The face of a mesh with its neighbourhood.
-  static RingedFace gather(const Topology& topology, const std::vector<Vec3<N>>& positions, std::size_t face) {
+  static RingedFace gather(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                           std::size_t face) {
     RingedFace result;
     const auto at = [&](std::int32_t v) { return positions[static_cast<std::size_t>(v)]; };
     for (int k = 0; k < 3; ++k) {
@@ -46,16 +47,20 @@ struct RingedFace {
       c.on_boundary = topology.on_boundary(v);
       c.sector = topology.sector(face, k);
       for (const std::int32_t r : topology.ring(v)) c.ring.push_back(at(r));
-      result.edge_on_boundary[static_cast<std::size_t>(k)] = topology.edges()[static_cast<std::size_t>(topology.edge(face, k))].on_boundary();
+      result.edge_on_boundary[static_cast<std::size_t>(k)] =
+          topology.edges()[static_cast<std::size_t>(topology.edge(face, k))].on_boundary();
     }
     return result;
   }
 
-  bool is_regular() const { return corner[0].is_regular() && corner[1].is_regular() && corner[2].is_regular(); }
+  bool is_regular() const {
+    return corner[0].is_regular() && corner[1].is_regular() && corner[2].is_regular();
+  }
 };
 
-/// A face's corners after one step, from which its four sub-faces are put together. Sub-face k < 3 sits at corner k,
-/// (c_k, e_k, e_{k-1}); sub-face 3 is the middle one, (e_0, e_1, e_2); e_k is the edge point of edge k.
+/// A face's corners after one step, from which its four sub-faces are put together. Sub-face k < 3 sits at
+/// corner k, (c_k, e_k, e_{k-1}); sub-face 3 is the middle one, (e_0, e_1, e_2); e_k is the edge point of
+/// edge k.
 template <class N>
 class SubdividedFace {
  public:
@@ -94,8 +99,8 @@ class SubdividedFace {
   }
 
  private:
-  /// Ring of e_k from c_{k+1} on: c_{k+1}, e_{k+1}, e_{k-1}, c_k, then beyond the edge the edge points next to c_k and to
-  /// c_{k+1}; on the boundary the first four are all.
+  /// Ring of e_k from c_{k+1} on: c_{k+1}, e_{k+1}, e_{k-1}, c_k, then beyond the edge the edge points next
+  /// to c_k and to c_{k+1}; on the boundary the first four are all.
   ///
   ///            .                  sectors  0: sub-face k+1   (e_k, c_{k+1}, e_{k+1})
   ///       e_{k-1} -- e_{k+1}               1: the middle     (e_k, e_{k+1}, e_{k-1})

@@ -8,7 +8,9 @@ namespace limitcheck::reference {
 
 template <class N>
 SpiderKind<N>::SpiderKind(int count, bool on_boundary)
-    : count_(count), on_boundary_(on_boundary), jordan_(on_boundary && count % 6 == 0),
+    : count_(count),
+      on_boundary_(on_boundary),
+      jordan_(on_boundary && count % 6 == 0),
       linear_frequency_(on_boundary && count % 3 == 0 ? count / 3 : 0) {
   const int turn = on_boundary ? 2 * count : count;
   circle_ = circle_table<N>(turn);
@@ -19,7 +21,8 @@ SpiderKind<N>::SpiderKind(int count, bool on_boundary)
     frequency_.push_back(f);
     const N cosine = on_boundary ? NumberTraits<N>::cos_pi(f, count) : NumberTraits<N>::cos_pi(2 * f, count);
     cosine_.push_back(cosine);
-    half_cosine_.push_back(on_boundary ? NumberTraits<N>::cos_pi(f, 2 * count) : NumberTraits<N>::cos_pi(f, count));
+    half_cosine_.push_back(on_boundary ? NumberTraits<N>::cos_pi(f, 2 * count)
+                                       : NumberTraits<N>::cos_pi(f, count));
     eigenvalue_.push_back(N(3) / N(8) + cosine / N(4));
   }
   if (on_boundary) {
@@ -30,9 +33,9 @@ SpiderKind<N>::SpiderKind(int count, bool on_boundary)
     along_r_.resize(points), along_p_.resize(points), even_r_.resize(points), even_p_.resize(points);
     along_q_.resize(points - 1), even_q_.resize(points - 1);
     kappa_ = N(0);
-    // Mode of 1/2, c = 0, r_0 = 1, r_K = -1: r_i = r_{i-1} + r_{i+1}, linear on every face. Where sin(K pi / 6) = 0 this
-    // has no solution, and (1 - 2i/K) cos(i pi / 3) is a generalised eigenvector.
-    // Mode of 1/4, c = -1/2, r_0 = r_K = 1: r_i = 3/2 - r_{i-1} - r_{i+1}.
+    // Mode of 1/2, c = 0, r_0 = 1, r_K = -1: r_i = r_{i-1} + r_{i+1}, linear on every face. Where sin(K pi /
+    // 6) = 0 this has no solution, and (1 - 2i/K) cos(i pi / 3) is a generalised eigenvector. Mode of 1/4, c
+    // = -1/2, r_0 = r_K = 1: r_i = 3/2 - r_{i-1} - r_{i+1}.
     for (int i = 0; i <= count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (jordan_)
@@ -56,8 +59,9 @@ SpiderKind<N>::SpiderKind(int count, bool on_boundary)
         continue;
       }
       if (jordan_)
-        along_p_[at] = (N(10) * along_r_[at] + along_r_[at - 1] + along_r_[at + 1] + along_q_[at] + along_q_[at - 1] -
-                        N(32) * kappa_ * sin_third(i)) / N(7);
+        along_p_[at] = (N(10) * along_r_[at] + along_r_[at - 1] + along_r_[at + 1] + along_q_[at] +
+                        along_q_[at - 1] - N(32) * kappa_ * sin_third(i)) /
+                       N(7);
       else
         along_p_[at] = along_r_[at] * N(2);
       even_p_[at] = (N(20) * even_r_[at] + N(2) * (even_r_[at - 1] + even_r_[at + 1]) - N(1)) / N(32);
@@ -82,7 +86,8 @@ SpiderPower<N> SpiderKind<N>::power(long exponent) const {
     const N to_q = half_cosine_[m] * (N(3) / N(4));
     const N to_p = N(5) / N(8) + cosine_[m] / N(8);
     const N q_to_p = half_cosine_[m] / N(8);
-    result.modes.push_back({block.x, block.xy * to_q * s, block.xz * to_p * s + block.xyz * (to_q * q_to_p) * s2});
+    result.modes.push_back(
+        {block.x, block.xy * to_q * s, block.xz * to_p * s + block.xyz * (to_q * q_to_p) * s2});
   }
   const BlockPower<N> block(mean_eigenvalue_ * s, eighth, sixteenth, exponent);
   result.mean = {block.x, N(0), N(0)};
@@ -120,7 +125,8 @@ Spider<N>::Spider(const SpiderKind<N>& kind, const Vec3<N>& c, const std::vector
       rest[i] = (r[i] - limit_) - along_ * kind.along_r_[i] - mean_ * kind.even_r_[i];
     const N two_over_k = N(2) / N(kind.count_);
     for (std::size_t m = 0; m < modes; ++m) {
-      for (std::size_t i = 1; i < count; ++i) sine_[m] += rest[i] * kind.circle_.sine[kind.angle(m, 2 * static_cast<long>(i))];
+      for (std::size_t i = 1; i < count; ++i)
+        sine_[m] += rest[i] * kind.circle_.sine[kind.angle(m, 2 * static_cast<long>(i))];
       sine_[m] *= two_over_k;
     }
     if (kind.linear_frequency_ != 0) {
@@ -131,7 +137,8 @@ Spider<N>::Spider(const SpiderKind<N>& kind, const Vec3<N>& c, const std::vector
       q_[i] = (q_[i] - limit_) - along_ * kind.along_q_[i] -
               linear_ * (sin_pi<N>(static_cast<long>(i), 3) + sin_pi<N>(static_cast<long>(i) + 1, 3));
     for (std::size_t i = 0; i <= count; ++i)
-      p_[i] = (p_[i] - limit_) - along_ * kind.along_p_[i] - linear_ * (N(2) * sin_pi<N>(static_cast<long>(i), 3));
+      p_[i] = (p_[i] - limit_) - along_ * kind.along_p_[i] -
+              linear_ * (N(2) * sin_pi<N>(static_cast<long>(i), 3));
   } else {
     Vec3<N> sum{};
     for (const Vec3<N>& x : r) sum += x - c;
@@ -174,6 +181,23 @@ void Spider<N>::linear_part(int sector, long exponent, Vec3<N>& to_first, Vec3<N
 }
 
 template <class N>
+Spider<N> Spider<N>::without_dominant() const {
+  Spider result = *this;
+  (along_dominates() ? result.along_ : result.sine_.front()) = Vec3<N>{};
+  return result;
+}
+
+template <class N>
+Spider<N> Spider<N>::only_dominant() const {
+  Spider result = *this;
+  result.limit_ = result.mean_ = result.along_ = result.linear_ = Vec3<N>{};
+  for (auto* all : {&result.cosine_, &result.sine_, &result.q_, &result.p_})
+    all->assign(all->size(), Vec3<N>{});
+  (along_dominates() ? result.along_ : result.sine_.front()).x = N(1);
+  return result;
+}
+
+template <class N>
 void Spider<N>::sector(int i, const SpiderPower<N>& power, Sector& s) const {
   const SpiderKind<N>& kind = *kind_;
   const int count = kind.count_;
@@ -187,12 +211,15 @@ void Spider<N>::sector(int i, const SpiderPower<N>& power, Sector& s) const {
     for (auto& r : s.r) r = mean_ * power.mean.r;
     for (int k = 0; k < 3; ++k) s.q[k] = mean_ * power.mean.q + q_[wrap(i - 1 + k)] * power.own_q;
     for (int k = 0; k < 2; ++k)
-      s.p[k] = mean_ * power.mean.p + p_[wrap(i + k)] * power.own_p + (q_[wrap(i + k)] + q_[wrap(i + k - 1)]) * power.q_to_p;
+      s.p[k] = mean_ * power.mean.p + p_[wrap(i + k)] * power.own_p +
+               (q_[wrap(i + k)] + q_[wrap(i + k - 1)]) * power.q_to_p;
     const std::size_t turn = circle.cosine.size();
     for (std::size_t m = 0; m < cosine_.size(); ++m) {
       const auto& mode = power.modes[m];
       const auto step = static_cast<std::size_t>(kind.frequency_[m]);
-      const auto wave = [&](std::size_t at) { return cosine_[m] * circle.cosine[at] + sine_[m] * circle.sine[at]; };
+      const auto wave = [&](std::size_t at) {
+        return cosine_[m] * circle.cosine[at] + sine_[m] * circle.sine[at];
+      };
       // Half positions h = 2 (i - 2) .. 2 (i + 3): r at the even ones, q at the odd ones.
       std::size_t at = kind.angle(m, 2L * (i - 2));
       for (int h = 0; h <= 10; ++h) {
@@ -214,24 +241,29 @@ void Spider<N>::sector(int i, const SpiderPower<N>& power, Sector& s) const {
     const auto at = static_cast<std::size_t>(k);
     Vec3<N> r = mean_ * (kind.even_r_[at] * power.mean.r);
     if (kind.jordan_) r += along_ * (kind.along_r_[at] * power.half);
-    for (std::size_t m = 0; m < sine_.size(); ++m) r += sine_[m] * (circle.sine[kind.angle(m, 2L * k)] * power.modes[m].r);
+    for (std::size_t m = 0; m < sine_.size(); ++m)
+      r += sine_[m] * (circle.sine[kind.angle(m, 2L * k)] * power.modes[m].r);
     return r;
   };
   const auto flap = [&](int k) {
     const auto at = static_cast<std::size_t>(k);
     Vec3<N> q = q_[at] * power.own_q + mean_ * (kind.even_q_[at] * power.b8);
     if (kind.jordan_) q += along_ * (kind.along_q_[at] * power.half);
-    for (std::size_t m = 0; m < sine_.size(); ++m) q += sine_[m] * (circle.sine[kind.angle(m, 2L * k + 1)] * power.modes[m].q);
+    for (std::size_t m = 0; m < sine_.size(); ++m)
+      q += sine_[m] * (circle.sine[kind.angle(m, 2L * k + 1)] * power.modes[m].q);
     return q;
   };
   const auto outer = [&](int k) {
     const auto at = static_cast<std::size_t>(k);
     Vec3<N> p{};
     if (kind.jordan_) p += along_ * (kind.along_p_[at] * power.half);
-    if (k == 0 || k == count) return p + p_[at] * power.own_q + mean_ * (kind.even_p_[at] * power.b8);  // 1/8 out here
+    if (k == 0 || k == count)
+      return p + p_[at] * power.own_q + mean_ * (kind.even_p_[at] * power.b8);  // 1/8 out here
     p += p_[at] * power.own_p + (q_[at] + q_[at - 1]) * power.q_to_p;
-    p += mean_ * (kind.even_p_[at] * power.b16 + (kind.even_q_[at] + kind.even_q_[at - 1]) * power.b8_16 / N(16));
-    for (std::size_t m = 0; m < sine_.size(); ++m) p += sine_[m] * (circle.sine[kind.angle(m, 2L * k)] * power.modes[m].p);
+    p += mean_ *
+         (kind.even_p_[at] * power.b16 + (kind.even_q_[at] + kind.even_q_[at - 1]) * power.b8_16 / N(16));
+    for (std::size_t m = 0; m < sine_.size(); ++m)
+      p += sine_[m] * (circle.sine[kind.angle(m, 2L * k)] * power.modes[m].p);
     return p;
   };
   for (int k = 0; k < 6; ++k)

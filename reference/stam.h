@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The exact evaluator: Stam's method for Loop surfaces, at any corner valences and boundaries.
 //
-//   J. Stam, Evaluation of Loop Subdivision Surfaces, 1998. One subdivision step leaves at most one extraordinary
-//   vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one, the J-th power of the
-//   subdivision matrix of its two-ring comes from the matrix's eigenvalues (spider.h), so that the cost does not depend on
-//   how near the point is; one more step then gives the twelve control points of a regular piece.
+//   J. Stam, Evaluation of Loop Subdivision Surfaces, 1998. One subdivision step leaves at most one
+//   extraordinary vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one,
+//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues (spider.h),
+//   so that the cost does not depend on how near the point is; one more step then gives the twelve control
+//   points of a regular piece.
 #pragma once
 
 #include <memory>
@@ -22,12 +23,18 @@ template <class N>
 class StamData;
 }
 
-/// Limit surface of a control mesh, Loop's 1987 weights, B-spline boundary with the ordinary interior rule next to it.
-/// Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
+/// Limit surface of a control mesh, Loop's 1987 weights, B-spline boundary with the ordinary interior rule
+/// next to it. Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
 ///
 ///   construction  O(n + sum of squared valences)
 ///   threads       any number may evaluate at once
-///   parameters    l1, l2 >= 0, l1 + l2 <= 1. Corners, edges and every dyadic point are ordinary points. Two doubles whose
+///   error         in double, measured against 50 and 100 digits on the known answers and the stock shapes:
+///   position <= 2
+///                 ulp of the largest control coordinate; d1, d2 <= 8 such ulp + 2^-52 |d1| log2(1 / distance
+///                 to the nearest extraordinary corner), 1e-13 relative at 1e-300; unit normal <= 2e-15
+///                 beside that of d1, d2. Second derivatives beyond 1e308 come out infinite
+///   parameters    l1, l2 >= 0, l1 + l2 <= 1. Corners, edges and every dyadic point are ordinary points. Two
+///   doubles whose
 ///                 rounded sum is 1 lie on the far edge.
 template <class N>
 class StamEvaluator {
@@ -41,9 +48,11 @@ class StamEvaluator {
   StamEvaluator& operator=(StamEvaluator&&) noexcept;
 
   int face_count() const;
-  /// Throws std::out_of_range for a face that is not there, std::invalid_argument for parameters outside the triangle.
+  /// Throws std::out_of_range for a face that is not there, std::invalid_argument for parameters outside the
+  /// triangle.
   SurfacePoint<N> evaluate(int face, double l1, double l2, Order order = Order::kSecond) const;
-  SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2, Order order = Order::kSecond) const;
+  SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
+                           Order order = Order::kSecond) const;
 
  private:
   std::unique_ptr<const detail::StamData<N>> data_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The same surface points by repeated subdivision: no eigenvalues, nothing shared with stam.h but masks and basis.
+// The same surface points by repeated subdivision: no eigenvalues, nothing shared with stam.h but masks and
+// basis.
 #pragma once
 
 #include <vector>
@@ -11,9 +12,10 @@
 
 namespace limitcheck::reference {
 
-/// Subdivides the face and its ring, always into the sub-face that holds the point, until that is regular (a box spline
-/// patch, Appendix A) or the point is its corner (limit masks). The number of steps grows with -log2 of the distance to the
-/// extraordinary vertex, and so does the rounding error of its derivatives. Built for double, Decimal50, Decimal100.
+/// Subdivides the face and its ring, always into the sub-face that holds the point, until that is regular (a
+/// box spline patch, Appendix A) or the point is its corner (limit masks). The number of steps grows with
+/// -log2 of the distance to the extraordinary vertex, and so does the rounding error of its derivatives.
+/// Built for double, Decimal50, Decimal100.
 ///   threads   any number may evaluate at once
 template <class N>
 class SubdivisionEvaluator {
@@ -24,7 +26,8 @@ class SubdivisionEvaluator {
 
   int face_count() const { return static_cast<int>(topology_.triangles().size()); }
   /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
-  SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2, Order order = Order::kSecond) const;
+  SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
+                           Order order = Order::kSecond) const;
 
  private:
   Topology topology_;

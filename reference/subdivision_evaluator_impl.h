@@ -14,7 +14,8 @@
 namespace limitcheck::reference {
 namespace detail {
 
-/// The twelve points of a regular face in the order of Appendix A; two linear ghosts complete a boundary vertex.   [D10]
+/// The twelve points of a regular face in the order of Appendix A; two linear ghosts complete a boundary
+/// vertex.   [D10]
 template <class N>
 std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
   std::array<std::array<Vec3<N>, 6>, 3> rings;
@@ -39,16 +40,19 @@ SubdivisionEvaluator<N>::SubdivisionEvaluator(const data::ControlMesh& mesh)
     : SubdivisionEvaluator(positions_of<N>(mesh), mesh.triangles) {}
 
 template <class N>
-SubdivisionEvaluator<N>::SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles)
+SubdivisionEvaluator<N>::SubdivisionEvaluator(std::vector<Vec3<N>> positions,
+                                              const std::vector<Triangle>& triangles)
     : topology_(positions.size(), triangles), positions_(std::move(positions)) {}
 
 template <class N>
-SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2, Order order) const {
+SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2,
+                                                  Order order) const {
   if (face < 0 || face >= face_count()) throw std::out_of_range("no face " + std::to_string(face));
   Rational first = exact_value(l1), second = exact_value(l2);
   if (l1.is_double() && l2.is_double() && l1.as_double() + l2.as_double() == 1.0 && first + second > 1)
     (first > second ? second : first) = 1 - (first > second ? first : second);
-  if (first < 0 || second < 0 || first + second > 1) throw std::invalid_argument("l1, l2 must be >= 0 and l1 + l2 <= 1");
+  if (first < 0 || second < 0 || first + second > 1)
+    throw std::invalid_argument("l1, l2 must be >= 0 and l1 + l2 <= 1");
 
   std::array<Rational, 3> w{1 - first - second, first, second};  // barycentric in the current sub-face
   std::array<std::array<int, 2>, 3> gradient{{{-1, -1}, {1, 0}, {0, 1}}};  // of w, in units of 2^level
@@ -58,8 +62,8 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
     for (std::size_t k = 0; k < 3; ++k)
       if (w[k] == 1 && !f.corner[k].is_regular()) {
         const auto next = gradient[(k + 1) % 3], before = gradient[(k + 2) % 3];
-        return extraordinary_corner<N>(f.corner[k].point, f.corner[k].span(), f.corner[k].on_boundary, f.corner[k].sector,
-                                       {next[0], next[1], before[0], before[1], level});
+        return extraordinary_corner<N>(f.corner[k].point, f.corner[k].span(), f.corner[k].on_boundary,
+                                       f.corner[k].sector, {next[0], next[1], before[0], before[1], level});
       }
     const SubdividedFace<N> subdivided(f);
     const Rational half(1, 2);
@@ -95,7 +99,8 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   const auto corner = [&](std::size_t k) {
     return positions_[static_cast<std::size_t>(topology_.triangles()[static_cast<std::size_t>(face)][k])];
   };
-  const Normal<N> normal = unit_normal(result.d1, result.d2, cross(corner(1) - corner(0), corner(2) - corner(0)));
+  const Normal<N> normal =
+      unit_normal(result.d1, result.d2, cross(corner(1) - corner(0), corner(2) - corner(0)));
   result.normal = normal.direction;
   result.normal_kind = normal.kind;
   return result;

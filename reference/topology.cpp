@@ -9,7 +9,9 @@
 namespace limitcheck::reference {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument("control mesh: " + why); }
+[[noreturn]] void refuse(const std::string& why) {
+  throw std::invalid_argument("control mesh: " + why);
+}
 
 /// Directed edge from -> to, the side k of a face.
 struct HalfEdge {
@@ -26,10 +28,12 @@ Topology::Topology(std::size_t vertex_count, std::span<const Triangle> triangles
     for (const std::int32_t v : t)
       if (v < 0 || static_cast<std::size_t>(v) >= vertex_count)
         refuse("face " + std::to_string(f) + " names vertex " + std::to_string(v));
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) refuse("face " + std::to_string(f) + " repeats a vertex");
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      refuse("face " + std::to_string(f) + " repeats a vertex");
   }
 
-  // Bucket the sides by their smaller vertex, then sort the small buckets: sides of one edge become neighbours. O(n)
+  // Bucket the sides by their smaller vertex, then sort the small buckets: sides of one edge become
+  // neighbours. O(n)
   std::vector<std::size_t> start(vertex_count + 1, 0);
   for (const Triangle& t : triangles_)
     for (std::size_t k = 0; k < 3; ++k) ++start[static_cast<std::size_t>(std::min(t[k], t[(k + 1) % 3])) + 1];
@@ -39,11 +43,15 @@ Topology::Topology(std::size_t vertex_count, std::span<const Triangle> triangles
   for (std::size_t f = 0; f < faces; ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(triangles_[f][k], triangles_[f][(k + 1) % 3]);
-      sides[fill[static_cast<std::size_t>(low)]++] = {low, high, static_cast<std::int32_t>(f), static_cast<std::int32_t>(k)};
+      sides[fill[static_cast<std::size_t>(low)]++] = {low, high, static_cast<std::int32_t>(f),
+                                                      static_cast<std::int32_t>(k)};
     }
   for (std::size_t v = 0; v < vertex_count; ++v)
-    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(start[v]), sides.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
-              [](const HalfEdge& a, const HalfEdge& b) { return std::tie(a.high, a.face) < std::tie(b.high, b.face); });
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(start[v]),
+              sides.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
+              [](const HalfEdge& a, const HalfEdge& b) {
+                return std::tie(a.high, a.face) < std::tie(b.high, b.face);
+              });
 
   // Pair the sides into edges.
   face_edges_.resize(faces);
@@ -59,7 +67,9 @@ Topology::Topology(std::size_t vertex_count, std::span<const Triangle> triangles
     std::size_t next = i + 1;
     if (next < sides.size() && sides[next].low == s.low && sides[next].high == s.high) {
       const HalfEdge& t = sides[next];
-      if (corner(t, 0) != e.b) refuse("faces " + std::to_string(s.face) + " and " + std::to_string(t.face) + " clash in orientation");
+      if (corner(t, 0) != e.b)
+        refuse("faces " + std::to_string(s.face) + " and " + std::to_string(t.face) +
+               " clash in orientation");
       e.right = corner(t, 2);
       face_edges_[static_cast<std::size_t>(t.face)][static_cast<std::size_t>(t.k)] = id;
       ++next;
@@ -78,7 +88,8 @@ Topology::Topology(std::size_t vertex_count, std::span<const Triangle> triangles
   std::vector<std::int32_t> corners(3 * faces);
   fill = corner_start;
   for (std::size_t f = 0; f < faces; ++f)
-    for (std::size_t k = 0; k < 3; ++k) corners[fill[static_cast<std::size_t>(triangles_[f][k])]++] = static_cast<std::int32_t>(3 * f + k);
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[fill[static_cast<std::size_t>(triangles_[f][k])]++] = static_cast<std::int32_t>(3 * f + k);
 
   // Faces over an edge, to walk round the vertices: `across[3 f + k]` is 3 g + m, the side of the other face.
   std::vector<std::int32_t> across(3 * faces, -1), first_side(edges_.size(), -1);
@@ -125,7 +136,8 @@ Topology::Topology(std::size_t vertex_count, std::span<const Triangle> triangles
         if (h == begin) break;
       }
       if (walked != count) refuse("vertex " + std::to_string(v) + " joins two fans of faces");
-      if (!boundary_[v] && count < 3) refuse("interior vertex " + std::to_string(v) + " has valence " + std::to_string(count));
+      if (!boundary_[v] && count < 3)
+        refuse("interior vertex " + std::to_string(v) + " has valence " + std::to_string(count));
     }
     ring_start_.push_back(ring_.size());
   }

@@ -11,7 +11,8 @@ namespace limitcheck::reference {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-/// An edge from a to b; `left` is opposite in the face that runs a -> b, `right` in the other face, -1 on the boundary.
+/// An edge from a to b; `left` is opposite in the face that runs a -> b, `right` in the other face, -1 on the
+/// boundary.
 struct Edge {
   std::int32_t a, b, left, right;
   bool on_boundary() const { return right < 0; }
@@ -19,7 +20,8 @@ struct Edge {
 
 /// Ordered neighbourhoods of a manifold triangle mesh, possibly with boundary.                         O(n)
 ///   throws std::invalid_argument: index out of range, edge with more than two faces, clashing orientations,
-///   bow-tie vertex, interior vertex with fewer than three faces. (data/validate.h gives the friendlier story.)
+///   bow-tie vertex, interior vertex with fewer than three faces. (data/validate.h gives the friendlier
+///   story.)
 class Topology {
  public:
   Topology(std::size_t vertex_count, std::span<const Triangle> triangles);
@@ -28,8 +30,8 @@ class Topology {
   std::span<const Triangle> triangles() const { return triangles_; }
   std::span<const Edge> edges() const { return edges_; }
 
-  /// Neighbours counter-clockwise from outside: v_1..v_n of an interior vertex; r_0..r_K of a boundary vertex, the
-  /// first and the last being its boundary neighbours.
+  /// Neighbours counter-clockwise from outside: v_1..v_n of an interior vertex; r_0..r_K of a boundary
+  /// vertex, the first and the last being its boundary neighbours.
   std::span<const std::int32_t> ring(std::int32_t v) const { return slice(ring_, v); }
   /// The edge to each of them.
   std::span<const std::int32_t> spokes(std::int32_t v) const { return slice(spokes_, v); }

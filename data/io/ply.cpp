@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
-#include <limits>
 
 #include "data/error.h"
 #include "data/io/polygon_soup.h"
@@ -113,13 +111,12 @@ class Body {
   }
 
   void skip(const Property& property) {
+    const auto size = static_cast<std::size_t>(property.is_list ? list_size(property) : 1);
     if (encoding_ == Encoding::kAscii) {
-      const std::int64_t size = property.is_list ? list_size(property) : 1;
-      for (std::int64_t i = 0; i < size; ++i) scanner_.number(property.name);
+      for (std::size_t i = 0; i < size; ++i) scanner_.number(property.name);
     } else {
-      const std::int64_t size = property.is_list ? list_size(property) : 1;
-      need(static_cast<std::size_t>(size) * property.type.bytes);
-      at_ += static_cast<std::size_t>(size) * property.type.bytes;
+      need(size * property.type.bytes);
+      at_ += size * property.type.bytes;
     }
   }
 
@@ -199,8 +196,8 @@ class PlyReader {
 
  private:
   void read_header() {
-    if (!scanner_.next_line() || scanner_.word() != "ply")
-      scanner_.syntax_error("does not begin with \"ply\"");
+    if (!scanner_.next_line()) scanner_.truncated("has no lines");
+    if (scanner_.word() != "ply") scanner_.syntax_error("does not begin with \"ply\"");
     scanner_.end_of_line();
     bool has_format = false;
     for (;;) {

@@ -52,8 +52,8 @@ void read_ascii(std::string_view content, const std::string& name, PolygonSoup& 
     expect(scanner, {"solid"});
     for (;;) {
       line("solid");
-      TextScanner look_ahead = scanner;
-      if (begins_with(look_ahead.word(), 'e')) break;
+      if (begins_with(scanner.peek(), 'e')) break;
+      const std::int64_t facet_line = scanner.line();
       expect(scanner, {"facet", "normal"});  // the numbers of the normal follow: of no use, and often wrong
       line("facet");
       expect(scanner, {"outer", "loop"});
@@ -67,7 +67,7 @@ void read_ascii(std::string_view content, const std::string& name, PolygonSoup& 
         soup.positions.push_back({x, y, z});
         soup.position_lines.push_back(scanner.line());
       }
-      soup.close_polygon(scanner.line());
+      soup.close_polygon(facet_line);
       line("facet");
       expect(scanner, {"endloop"});
       line("facet");
@@ -144,7 +144,7 @@ bool is_ascii(std::string_view content) {
     return false;
   }
   TextScanner scanner(content.substr(0, 4096), "", 0);
-  return scanner.next_line() && begins_with(scanner.word(), 's') &&
+  return scanner.next_line() && begins_with(scanner.peek(), 's') &&
          content.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 

@@ -75,10 +75,15 @@ bool TextScanner::next_line() {
   return false;
 }
 
-std::string_view TextScanner::word() {
+std::size_t TextScanner::word_length() const {
   std::size_t length = 0;
   while (length < rest_.size() && !is_space(rest_[length])) ++length;
-  const std::string_view result = rest_.substr(0, length);
+  return length;
+}
+
+std::string_view TextScanner::word() {
+  const std::string_view result = peek();
+  std::size_t length = result.size();
   while (length < rest_.size() && is_space(rest_[length])) ++length;
   rest_.remove_prefix(length);
   return result;

@@ -22,6 +22,7 @@ class TextScanner {
 
   /// The next word of the line; empty at its end.
   std::string_view word();
+  std::string_view peek() const { return rest_.substr(0, word_length()); }  ///< the same, without passing it
 
   /// The next word as a number (nan and inf included: the validator reports them). Throws FILE_SYNTAX; `what`
   /// names it.
@@ -39,6 +40,7 @@ class TextScanner {
 
  private:
   std::string_view raw_line();
+  std::size_t word_length() const;
 
   std::string_view text_;
   std::string name_;

@@ -11,6 +11,7 @@ Result Evidence::result(std::string check) const {
   r.mesh = mesh_name;
   r.check = std::move(check);
   r.depth = lattice.depth();
+  r.in_float = capabilities.precision == LC_FLOAT32;
   r.status = Status::kHeld;
   return r;
 }

@@ -61,6 +61,7 @@ std::string to_json(const Report& report) {
     out["results"].push_back({{"subject", r.subject},
                               {"mesh", r.mesh},
                               {"depth", r.depth},
+                              {"precision", r.in_float ? "float" : "double"},
                               {"check", r.check},
                               {"status", word(r.status)},
                               {"count", r.bad},

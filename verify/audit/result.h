@@ -35,6 +35,7 @@ struct Witness {
 struct Result {
   std::string subject, mesh, check;
   int depth = 0;
+  bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
   Status status = Status::kNotRun;
   std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
   std::optional<double> worst, bound, rms, p99;

@@ -13,7 +13,7 @@ namespace limitcheck::verify {
 ///   all     a line for each mesh instead of the worst one only
 std::string to_table(const Report& report, bool colour, bool all = false);
 
-/// What to type to see the expected value of a witness, or "" if it names no point.
-std::string eval_command(const std::string& mesh, const Witness& witness);
+/// What to type to see the expected value of a result's witness, or "" if it names no point.
+std::string eval_command(const Result& result);
 
 }  // namespace limitcheck::verify

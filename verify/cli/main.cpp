@@ -7,7 +7,8 @@
 
 int main(int argc, char** argv) {
   using namespace limitcheck::cli;
-  CLI::App app{"limitcheck: is a Loop subdivision tessellator right, by how much is it not, and how fast is it?"};
+  CLI::App app{
+      "limitcheck: is a Loop subdivision tessellator right, by how much is it not, and how fast is it?"};
   app.set_version_flag("--version", "limitcheck " LIMITCHECK_VERSION);
   app.require_subcommand(1);
   app.footer("Exit codes: 0 all held, 1 findings, 2 bad usage or input.");

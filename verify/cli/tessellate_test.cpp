@@ -1,53 +1,26 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck tessellate` as a user meets it: what it prints, what it writes, what it refuses.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cmath>
-#include <cstdio>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "data/io/read.h"
+#include "verify/cli/command_test.h"
 
 namespace limitcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-class TessellateCommand : public testing::Test {
+// Every call below is one of `limitcheck tessellate`.
+class TessellateCommand : public CommandTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("limitcheck-tessellate-" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  // Runs `limitcheck tessellate ARGUMENTS` in a folder of its own.
-  Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" LIMITCHECK_PROGRAM "' tessellate " +
-                                arguments + " > stdout.txt 2> stderr.txt";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout.txt"), read("stderr.txt")};
-  }
-  std::string read(const fs::path& name) const {
-    std::ifstream in(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  fs::path folder_;
+  Outcome run(const std::string& arguments) const { return CommandTest::run("tessellate " + arguments); }
 };
 
 TEST_F(TessellateCommand, WritesAClosedManifoldWithEveryTriangleItReports) {
@@ -145,7 +118,7 @@ TEST_F(TessellateCommand, FromInsideShowsNothingAndSaysWhy) {
 }
 
 TEST_F(TessellateCommand, RefusesBadArgumentsWithExitCodeTwoAndWritesNothing) {
-  std::ofstream(folder_ / "empty.obj").close();
+  write("empty.obj", "");
   for (const char* arguments : {"",
                                 "no-such-mesh",
                                 "empty.obj",
@@ -178,7 +151,8 @@ TEST_F(TessellateCommand, RefusesBadArgumentsWithExitCodeTwoAndWritesNothing) {
     EXPECT_EQ(o.out, "") << arguments;
   }
   for (const auto& entry : fs::directory_iterator(folder_)) {
-    EXPECT_TRUE(entry.path().extension() == ".txt" || entry.path().filename() == "empty.obj") << entry.path();
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(name == ".stdout" || name == ".stderr" || name == "empty.obj") << name;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "verify/subject/subject.h"
 
 extern "C" {
+const lc_subject* lc_subject_naive();
 const lc_subject* lc_subject_sliding_window();
 const lc_subject* lc_subject_opensubdiv_far();
 const lc_subject* lc_subject_opensubdiv_bfr();

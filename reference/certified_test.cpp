@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Certified points hold the truth, print no digit they cannot vouch for, and say what does not exist.
+#include <gtest/gtest.h>
+
+#include "data/shapes.h"
+#include "reference/certified.h"
+#include "reference/number_exact.h"
+#include "reference/subdivision_evaluator.h"
+
+namespace limitcheck::reference {
+namespace {
+
+using Big = Decimal100;
+
+TEST(Certified, EnclosuresHoldTheOtherMethodsValuesAtEveryPrecision) {
+  const data::ControlMesh mesh = data::wheel(7);
+  const CertifiedEvaluator certified(mesh);
+  const SubdivisionEvaluator<Big> truth(mesh);
+  for (const int digits : {1, 5, 16, 60})
+    for (const auto& [a, b] :
+         {std::pair{"1/3", "1/3"}, {"1e-9", "2e-9"}, {"1/7", "0"}, {"0.5", "0.5"}, {"0", "1"}}) {
+      const Parameter l1 = Parameter::parse(a), l2 = Parameter::parse(b);
+      const CertifiedPoint p = certified.evaluate(0, l1, l2, digits);
+      const SurfacePoint<Big> s = truth.evaluate(0, l1, l2);
+      const auto check = [&](const Enclosure3& got, const Vec3<Big>& want, const char* what) {
+        const std::array<Big, 3> coordinates{want.x, want.y, want.z};
+        Big largest = 0;
+        for (const Big& c : coordinates) largest = std::max(largest, Big(abs(c)));
+        for (std::size_t i = 0; i < 3; ++i) {
+          EXPECT_LE(abs(Big(got[i].value) - coordinates[i]), Big(got[i].radius) + largest * Big("1e-80"))
+              << what << " to " << digits;
+          EXPECT_LE(Big(got[i].radius), 10 * largest * pow(Big(10), -digits)) << what << " to " << digits;
+        }
+      };
+      check(p.position, s.position, "position");
+      check(p.d1, s.d1, "d1");
+      check(p.d2, s.d2, "d2");
+      check(p.normal, s.normal, "normal");
+      ASSERT_TRUE(p.d11.has_value());
+      check(*p.d11, s.d11, "d11");
+      check(*p.d12, s.d12, "d12");
+      check(*p.d22, s.d22, "d22");
+    }
+}
+
+TEST(Certified, ExtraordinaryCornersHaveNoSecondDerivatives) {
+  const CertifiedPoint p = CertifiedEvaluator(data::tetrahedron()).evaluate(0, 0.0, 0.0, 20);
+  EXPECT_FALSE(p.first_exist);
+  EXPECT_FALSE(p.d11 || p.gaussian_curvature);
+  EXPECT_EQ(p.position[0].value, "0.20000000000000000000");  // of the known answers
+  EXPECT_EQ(p.normal_kind, NormalKind::kRegular);
+}
+
+TEST(Certified, ConvexSurfacesHavePositiveCurvatures) {
+  // At the centre of an icosahedron's face symmetry makes all normal curvatures equal: K = H^2.
+  const CertifiedPoint p = CertifiedEvaluator(data::icosahedron())
+                               .evaluate(0, Parameter::fraction(1, 3), Parameter::fraction(1, 3), 40);
+  const Big k(p.gaussian_curvature->value), h(p.mean_curvature->value);
+  EXPECT_GT(h, 0);
+  EXPECT_LE(abs(k - h * h), Big("1e-38"));
+}
+
+TEST(Certified, DegenerateMeshesAreSaidToBeSo) {
+  data::ControlMesh point = data::octahedron();
+  for (auto& p : point.positions) p = {1, 2, 3};
+  const CertifiedPoint p = CertifiedEvaluator(point).evaluate(0, 0.25, 0.25, 10);
+  EXPECT_EQ(p.normal_kind, NormalKind::kArbitrary);
+  EXPECT_EQ(p.position[2].value, "3.000000000");
+  EXPECT_EQ(p.d1[0].value, "0");
+  EXPECT_FALSE(p.gaussian_curvature.has_value());
+}
+
+TEST(Certified, BadRequestsAreRefused) {
+  const CertifiedEvaluator e(data::octahedron());
+  EXPECT_THROW(e.evaluate(8, 0.0, 0.0, 10), std::out_of_range);
+  EXPECT_THROW(e.evaluate(0, 0.6, 0.6, 10), std::invalid_argument);
+  EXPECT_THROW(e.evaluate(0, 0.0, 0.0, 0), std::invalid_argument);
+  EXPECT_THROW(e.evaluate(0, 0.0, 0.0, 100000), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace limitcheck::reference

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// `limitcheck audit` as a user meets it: exit codes, what goes where, and the command it prints for a
+// witness.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+class AuditCommand : public CommandTest {};
+
+TEST_F(AuditCommand, ExitsWithZeroWhenAllHeld) {
+  const Outcome o = run("audit opensubdiv-far tetrahedron --depth 2 --option precision=double");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_NE(o.out.find("opensubdiv-far:precision=double"), std::string::npos);
+  EXPECT_EQ(o.err, "") << "no progress unless standard error is a terminal";
+  EXPECT_EQ(o.out.find('\033'), std::string::npos) << "no colour unless standard output is a terminal";
+}
+
+TEST_F(AuditCommand, ExitsWithOneOnFindings) {
+  const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 2");
+  EXPECT_EQ(o.code, 1) << o.out << o.err;
+  EXPECT_NE(o.out.find("FINDING"), std::string::npos);
+}
+
+TEST_F(AuditCommand, ExitsWithTwoOnBadUsageAndBadInput) {
+  for (const char* arguments :
+       {"audit no-such-subject", "audit naive no-such-mesh", "audit naive tetrahedron --depth 99",
+        "audit naive tetrahedron --no-such-option", "audit naive --option nonsense=1 tetrahedron",
+        "audit all tetrahedron --option precision=double", "audit naive tetrahedron --json report.txt"}) {
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.out;
+    EXPECT_NE(o.err, "") << arguments;
+  }
+}
+
+TEST_F(AuditCommand, JsonOnStandardOutputIsOneDocumentAndNothingElse) {
+  const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 2 --json -");
+  EXPECT_EQ(o.code, 1) << o.err;
+  const auto json = nlohmann::json::parse(o.out);  // throws on anything but one document
+  EXPECT_EQ(json["depth"], 2);
+  ASSERT_FALSE(json["results"].empty());
+  for (const auto& row : json["results"])
+    for (const char* key :
+         {"subject", "mesh", "check", "status", "count", "worst", "bound", "unit", "witness"})
+      EXPECT_TRUE(row.contains(key)) << key;
+}
+
+TEST_F(AuditCommand, JsonGoesToAFileBesideTheTable) {
+  const Outcome o =
+      run("audit opensubdiv-far tetrahedron --depth 1 --option precision=double --json out/report.json");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("positions"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["held"], true);
+}
+
+TEST_F(AuditCommand, AnAuditOfAllSubjectsGoesOnWhenOneRefuses) {
+  const Outcome o = run("audit all wheel:50:1 --depth 1 --json -");  // OpenMesh ends at valence 49
+  EXPECT_EQ(o.code, 1) << o.err;
+  bool refused = false, cgal = false;
+  const auto report = nlohmann::json::parse(o.out);
+  for (const auto& row : report["results"]) {
+    refused = refused ||
+              (row["subject"] == "openmesh" && row["check"] == "tessellates" && row["status"] == "finding");
+    cgal = cgal || (row["subject"] == "cgal" && row["check"] == "coverage" && row["status"] == "held");
+  }
+  EXPECT_TRUE(refused);
+  EXPECT_TRUE(cgal);
+}
+
+TEST_F(AuditCommand, TheCommandPrintedWithAFindingRecomputesTheExpectedValue) {
+  for (const std::string precision : {"float", "double"}) {
+    const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 3 --option precision=" + precision +
+                          " --json report.json");
+    ASSERT_EQ(o.code, 1) << o.err;
+    const auto report = nlohmann::json::parse(read("report.json"));
+    bool looked = false;
+    for (const auto& row : report["results"]) {
+      if (row["check"] != "positions") continue;
+      looked = true;
+      const auto& w = row["witness"];
+      std::string command = "eval bumpy:20 " + std::to_string(w["face"].get<int>()) + " " +
+                            w["l1"].get<std::string>() + " " + w["l2"].get<std::string>();
+      if (precision == "float") command += " --precision float";
+      EXPECT_NE(o.out.find("limitcheck " + command + "\n"), std::string::npos) << command << "\n" << o.out;
+      const Outcome e = run(command + " --json");
+      ASSERT_EQ(e.code, 0) << e.err;
+      const auto position = nlohmann::json::parse(e.out)["position"];
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(std::stod(position[axis].get<std::string>()), w["expected"][axis].get<double>(), 1e-14)
+            << command;
+      }
+    }
+    EXPECT_TRUE(looked);
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

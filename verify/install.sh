@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs the Debian 12 packages that are missing; silent and quick when none is. Needs root or sudo only then.
+#   verify/install.sh          what building and testing need
+#   verify/install.sh --dev    also clang, the formatters and linters, the fuzzer's runtime
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build                                     # build
+  libosd-dev libcgal-dev libopenmesh-dev                    # the tessellators audited; CGAL also judges watertightness
+  libeigen3-dev libboost-dev libmpfr-dev libgmp-dev         # linear algebra and multiprecision
+  libflint-dev libflint-arb-dev                             # certified enclosures
+  libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev     # threads, command line, text, JSON
+  libtinygltf-dev                                           # glTF output
+  libgtest-dev libbenchmark-dev                             # tests, benchmarks
+)
+if [[ ${1:-} == --dev ]]; then
+  packages+=(clang libclang-rt-14-dev clang-format clang-tidy ccache)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $status == installed ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+root=()
+if [[ $(id -u) -ne 0 ]]; then
+  command -v sudo >/dev/null || {
+    echo "verify/install.sh: run as root or install sudo; missing packages: ${missing[*]}" >&2
+    exit 2
+  }
+  root=(sudo)
+fi
+echo "Installing Debian packages: ${missing[*]}" >&2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! { "${root[@]}" apt-get update -q &&
+       "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+         apt-get install -q -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  cat "$log" >&2
+  exit 2
+fi

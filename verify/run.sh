@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing, builds the release program and runs it.
+#   bash verify/run.sh                 the main job: audit the built-in subjects, table and build/report/audit.json
+#   bash verify/run.sh ARGUMENTS...    limitcheck ARGUMENTS..., run in the caller's folder
+set -euo pipefail
+top=$(cd "$(dirname "$0")/.." && pwd)
+bash "$top/verify/install.sh"
+bash "$top/verify/build.sh" release -DBUILD_TESTING=OFF
+if [[ $# -gt 0 ]]; then
+  exec "$top/build/release/limitcheck" "$@"
+fi
+cd "$top"
+exec build/release/limitcheck audit

@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -51,11 +52,15 @@ double checked_cosine(double degrees) {
   return std::cos(degrees * std::numbers::pi / 180);
 }
 
+// Isolated: a thread that waits here must not pick up a task of the caller that comes back to the same
+// call_once.
 template <class Body>
 void for_each_index(std::size_t count, const Body& body) {
   constexpr std::size_t kGrain = 512;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) body(static_cast<std::int32_t>(i));
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) body(static_cast<std::int32_t>(i));
+    });
   });
 }
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -228,6 +230,14 @@ TEST(Depth, EmptyMeshesAndVerticesWithoutFacesAreNoProblem) {
   const Fixture f(mesh);
   EXPECT_EQ(f.heuristics.depths({}, {}).size(), 8u);
   EXPECT_EQ(f.heuristics.degenerate_normals(), 0);
+}
+
+TEST(Depth, MayBeAskedForByManyTasksAtOnce) {
+  const Fixture f(grid_torus(40, 60));
+  const auto expected = Fixture(grid_torus(40, 60)).heuristics.depths({}, {});
+  std::atomic<int> equal{0};
+  tbb::parallel_for(0, 64, [&](int) { equal += f.heuristics.depths({}, {}) == expected; });
+  EXPECT_EQ(equal, 64);
 }
 
 TEST(Depth, TheNumberOfThreadsChangesNothing) {

@@ -206,13 +206,16 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
       neighbourhood(data_->topology, data_->positions, static_cast<std::size_t>(face));
 
   const long first = static_cast<long>(digits * 3.33) + 64;
+  // Next to a corner quantities fall and rise with powers of the distance, which costs that many bits: the
+  // curvatures take the eighth power. The distance is no smaller than the parameters' digits allow.
+  const long nearness = 8 * 4 * static_cast<long>(l1.to_string().size() + l2.to_string().size());
   struct Restore {
     long saved = Ball::precision();
     ~Restore() { Ball::precision() = saved; }
   } restore;
   for (long bits = first;; bits *= 2) {
     Ball::precision() = bits;
-    const bool last_chance = bits >= 8 * first;
+    const bool last_chance = bits >= 8 * first + nearness;
     std::vector<Vec3<Ball>> positions;
     for (const auto& p : local.positions)
       positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
@@ -223,7 +226,7 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
         s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
     if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
 
-    Printer print(digits, last_chance);
+    Printer print(digits, last_chance), print_curvature(digits, last_chance);
     CertifiedPoint result;
     result.position = print(s.position);
     result.d1 = print(s.d1);
@@ -239,13 +242,14 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
         const Ball e = dot(s.d1, s.d1), f = dot(s.d1, s.d2), g = dot(s.d2, s.d2);
         const Ball l = dot(s.d11, s.normal), m = dot(s.d12, s.normal), n = dot(s.d22, s.normal);
         const Ball area = Ball(1) / (e * g - f * f);
-        result.gaussian_curvature = print((l * n - m * m) * area);
-        result.mean_curvature = print((Ball(2) * f * m - e * n - g * l) * area * (Ball(1) / Ball(2)));
+        result.gaussian_curvature = print_curvature((l * n - m * m) * area);
+        result.mean_curvature =
+            print_curvature((Ball(2) * f * m - e * n - g * l) * area * (Ball(1) / Ball(2)));
       }
     }
     result.radius = print.largest();
     result.precision = bits;
-    if (print.enough() || last_chance) return result;
+    if ((print.enough() && print_curvature.enough()) || last_chance) return result;
   }
 }
 

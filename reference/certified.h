@@ -30,7 +30,7 @@ struct CertifiedPoint {
   std::optional<Enclosure> gaussian_curvature, mean_curvature;
   NormalKind normal_kind;
   bool first_exist;
-  double radius;   ///< the largest of all the radii
+  double radius;   ///< the largest of the radii, the curvatures' aside (they have their own and may be huge)
   long precision;  ///< bits that were needed
 };
 
@@ -48,9 +48,9 @@ class CertifiedEvaluator {
 
   /// Only the face's own neighbourhood is evaluated: quick on large meshes.
   ///   digits   1..10000 significant digits of the largest coordinate of each vector; each printed value is
-  ///   within one unit
-  ///            of its last decimal. Precision rises until that is certain; a vector that cannot be told from
-  ///            zero at eight times the digits is printed as 0 with its radius
+  ///            within one unit of its last decimal. Precision rises until that is certain; a vector that
+  ///            cannot be told from zero at eight times the digits, and what nearness to a corner costs, is
+  ///            printed as 0 with its radius
   ///   throws   std::invalid_argument: digits or parameters out of range; std::out_of_range: no such face
   CertifiedPoint evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const;
 

@@ -105,7 +105,7 @@ void print_text(const Request& request, const std::array<std::string, 3>& baryce
   if (p.gaussian_curvature)
     fmt::print("{:<12}{}\n{:<12}{}\n", "Gaussian K", p.gaussian_curvature->value, "mean H",
                p.mean_curvature->value);
-  fmt::print("{:<12}{:.3g} (certified: every number above is at least that near the truth)\n", "radius",
+  fmt::print("{:<12}{:.3g} (certified: every coordinate above is at least that near the truth)\n", "radius",
              p.radius);
 }
 

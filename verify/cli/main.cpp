@@ -21,6 +21,15 @@ int main(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    if (argc < 2) return app.exit(CLI::CallForHelp()), kBadInput;
+    if (app.get_subcommands().empty() && argv[1][0] != '-') {
+      fmt::print(stderr, "limitcheck: there is no command '{}'\nRun with --help for more information.\n",
+                 argv[1]);
+      return kBadInput;
+    }
+    app.exit(error);
+    return kBadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kHeld : kBadInput;
   } catch (const std::exception& error) {

@@ -11,7 +11,8 @@ packages=(
   libeigen3-dev libboost-dev libmpfr-dev libgmp-dev         # linear algebra and multiprecision
   libflint-dev libflint-arb-dev                             # certified enclosures
   libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev     # threads, command line, text, JSON
-  libtinygltf-dev                                           # glTF output
+  libhwy-dev                                                # SIMD with dispatch at run time
+  libtinygltf-dev libassimp-dev                             # glTF output; the reader that checks it
   libgtest-dev libbenchmark-dev                             # tests, benchmarks
 )
 if [[ ${1:-} == --dev ]]; then

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "fast/row_stream/batch.h"
+
+#include <algorithm>
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+// A corner's vertex, and the index in its ring of core entry 0 (the first of the pair's own points).
+struct Place {
+  std::int32_t vertex;
+  std::int32_t core;
+};
+
+void put_corner(const Rings& rings, Place place, int corner, int depth, int lanes, float* out) {
+  const auto& head = rings.corner(place.vertex).head;
+  for (std::size_t k = 0; k < head.size(); ++k) out[static_cast<int>(k) * lanes] = head[k];
+
+  const Rings::Ring ring = rings.ring(place.vertex);
+  const std::int32_t* entries = rings.entries().data() + ring.first;
+  std::int32_t at = place.core - 1 - depth;
+  if (ring.period != Rings::kOpen) {
+    while (at < 0) at += ring.period;
+  }
+  out += CornerBlock::kWindow * lanes;
+  for (int t = window_width(corner, depth); t > 0; --t, out += 3 * lanes) {
+    const Rings::Point& p = rings.points()[static_cast<std::size_t>(entries[at])];
+    out[0] = p[0], out[lanes] = p[1], out[2 * lanes] = p[2];
+    if (++at == ring.period) at = 0;
+  }
+}
+
+// Where a singleton without neighbour has no fourth corner: the ghost across its diagonal, and nothing around
+// it that matters.
+void put_ghost(const Rings& rings, Place a, int corner, int depth, int lanes, float* out) {
+  const Rings::Ring ring = rings.ring(a.vertex);
+  const std::int32_t ghost = rings.entries()[static_cast<std::size_t>(ring.first + a.core)];
+  const Rings::Point& p = rings.points()[static_cast<std::size_t>(ghost)];
+  for (int k = 0; k < 4; ++k) out[k * lanes] = 1;
+  for (int k = CornerBlock::kCentre; k < CornerBlock::kWindow + 3 * window_width(corner, depth); ++k)
+    out[k * lanes] = p[static_cast<std::size_t>((k - CornerBlock::kCentre) % 3)];
+}
+
+}  // namespace
+
+void gather(const Adjacency& adjacency, const Rings& rings, std::span<const Pair> pairs, int depth, int lanes,
+            float* input) {
+  for (int lane = 0; lane < lanes; ++lane) {
+    const Pair& pair = pairs[std::min(static_cast<std::size_t>(lane), pairs.size() - 1)];
+    // A singleton without neighbour may be cut along any edge.
+    const std::int32_t ac = 3 * pair.face0 + (pair.edge0 < 0 ? 0 : pair.edge0);
+    const std::int32_t cd = Adjacency::next(ac), da = Adjacency::prev(ac), ca = adjacency.twin(ac);
+    const auto out = [&](int corner) { return input + corner * corner_block_size(depth) * lanes + lane; };
+
+    const Place a{adjacency.origin(ac), rings.slot(ac) - 1};
+    put_corner(rings, a, kA, depth, lanes, out(kA));
+    put_corner(rings, {adjacency.origin(cd), rings.slot(cd)}, kC, depth, lanes, out(kC));
+    put_corner(rings, {adjacency.origin(da), rings.slot(da)}, kD, depth, lanes, out(kD));
+    if (ca < 0) {
+      put_ghost(rings, a, kB, depth, lanes, out(kB));
+    } else {
+      const std::int32_t bc = Adjacency::prev(ca);
+      put_corner(rings, {adjacency.origin(bc), rings.slot(bc)}, kB, depth, lanes, out(kB));
+    }
+  }
+}
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The engine of a batch: rows trickle down the levels, each point of each level is computed once.
+// Included like rules-inl.h.
+
+/// `lanes` pairs of one depth, from their control points to their limit points, a row at a time. A level
+/// keeps a window of four rows, so memory is O(2^depth) whatever the mesh; nothing is allocated.
+template <class N>
+class Stream {
+ public:
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  static constexpr int L = N::lanes;
+
+  /// input: input_size(depth) * lanes numbers, windows are overwritten; work: work_size(depth) * lanes.
+  /// Both aligned to 64 bytes; work holds finite numbers.
+  HWY_ATTR Stream(Scalar* input, int depth, const Placement<Scalar>& placement, Scalar* work,
+                  const Target<Scalar>& target)
+      : input_(input), work_(work), depth_(depth), placement_(placement), target_(target) {
+    // 12 for the limit rule, 8 per level.
+    placement_.unit = static_cast<Scalar>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
+  }
+
+  HWY_ATTR void run() {
+    for (int corner = 0; corner < 4; ++corner) refine_corner(corner);
+    for (int j = -1; j <= 2; ++j) receive(0, j);
+  }
+
+ private:
+  // Ring recursion of one corner through all levels; what the rows of each level take from it is kept.
+  HWY_ATTR void refine_corner(int corner) {
+    Scalar* block = input_ + corner * corner_block_size(depth_) * L;
+    Scalar* window = block + CornerBlock::kWindow * L;
+    const V k0 = N::load(block), k1 = N::load(block + L), k2 = N::load(block + 2 * L),
+            k3 = N::load(block + 3 * L);
+    for (int c = 0; c < 3; ++c, window += L) {
+      V v = N::load(block + (CornerBlock::kCentre + c) * L),
+        sum = N::load(block + (CornerBlock::kSum + c) * L);
+      for (int level = 0;; ++level) {
+        Scalar* kept = border(level, corner) + c * L;
+        const int first = depth_ - level;
+        N::store(v, kept);
+        N::store(N::load(window + 3 * first * L), kept + 3 * L);
+        N::store(N::load(window + 3 * (first + core_width(corner) - 1) * L), kept + 6 * L);
+        if (level == depth_) break;
+
+        const int width = window_width(corner, first) - 2;
+        V before = N::load(window), here = N::load(window + 3 * L);
+        for (int t = 0; t < width; ++t) {
+          const V after = N::load(window + 3 * (t + 2) * L);
+          N::store(edge_rule<N>(v, here, before, after), window + 3 * t * L);
+          before = here, here = after;
+        }
+        const V next = N::fma(k0, v, k1 * sum);
+        sum = N::fma(k2, v, k3 * sum);
+        v = next;
+      }
+    }
+  }
+
+  Scalar* border(int level, int corner) const {
+    return work_ + (border_offset(depth_) + kBorderSize * (4 * level + corner)) * L;
+  }
+  Scalar* row(int level, int j) const {
+    return work_ + (rows_offset(level) + ((j + 1) & 3) * row_size(level) + 3) * L;
+  }
+
+  HWY_ATTR void copy_point(const Scalar* from, Scalar* to_row, int i) const {
+    for (int c = 0; c < 3; ++c) N::store(N::load(from + c * L), to_row + (3 * i + c) * L);
+  }
+
+  // Points next to the corners come from their rings, whose valence is the corner's own. B and D first: with
+  // 2^level = 1 they share entries with A and C, and only those have the whole truth beside a singleton's
+  // diagonal.
+  HWY_ATTR void take_border(int level, int j) const {
+    const int size = 1 << level;
+    Scalar* r = row(level, j);
+    constexpr int kFirst = 3 * L, kLast = 6 * L;
+    const Scalar *a = border(level, kA), *b = border(level, kB), *c = border(level, kC),
+                 *d = border(level, kD);
+    if (j == -1) copy_point(b + kLast, r, size - 1), copy_point(a + kFirst, r, 0);
+    if (j == size - 1) copy_point(d + kFirst, r, -1);
+    if (j == 1) copy_point(b + kFirst, r, size + 1);
+    if (j == 0) copy_point(a + kLast, r, -1), copy_point(a, r, 0), copy_point(b, r, size);
+    if (j == size) copy_point(c + kLast, r, size + 1), copy_point(c, r, size), copy_point(d, r, 0);
+    if (j == size + 1) copy_point(d + kLast, r, 1), copy_point(c + kFirst, r, size);
+  }
+
+  // Row j of a level is complete but for what the corners own.
+  HWY_ATTR void receive(int level, int j) {
+    take_border(level, j);
+    if (j < 0) return;
+    const Scalar *below = row(level, j - 2), *middle = row(level, j - 1), *above = row(level, j);
+    if (level == depth_) {
+      if (j >= 1) limit(below, middle, above, j - 1);
+      return;
+    }
+    const int size = 1 << level;
+    if (j == 0) {
+      refine_below<N>(middle, above, size, row(level + 1, -1));
+      receive(level + 1, -1);
+      return;
+    }
+    refine_row<N>(below, middle, above, size, j - 1, row(level + 1, 2 * j - 2), row(level + 1, 2 * j - 1));
+    receive(level + 1, 2 * j - 2);
+    receive(level + 1, 2 * j - 1);
+  }
+
+  HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
+    const int size = 1 << depth_;
+    Scalar* out = work_ + limit_row_offset(depth_) * L;
+    limit_row<N>(s, m, n, size, j, placement_, out);
+    if (j == 0) take_limit(kA, out, 0), take_limit(kB, out, size);
+    if (j == size) take_limit(kD, out, 0), take_limit(kC, out, size);
+    N::scatter(out, 6 * (size + 1), target_.base + j * target_.row_stride, target_.lane_stride);
+    if (target_.row) target_.row(target_.context, j);
+  }
+
+  HWY_ATTR void take_limit(int corner, Scalar* out, int i) const {
+    const Scalar* from = input_ + (corner * corner_block_size(depth_) + CornerBlock::kLimit) * L;
+    for (int k = 0; k < 6; ++k) N::store(N::load(from + k * L), out + (6 * i + k) * L);
+  }
+
+  Scalar* input_;
+  Scalar* work_;
+  int depth_;
+  Placement<Scalar> placement_;
+  Target<Scalar> target_;
+};

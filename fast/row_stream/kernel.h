@@ -2,6 +2,7 @@
 // The row-streaming kernel for any number type, one pair at a time.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -11,6 +12,7 @@
 // The kernel's text is shared with the vector targets, which need an attribute on every function.
 #ifndef HWY_ATTR
 #define HWY_ATTR
+#define HWY_INLINE inline
 #define LIMITCHECK_UNDEF_HWY_ATTR
 #endif
 
@@ -26,5 +28,6 @@ namespace limitcheck::fast::row_stream::generic {
 
 #ifdef LIMITCHECK_UNDEF_HWY_ATTR
 #undef HWY_ATTR
+#undef HWY_INLINE
 #undef LIMITCHECK_UNDEF_HWY_ATTR
 #endif

@@ -20,7 +20,13 @@ struct LaneNumber {
   HWY_ATTR static HWY_INLINE V load(const Scalar* p) { return {hn::Load(D(), p)}; }
   HWY_ATTR static HWY_INLINE void store(V v, Scalar* p) { hn::Store(v.v, D(), p); }
   HWY_ATTR static HWY_INLINE V splat(double x) { return {hn::Set(D(), static_cast<Scalar>(x))}; }
-  HWY_ATTR static HWY_INLINE V inverse_root(V x) { return {hn::Div(hn::Set(D(), Scalar(1)), hn::Sqrt(x.v))}; }
+
+  static constexpr bool kHasSeed = true;
+  HWY_ATTR static HWY_INLINE V inverse_root_seed(V x) {
+    const hn::RebindToSigned<D> bits;
+    return {hn::BitCast(
+        D(), hn::Sub(hn::Set(bits, kInverseRootMagic), hn::ShiftRight<1>(hn::BitCast(bits, x.v))))};
+  }
 
 #if HWY_NATIVE_FMA
   HWY_ATTR static HWY_INLINE V fma(V a, V b, V c) {
@@ -28,6 +34,9 @@ struct LaneNumber {
   }
   HWY_ATTR static HWY_INLINE V fms(V a, V b, V c) {
     return {hn::MulSub(a.v, b.v, c.v)};
+  }
+  HWY_ATTR static HWY_INLINE V fnma(V a, V b, V c) {
+    return {hn::NegMulAdd(a.v, b.v, c.v)};
   }
 #else
   HWY_ATTR static HWY_INLINE V fma(V a, V b, V c) {
@@ -39,44 +48,81 @@ struct LaneNumber {
   HWY_ATTR static HWY_INLINE V fms(V a, V b, V c) {
     return fma(a, b, {hn::Neg(c.v)});
   }
+  HWY_ATTR static HWY_INLINE V fnma(V a, V b, V c) {
+    return fma({hn::Neg(a.v)}, b, c);
+  }
 #endif
 
-  /// See ScalarNumber. Four numbers of four lanes at a time are transposed within the 128-bit blocks, and
-  /// each block goes out by itself: of all ways tried the one with the fewest shuffles.
-  HWY_ATTR static void scatter(const Scalar* soa, int count, Scalar* aos, std::ptrdiff_t lane_stride) {
+  /// See ScalarNumber. What limits this is the number of stores, then the shuffles that only one port can do.
+  static constexpr int kBlock = lanes == 16 ? 8 : 4;
+  HWY_ATTR static HWY_INLINE void scatter(const Scalar* soa, int count, Scalar* aos,
+                                          std::ptrdiff_t lane_stride) {
+    static_assert(sizeof(Scalar) == 4);
     int k = 0;
-    if constexpr (sizeof(Scalar) == 4) {
-      const D d;
-      const hn::RepartitionToWide<D> wide;
-      for (; k + 4 <= count; k += 4, soa += 4 * lanes, aos += 4) {
-        const auto a = hn::Load(d, soa), b = hn::Load(d, soa + lanes);
-        const auto c = hn::Load(d, soa + 2 * lanes), e = hn::Load(d, soa + 3 * lanes);
-        const auto ab0 = hn::BitCast(wide, hn::InterleaveLower(d, a, b));
-        const auto ab1 = hn::BitCast(wide, hn::InterleaveUpper(d, a, b));
-        const auto ce0 = hn::BitCast(wide, hn::InterleaveLower(d, c, e));
-        const auto ce1 = hn::BitCast(wide, hn::InterleaveUpper(d, c, e));
-        store_blocks(hn::BitCast(d, hn::InterleaveLower(wide, ab0, ce0)), aos, lane_stride);
-        store_blocks(hn::BitCast(d, hn::InterleaveUpper(wide, ab0, ce0)), aos + lane_stride, lane_stride);
-        store_blocks(hn::BitCast(d, hn::InterleaveLower(wide, ab1, ce1)), aos + 2 * lane_stride, lane_stride);
-        store_blocks(hn::BitCast(d, hn::InterleaveUpper(wide, ab1, ce1)), aos + 3 * lane_stride, lane_stride);
-      }
-    }
+    for (; k + lanes <= count; k += lanes, soa += lanes * lanes, aos += lanes) square(soa, aos, lane_stride);
+    for (; k + 4 <= count; k += 4, soa += 4 * lanes, aos += 4) four(soa, aos, lane_stride);
     for (; k < count; ++k, soa += lanes, ++aos) {
       for (int lane = 0; lane < lanes; ++lane) aos[lane * lane_stride] = soa[lane];
     }
   }
 
  private:
-  // Block b of v to p + 4 b lane_stride.
-  HWY_ATTR static HWY_INLINE void store_blocks(hn::Vec<D> v, Scalar* p, std::ptrdiff_t lane_stride) {
-    if constexpr (lanes == 4) {
-      hn::StoreU(v, D(), p);
-    } else if constexpr (lanes > 4) {
-      const hn::Half<D> half;
-      LaneNumber<hn::Half<D>>::store_blocks(hn::LowerHalf(half, v), p, lane_stride);
-      LaneNumber<hn::Half<D>>::store_blocks(hn::UpperHalf(half, v), p + lanes / 2 * lane_stride, lane_stride);
+  // Four vectors transposed within their 128-bit blocks.
+  HWY_ATTR static HWY_INLINE void transpose_blocks(hn::Vec<D> (&v)[4]) {
+    const D d;
+    const hn::RepartitionToWide<D> wide;
+    const auto ab0 = hn::BitCast(wide, hn::InterleaveLower(d, v[0], v[1]));
+    const auto ab1 = hn::BitCast(wide, hn::InterleaveUpper(d, v[0], v[1]));
+    const auto ce0 = hn::BitCast(wide, hn::InterleaveLower(d, v[2], v[3]));
+    const auto ce1 = hn::BitCast(wide, hn::InterleaveUpper(d, v[2], v[3]));
+    v[0] = hn::BitCast(d, hn::InterleaveLower(wide, ab0, ce0));
+    v[1] = hn::BitCast(d, hn::InterleaveUpper(wide, ab0, ce0));
+    v[2] = hn::BitCast(d, hn::InterleaveLower(wide, ab1, ce1));
+    v[3] = hn::BitCast(d, hn::InterleaveUpper(wide, ab1, ce1));
+  }
+
+  // As many numbers as lanes: the blocks are put in place as they are loaded, so that each store fills a
+  // vector.
+  HWY_ATTR static HWY_INLINE void square(const Scalar* soa, Scalar* aos, std::ptrdiff_t lane_stride) {
+    for (int block = 0; block < lanes / 4; ++block) {
+      hn::Vec<D> v[4];
+      for (int r = 0; r < 4; ++r) v[r] = load_blocks(soa + 4 * block + r * lanes);
+      transpose_blocks(v);
+      for (int r = 0; r < 4; ++r) hn::StoreU(v[r], D(), aos + (4 * block + r) * lane_stride);
     }
   }
-  template <class>
-  friend struct LaneNumber;
+
+  // The 128-bit blocks at p, p + 4 lanes, p + 8 lanes ...
+  HWY_ATTR static HWY_INLINE hn::Vec<D> load_blocks(const Scalar* p) {
+    const D d;
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (lanes == 16) {
+      __m512 v = _mm512_castps128_ps512(_mm_load_ps(p));
+      v = _mm512_insertf32x4(v, _mm_load_ps(p + 4 * lanes), 1);
+      v = _mm512_insertf32x4(v, _mm_load_ps(p + 8 * lanes), 2);
+      return hn::Vec<D>{_mm512_insertf32x4(v, _mm_load_ps(p + 12 * lanes), 3)};
+    }
+#endif
+    if constexpr (lanes == 8) {
+      const hn::Half<D> half;
+      return hn::Combine(d, hn::Load(half, p + 4 * lanes), hn::Load(half, p));
+    } else {
+      return hn::Load(d, p);
+    }
+  }
+
+  // The last few numbers.
+  HWY_ATTR static HWY_INLINE void four(const Scalar* soa, Scalar* aos, std::ptrdiff_t lane_stride) {
+    const D d;
+    hn::Vec<D> v[4];
+    for (int r = 0; r < 4; ++r) v[r] = hn::Load(d, soa + r * lanes);
+    transpose_blocks(v);
+    const hn::CappedTag<Scalar, 4> quarter;
+    for (int r = 0; r < 4; ++r) {
+      alignas(64) Scalar lane[lanes];
+      hn::Store(v[r], d, lane);
+      for (int block = 0; block < lanes / 4; ++block)
+        hn::StoreU(hn::Load(quarter, lane + 4 * block), quarter, aos + (4 * block + r) * lane_stride);
+    }
+  }
 };

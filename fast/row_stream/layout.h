@@ -54,18 +54,15 @@ constexpr int row_size(int level) {
 }
 constexpr int rows_offset(int level) {
   int offset = 0;
-  for (int l = 0; l < level; ++l) offset += 4 * row_size(l);
+  for (int l = 0; l < level; ++l) offset += 3 * row_size(l);
   return offset;
 }
 constexpr int kBorderSize = 9;  // centre, first and last core entry
 constexpr int border_offset(int depth) {
   return rows_offset(depth + 1);
 }
-constexpr int limit_row_offset(int depth) {
-  return border_offset(depth) + 4 * kBorderSize * (depth + 1);
-}
 constexpr int work_size(int depth) {
-  return limit_row_offset(depth) + 6 * ((1 << depth) + 2);
+  return border_offset(depth) + 4 * kBorderSize * (depth + 1);
 }
 
 /// From the kernel's coordinates to the caller's: position = centre + unit * x.

@@ -2,9 +2,16 @@
 // What the kernel asks of a number type, and the plain scalar ones: one lane, fma spelled out.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 namespace limitcheck::fast::row_stream {
+
+/// Minus half the bits of a float: its inverse square root to 3.5 %.
+inline constexpr std::int32_t kInverseRootMagic = 0x5f375a86;
 
 /// `Scalar` is what memory holds, `V` what the rules compute with: `lanes` scalars.
 template <class T>
@@ -17,9 +24,17 @@ struct ScalarNumber {
   static V splat(double x) { return static_cast<T>(x); }
   static V fma(V a, V b, V c) { return std::fma(a, b, c); }
   static V fms(V a, V b, V c) { return std::fma(a, b, -c); }
-  static V inverse_root(V x) { return T(1) / std::sqrt(x); }
+  static V fnma(V a, V b, V c) { return std::fma(-a, b, c); }
 
-  /// `count` numbers of each lane, found at soa[k * lanes + lane], to aos[lane * lane_stride + k].
+  static constexpr bool kHasSeed = std::is_same_v<T, float>;
+  static V inverse_root(V x) { return T(1) / std::sqrt(x); }
+  static V inverse_root_seed(V x) {
+    return std::bit_cast<float>(kInverseRootMagic - (std::bit_cast<std::int32_t>(x) >> 1));
+  }
+
+  /// Points that LimitRow collects before it calls scatter.
+  static constexpr int kBlock = 1;
+  /// `count` numbers of each lane, from soa[k * lanes + lane] to aos[lane * lane_stride + k].
   static void scatter(const T* soa, int count, T* aos, std::ptrdiff_t /*lane_stride*/) {
     for (int k = 0; k < count; ++k) aos[k] = soa[k];
   }

@@ -3,7 +3,7 @@
 // Included like rules-inl.h.
 
 /// `lanes` pairs of one depth, from their control points to their limit points, a row at a time. A level
-/// keeps a window of four rows, so memory is O(2^depth) whatever the mesh; nothing is allocated.
+/// keeps a window of three rows, so memory is O(2^depth) whatever the mesh; nothing is allocated.
 template <class N>
 class Stream {
  public:
@@ -15,7 +15,12 @@ class Stream {
   /// Both aligned to 64 bytes; work holds finite numbers.
   HWY_ATTR Stream(Scalar* input, int depth, const Placement<Scalar>& placement, Scalar* work,
                   const Target<Scalar>& target)
-      : input_(input), work_(work), depth_(depth), placement_(placement), target_(target) {
+      : input_(input),
+        border_(work + border_offset(depth) * L),
+        depth_(depth),
+        placement_(placement),
+        target_(target) {
+    for (int level = 0; level <= depth; ++level) rows_[level] = work + (rows_offset(level) + 3) * L;
     // 12 for the limit rule, 8 per level.
     placement_.unit = static_cast<Scalar>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
   }
@@ -57,12 +62,8 @@ class Stream {
     }
   }
 
-  Scalar* border(int level, int corner) const {
-    return work_ + (border_offset(depth_) + kBorderSize * (4 * level + corner)) * L;
-  }
-  Scalar* row(int level, int j) const {
-    return work_ + (rows_offset(level) + ((j + 1) & 3) * row_size(level) + 3) * L;
-  }
+  Scalar* border(int level, int corner) const { return border_ + kBorderSize * (4 * level + corner) * L; }
+  Scalar* row(int level, int j) const { return rows_[level] + (j + 1) % 3 * row_size(level) * L; }
 
   HWY_ATTR void copy_point(const Scalar* from, Scalar* to_row, int i) const {
     for (int c = 0; c < 3; ++c) N::store(N::load(from + c * L), to_row + (3 * i + c) * L);
@@ -89,39 +90,41 @@ class Stream {
   HWY_ATTR void receive(int level, int j) {
     take_border(level, j);
     if (j < 0) return;
-    const Scalar *below = row(level, j - 2), *middle = row(level, j - 1), *above = row(level, j);
-    if (level == depth_) {
-      if (j >= 1) limit(below, middle, above, j - 1);
-      return;
-    }
+    const Scalar *middle = row(level, j - 1), *above = row(level, j);
+    const Scalar* below = j >= 1 ? row(level, j - 2) : nullptr;
     const int size = 1 << level;
-    if (j == 0) {
-      refine_below<N>(middle, above, size, row(level + 1, -1));
-      receive(level + 1, -1);
+    if (level == depth_) {
+      if (below) limit(below, middle, above, j - 1);
       return;
     }
-    refine_row<N>(below, middle, above, size, j - 1, row(level + 1, 2 * j - 2), row(level + 1, 2 * j - 1));
-    receive(level + 1, 2 * j - 2);
+    if (below) {
+      refine_even_row<N>(below, middle, above, size, j - 1, row(level + 1, 2 * j - 2));
+      receive(level + 1, 2 * j - 2);
+    }
+    refine_odd_row<N>(middle, above, size, row(level + 1, 2 * j - 1));
     receive(level + 1, 2 * j - 1);
   }
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    Scalar* out = work_ + limit_row_offset(depth_) * L;
-    limit_row<N>(s, m, n, size, j, placement_, out);
-    if (j == 0) take_limit(kA, out, 0), take_limit(kB, out, size);
-    if (j == size) take_limit(kD, out, 0), take_limit(kC, out, size);
-    N::scatter(out, 6 * (size + 1), target_.base + j * target_.row_stride, target_.lane_stride);
+    LimitRow<N> row(s, m, n, placement_, target_.base + j * target_.row_stride, target_.lane_stride);
+    if (j == 0) {
+      row.outer(size, corner_limit(kA), corner_limit(kB));
+    } else if (j == size) {
+      row.outer(size, corner_limit(kD), corner_limit(kC));
+    } else {
+      row.inner(size, j);
+    }
     if (target_.row) target_.row(target_.context, j);
   }
 
-  HWY_ATTR void take_limit(int corner, Scalar* out, int i) const {
-    const Scalar* from = input_ + (corner * corner_block_size(depth_) + CornerBlock::kLimit) * L;
-    for (int k = 0; k < 6; ++k) N::store(N::load(from + k * L), out + (6 * i + k) * L);
+  const Scalar* corner_limit(int corner) const {
+    return input_ + (corner * corner_block_size(depth_) + CornerBlock::kLimit) * L;
   }
 
   Scalar* input_;
-  Scalar* work_;
+  Scalar* border_;
+  std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
   int depth_;
   Placement<Scalar> placement_;
   Target<Scalar> target_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fast/row_stream/targets.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>

@@ -101,6 +101,14 @@ DepthHeuristics::DepthHeuristics(const data::ControlMesh& mesh, const Adjacency&
     if (degenerate && ring.faces() > 0) ++degenerate_count;
   });
   degenerate_normals_ = degenerate_count;
+  spheres_.resize(mesh.triangles.size());
+  for_each_index(spheres_.size(), [&](std::int32_t f) {
+    const Point3 a = to_point(mesh_.positions[adjacency_.corner(f, 0)]),
+                 b = to_point(mesh_.positions[adjacency_.corner(f, 1)]),
+                 c = to_point(mesh_.positions[adjacency_.corner(f, 2)]);
+    const Point3 centroid = (1. / 3) * (a + b + c);
+    spheres_[f] = {centroid, std::max({length(a - centroid), length(b - centroid), length(c - centroid)})};
+  });
 }
 
 bool DepthHeuristics::faces_away(std::int32_t v, const Camera& camera) const {
@@ -119,6 +127,19 @@ Facing DepthHeuristics::facing(std::int32_t face, std::span<const std::uint8_t> 
   return count == 3 ? Facing::kBack : count == 0 ? Facing::kFront : Facing::kSilhouette;
 }
 
+// A vertex is on the silhouette if a neighbour is on the other side.
+Facing DepthHeuristics::vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const {
+  const std::int32_t start = adjacency_.outgoing(v);
+  for (std::int32_t h = start; h >= 0;) {
+    if (away[adjacency_.target(h)] != away[v] || away[adjacency_.origin(Adjacency::prev(h))] != away[v]) {
+      return Facing::kSilhouette;
+    }
+    h = adjacency_.rotate(h);
+    if (h == start) break;
+  }
+  return away[v] != 0 ? Facing::kBack : Facing::kFront;
+}
+
 std::vector<Facing> DepthHeuristics::facing(const Camera& camera) const {
   camera.validate();
   const std::vector<std::uint8_t> back = away(camera);
@@ -129,11 +150,7 @@ std::vector<Facing> DepthHeuristics::facing(const Camera& camera) const {
 
 std::int32_t DepthHeuristics::project_sphere(std::int32_t face, const Camera& camera,
                                              double target_pixels) const {
-  const Point3 a = mesh_.positions[adjacency_.corner(face, 0)],
-               b = mesh_.positions[adjacency_.corner(face, 1)],
-               c = mesh_.positions[adjacency_.corner(face, 2)];
-  const Point3 centroid = (1. / 3) * (a + b + c);
-  const double radius = std::max({length(a - centroid), length(b - centroid), length(c - centroid)});
+  const auto& [centroid, radius] = spheres_[face];
   const double distance = std::max(length(camera.eye - centroid) - radius, camera.near);
   double pixels = 2 * radius * camera.focal_pixels() / distance;
   std::int32_t level = 0;
@@ -173,7 +190,8 @@ std::int32_t DepthHeuristics::cone_depth(std::int32_t v, double cos_angle) const
 std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, const Camera& camera) const {
   const bool sphere = uses_sphere(options.strategy), cone = uses_cone(options.strategy),
              cull = options.culls();
-  if (options.depth < 0 || options.depth > max_depth_) {
+  const bool uses_depth = options.strategy == Strategy::kUniform || options.strategy == Strategy::kRandom;
+  if (uses_depth && (options.depth < 0 || options.depth > max_depth_)) {
     refuse(std::to_string(options.depth) + " is not in 0.." + std::to_string(max_depth_));
   }
   if (sphere && !(options.target_pixels > 0)) refuse("the target must be more than 0 pixels");
@@ -201,24 +219,14 @@ std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, c
   std::vector<std::int32_t> vertex_depth;
   if (cone) {
     prepare_cones();
+    const bool one_angle = cosines[0] == cosines[1] && (cull || cosines[0] == cosines[2]);
     vertex_depth.resize(back.size());
     for_each_index(back.size(), [&](std::int32_t v) {
       if (cull && back[v] != 0) {
         vertex_depth[v] = kCulled;
         return;
       }
-      // A change of facing among the neighbours makes a silhouette vertex.
-      bool changes = false;
-      const std::int32_t start = adjacency_.outgoing(v);
-      for (std::int32_t h = start; h >= 0 && !changes;) {
-        changes =
-            back[adjacency_.target(h)] != back[v] || back[adjacency_.origin(Adjacency::prev(h))] != back[v];
-        h = adjacency_.rotate(h);
-        if (h == start) break;
-      }
-      const Facing vertex_class = changes        ? Facing::kSilhouette
-                                  : back[v] != 0 ? Facing::kBack
-                                                 : Facing::kFront;
+      const Facing vertex_class = one_angle ? Facing::kFront : vertex_facing(v, back);
       vertex_depth[v] = cone_depth(v, cosines[static_cast<std::size_t>(vertex_class)]);
     });
   }

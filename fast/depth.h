@@ -42,7 +42,7 @@ enum class Facing : std::int8_t { kFront, kSilhouette, kBack };
 
 struct DepthOptions {
   Strategy strategy = Strategy::kCombined;
-  int depth = 3;              // uniform and random
+  int depth = 3;              // uniform; the largest of random
   std::uint64_t seed = 1;     // random
   double target_pixels = 60;  // project-sphere, > 0
   /// Largest angle between the limit normal at a corner and its incident sub-triangles, degrees, in (0, 180],
@@ -98,16 +98,21 @@ class DepthHeuristics {
   bool faces_away(std::int32_t v, const Camera& camera) const;
   std::vector<std::uint8_t> away(const Camera& camera) const;
   Facing facing(std::int32_t face, std::span<const std::uint8_t> away) const;
+  Facing vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const;
   void prepare_cones() const;
 
   const data::ControlMesh& mesh_;
   const Adjacency& adjacency_;
   int max_depth_;
+  struct Sphere {
+    Point3 centre;
+    double radius = 0;
+  };
   std::vector<Point3> limit_, normal_;  // per vertex
+  std::vector<Sphere> spheres_;         // per face, round the centroid
   std::int64_t degenerate_normals_ = 0;
   mutable std::once_flag cones_ready_;
-  mutable std::vector<float>
-      cones_;  // (max_depth + 1) per vertex: cosines of levels 0 .. max_depth, rounded up
+  mutable std::vector<double> cones_;  // max_depth + 1 per vertex: the cosines of levels 0 .. max_depth
 };
 
 /// Throws std::invalid_argument with the face if `depth` has not one entry in -1 .. max_depth per face.

@@ -206,8 +206,8 @@ TEST(Depth, BadArgumentsAreRefused) {
     change(options, camera);
     EXPECT_THROW(f.heuristics.depths(options, camera), std::invalid_argument);
   };
-  refused([](DepthOptions& o, Camera&) { o.depth = 6; });
-  refused([](DepthOptions& o, Camera&) { o.depth = -1; });
+  refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kUniform, o.depth = 6; });
+  refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kUniform, o.depth = -1; });
   refused([](DepthOptions& o, Camera&) { o.target_pixels = 0; });
   refused([](DepthOptions& o, Camera&) { o.target_pixels = NAN; });
   refused([](DepthOptions& o, Camera&) { o.angle_front = 0; });

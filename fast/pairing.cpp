@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kTaken = 4;  // paired, singleton or culled: in none of S0 .. S3
 
-// The state of the greedy algorithm. Every face is in one doubly linked queue, so that each move costs O(1).
+// The state of the greedy algorithm. A face only ever moves towards S0 and enters each set at most once, so
+// the queues need no deletion: what has moved on since it was appended is skipped when it comes up.
 class Greedy {
  public:
   Greedy(const Adjacency& adjacency, const PairingOptions& options, PairingResult& result)
@@ -30,7 +31,7 @@ class Greedy {
       if (nodes_[f].set != kTaken) nodes_[f].free = count_free(f);
     }
     for (std::int32_t f = 0; f < faces; ++f) {
-      if (nodes_[f].set != kTaken) append(f, set_by_definition(f));
+      if (nodes_[f].set != kTaken) move(f, set_by_definition(f));
     }
   }
 
@@ -46,9 +47,13 @@ class Greedy {
 
  private:
   struct Node {
-    std::int32_t previous = -1, next = -1;
     std::int8_t set = -1;
     std::int8_t free = 0;  // free neighbours
+  };
+
+  struct Queue {
+    std::vector<std::int32_t> faces;
+    std::size_t head = 0;
   };
 
   bool is_free(std::int32_t f) const { return f >= 0 && nodes_[f].set != kTaken; }
@@ -71,39 +76,27 @@ class Greedy {
     return 2;
   }
 
-  void append(std::int32_t f, int set) {
-    Node& node = nodes_[f];
-    node.set = static_cast<std::int8_t>(set);
-    node.previous = last_[set];
-    node.next = -1;
-    (last_[set] < 0 ? first_[set] : nodes_[last_[set]].next) = f;
-    last_[set] = f;
-  }
-
-  void remove(std::int32_t f) {
-    const Node& node = nodes_[f];
-    (node.previous < 0 ? first_[node.set] : nodes_[node.previous].next) = node.next;
-    (node.next < 0 ? last_[node.set] : nodes_[node.next].previous) = node.previous;
-  }
-
   void move(std::int32_t f, int set) {
-    remove(f);
-    append(f, set);
+    nodes_[f].set = static_cast<std::int8_t>(set);
+    queues_[set].faces.push_back(f);
   }
 
-  void take(std::int32_t f) {
-    remove(f);
-    nodes_[f].set = kTaken;
-  }
+  void take(std::int32_t f) { nodes_[f].set = kTaken; }
 
-  std::int32_t highest() const {
-    for (const std::int32_t f : first_) {
-      if (f >= 0) return f;
+  /// The first face of the highest set that is not empty; -1 when all are.
+  std::int32_t highest() {
+    for (int set = 0; set < 4; ++set) {
+      Queue& queue = queues_[set];
+      for (; queue.head < queue.faces.size(); ++queue.head) {
+        if (nodes_[queue.faces[queue.head]].set == set) return queue.faces[queue.head];
+      }
     }
     return -1;
   }
 
-  /// The edge of f towards its partner; -1 without a free neighbour.
+  /// The edge of f towards its partner; -1 without a free neighbour. "A neighbour in S0 first" decides
+  /// nothing as long as the sets are right: a face with a choice is taken only when S0 is empty. With the
+  /// printed step 3 they are not.
   int choose_partner(std::int32_t f) const {
     int chosen = -1;
     std::tuple<bool, bool, int, std::int32_t> best{true, true, kTaken,
@@ -213,7 +206,7 @@ class Greedy {
   const PairingOptions& options_;
   PairingResult& result_;
   std::vector<Node> nodes_;
-  std::array<std::int32_t, 4> first_{-1, -1, -1, -1}, last_{-1, -1, -1, -1};
+  std::array<Queue, 4> queues_;
 };
 
 }  // namespace

@@ -25,18 +25,18 @@ double loop_alpha(int n) {
 }
 
 void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std::int32_t v) {
-  centre_ = mesh.positions[v];
+  centre_ = to_point(mesh.positions[v]);
   points_.clear();
   open_ = adjacency.on_boundary(v);
   const std::int32_t start = adjacency.outgoing(v);
   if (start < 0) return;
   std::int32_t h = start, last = start;
   do {
-    points_.emplace_back(mesh.positions[adjacency.target(h)]);
+    points_.push_back(to_point(mesh.positions[adjacency.target(h)]));
     last = h;
     h = adjacency.rotate(h);
   } while (h >= 0 && h != start);
-  if (open_) points_.emplace_back(mesh.positions[adjacency.origin(Adjacency::prev(last))]);
+  if (open_) points_.push_back(to_point(mesh.positions[adjacency.origin(Adjacency::prev(last))]));
 }
 
 void Ring::assign(const Point3& centre, std::vector<Point3> points, bool open) {
@@ -73,7 +73,7 @@ void Ring::subdivide() {
 
 Point3 Ring::limit_position() const {
   if (points_.empty()) return centre_;
-  if (open_) return (1. / 6) * (4 * centre_ + points_.front() + points_.back());
+  if (open_) return (1. / 6) * (4. * centre_ + points_.front() + points_.back());
   const auto n = static_cast<int>(points_.size());
   const double w = 3. * n / (8 * loop_alpha(n));
   Point3 sum;

@@ -23,8 +23,8 @@ Ring bumpy_ring(int n, bool open) {
   std::vector<Point3> points;
   const double total = open ? std::numbers::pi / (n - 1) : 2 * std::numbers::pi / n;
   for (int i = 0; i < n; ++i) {
-    points.emplace_back((1 + .3 * std::sin(3. * i)) * std::cos(i * total),
-                        (1 + .2 * std::cos(5. * i)) * std::sin(i * total), .4 * std::sin(2. * i + 1));
+    points.push_back({(1 + .3 * std::sin(3. * i)) * std::cos(i * total),
+                      (1 + .2 * std::cos(5. * i)) * std::sin(i * total), .4 * std::sin(2. * i + 1)});
   }
   Ring ring;
   ring.assign({.05, -.04, .1}, std::move(points), open);
@@ -44,16 +44,16 @@ data::ControlMesh refine_globally(const data::ControlMesh& mesh) {
   std::vector<int> valence(old, 0), border_edges(old, 0);
   for (const auto& [edge, opposite] : apexes) {
     for (const auto& [v, w] : {edge, std::pair{edge.second, edge.first}}) {
-      sum[v] = sum[v] + Point3(mesh.positions[w]);
+      sum[v] = sum[v] + to_point(mesh.positions[w]);
       ++valence[v];
       if (opposite.size() == 1) {
-        border[v] = border[v] + Point3(mesh.positions[w]);
+        border[v] = border[v] + to_point(mesh.positions[w]);
         ++border_edges[v];
       }
     }
   }
   for (std::size_t v = 0; v < old; ++v) {
-    const Point3 p = mesh.positions[v];
+    const Point3 p = to_point(mesh.positions[v]);
     const double beta =
         (5. / 8 - std::pow(3. / 8 + std::cos(2 * std::numbers::pi / valence[v]) / 4, 2)) / valence[v];
     const Point3 q =
@@ -62,10 +62,11 @@ data::ControlMesh refine_globally(const data::ControlMesh& mesh) {
   }
   std::map<std::pair<int, int>, int> middle;
   for (const auto& [edge, opposite] : apexes) {
-    const Point3 a = mesh.positions[edge.first], b = mesh.positions[edge.second];
+    const Point3 a = to_point(mesh.positions[edge.first]), b = to_point(mesh.positions[edge.second]);
     Point3 q = .5 * (a + b);
     if (opposite.size() == 2) {
-      q = .375 * (a + b) + .125 * (Point3(mesh.positions[opposite[0]]) + Point3(mesh.positions[opposite[1]]));
+      q = .375 * (a + b) +
+          .125 * (to_point(mesh.positions[opposite[0]]) + to_point(mesh.positions[opposite[1]]));
     }
     middle[edge] = static_cast<int>(fine.positions.size());
     fine.positions.push_back({q.x, q.y, q.z});
@@ -169,7 +170,7 @@ TEST(Ring, DegenerateRingsGetAFiniteUnitNormalAndSaySo) {
   expect_unit(ring, true);
   std::vector<Point3> twice;  // winds round twice: no first harmonic, but a plane
   for (int i = 0; i < 8; ++i)
-    twice.emplace_back(std::cos(i * std::numbers::pi / 2), std::sin(i * std::numbers::pi / 2), 0);
+    twice.push_back({std::cos(i * std::numbers::pi / 2), std::sin(i * std::numbers::pi / 2), 0});
   ring.assign({0, 0, 0}, twice, false);
   expect_unit(ring, true);
   EXPECT_DOUBLE_EQ(ring.limit_normal().z, 1);

@@ -1,8 +1,264 @@
 // SPDX-License-Identifier: MIT
+// limitcheck tessellate: the engine of fast/ as a program, from a control mesh to a file of triangles with
+// normals.
+#include <fmt/core.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/generators/named_mesh.h"
+#include "fast/frame.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/progress.h"
+#include "verify/mesh_output/mesh_output.h"
 
 namespace limitcheck::cli {
+namespace {
 
-void add_tessellate(CLI::App& /*app*/, int& /*exit_code*/) {}
+struct Arguments {
+  std::string mesh, output, strategy, camera, viewport = "1024x768", centre = "limit", repair = "fan", colour;
+  std::vector<double> angles{30};
+  int depth = 3, threads = 0;
+  std::optional<int> max_depth;
+  double pixels = 60, field_of_view = 45;
+  std::uint64_t seed = 1;
+  bool json = false, view_given = false, cull = false, cull_given = false;
+};
+
+/// The numbers of "a,b,c"; throws CLI::ValidationError unless there are `count` of them and nothing else.
+std::vector<double> numbers(const std::string& text, char separator, std::size_t count, const char* what) {
+  std::vector<double> result;
+  const char* at = text.c_str();
+  for (bool more = true; more;) {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    if (end == at || !std::isfinite(value)) break;
+    result.push_back(value);
+    more = *end == separator;
+    at = more ? end + 1 : end;
+  }
+  if (*at != '\0' || result.size() != count)
+    throw CLI::ValidationError(what, fmt::format("cannot read '{}'", text));
+  return result;
+}
+
+fast::Camera camera(const Arguments& a) {
+  fast::Camera result;
+  if (!a.camera.empty()) {
+    std::vector<fast::Point3*> points{&result.eye, &result.target, &result.up};
+    std::string rest = a.camera;
+    std::size_t i = 0;
+    for (bool more = true; more; ++i) {
+      const std::size_t colon = rest.find(':');
+      more = colon != std::string::npos;
+      if (i == points.size())
+        throw CLI::ValidationError("--camera", fmt::format("cannot read '{}'", a.camera));
+      const auto p = numbers(rest.substr(0, colon), ',', 3, "--camera");
+      *points[i] = {p[0], p[1], p[2]};
+      rest = more ? rest.substr(colon + 1) : "";
+    }
+  }
+  const auto size = numbers(a.viewport, 'x', 2, "--viewport");
+  for (const double s : size) {
+    if (s != std::floor(s) || std::abs(s) > 1e6)
+      throw CLI::ValidationError("--viewport", "must be whole pixels");
+  }
+  result.width = static_cast<int>(size[0]);
+  result.height = static_cast<int>(size[1]);
+  result.field_of_view = a.field_of_view;
+  return result;
+}
+
+fast::DepthOptions depth_options(const Arguments& a) {
+  fast::DepthOptions options;
+  options.strategy = a.strategy.empty()
+                         ? (a.view_given ? fast::Strategy::kCombined : fast::Strategy::kUniform)
+                         : fast::parse_strategy(a.strategy);
+  options.depth = a.depth;
+  options.seed = a.seed;
+  options.target_pixels = a.pixels;
+  options.angle_front = a.angles.front();
+  options.angle_silhouette = a.angles.size() > 1 ? a.angles[1] : a.angles[0];
+  options.angle_back = a.angles.size() > 2 ? a.angles[2] : a.angles[0];
+  if (a.cull_given) options.cull = a.cull;
+  return options;
+}
+
+struct Timings {
+  double read = 0, prepare = 0, write = 0;
+};
+
+nlohmann::ordered_json report(const Arguments& a, const fast::FrameStats& s,
+                              const fast::DepthOptions& options, const Timings& t) {
+  return {{"mesh", a.mesh},
+          {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
+          {"strategy", std::string(fast::name(options.strategy))},
+          {"seed", options.seed},
+          {"faces", s.faces},
+          {"pairs", s.pairs},
+          {"singletons", s.singletons},
+          {"fans", s.fans},
+          {"stitched", s.stitched},
+          {"culled", s.culled},
+          {"triangles", s.triangles},
+          {"vertices", s.vertices},
+          {"limit_points", s.limit_points},
+          {"zero_normals", s.zero_normals},
+          {"seconds",
+           {{"read", t.read},
+            {"prepare", t.prepare},
+            {"heuristics", s.seconds_heuristics},
+            {"pairing", s.seconds_pairing},
+            {"planning", s.seconds_planning},
+            {"evaluation", s.seconds_evaluation},
+            {"frame", s.seconds_total},
+            {"write", t.write}}}};
+}
+
+std::string summary(const Arguments& a, const fast::FrameStats& s, const Timings& t) {
+  std::string text =
+      fmt::format("{}{}: {} faces: {} pairs, {} singletons, {} fans, {} culled; {} triangles, {} vertices\n",
+                  a.mesh, a.output.empty() ? "" : " -> " + a.output, s.faces, s.pairs, s.singletons, s.fans,
+                  s.culled, s.triangles, s.vertices);
+  text += fmt::format(
+      "milliseconds: read {:.1f}, prepare {:.1f}, heuristics {:.1f}, pairing {:.1f}, planning {:.1f}, "
+      "evaluation {:.1f}, "
+      "write {:.1f}\n",
+      1e3 * t.read, 1e3 * t.prepare, 1e3 * s.seconds_heuristics, 1e3 * s.seconds_pairing,
+      1e3 * s.seconds_planning, 1e3 * s.seconds_evaluation, 1e3 * t.write);
+  return text;
+}
+
+int tessellate(const Arguments& a) {
+  auto lap = [last = std::chrono::steady_clock::now()]() mutable {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last, now)).count();
+  };
+  const fast::DepthOptions options = depth_options(a);
+  const fast::Camera view = camera(a);
+  view.validate();
+  if (!a.output.empty()) verify::output_format(a.output);  // before any work
+
+  Progress progress;
+  Timings timings;
+  progress.show(0, 3, "reading " + a.mesh);
+  const data::ControlMesh mesh = data::open_mesh(a.mesh);
+  timings.read = lap();
+
+  progress.clear();
+  progress.show(1, 3, fmt::format("tessellating {} faces", mesh.triangles.size()));
+  fast::TessellatorOptions engine;
+  engine.cracks.centre = a.centre == "flat" ? fast::FanCentre::kFlatControl : fast::FanCentre::kLimit;
+  engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
+  engine.threads = std::min(a.threads, tbb::info::default_concurrency());
+  engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
+  fast::Tessellator<float> tessellator(mesh, engine);
+  timings.prepare = lap();
+  fast::IndexedMesh<float> result;
+  const fast::FrameStats stats = tessellator.frame(options, view, result);
+  lap();
+
+  if (!a.output.empty()) {
+    progress.clear();
+    progress.show(2, 3, fmt::format("writing {} triangles to {}", stats.triangles, a.output));
+    verify::Colouring colouring;
+    if (a.colour == "depth") colouring = verify::colour_by_depth(result, tessellator.last_pairing().depth);
+    if (a.colour == "kind") colouring = verify::colour_by_kind(result);
+    verify::write_tessellation(a.output, result, colouring);
+    timings.write = lap();
+  }
+  progress.clear();
+
+  if (stats.culled == stats.faces) {
+    fmt::print(stderr,
+               "limitcheck: nothing to show: all {} faces are seen from behind (is the camera inside?)\n",
+               stats.faces);
+  }
+  if (stats.zero_normals > 0) {
+    fmt::print(stderr,
+               "limitcheck: {} vertices have no tangent plane of their own and got a substitute normal\n",
+               stats.zero_normals);
+  }
+  if (a.json) {
+    fmt::print("{}\n", report(a, stats, options, timings).dump(2));
+  } else {
+    fmt::print("{}", summary(a, stats, timings));
+  }
+  return kHeld;
+}
+
+}  // namespace
+
+void add_tessellate(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand(
+      "tessellate",
+      "Tessellate a control mesh: limitcheck tessellate bumpy:800 -o out.glb --camera 0,0,4:0,0,0");
+  auto a = std::make_shared<Arguments>();
+  command
+      ->add_option("MESH", a->mesh, "A file (OBJ, OFF, PLY, STL) or a name (see limitcheck generate --list)")
+      ->required();
+  command->add_option("-o,--output", a->output,
+                      "The file: .ply, .obj or .glb; without it, only the statistics");
+  command->add_option("--depth", a->depth, "Subdivision depth; the largest one of random")
+      ->check(CLI::Range(0, fast::kDeepest))
+      ->capture_default_str();
+  command
+      ->add_option("--strategy", a->strategy,
+                   "uniform, random, project-sphere, curvature, combined; default uniform, or combined if a "
+                   "view is given")
+      ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
+  auto* eye = command->add_option("--camera", a->camera, "EYE:TARGET[:UP], as in 0,0,4:0,0,0 (the default)");
+  auto* pixels =
+      command->add_option("--pixels", a->pixels, "project-sphere: largest size of a triangle on the screen")
+          ->check(CLI::Range(1e-6, 1e6))
+          ->capture_default_str();
+  auto* angles =
+      command->add_option("--angle", a->angles, "curvature: degrees tolerated, FRONT[,SILHOUETTE[,BACK]]")
+          ->delimiter(',')
+          ->expected(1, 3)
+          ->check(CLI::Range(1e-6, 180.));
+  command->add_option("--viewport", a->viewport, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  command->add_option("--fov", a->field_of_view, "Vertical field of view, degrees")
+      ->check(CLI::Range(1e-3, 179.999))
+      ->capture_default_str();
+  command
+      ->add_option("--max-depth", a->max_depth,
+                   "No face gets a larger depth; default 5, or --depth if that is larger")
+      ->check(CLI::Range(0, fast::kDeepest));
+  auto* cull = command->add_flag(
+      "--cull,!--no-cull", a->cull,
+      "Leave out faces whose corners all face away; default: where the strategy depends on the view");
+  command->add_option("--centre", a->centre, "Centre of a fan: on the limit surface, or the flat triangle's")
+      ->check(CLI::IsMember({"limit", "flat"}))
+      ->capture_default_str();
+  command
+      ->add_option("--repair", a->repair,
+                   "Where depths differ: the paper's fan, or stitch the outer ring only")
+      ->check(CLI::IsMember({"fan", "stitch"}))
+      ->capture_default_str();
+  command->add_option("--threads", a->threads, "At most so many, 0: all; the result is the same")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  command->add_option("--seed", a->seed, "Seed of the random strategy")->capture_default_str();
+  command
+      ->add_option("--colour,--color", a->colour,
+                   "Colour the triangles by depth or by kind (pair, singleton, fan)")
+      ->check(CLI::IsMember({"depth", "kind"}));
+  command->add_flag("--json", a->json, "Print counts and seconds as one JSON document");
+  command->callback([=, &exit_code] {
+    a->cull_given = cull->count() > 0;
+    a->view_given = eye->count() + pixels->count() + angles->count() > 0;
+    exit_code = tessellate(*a);
+  });
+}
 
 }  // namespace limitcheck::cli

@@ -2,15 +2,21 @@
 /*
  * The door: the one interface through which limitcheck reaches a tessellator, its own included. Plain C99.
  *
- * A subject is a table of functions. For each control mesh the host calls create() once and tessellate() any number
- * of times, each followed by release(), then destroy().
+ * A subject is a table of functions. For each control mesh the host calls capabilities(), then create() once
+ * with the same options, and tessellate() any number of times, each success followed by release(), then
+ * destroy(). The host calls from one thread at a time; a subject may use up to request->threads of its own
+ * inside tessellate().
  *
- * Output memory comes from the host: the subject asks request->allocate() for each array. Every byte of it is 0xFF
- * beforehand (a NaN in both precisions, an impossible index) and it has guard zones on both sides, so what a subject
- * forgets to write, or writes beyond the end, is found.
+ * Output memory comes from the host: the subject asks request->allocate() for each array, on the thread
+ * tessellate() was called on. Every byte of it is 0xFF beforehand (a NaN in both precisions, an impossible
+ * index) and it has guard zones on both sides, so what a subject forgets to write, or writes beyond the end,
+ * is found.
  *
- * Conventions: faces counter-clockwise seen from outside; corners c0, c1, c2; barycentric l0 = 1 - l1 - l2 at c0,
- * l1 at c1, l2 at c2; normals of unit length along ds/dl1 x ds/dl2.
+ * A *message is a text without a line end that explains a status other than LC_OK. It stays valid until the
+ * subject is called again; NULL if there is nothing to say.
+ *
+ * Conventions: faces counter-clockwise seen from outside; corners c0, c1, c2; barycentric l0 = 1 - l1 - l2 at
+ * c0, l1 at c1, l2 at c2; normals of unit length along ds/dl1 x ds/dl2.
  */
 #ifndef LIMITCHECK_SUBJECT_H
 #define LIMITCHECK_SUBJECT_H
@@ -70,7 +76,8 @@ typedef struct lc_request {
   const int32_t* face_depth; /* triangle_count entries: 0..max_depth, or -1 for a culled face */
   int32_t threads;           /* at most so many; results must not depend on it */
   void* host;
-  void* (*allocate)(void* host, size_t bytes); /* NULL if refused; aligned to 64 bytes; never freed by the subject */
+  void* (*allocate)(void* host,
+                    size_t bytes); /* NULL if refused; aligned to 64 bytes; never freed by the subject */
 } lc_request;
 
 /* Where a vertex lies: l1 = i / denominator, l2 = j / denominator on control face `face`.
@@ -98,13 +105,17 @@ typedef struct lc_subject {
   const char* description; /* one line: what it is, and of which version */
   const char* options;     /* help text for the options of create(), or NULL */
 
-  void (*capabilities)(lc_capabilities* out);
+  /* What the subject can do under these options ("key=value,key=value", or NULL). An unknown option or value:
+   * LC_INVALID_INPUT. */
+  lc_status (*capabilities)(const char* options, lc_capabilities* out, const char** message);
 
-  /* Prepares a mesh. `options` is "key=value,key=value" or NULL. *instance stays valid until destroy(); the mesh
-   * arrays stay valid as long. On failure *instance may be NULL and *message points to a static or
-   * instance-owned text. */
+  /* Prepares a mesh. The mesh arrays stay valid and unchanged until destroy(). On failure *instance is not
+   * used, and destroy() is not called. */
   lc_status (*create)(const lc_mesh* mesh, const char* options, void** instance, const char** message);
-  lc_status (*tessellate)(void* instance, const lc_request* request, lc_tessellation* out, const char** message);
+  /* *out is zeroed beforehand. */
+  lc_status (*tessellate)(void* instance, const lc_request* request, lc_tessellation* out,
+                          const char** message);
+  /* Frees what the subject itself keeps for `out` (its owner); the arrays belong to the host. */
   void (*release)(void* instance, lc_tessellation* out);
   void (*destroy)(void* instance);
 } lc_subject;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The paper's test object. [mueller2000, section 6; C71]
+#pragma once
+
+#include <cstdint>
+
+#include "data/control_mesh.h"
+
+namespace limitcheck::data {
+
+/// A bumpy sphere: V = faces / 2 + 2 uniformly distributed directions, the unit sphere triangulated over them
+/// (their convex hull, hence Delaunay on the sphere), and each vertex moved to a radius uniform in [rmin,
+/// rmax]. The paper leaves distribution, triangulation and seed open; ours: rejection from the cube, exact
+/// predicates, SplitMix64.
+///   faces    even, 4 .. 20 million
+///   result   F = 2V - 4; vertices in the order drawn, each face with its smallest vertex first, faces
+///   sorted.
+///            Bit for bit the same with every compiler (only +, *, /, sqrt and exact predicates are
+///            involved).
+///   throws   InputError NAME_BAD_PARAMETER
+ControlMesh bumpy_sphere(int faces, std::uint64_t seed, double rmin = 0.5, double rmax = 1.5);
+
+/// The same by the number of vertices, at least 4: bumpy_sphere(2 * vertices - 4, ...).
+ControlMesh bumpy_sphere_of_vertices(int vertices, std::uint64_t seed, double rmin = 0.5, double rmax = 1.5);
+
+}  // namespace limitcheck::data

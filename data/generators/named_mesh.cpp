@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "data/generators/named_mesh.h"
+
+#include <charconv>
+#include <functional>
+#include <limits>
+#include <span>
+
+#include "data/error.h"
+#include "data/generators/bumpy_sphere.h"
+#include "data/io/read.h"
+#include "data/shapes.h"
+
+namespace limitcheck::data {
+namespace {
+
+using Parameters = std::span<const std::uint64_t>;
+
+struct Entry {
+  const char* name;
+  const char* usage;
+  const char* description;
+  std::size_t least, most;  // number of parameters
+  std::function<ControlMesh(Parameters)> make;
+};
+
+int as_int(std::uint64_t value) {
+  return static_cast<int>(std::min<std::uint64_t>(value, std::numeric_limits<int>::max()));
+}
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = {
+      {"bumpy", "bumpy:FACES[:SEED]",
+       "the paper's bumpy sphere, radii 0.5 to 1.5, FACES even; seed 1 unless given", 1, 2,
+       [](Parameters p) { return bumpy_sphere(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
+      {"bumpy-vertices", "bumpy-vertices:V[:SEED]", "the same with 2V - 4 faces", 1, 2,
+       [](Parameters p) { return bumpy_sphere_of_vertices(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
+      {"tetrahedron", "tetrahedron", "4 vertices of valence 3", 0, 0,
+       [](Parameters) { return tetrahedron(); }},
+      {"octahedron", "octahedron", "6 vertices of valence 4", 0, 0, [](Parameters) { return octahedron(); }},
+      {"icosahedron", "icosahedron", "12 vertices of valence 5", 0, 0,
+       [](Parameters) { return icosahedron(); }},
+      {"cube", "cube", "a triangulated cube: valences 4 and 6", 0, 0, [](Parameters) { return cube(); }},
+      {"torus", "torus[:AROUND:ALONG]", "a regular torus, 12 x 6 unless given", 0, 2,
+       [](Parameters p) { return torus(p.empty() ? 12 : as_int(p[0]), p.size() < 2 ? 6 : as_int(p[1])); }},
+      {"bipyramid", "bipyramid:N", "two apices of valence N, an equator of valence 4", 1, 1,
+       [](Parameters p) { return bipyramid(as_int(p[0])); }},
+      {"wheel", "wheel:N[:RINGS]", "an interior vertex of valence N amid 3 rings of a regular lattice", 1, 2,
+       [](Parameters p) { return wheel(as_int(p[0]), p.size() > 1 ? as_int(p[1]) : 3); }},
+      {"fan", "fan:K[:RINGS]", "a boundary vertex with K faces amid 3 half rings of a regular lattice", 1, 2,
+       [](Parameters p) { return fan(as_int(p[0]), p.size() > 1 ? as_int(p[1]) : 3); }},
+      {"sheet", "sheet[:NX:NY]", "a regular sheet of NX x NY squares, 6 x 6 unless given", 0, 2,
+       [](Parameters p) { return sheet(p.empty() ? 6 : as_int(p[0]), p.size() < 2 ? 6 : as_int(p[1])); }},
+      {"holes", "holes", "a sheet with two holes", 0, 0, [](Parameters) { return holes(); }},
+      {"strip", "strip:N", "N triangles in a row, all vertices on the boundary", 1, 1,
+       [](Parameters p) { return strip(as_int(p[0])); }},
+      {"ragged-disc", "ragged-disc", "a disc with boundary vertices of 1 to 8 faces", 0, 0,
+       [](Parameters) { return ragged_disc(); }},
+      {"triangle", "triangle", "one triangle", 0, 0, [](Parameters) { return triangle(); }},
+      {"triangle-pair", "triangle-pair", "two triangles sharing an edge", 0, 0,
+       [](Parameters) { return triangle_pair(); }},
+      {"two-components", "two-components", "a tetrahedron and a wheel of valence 5", 0, 0,
+       [](Parameters) { return two_components(); }},
+  };
+  return all;
+}
+
+[[noreturn]] void bad_parameter(const Entry& entry, const std::string& why) {
+  throw InputError("NAME_BAD_PARAMETER", "", 0, why + " (" + entry.usage + ")");
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ':') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+ControlMesh named_mesh(const std::string& specification) {
+  const std::vector<std::string> parts = split(specification);
+  for (const Entry& entry : entries()) {
+    if (parts[0] != entry.name) continue;
+    std::vector<std::uint64_t> parameters;
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      std::uint64_t value = 0;
+      const char* end = parts[i].data() + parts[i].size();
+      const auto [stop, error] = std::from_chars(parts[i].data(), end, value);
+      if (error != std::errc() || stop != end)
+        bad_parameter(entry, "\"" + parts[i] + "\" is not a whole number");
+      parameters.push_back(value);
+    }
+    if (parameters.size() < entry.least) bad_parameter(entry, "a parameter is missing");
+    if (parameters.size() > entry.most) bad_parameter(entry, "too many parameters");
+    return entry.make(parameters);
+  }
+  throw InputError("NAME_UNKNOWN", "", 0,
+                   "no mesh is called \"" + parts[0] + "\"; \"limitcheck generate --list\" names them all");
+}
+
+ControlMesh open_mesh(const std::string& file_or_name) {
+  // What looks like a file is taken for one, so that a mistyped path is called a missing file, not an unknown
+  // name.
+  std::error_code ignored;
+  const std::filesystem::path file = file_or_name;
+  if (std::filesystem::exists(file, ignored) || file.has_extension() || file.has_parent_path())
+    return read_mesh(file);
+  return named_mesh(file_or_name);
+}
+
+std::vector<NamedMesh> named_meshes() {
+  std::vector<NamedMesh> list;
+  for (const Entry& entry : entries()) list.push_back({entry.usage, entry.description});
+  return list;
+}
+
+std::vector<std::string> stock_shapes() {
+  return {"tetrahedron", "octahedron",  "icosahedron", "cube",          "torus",    "bipyramid:3",
+          "bipyramid:7", "wheel:3",     "wheel:4",     "wheel:5",       "wheel:6",  "wheel:7",
+          "wheel:12",    "wheel:50",    "wheel:200",   "sheet",         "strip:6",  "fan:1",
+          "fan:2",       "fan:3",       "fan:4",       "fan:5",         "fan:6",    "fan:7",
+          "fan:8",       "ragged-disc", "holes",       "triangle-pair", "triangle", "two-components"};
+}
+
+}  // namespace limitcheck::data

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Meshes by name: "bumpy:800", "wheel:7", "icosahedron".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+
+namespace limitcheck::data {
+
+/// The mesh of a specification NAME[:PARAMETER...], parameters separated by colons, as `named_meshes` lists
+/// them. Throws InputError: NAME_UNKNOWN, or NAME_BAD_PARAMETER (too few, too many, not a number, out of
+/// range).
+ControlMesh named_mesh(const std::string& specification);
+
+/// One line of the list: `name` is "wheel:N[:RINGS]".
+struct NamedMesh {
+  std::string name;
+  std::string description;
+};
+std::vector<NamedMesh> named_meshes();
+
+/// Specifications of the small shapes that an audit runs on: every interior valence class, every boundary
+/// situation.
+std::vector<std::string> stock_shapes();
+
+/// What a user may write where a mesh is expected: an existing file is read, anything else is a
+/// specification. Throws InputError as read_mesh and named_mesh do.
+ControlMesh open_mesh(const std::string& file_or_name);
+
+}  // namespace limitcheck::data

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "data/io/polygon_soup.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <span>
+
+#include "data/error.h"
+#include "data/validate.h"
+
+namespace limitcheck::data::io {
+namespace {
+
+using Corners = std::span<const std::int64_t>;
+
+std::int64_t line_of(const std::vector<std::int64_t>& lines, std::int64_t element) {
+  return element >= 0 && static_cast<std::size_t>(element) < lines.size() ? lines[element] : 0;
+}
+
+double squared_distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return x * x + y * y + z * z;
+}
+
+// The corner from which the fan of a polygon starts.
+std::size_t fan_apex(const PolygonSoup& soup, Corners polygon, Triangulation rule) {
+  if (rule != Triangulation::kShortestDiagonal || polygon.size() != 4) return 0;
+  const auto& p = soup.positions;
+  return squared_distance(p[polygon[1]], p[polygon[3]]) < squared_distance(p[polygon[0]], p[polygon[2]]) ? 1
+                                                                                                         : 0;
+}
+
+// Before triangulation, which would hide both: every index exists, and no corner occurs twice.
+class PolygonChecker {
+ public:
+  explicit PolygonChecker(std::size_t vertices) : last_polygon_(vertices, -1) {}
+
+  // The fault of the polygon as code and message, or an empty code.
+  std::pair<std::string, std::string> fault(Corners polygon, std::int64_t number) {
+    if (polygon.size() < 3)
+      return {std::string(code(MeshFault::kDegenerateFace)),
+              fmt::format("face {} has {} corners", number, polygon.size())};
+    const auto vertices = static_cast<std::int64_t>(last_polygon_.size());
+    for (const std::int64_t v : polygon) {
+      if (v < 0 || v >= vertices) {
+        return {std::string(code(MeshFault::kIndexOutOfRange)),
+                fmt::format("face {} names vertex {} (from 0), the mesh has {}", number, v, vertices)};
+      }
+      if (last_polygon_[v] == number) {
+        return {std::string(code(MeshFault::kDegenerateFace)),
+                fmt::format("face {} names vertex {} twice", number, v)};
+      }
+      last_polygon_[v] = number;
+    }
+    return {};
+  }
+
+ private:
+  std::vector<std::int64_t> last_polygon_;  // that named the vertex
+};
+
+}  // namespace
+
+ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const ReadOptions& options) {
+  const std::size_t polygons = soup.polygon_end.size();
+  const auto triangles =
+      static_cast<std::int64_t>(soup.corners.size()) - 2 * static_cast<std::int64_t>(polygons);
+  const auto too_many = validate_counts(static_cast<std::int64_t>(soup.positions.size()),
+                                        std::max(static_cast<std::int64_t>(polygons), triangles));
+  if (!too_many.empty()) throw InputError(std::string(code(too_many[0].fault)), name, 0, too_many[0].message);
+
+  ControlMesh mesh;
+  mesh.positions = soup.positions;
+  mesh.triangles.reserve(polygons);
+  std::vector<std::int64_t> polygon_of;  // each triangle
+  polygon_of.reserve(polygons);
+  PolygonChecker checker(soup.positions.size());
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < polygons; begin = soup.polygon_end[i++]) {
+    const auto number = static_cast<std::int64_t>(i);
+    const Corners polygon(soup.corners.data() + begin, soup.polygon_end[i] - begin);
+    const auto [fault, message] = checker.fault(polygon, number);
+    if (!fault.empty()) throw InputError(fault, name, line_of(soup.polygon_lines, number), message);
+    if (polygon.size() > 3 && options.polygons == Triangulation::kNone) {
+      throw InputError("MESH_POLYGON", name, line_of(soup.polygon_lines, number),
+                       fmt::format("face {} has {} corners, only triangles are accepted", i, polygon.size()));
+    }
+    const std::size_t apex = fan_apex(soup, polygon, options.polygons), n = polygon.size();
+    for (std::size_t k = 1; k + 1 < n; ++k) {
+      mesh.triangles.push_back({static_cast<std::int32_t>(polygon[apex]),
+                                static_cast<std::int32_t>(polygon[(apex + k) % n]),
+                                static_cast<std::int32_t>(polygon[(apex + k + 1) % n])});
+      polygon_of.push_back(number);
+    }
+  }
+
+  const auto findings = validate(mesh);
+  if (findings.empty()) return mesh;
+  const MeshFinding& first = findings[0];
+  const std::int64_t line = first.face >= 0 ? line_of(soup.polygon_lines, polygon_of[first.face])
+                                            : line_of(soup.position_lines, first.vertex);
+  const std::string more = findings.size() == 1 ? "" : fmt::format("; {} more faults", findings.size() - 1);
+  throw InputError(std::string(code(first.fault)), name, line, first.message + more);
+}
+
+}  // namespace limitcheck::data::io

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// What the readers hand on: vertices and polygons as the file has them, each with its line.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "data/io/read.h"
+
+namespace limitcheck::data::io {
+
+struct PolygonSoup {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::int64_t> corners;         // of all polygons, one after another, from 0, unchecked
+  std::vector<std::size_t> polygon_end;      // where each polygon ends in `corners`
+  std::vector<std::int64_t> position_lines;  // empty in formats without lines
+  std::vector<std::int64_t> polygon_lines;
+
+  void close_polygon(std::int64_t line = 0) {
+    polygon_end.push_back(corners.size());
+    if (line > 0) polygon_lines.push_back(line);
+  }
+};
+
+PolygonSoup read_obj(std::string_view content, const std::string& name);
+PolygonSoup read_off(std::string_view content, const std::string& name);
+PolygonSoup read_ply(std::string_view content, const std::string& name);
+PolygonSoup read_stl(std::string_view content, const std::string& name);
+
+/// Checks, triangulates and validates. Throws InputError.
+ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const ReadOptions& options);
+
+}  // namespace limitcheck::data::io

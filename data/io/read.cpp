@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "data/io/read.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "data/error.h"
+#include "data/io/format.h"
+#include "data/io/polygon_soup.h"
+
+namespace limitcheck::data {
+namespace {
+
+std::string whole_content(const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError("FILE_CANNOT_OPEN", file.string(), 0, why);
+  };
+  std::error_code ignored;
+  const auto type = std::filesystem::status(file, ignored).type();
+  // A pipe is welcome; a device might never end.
+  if (type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::regular &&
+      type != std::filesystem::file_type::fifo) {
+    refuse("not a file");
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  if (!stream) refuse(std::strerror(errno));
+  std::string content;
+  const auto size = std::filesystem::file_size(file, ignored);
+  if (!ignored) content.reserve(size);
+  char buffer[1 << 16];
+  for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, stream.get())) > 0;) {
+    content.append(buffer, count);
+  }
+  if (std::ferror(stream.get()) != 0) refuse(std::strerror(errno));
+  return content;
+}
+
+}  // namespace
+
+ControlMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options) {
+  const FileFormat format = io::format_of(file);
+  return read_mesh(whole_content(file), format, file.string(), options);
+}
+
+ControlMesh read_mesh(std::string_view content, FileFormat format, const std::string& name,
+                      const ReadOptions& options) {
+  const auto soup = [&] {
+    switch (format) {
+      case FileFormat::kObj:
+        return io::read_obj(content, name);
+      case FileFormat::kOff:
+        return io::read_off(content, name);
+      case FileFormat::kPly:
+        return io::read_ply(content, name);
+      case FileFormat::kStl:
+        return io::read_stl(content, name);
+    }
+    return io::PolygonSoup();
+  };
+  return io::control_mesh(soup(), name, options);
+}
+
+}  // namespace limitcheck::data

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Control meshes from files: OBJ, OFF, PLY, STL.
+//
+// Codes of InputError beside those of data/validate.h:
+//   FILE_CANNOT_OPEN      absent, unreadable, or not a file
+//   FILE_UNKNOWN_FORMAT   neither .obj, .off, .ply nor .stl
+//   FILE_UNSUPPORTED      a part of the format that this program does not read, and that cannot be ignored
+//   FILE_SYNTAX           not of the form the format prescribes
+//   FILE_TRUNCATED        ends before what it announced
+//   MESH_POLYGON          a face with more than three corners, and ReadOptions refuses those
+// A file is taken whole and as it is, or refused: no repair, no partial result. What the formats add to
+// positions and faces (normals, texture, colours, groups) is read over.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "data/control_mesh.h"
+
+namespace limitcheck::data {
+
+/// How a face of more than three corners becomes triangles; the limit surface depends on it. [C09]
+enum class Triangulation {
+  kFan,               ///< from its first corner: (0, 1, 2), (0, 2, 3), ...
+  kShortestDiagonal,  ///< quads along the shorter diagonal, 0-2 if equal; larger faces as kFan
+  kNone               ///< refused: MESH_POLYGON
+};
+
+struct ReadOptions {
+  Triangulation polygons = Triangulation::kFan;
+};
+
+enum class FileFormat { kObj, kOff, kPly, kStl };
+
+/// Reads a file, its format told by its extension, and validates it.
+///   vertices   in file order; STL has none, there equal positions (-0 = 0) become one, in order of
+///   appearance faces      in file order; the triangles of a polygon follow one another precision  decimals
+///   correctly rounded to double, binary doubles bit for bit
+/// Throws InputError for the first fault, with the line where the format has lines (binary ones: line 0).
+ControlMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// The same from memory; `name` stands for the file in messages.
+ControlMesh read_mesh(std::string_view content, FileFormat format, const std::string& name,
+                      const ReadOptions& options = {});
+
+}  // namespace limitcheck::data

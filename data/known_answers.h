@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Known answers: points, tangents and normals of Loop surfaces to 42 digits, each computed by two independent
+// routes outside this project. Standard boundary rule; Stam's order for the regular patch.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "data/numeral.h"
+
+namespace limitcheck::data {
+
+/// An interior vertex and its ring v_1..v_n, counter-clockwise seen from the normal's side. [mueller2000 eq.
+/// 3-5; C14-C17]
+struct InteriorRingAnswer {
+  std::string id;
+  int valence = 0;
+  Numeral3 center;
+  std::vector<Numeral3> ring;
+  Numeral3 limit_position;
+  Numeral3 c, s;                ///< sum of cos(2 pi i/n) v_i and of sin(2 pi i/n) v_i, i = 1..n
+  Numeral3 paper_u1, paper_u2;  ///< equations (4), (5) without their zero denominators
+  Numeral3 unit_normal;
+};
+
+/// A boundary vertex with K faces and its open ring r_0..r_K, counter-clockwise; r_0 and r_K lie on the
+/// boundary. [D1, D2]
+struct BoundaryRingAnswer {
+  std::string id;
+  int faces = 0;  ///< K
+  Numeral3 center;
+  std::vector<Numeral3> ring;
+  Numeral cross_center;             ///< weights of the tangent across the boundary: of the centre
+  std::vector<Numeral> cross_ring;  ///< and of r_0..r_K
+  Numeral3 limit_position;
+  Numeral3 along;   ///< r_0 - r_K
+  Numeral3 across;  ///< points into the surface
+  Numeral3 unit_normal;
+};
+
+/// One point of a surface: l0, l1, l2 with sum 1, and what lies there.
+struct SurfaceSample {
+  Numeral3 barycentric;
+  Numeral3 position;
+  Numeral3 d_dl1, d_dl2;
+  Numeral3 unit_normal;
+  int steps_until_regular = 0;  ///< subdivisions until the point lies in a regular patch
+};
+
+/// A small mesh and samples on one of its faces (corners c0, c1, c2 = faces[face]).
+struct SurfaceAnswer {
+  std::string id;
+  bool at_boundary = false;  ///< the face touches the boundary
+  std::vector<Numeral3> vertices;
+  std::vector<std::array<std::int32_t, 3>> faces;
+  int face = 0;
+  std::vector<SurfaceSample> samples;
+};
+
+/// A closed mesh with exact rational answers.
+struct ClosedMeshAnswer {
+  struct EdgePoint {
+    std::int32_t v0 = 0, v1 = 0;
+    Numeral3 position;
+  };
+  std::string id;
+  std::vector<Numeral3> vertices;
+  std::vector<std::array<std::int32_t, 3>> faces;
+  std::vector<Numeral3> step1_vertex_points;  ///< after one subdivision step, in vertex order
+  std::vector<EdgePoint> step1_edge_points;
+  std::vector<Numeral3> limit_positions;  ///< of the vertices
+  Numeral3 face0_center_limit;            ///< at (1/3, 1/3, 1/3) of face 0
+};
+
+/// The twelve basis functions of the regular patch at one parameter, gamma = 1 - alpha - beta. [Appendix A;
+/// C69, C70]
+struct BasisAnswer {
+  std::string id;
+  Numeral alpha, beta;
+  std::array<Numeral, 12> b, db_dalpha, db_dbeta;
+};
+
+struct KnownAnswers {
+  std::vector<InteriorRingAnswer> interior_rings;
+  std::vector<BoundaryRingAnswer> boundary_rings;
+  std::vector<SurfaceAnswer> surfaces;
+  std::vector<ClosedMeshAnswer> closed_meshes;
+  std::vector<BasisAnswer> basis;
+};
+
+/// data/known_answers.json in the source tree, or where it was installed.
+std::filesystem::path known_answers_path();
+
+/// Throws InputError (FILE_CANNOT_OPEN, FILE_SYNTAX) if the file is absent or not of this form.
+KnownAnswers load_known_answers(const std::filesystem::path& file = known_answers_path());
+
+/// The vertices rounded to double, with the faces: what an evaluator takes.
+ControlMesh control_mesh(const std::vector<Numeral3>& vertices,
+                         const std::vector<std::array<std::int32_t, 3>>& faces);
+
+}  // namespace limitcheck::data

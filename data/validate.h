@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Whether a control mesh is one that Loop subdivision is defined on: an oriented 2-manifold, boundaries
+// allowed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/control_mesh.h"
+
+namespace limitcheck::data {
+
+/// What can be wrong. The elements of a finding are vertices and faces counted from 0, in the order given
+/// here.
+enum class MeshFault {
+  kEmpty,     ///< no vertices or no faces.                                           elements: none
+  kTooLarge,  ///< more vertices or half-edges than 32-bit indices name.               elements: vertex and
+              ///< face count
+  kIndexOutOfRange,  ///< a face names a vertex that does not exist.                          elements: face,
+                     ///< index
+  kNotFinite,        ///< a coordinate is NaN or infinite.                                    elements: vertex
+  kDegenerateFace,   ///< a face names a vertex twice.                                        elements: face,
+                     ///< vertex
+  kDuplicateFace,    ///< two faces have the same three vertices.                             elements: first
+                     ///< face, later face
+  kNonmanifoldEdge,  ///< an edge has three faces or more.                                    elements: v0,
+                     ///< v1, faces...
+  kOrientationClash,  ///< both faces of an edge run along it in the same direction.           elements: v0,
+                      ///< v1, two faces
+  kBowtieVertex,  ///< the faces at a vertex form two fans or more.                        elements: vertex, a
+                  ///< face of each
+  kLowValence,  ///< an interior vertex with fewer than 3 neighbours (two faces, back to back). [D9] elements:
+                ///< vertex
+  kIsolatedVertex,  ///< a vertex that no face names.                                        elements: vertex
+};
+
+/// The stable name: "MESH_NONMANIFOLD_EDGE", ...
+std::string_view code(MeshFault fault);
+
+struct MeshFinding {
+  MeshFault fault{};
+  std::vector<std::int64_t> elements;  ///< as listed at MeshFault
+  std::string message;                 ///< "edge 4–9 has 3 faces (12, 13, 40)"
+  std::int64_t face = -1;              ///< the face that brought the fault in (the latest involved), or -1
+  std::int64_t vertex = -1;            ///< if no face did: the vertex at fault, or -1
+};
+
+/// Everything that is wrong with the mesh; empty if it is valid. One cause gives one finding: what is refused
+/// for one reason is left out when the later properties are examined. Ordered by fault, then by element. Time
+/// and memory O(vertices + faces), whatever the valences; about 0.2 s for a million valid faces.
+std::vector<MeshFinding> validate(const ControlMesh& mesh);
+
+/// Whether 32-bit indices name that many vertices and half-edges (3 per face). Empty if they do.
+std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces);
+
+}  // namespace limitcheck::data

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What a sliding window counts, if it counts.                                      [mueller2000, 4.3.1;
+// C48-C55]
+#pragma once
+
+#include <cstdint>
+
+namespace limitcheck::fast {
+
+/// Vectors stored by one or more runs, by the array they go to.
+struct WindowCounts {
+  std::int64_t rows = 0;            // outtop, top, middle, bottom, outbottom, by subdivision
+  std::int64_t corners = 0;         // corner0 .. corner3, by subdivision
+  std::int64_t middle_corners = 0;  // mcorner0, mcorner1: copies of points of the others
+  std::int64_t filled = 0;          // level 0, from the mesh
+  std::int64_t limit_points = 0;    // evaluated: a position and a normal each
+  std::int64_t carried = 0;         // strip points taken over from the strip before
+  std::int64_t strips = 0;
+
+  std::int64_t stored() const { return rows + corners + middle_corners; }
+  friend bool operator==(const WindowCounts&, const WindowCounts&) = default;
+};
+
+/// Counts nothing and costs nothing.
+struct NoCount {
+  static constexpr void add(std::int64_t WindowCounts::*, std::int64_t) {}
+};
+
+/// Counts into `counts`.
+struct Counting {
+  WindowCounts counts;
+  void add(std::int64_t WindowCounts::*what, std::int64_t n) { counts.*what += n; }
+};
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Tessellation on the fly: depths, pairing, sliding windows and crack repair, one frame after the other.
+// [mueller2000, sections 4 and 5]
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "data/control_mesh.h"
+#include "fast/crack.h"
+#include "fast/depth.h"
+#include "fast/pairing.h"
+#include "fast/sink.h"
+
+namespace limitcheck::fast {
+
+struct TessellatorOptions {
+  PairingOptions pairing;
+  CrackOptions cracks;
+  int max_depth = 5;        // the largest depth a strategy assigns; depths given by hand may be deeper
+  int threads = 0;          // at most so many, 0: all. The output does not depend on it.
+  bool provenance = false;  // fill the provenance of every vertex
+};
+
+/// What one frame did, and how long it took.
+struct FrameStats {
+  std::int64_t faces = 0, culled = 0;
+  std::int64_t pairs = 0, singletons = 0;  // pairs of two; faces without partner
+  std::int64_t fans = 0, stitched = 0;     // faces repaired (their pairs count above as well)
+  std::int64_t revived = 0;                // faces given as culled that were displayed all the same: always 0
+  std::int64_t strips = 0, draws = 0;
+  std::int64_t triangles = 0, vertices = 0;  // as delivered
+  std::int64_t limit_points = 0;             // evaluated in windows, along edges and at centres
+  std::int64_t zero_normals = 0;  // vertices whose normal came from the rule for vanishing tangents
+  double seconds_heuristics = 0, seconds_pairing = 0, seconds_planning = 0, seconds_evaluation = 0;
+  double seconds_total = 0;
+};
+
+/// Prepared once per control mesh (copied); then one frame per call. Real is float or double.
+///   throws      std::invalid_argument: a mesh that Adjacency refuses or without faces, coordinates that are
+///   not
+///               finite, not one depth per face, a depth outside -1 .. kDeepest, a camera that makes no view,
+///               more vertices than 32-bit indices reach (indexed mesh)
+///   precision   the control points are rounded to Real (exact if they are representable)
+/// Every point of a control edge or vertex comes out with the same bits from every face that touches it.
+/// [D14] One frame at a time per object; inside, pairs run in parallel.
+template <class Real>
+class Tessellator {
+ public:
+  explicit Tessellator(const data::ControlMesh& mesh, const TessellatorOptions& options = {});
+  ~Tessellator();
+  Tessellator(Tessellator&&) noexcept;
+  Tessellator& operator=(Tessellator&&) noexcept;
+
+  const Adjacency& adjacency() const;
+
+  /// Given depths: one per face, -1 = culled.
+  FrameStats frame(std::span<const std::int32_t> depth, DrawList<Real>& out);
+  FrameStats frame(std::span<const std::int32_t> depth, IndexedMesh<Real>& out);
+  FrameStats frame(std::span<const std::int32_t> depth, DrawSink<Real>& sink);
+
+  /// Depths by a strategy of section 4.1, at most options.max_depth.
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, DrawList<Real>& out);
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, IndexedMesh<Real>& out);
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, DrawSink<Real>& sink);
+
+  /// The depths of the last frame after pairing, one per face, and its pairs: to colour by, and to check.
+  const PairingResult& last_pairing() const;
+  const CrackPlan& last_plan() const;
+
+ private:
+  struct State;
+  template <class Sink>
+  FrameStats frame_by_strategy(const DepthOptions& strategy, const Camera& camera, Sink& sink);
+  std::unique_ptr<State> state_;
+};
+
+extern template class Tessellator<float>;
+extern template class Tessellator<double>;
+
+}  // namespace limitcheck::fast

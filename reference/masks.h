@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Loop's masks: subdivision, limit position and tangents, at interior and boundary vertices.
+//
+// Rings are counter-clockwise seen from outside: v_1..v_n of an interior vertex (here ring[0]..ring[n-1]), r_0..r_K of
+// a boundary vertex with K faces, r_0 and r_K on the boundary. Weights are generic in the number type; only a(n) for
+// n other than 3, 4, 6 and the sines are irrational.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reference/number.h"
+#include "reference/vec3.h"
+
+namespace limitcheck::reference {
+
+/// The cosines and sines of the masks are computed once per thread and n. A number type whose precision can change
+/// between uses tells by `precision()`.
+template <class N>
+struct CircleTable {
+  std::vector<N> cosine, sine;  ///< of pi i / m, i = 0..2m-1
+};
+template <class N>
+const CircleTable<N>& circle_table(long m) {
+  thread_local std::vector<std::unique_ptr<CircleTable<N>>> tables;
+  thread_local long precision = 0;
+  if (precision != NumberTraits<N>::precision()) {
+    tables.clear();
+    precision = NumberTraits<N>::precision();
+  }
+  const auto index = static_cast<std::size_t>(m);
+  if (tables.size() <= index) tables.resize(index + 1);
+  if (!tables[index]) {
+    auto table = std::make_unique<CircleTable<N>>();
+    for (long i = 0; i < 2 * m; ++i) {
+      table->cosine.push_back(NumberTraits<N>::cos_pi(i, m));
+      table->sine.push_back(sin_pi<N>(i, m));
+    }
+    tables[index] = std::move(table);
+  }
+  return *tables[index];
+}
+
+/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.      [section 3.1; C11]
+template <class N>
+N loop_a(int n) {
+  if (n == 6) return N(3) / N(8);  // by far the most frequent
+  const N s = N(3) + N(2) * NumberTraits<N>::cos_pi(2, n);
+  return N(5) / N(8) - s * s / N(64);
+}
+
+/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i.                               [equation 1; C10]
+///
+///         a/n
+///    a/n   |  a/n
+///       \  | /
+///        1-a
+///       /  | \       .
+///    a/n   |  a/n
+///         a/n
+template <class N>
+Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
+  const auto n = static_cast<int>(ring.size());
+  Vec3<N> sum = ring[0];
+  for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i];
+  const N a = loop_a<N>(n);
+  return v * (N(1) - a) + sum * (a / N(n));
+}
+
+/// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).                  [equation 2; C12]
+///
+///        1/8
+///       /   \        .
+///    3/8 --- 3/8
+///       \   /
+///        1/8
+template <class N>
+Vec3<N> interior_edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
+  return ((a + b) * N(3) + (c + d)) * (N(1) / N(8));
+}
+
+/// Boundary vertex: 1/8 --- 3/4 --- 1/8, the cubic B-spline; whatever lies inside has no say.               [D1]
+template <class N>
+Vec3<N> boundary_vertex_point(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& last) {
+  return (v * N(6) + first + last) * (N(1) / N(8));
+}
+
+/// Boundary edge: 1/2 --- 1/2.                                                                              [D1]
+template <class N>
+Vec3<N> boundary_edge_point(const Vec3<N>& a, const Vec3<N>& b) {
+  return (a + b) * (N(1) / N(2));
+}
+
+/// Linear ghost over the boundary edge a-b of face (a, b, c): makes the face an ordinary patch.            [D10]
+template <class N>
+Vec3<N> ghost_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c) {
+  return a + b - c;
+}
+
+/// Limit of an interior vertex: weights (3n / 8a) : 1 .. 1, that is
+/// (3 v + (8a / n) sum v_i) / (3 + 8a).                                                        [equation 3; C14]
+template <class N>
+Vec3<N> interior_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
+  const auto n = static_cast<int>(ring.size());
+  Vec3<N> sum = ring[0];
+  for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i];
+  const N a8 = N(8) * loop_a<N>(n);
+  return (v * N(3) + sum * (a8 / N(n))) * (N(1) / (N(3) + a8));
+}
+
+/// Limit of a boundary vertex: 1/6 --- 2/3 --- 1/6.                                                         [D1]
+template <class N>
+Vec3<N> boundary_limit(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& last) {
+  return (v * N(4) + first + last) * (N(1) / N(6));
+}
+
+/// Two tangents; first x second points outwards.
+template <class N>
+struct Tangents {
+  Vec3<N> first, second;
+};
+
+/// C = sum cos(2 pi i / n) v_i and S = sum sin(2 pi i / n) v_i, i = 0..n-1 along `ring`, taken from v_i - v so that a
+/// far-away origin does no harm. The paper's (4), (5) divide by sums that are zero: errata 1.      [C16, C17, D12]
+/// The known answers start the ring at i = 1; that turns (C, S) within the plane and leaves C x S alone.
+template <class N>
+Tangents<N> interior_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
+  const CircleTable<N>& table = circle_table<N>(static_cast<long>(ring.size()));
+  Tangents<N> t{};
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec3<N> d = ring[i] - v;
+    t.first += d * table.cosine[2 * i];
+    t.second += d * table.sine[2 * i];
+  }
+  return t;
+}
+
+/// Along the boundary r_0 - r_K, and across it into the surface.                                    [D1, D2; D5]
+/// Across weights with theta = pi / K, c = cos theta, s = sin theta (the left eigenvector of 3/8 + c/4):
+///
+///        sin theta   sin 2 theta            K = 1: centre -2, ends 1, 1
+///             \       /                     K = 2: centre -1, ends 0, inner 1
+///              \     /                      K = 3: centre -2, ends -1, inner 2 (times sqrt(3)/4)
+///      l0 ---- centre ---- l0               l0 = -c (1 + c) / ((1 + 2c) s), centre = (2c - 1) l0 - s
+///
+/// The mask in wide use for K >= 4 (ends s/(2c - 2), centre 0) belongs to another boundary rule: trap D4.
+/// For K >= 6 the surface has no tangent plane there (a second eigenvalue reaches 1/2).
+template <class N>
+Tangents<N> boundary_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
+  const auto faces = static_cast<long>(ring.size()) - 1;
+  Tangents<N> t{ring.front() - ring.back(), {}};
+  if (faces == 1) {
+    t.second = (ring.front() - v) + (ring.back() - v);
+    return t;
+  }
+  // The weights sum to zero, so the centre's is implied by taking differences from it.
+  const CircleTable<N>& table = circle_table<N>(faces);
+  const N c = table.cosine[1], s = table.sine[1];
+  const N end = N(0) - c * (N(1) + c) / ((N(1) + N(2) * c) * s);
+  t.second = ((ring.front() - v) + (ring.back() - v)) * end;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) t.second += (ring[i] - v) * table.sine[i];
+  return t;
+}
+
+}  // namespace limitcheck::reference

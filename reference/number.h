@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What a number type must offer besides + - * /: construction from int and double, and these.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace limitcheck::reference {
+
+inline constexpr long kZeroExponent = -(1L << 40);
+
+/// Specialised per number type (double here; the others in number_mp.h and ball.h).
+template <class N>
+struct NumberTraits;
+
+template <>
+struct NumberTraits<double> {
+  /// cos(pi p / q) to within 1 ulp, exact where it is rational: the argument is reduced in integers first.
+  static double cos_pi(long p, long q) {
+    p %= 2 * q;
+    if (p < 0) p += 2 * q;
+    if (p > q) p = 2 * q - p;            // cos is even about pi
+    if (2 * p > q) return -cos_pi(q - p, q);
+    if (2 * p == q) return 0.0;
+    if (3 * p == q) return 0.5;
+    if (4 * p > q) return std::sin(std::numbers::pi * static_cast<double>(q - 2 * p) / static_cast<double>(2 * q));
+    return std::cos(std::numbers::pi * static_cast<double>(p) / static_cast<double>(q));
+  }
+  static double sqrt(double a) { return std::sqrt(a); }
+  /// Binary exponent of a, so that scale(a, -exponent(a)) is in [1, 2); very negative for zero.
+  static long exponent(double a) { return a == 0 ? kZeroExponent : std::ilogb(a); }
+  /// Below this sine of the angle between two tangents their cross product is not trusted.                [D12]
+  static constexpr double kNormalThreshold = 1e-12;
+  /// a * 2^e
+  static double scale(double a, long e) { return std::ldexp(a, static_cast<int>(e)); }
+  static long precision() { return 53; }
+  static double from_double(double a) { return a; }
+  static double approximate(double a) { return a; }
+};
+
+/// sin(pi p / q)
+template <class N>
+N sin_pi(long p, long q) {
+  return NumberTraits<N>::cos_pi(2 * p - q, 2 * q);
+}
+
+/// a / b as a number
+template <class N>
+N ratio(long a, long b) {
+  return N(static_cast<int>(a)) / N(static_cast<int>(b));
+}
+
+}  // namespace limitcheck::reference

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The exact evaluator: Stam's method for Loop surfaces, at any corner valences and boundaries.
+//
+//   J. Stam, Evaluation of Loop Subdivision Surfaces, 1998. One subdivision step leaves at most one extraordinary
+//   vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one, the J-th power of the
+//   subdivision matrix of its two-ring comes from the matrix's eigenvalues (spider.h), so that the cost does not depend on
+//   how near the point is; one more step then gives the twelve control points of a regular piece.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "reference/parameter.h"
+#include "reference/surface_point.h"
+#include "reference/topology.h"
+
+namespace limitcheck::reference {
+
+namespace detail {
+template <class N>
+class StamData;
+}
+
+/// Limit surface of a control mesh, Loop's 1987 weights, B-spline boundary with the ordinary interior rule next to it.
+/// Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
+///
+///   construction  O(n + sum of squared valences)
+///   threads       any number may evaluate at once
+///   parameters    l1, l2 >= 0, l1 + l2 <= 1. Corners, edges and every dyadic point are ordinary points. Two doubles whose
+///                 rounded sum is 1 lie on the far edge.
+template <class N>
+class StamEvaluator {
+ public:
+  /// The mesh must be valid (data/validate.h). Throws std::invalid_argument if it is not manifold (Topology).
+  explicit StamEvaluator(const data::ControlMesh& mesh);
+  /// Control points in the number type itself.
+  StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles);
+  ~StamEvaluator();
+  StamEvaluator(StamEvaluator&&) noexcept;
+  StamEvaluator& operator=(StamEvaluator&&) noexcept;
+
+  int face_count() const;
+  /// Throws std::out_of_range for a face that is not there, std::invalid_argument for parameters outside the triangle.
+  SurfacePoint<N> evaluate(int face, double l1, double l2, Order order = Order::kSecond) const;
+  SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2, Order order = Order::kSecond) const;
+
+ private:
+  std::unique_ptr<const detail::StamData<N>> data_;
+};
+
+}  // namespace limitcheck::reference

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+// Definitions behind stam.h, for the .cpp files that instantiate them.
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "reference/parameter_exact.h"
+#include "reference/patch.h"
+#include "reference/refine.h"
+#include "reference/spider_impl.h"
+#include "reference/stam.h"
+
+namespace limitcheck::reference {
+namespace detail {
+
+/// Where a point lies, decided on the parameters alone (P is double or Rational).
+template <class P>
+struct Site {
+  int subface;          ///< 0..2 at a corner, 3 the middle
+  P u, v;               ///< coordinates in the sub-face: towards its second and third corner
+  Placement placement;  ///< of (u, v)
+};
+
+template <class P>
+Site<P> locate(P l1, P l2) {
+  if (!(l1 >= 0) || !(l2 >= 0) || !(l1 + l2 <= 1)) throw std::invalid_argument("l1, l2 must be >= 0 and l1 + l2 <= 1");
+  if (l2 > 1 - l1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);  // the sum was rounded to 1
+  const P half = P(1) / P(2);
+  // Differences from 1 are exact in double where it matters: next to the corner they are measured from.
+  if (l1 >= half) return {1, 2 * l2, 2 * ((1 - l1) - l2), {0, 1, -1, -1, 1}};
+  if (l2 >= half) return {2, 2 * ((1 - l2) - l1), 2 * l1, {-1, -1, 1, 0, 1}};
+  if (l1 + l2 <= half) return {0, 2 * l1, 2 * l2, {1, 0, 0, 1, 1}};
+  return {3, 2 * (l1 + l2) - 1, 1 - 2 * l1, {1, 1, -1, 0, 1}};
+}
+
+/// Smallest J >= 0 with 2^J (u + v) > 1/2, for 0 < u + v <= 1: the point is in the ring of sub-triangles that step J + 1 of
+/// the corner's sector adds.
+inline long steps_to_corner(double u, double v) {
+  const double sum = u + v;
+  int exponent;
+  const double mantissa = std::frexp(sum, &exponent);  // sum = mantissa 2^exponent, mantissa in [1/2, 1)
+  return std::max(0L, static_cast<long>(mantissa == 0.5 ? 1 - exponent : -exponent));
+}
+inline long steps_to_corner(const Rational& u, const Rational& v) {
+  const Rational sum = u + v;
+  long steps = static_cast<long>(msb(denominator(sum))) - static_cast<long>(msb(numerator(sum))) - 2;
+  if (steps < 0) steps = 0;
+  while (numerator(sum) << static_cast<unsigned long>(steps + 1) <= denominator(sum)) ++steps;
+  return steps;
+}
+inline double scaled(double a, long e) { return std::ldexp(a, static_cast<int>(e)); }
+inline Rational scaled(const Rational& a, long e) { return Rational(numerator(a) << static_cast<unsigned long>(e), denominator(a)); }
+
+template <class N>
+N number_from(double a) {
+  return NumberTraits<N>::from_double(a);
+}
+template <class N>
+N number_from(const Rational& a) {
+  if constexpr (std::is_same_v<N, double>)
+    return a.convert_to<double>();
+  else
+    return NumberTraits<N>::from_rational(a);
+}
+
+template <class N>
+class StamData {
+ public:
+  StamData(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles)
+      : topology_(positions.size(), triangles), control_(std::move(positions)) {
+    refine();
+    make_spiders();
+    make_patches();
+  }
+
+  std::size_t face_count() const { return topology_.triangles().size(); }
+
+  template <class P>
+  SurfacePoint<N> evaluate(int face, const P& l1, const P& l2, Order order) const {
+    if (face < 0 || static_cast<std::size_t>(face) >= face_count()) throw std::out_of_range("no face " + std::to_string(face));
+    const auto f = static_cast<std::size_t>(face);
+    const Site<P> site = locate<P>(l1, l2);
+    SurfacePoint<N> result;
+    const auto corner = static_cast<std::size_t>(site.subface);
+    const std::int32_t spider = site.subface == 3 ? -1 : spider_of_[static_cast<std::size_t>(topology_.triangles()[f][corner])];
+    if (spider < 0)
+      evaluate_regular(f, site, order, result);
+    else if (site.u + site.v == 0)
+      return evaluate_corner(f, site.subface, site.placement);
+    else
+      evaluate_near_corner(f, site, spiders_[static_cast<std::size_t>(spider)], order, result);
+    if (order == Order::kPosition) return result;
+    const Normal<N> normal = unit_normal(result.d1, result.d2, fallback_normal(f));
+    result.normal = normal.direction;
+    result.normal_kind = normal.kind;
+    return result;
+  }
+
+ private:
+  using Patch = std::array<std::int32_t, 12>;
+
+  const Vec3<N>& point(std::int32_t id) const { return points_[static_cast<std::size_t>(id)]; }
+  std::int32_t edge_point(std::int32_t edge) const { return static_cast<std::int32_t>(topology_.vertex_count()) + edge; }
+
+  /// Points after one step: vertex points, edge points, then two ghosts per boundary edge, over its halves at a and b.
+  void refine() {
+    points_ = refine_once(topology_, control_);
+    ghost_of_.assign(topology_.edges().size(), -1);
+    for (std::size_t f = 0; f < face_count(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t e = topology_.edge(f, k);
+        if (!topology_.edges()[static_cast<std::size_t>(e)].on_boundary()) continue;
+        ghost_of_[static_cast<std::size_t>(e)] = static_cast<std::int32_t>(points_.size());
+        const Triangle& t = topology_.triangles()[f];
+        const auto a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
+        points_.push_back(ghost_point(point(a), point(edge_point(e)), point(edge_point(topology_.edge(f, (k + 2) % 3)))));
+        points_.push_back(ghost_point(point(edge_point(e)), point(b), point(edge_point(topology_.edge(f, (k + 1) % 3)))));
+      }
+  }
+
+  bool is_regular(std::int32_t v) const { return topology_.ring(v).size() == (topology_.on_boundary(v) ? 4U : 6U); }
+
+  void make_spiders() {
+    spider_of_.assign(topology_.vertex_count(), -1);
+    std::vector<Vec3<N>> r, q, p;
+    for (std::size_t id = 0; id < topology_.vertex_count(); ++id) {
+      const auto v = static_cast<std::int32_t>(id);
+      if (topology_.ring(v).empty() || is_regular(v)) continue;
+      r.clear(), q.clear(), p.clear();
+      for (const std::int32_t spoke : topology_.spokes(v)) r.push_back(point(edge_point(spoke)));
+      for (const std::int32_t neighbour : topology_.ring(v)) p.push_back(point(neighbour));
+      for (const std::int32_t f : topology_.faces(v)) {
+        if (f < 0) continue;
+        const Triangle& t = topology_.triangles()[static_cast<std::size_t>(f)];
+        const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+        q.push_back(point(edge_point(topology_.edge(static_cast<std::size_t>(f), (k + 1) % 3))));
+      }
+      const std::pair key(static_cast<int>(q.size()), topology_.on_boundary(v));
+      const auto kind = kinds_.try_emplace(key, key.first, key.second).first;
+      spider_of_[id] = static_cast<std::int32_t>(spiders_.size());
+      spiders_.emplace_back(kind->second, point(v), r, q, p);
+    }
+  }
+
+  /// Six neighbours of a vertex point after one step, from corner k's first neighbour in face f; regular vertices only.
+  std::array<std::int32_t, 6> vertex_ring(std::size_t f, int k) const {
+    const std::int32_t v = topology_.triangles()[f][static_cast<std::size_t>(k)];
+    const auto spokes = topology_.spokes(v);
+    std::array<std::int32_t, 6> ring;
+    for (std::size_t i = 0; i < spokes.size(); ++i) ring[i] = edge_point(spokes[i]);
+    if (topology_.on_boundary(v)) {
+      ring[4] = ghost(v, spokes[3]);
+      ring[5] = ghost(v, spokes[0]);
+    }
+    std::rotate(ring.begin(), ring.begin() + topology_.sector(f, k), ring.end());
+    return ring;
+  }
+  std::int32_t ghost(std::int32_t v, std::int32_t e) const {
+    return ghost_of_[static_cast<std::size_t>(e)] + (topology_.edges()[static_cast<std::size_t>(e)].a == v ? 0 : 1);
+  }
+  /// Six neighbours of the edge point of side k, from corner k + 1 on, as in ringed_face.h.
+  std::array<std::int32_t, 6> edge_ring(std::size_t f, int k) const {
+    const Triangle& t = topology_.triangles()[f];
+    const auto a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
+    const std::int32_t e = topology_.edge(f, k);
+    std::array<std::int32_t, 6> ring{b, edge_point(topology_.edge(f, (k + 1) % 3)), edge_point(topology_.edge(f, (k + 2) % 3)), a, 0, 0};
+    if (topology_.edges()[static_cast<std::size_t>(e)].on_boundary()) {
+      ring[4] = ghost(a, e);
+      ring[5] = ghost(b, e);
+    } else {
+      const auto beside = [&](std::int32_t v, int at) {
+        const auto spokes = topology_.spokes(v);
+        const auto n = static_cast<int>(spokes.size());
+        return edge_point(spokes[static_cast<std::size_t>((at + n) % n)]);
+      };
+      ring[4] = beside(a, topology_.sector(f, k) - 1);
+      ring[5] = beside(b, topology_.sector(f, (k + 1) % 3) + 2);
+    }
+    return ring;
+  }
+
+  void make_patches() {
+    patches_.resize(4 * face_count());
+    const auto assemble = [](const std::array<std::int32_t, 6>& a, const std::array<std::int32_t, 6>& b, int b_from,
+                             const std::array<std::int32_t, 6>& c, int c_from) {
+      const auto at = [](const std::array<std::int32_t, 6>& ring, int i) { return ring[static_cast<std::size_t>(i % 6)]; };
+      // Rings of points 4, 7, 8: (7 8 5 2 1 3), (8 4 3 6 10 11), (4 7 11 12 9 5).
+      return Patch{a[4], a[3], a[5], at(c, c_from), a[2], at(b, b_from + 3), a[0], a[1], at(c, c_from + 4),
+                   at(b, b_from + 4), at(b, b_from + 5), at(c, c_from + 3)};
+    };
+    for (std::size_t f = 0; f < face_count(); ++f) {
+      const std::array<std::array<std::int32_t, 6>, 3> edges{edge_ring(f, 0), edge_ring(f, 1), edge_ring(f, 2)};
+      for (int k = 0; k < 3; ++k)
+        if (is_regular(topology_.triangles()[f][static_cast<std::size_t>(k)]))
+          patches_[4 * f + static_cast<std::size_t>(k)] =
+              assemble(vertex_ring(f, k), edges[static_cast<std::size_t>(k)], 2, edges[static_cast<std::size_t>((k + 2) % 3)], 0);
+      std::array<std::int32_t, 6> first = edges[0];
+      std::rotate(first.begin(), first.begin() + 1, first.end());
+      patches_[4 * f + 3] = assemble(first, edges[1], 1, edges[2], 1);
+    }
+  }
+
+  template <class P>
+  void evaluate_regular(std::size_t f, const Site<P>& site, Order order, SurfacePoint<N>& result) const {
+    Basis<N> basis;
+    evaluate_basis(basis, number_from<N>(site.u), number_from<N>(site.v), order);
+    const Patch& patch = patches_[4 * f + static_cast<std::size_t>(site.subface)];
+    struct Gather {
+      const StamData& data;
+      const Patch& patch;
+      const Vec3<N>& operator[](std::size_t i) const { return data.point(patch[i]); }
+    };
+    const LocalPoint<N> s = evaluate_patch<N>(Gather{*this, patch}, basis, order);
+    result.position = s.position;
+    place(result, s, site.placement, N(2), N(4), order);
+  }
+
+  SurfacePoint<N> evaluate_corner(std::size_t f, int k, const Placement& placement) const {
+    const std::int32_t v = topology_.triangles()[f][static_cast<std::size_t>(k)];
+    std::vector<Vec3<N>> ring;
+    for (const std::int32_t r : topology_.ring(v)) ring.push_back(control_[static_cast<std::size_t>(r)]);
+    return extraordinary_corner<N>(control_[static_cast<std::size_t>(v)], ring, topology_.on_boundary(v), topology_.sector(f, k), placement);
+  }
+
+  template <class P>
+  void evaluate_near_corner(std::size_t f, const Site<P>& site, const Spider<N>& spider, Order order, SurfacePoint<N>& result) const {
+    const int sector = topology_.sector(f, site.subface);
+    const long steps = steps_to_corner(site.u, site.v);
+    const P u = scaled(site.u, steps + 1), v = scaled(site.v, steps + 1);  // 1 < u + v <= 2
+    SpiderPower<N> buffer;
+    typename Spider<N>::Sector s;
+    spider.sector(sector, spider.kind().power(steps, buffer), s);
+
+    // One more step gives the points around the triangle's three outer sub-triangles, on the lattice with c = (0, 0),
+    // r_i = (1, 0), r_{i+1} = (0, 1).
+    const auto edge = [](const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) { return interior_edge_point(a, b, c, d); };
+    const auto &c = s.c, *r = s.r, *q = s.q, *p = s.p;
+    const auto vertex = [&](const Vec3<N>& centre, const std::array<Vec3<N>, 6>& ring) { return interior_vertex_point<N>(centre, ring); };
+    std::array<Vec3<N>, 12> points;
+    const Vec3<N> r_i = edge(c, r[2], r[1], r[3]), r_next = edge(c, r[3], r[2], r[4]);
+    const Vec3<N> q_i = edge(r[2], r[3], c, q[1]);
+    const Vec3<N> p_i = vertex(r[2], {c, r[3], q[1], p[0], q[0], r[1]}), p_next = vertex(r[3], {c, r[4], q[2], p[1], q[1], r[2]});
+    const Vec3<N> x_i = edge(r[2], q[1], r[3], p[0]), x_next = edge(r[3], q[1], r[2], p[1]);
+    const auto next_c = [&] { return centre_after(spider, s); };
+    const auto before = [&](const Vec3<N>& new_c) {  // r_{i-1}
+      if (s.first_edge_on_boundary) return ghost_point(new_c, r_i, r_next);
+      return sector == 1 && spider.kind().on_boundary() ? boundary_edge_point(c, r[1]) : edge(c, r[1], r[0], r[2]);
+    };
+    const auto after = [&](const Vec3<N>& new_c) {  // r_{i+2}
+      if (s.last_edge_on_boundary) return ghost_point(new_c, r_next, r_i);
+      return sector + 2 == spider.kind().count() && spider.kind().on_boundary() ? boundary_edge_point(c, r[4]) : edge(c, r[4], r[3], r[5]);
+    };
+    const auto q_before = [&] { return edge(r[1], r[2], c, q[0]); };
+    const auto q_after = [&] { return edge(r[3], r[4], c, q[2]); };
+    Placement at = site.placement;
+    P a, b;
+    if (u >= 1) {  // (r_i, p_i, q_i)
+      const Vec3<N> new_c = next_c();
+      points = {before(new_c), new_c, q_before(), r_i, r_next, edge(r[2], q[0], p[0], r[1]), p_i, q_i, p_next,
+                edge(r[2], p[0], q[0], q[1]), x_i, x_next};
+      a = u - 1;
+      b = v;
+    } else if (v >= 1) {  // (r_{i+1}, q_i, p_{i+1})
+      const Vec3<N> new_c = next_c();
+      points = {new_c, after(new_c), r_i, r_next, q_after(), p_i, q_i, p_next, edge(r[3], q[2], p[1], r[4]),
+                x_i, x_next, edge(r[3], p[1], q[1], q[2])};
+      a = u;
+      b = v - 1;
+    } else {  // (q_i, r_{i+1}, r_i)
+      const Vec3<N> new_c = next_c();
+      points = {x_next, x_i, p_next, q_i, p_i, q_after(), r_next, r_i, q_before(), after(new_c), new_c, before(new_c)};
+      a = 1 - u;
+      b = 1 - v;
+      at = {-at.a1, -at.a2, -at.b1, -at.b2, at.level};
+    }
+    Basis<N> basis;
+    evaluate_basis(basis, number_from<N>(a), number_from<N>(b), order);
+    const LocalPoint<N> local = evaluate_patch<N>(points, basis, order);
+
+    // Put back growth^J, the scale of the triangle, the linear part and the limit.
+    const N& growth = spider.kind().growth();
+    Vec3<N> to_first{}, to_second{};
+    spider.linear_part(sector, steps, to_first, to_second);
+    result.position = spider.limit() + (to_first * number_from<N>(site.u) + to_second * number_from<N>(site.v)) + local.position * power(growth, steps);
+    if (order == Order::kPosition) return;
+    place(result, local, at, N(4) * power(N(2) * growth, steps), N(16) * power(N(4) * growth, steps), order);
+    const Placement& g = site.placement;
+    result.d1 += (to_first * N(g.a1) + to_second * N(g.b1)) * N(2);
+    result.d2 += (to_first * N(g.a2) + to_second * N(g.b2)) * N(2);
+  }
+
+  /// The centre one step later, without limit and linear part (which vanishes at c), in the scale of `s`.
+  static Vec3<N> centre_after(const Spider<N>& spider, const typename Spider<N>::Sector& s) {
+    return s.c * spider.kind().mean_eigenvalue();
+  }
+
+  /// Twice the control face's area times its normal: what D12 falls back to inside a face.
+  Vec3<N> fallback_normal(std::size_t f) const {
+    const Triangle& t = topology_.triangles()[f];
+    const auto at = [&](std::size_t k) { return control_[static_cast<std::size_t>(t[k])]; };
+    return cross(at(1) - at(0), at(2) - at(0));
+  }
+
+  Topology topology_;
+  std::vector<Vec3<N>> control_, points_;
+  std::vector<std::int32_t> ghost_of_, spider_of_;
+  std::map<std::pair<int, bool>, SpiderKind<N>> kinds_;
+  std::vector<Spider<N>> spiders_;
+  std::vector<Patch> patches_;  ///< four per face; unset at extraordinary corners
+};
+
+}  // namespace detail
+
+template <class N>
+StamEvaluator<N>::StamEvaluator(const data::ControlMesh& mesh) : StamEvaluator(positions_of<N>(mesh), mesh.triangles) {}
+template <class N>
+StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles)
+    : data_(std::make_unique<detail::StamData<N>>(std::move(positions), triangles)) {}
+template <class N>
+StamEvaluator<N>::~StamEvaluator() = default;
+template <class N>
+StamEvaluator<N>::StamEvaluator(StamEvaluator&&) noexcept = default;
+template <class N>
+StamEvaluator<N>& StamEvaluator<N>::operator=(StamEvaluator&&) noexcept = default;
+
+template <class N>
+int StamEvaluator<N>::face_count() const {
+  return static_cast<int>(data_->face_count());
+}
+
+template <class N>
+SurfacePoint<N> StamEvaluator<N>::evaluate(int face, double l1, double l2, Order order) const {
+  if constexpr (std::is_same_v<N, double>) {
+    return data_->evaluate(face, l1, l2, order);
+  } else {
+    return evaluate(face, Parameter(l1), Parameter(l2), order);
+  }
+}
+
+template <class N>
+SurfacePoint<N> StamEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2, Order order) const {
+  if constexpr (std::is_same_v<N, double>)
+    if (l1.is_double() && l2.is_double()) return data_->evaluate(face, l1.as_double(), l2.as_double(), order);
+  // Two doubles may add up to 1 only after rounding; their exact values are treated like the rounded ones.
+  Rational first = exact_value(l1), second = exact_value(l2);
+  if (l1.is_double() && l2.is_double() && l1.as_double() + l2.as_double() == 1.0 && first + second > 1)
+    (first > second ? second : first) = 1 - (first > second ? first : second);
+  return data_->evaluate(face, first, second, order);
+}
+
+}  // namespace limitcheck::reference

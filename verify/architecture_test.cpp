@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// The house rules: arrows point down only, and the reference and the fast engine have nothing in common but the control
+// mesh. Read from the sources and from the symbols of the libraries.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+// Which folder may include which.
+const std::map<std::string, Names>& may_include() {
+  static const std::map<std::string, Names> rules{
+      {"data", {"data"}},
+      {"reference", {"reference", "data"}},
+      {"fast", {"fast", "data"}},
+      {"verify", {"verify", "reference", "fast", "data"}},
+      {"bench", {"bench", "verify", "reference", "fast", "data"}},
+  };
+  return rules;
+}
+
+// Libraries with a licence or a weight that must stay where they are used.
+const std::map<std::string, std::vector<std::string>>& allowed_in() {
+  static const std::map<std::string, std::vector<std::string>> rules{
+      {"CGAL", {"data/generators/", "verify/subject/", "verify/watertight/", "bench/"}},
+      {"opensubdiv", {"verify/subject/", "bench/"}},
+      {"OpenMesh", {"verify/subject/", "bench/"}},
+  };
+  return rules;
+}
+
+// What is wrong with the includes of one file; `path` is relative to the project.
+std::vector<std::string> violations(const std::string& path, const std::string& text) {
+  static const std::regex include("^[ \t]*#[ \t]*include[ \t]*([<\"])([^>\"]+)[>\"]");
+  std::vector<std::string> found;
+  const std::string folder = path.substr(0, path.find('/'));
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::smatch match;
+    if (!std::regex_search(line, match, include)) continue;
+    const std::string target = match[2];
+    const std::string top = target.substr(0, target.find('/'));
+    const auto complain = [&](const std::string& why) {
+      found.push_back(path + ":" + std::to_string(number) + ": " + target + " " + why);
+    };
+    if (may_include().contains(top) && !may_include().at(folder).contains(top)) complain("is not for " + folder);
+    if (match[1] == "\"" && !may_include().contains(top)) complain("is not a path from the project root");
+    const auto rule = allowed_in().find(top);
+    if (rule == allowed_in().end()) continue;
+    bool allowed = false;
+    for (const std::string& place : rule->second) allowed = allowed || path.starts_with(place);
+    if (!allowed) complain("must stay private to its own targets");
+  }
+  return found;
+}
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(House, ArrowsPointDownOnly) {
+  const fs::path root = LIMITCHECK_SOURCE_DIR;
+  std::map<std::string, int> looked_at;
+  for (const auto& [folder, rules] : may_include()) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp" && extension != ".c") continue;
+      ++looked_at[folder];
+      for (const std::string& v : violations(entry.path().lexically_relative(root), read(entry.path()))) ADD_FAILURE() << v;
+    }
+  }
+  for (const char* folder : {"data", "reference", "fast", "verify"}) EXPECT_GT(looked_at[folder], 1) << folder;
+}
+
+TEST(House, TheScannerSeesWhatItIsThereFor) {
+  EXPECT_EQ(violations("reference/a.h", "#include \"fast/masks.h\"\n").size(), 1U);
+  EXPECT_EQ(violations("reference/a.h", "  #  include <fast/masks.h>\n").size(), 1U);
+  EXPECT_EQ(violations("fast/a.cpp", "#include \"reference/masks.h\"\n").size(), 1U);
+  EXPECT_EQ(violations("data/a.cpp", "#include \"verify/subject/subject.h\"\n").size(), 1U);
+  EXPECT_EQ(violations("verify/a.cpp", "#include \"bench/a.h\"\n").size(), 1U);
+  EXPECT_EQ(violations("verify/a.cpp", "#include \"masks.h\"\n").size(), 1U);
+  EXPECT_EQ(violations("reference/a.cpp", "#include <CGAL/Surface_mesh.h>\n").size(), 1U);
+  EXPECT_EQ(violations("data/io/a.cpp", "#include <CGAL/IO/polygon_soup_io.h>\n").size(), 1U);
+  EXPECT_TRUE(violations("fast/a.cpp", "#include \"fast/masks.h\"\n#include <vector>\n#include \"data/control_mesh.h\"\n").empty());
+  EXPECT_TRUE(violations("verify/watertight/a.cpp", "#include <CGAL/Surface_mesh.h>\n").empty());
+}
+
+// Names of a static library that other objects can see, demangled; `defined` or mentioned at all.
+Names symbols(const std::string& library, bool defined) {
+  const std::string command = "nm -C --extern-only --format=just-symbols " + std::string(defined ? "--defined-only " : "") +
+                              "'" + library + "' 2>/dev/null";
+  Names names;
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  if (!pipe) return names;
+  std::string line;
+  for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get())) {
+    if (c != '\n') {
+      line += static_cast<char>(c);
+      continue;
+    }
+    names.insert(line);
+    line.clear();
+  }
+  return names;
+}
+
+// A name of this project that is not data's: a function or object of reference, fast or verify, or an instance of a
+// standard template with one of their types.
+bool is_own(const std::string& name) {
+  static const std::regex own("limitcheck::(?!data::)");
+  return std::regex_search(name, own);
+}
+
+TEST(House, ReferenceAndFastHaveNoSymbolInCommon) {
+  const Names reference = symbols(LIMITCHECK_LIBREFERENCE, true), fast = symbols(LIMITCHECK_LIBFAST, true);
+  int own_reference = 0, own_fast = 0;
+  for (const std::string& name : reference) {
+    own_reference += is_own(name);
+    EXPECT_FALSE(is_own(name) && fast.contains(name)) << name;
+  }
+  for (const std::string& name : fast) own_fast += is_own(name);
+  EXPECT_GT(own_reference, 10);
+  EXPECT_GT(own_fast, 10);
+}
+
+TEST(House, NeitherOfThemSoMuchAsMentionsTheOther) {
+  for (const std::string& name : symbols(LIMITCHECK_LIBREFERENCE, false))
+    EXPECT_EQ(name.find("limitcheck::fast"), std::string::npos) << name;
+  for (const std::string& name : symbols(LIMITCHECK_LIBFAST, false))
+    EXPECT_EQ(name.find("limitcheck::reference"), std::string::npos) << name;
+}
+
+}  // namespace

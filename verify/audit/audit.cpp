@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/audit.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "verify/audit/checks.h"
+#include "verify/audit/vector.h"
+#include "verify/subject/host.h"
+
+namespace limitcheck::verify {
+namespace {
+
+std::string label(const AuditSubject& s) {
+  return s.options.empty() ? s.subject->name : fmt::format("{}:{}", s.subject->name, s.options);
+}
+
+// A control mesh is valid when it gets here, so a subject that calls it invalid is wrong; one that says it
+// does not offer this is not.
+Status status_of(lc_status status) {
+  if (status == LC_NOT_SUPPORTED) return Status::kNotSupported;
+  return status == LC_INVALID_INPUT ? Status::kFinding : Status::kError;
+}
+
+}  // namespace
+
+Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step)
+    : depth_(depth), threads_(threads), on_step_(std::move(on_step)) {}
+
+Auditor::~Auditor() = default;
+
+void Auditor::step(const std::string& subject, const std::string& mesh, std::string_view check) {
+  if (on_step_) on_step_({subject, mesh, std::string(check), done_, total_});
+}
+
+ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, lc_points points) {
+  for (const auto& kept : cache_)
+    if (kept->points() == points && kept->mesh().positions == rounded.positions &&
+        kept->mesh().triangles == rounded.triangles)
+      return *kept;
+  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth_, points));
+  return *cache_.back();
+}
+
+std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
+  if (cached_mesh_ != mesh.name) cache_.clear();
+  cached_mesh_ = mesh.name;
+
+  const std::string name = label(audited);
+  std::vector<Result> results;
+  const auto row = [&](std::string_view check, Status status, const std::string& message) {
+    Result r;
+    r.subject = name;
+    r.mesh = mesh.name;
+    r.check = check;
+    r.depth = depth_;
+    r.status = status;
+    r.message = message;
+    results.push_back(std::move(r));
+  };
+  const auto rows = [&](const Check& check, Status status, const std::string& message) {
+    for (const std::string_view r : check.rows) row(r, status, message);
+  };
+
+  // Tessellate.
+  std::optional<Session> session;
+  std::optional<Tessellation> tessellation;
+  const std::vector<std::int32_t> face_depth(mesh.mesh.triangles.size(), depth_);
+  try {
+    step(name, mesh.name, "tessellates");
+    session.emplace(*audited.subject, mesh.mesh, audited.options);
+    tessellation.emplace(session->tessellate(face_depth, threads_));
+    row("tessellates", Status::kHeld, "");
+    results.back().of = 1;
+  } catch (const std::exception& error) {
+    const auto* refusal = dynamic_cast<const SubjectError*>(&error);
+    const Status status = refusal ? status_of(refusal->status()) : Status::kError;
+    row("tessellates", status, error.what());
+    results.back().of = 1;
+    results.back().bad = is_bad(results.back());
+    for (const Check& check : checks()) rows(check, Status::kNotRun, "there is no tessellation");
+    return results;
+  }
+
+  // The truth at every point the subject names.
+  const lc_capabilities& capabilities = session->capabilities();
+  step(name, mesh.name, "reference");
+  ReferenceSurface& truth = reference(session->mesh(), capabilities.points);
+  std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
+  const bool same_family = capabilities.weights == LC_WEIGHTS_LOOP;
+  std::string no_reference =
+      same_family ? "" : "declares another family of weights than Loop's: another surface";
+  if (same_family) {
+    try {
+      truth.prepare(points);
+    } catch (const std::exception& error) {
+      no_reference = fmt::format("the reference failed: {}", error.what());
+    }
+  }
+
+  // The checks.
+  Vector low = session->mesh().positions.at(0), high = low;
+  double magnitude = 0;
+  for (const Vector& p : session->mesh().positions)
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+      magnitude = std::max(magnitude, std::abs(p[axis]));
+    }
+  const Evidence evidence{name,          mesh.name,       capabilities, session->mesh(),   face_depth,
+                          *tessellation, truth.lattice(), truth,        std::move(points), norm(high - low),
+                          magnitude};
+  for (const Check& check : checks()) {
+    step(name, mesh.name, check.name);
+    if (check.needs_reference && !no_reference.empty()) {
+      rows(check, same_family ? Status::kError : Status::kNotSupported, no_reference);
+      continue;
+    }
+    try {
+      for (Result& r : check.run(evidence)) results.push_back(std::move(r));
+    } catch (const std::exception& error) {
+      rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
+    }
+  }
+  return results;
+}
+
+std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
+                                 const std::vector<AuditMesh>& meshes) {
+  // Mesh by mesh, so that subjects share the reference; told subject by subject.
+  done_ = 0;
+  total_ = subjects.size() * meshes.size();
+  std::vector<std::vector<Result>> of_subject(subjects.size());
+  for (const AuditMesh& mesh : meshes)
+    for (std::size_t s = 0; s < subjects.size(); ++s, ++done_)
+      for (Result& r : run(subjects[s], mesh)) of_subject[s].push_back(std::move(r));
+  std::vector<Result> all;
+  for (auto& results : of_subject)
+    all.insert(all.end(), std::make_move_iterator(results.begin()), std::make_move_iterator(results.end()));
+  total_ = 1;
+  done_ = 0;
+  return all;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// An audit: subjects x meshes x checks.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/audit/reference_surface.h"
+#include "verify/audit/result.h"
+#include "verify/subject/subject.h"
+
+namespace limitcheck::verify {
+
+struct AuditMesh {
+  std::string name;  // as `limitcheck eval` understands it
+  data::ControlMesh mesh;
+};
+
+struct AuditSubject {
+  const lc_subject* subject;
+  std::string options;  // "key=value,key=value" or empty
+};
+
+/// What is being done now, for a progress display.
+struct AuditStep {
+  std::string subject, mesh, check;
+  std::size_t done, total;  // pairs of subject and mesh
+};
+
+/// Audits subjects on control meshes at one depth; keeps the reference of the last mesh for the next subject.
+class Auditor {
+ public:
+  /// depth >= 0; threads >= 1 are handed to the subjects (the checks use oneTBB's arena).
+  Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step = {});
+  ~Auditor();
+
+  /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`.
+  /// A subject that refuses or fails gives rows, never an exception. `mesh` is valid (data/validate.h).
+  std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
+
+  /// All of them, results ordered by subject, then mesh.
+  std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes);
+
+ private:
+  ReferenceSurface& reference(const data::ControlMesh& rounded, lc_points points);
+  void step(const std::string& subject, const std::string& mesh, std::string_view check);
+
+  int depth_, threads_;
+  std::function<void(const AuditStep&)> on_step_;
+  std::size_t done_ = 0, total_ = 1;
+  std::string cached_mesh_;
+  std::vector<std::unique_ptr<ReferenceSurface>> cache_;  // of one mesh: by precision and kind of points
+};
+
+}  // namespace limitcheck::verify

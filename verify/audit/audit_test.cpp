@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// The auditor audited: good subjects hold, every planted fault turns the checks red that are meant to see it, and a
+// subject that refuses or crashes in an orderly way is a row.
+#include "verify/audit/audit.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "data/generators/named_mesh.h"
+#include "verify/audit/checks.h"
+#include "verify/audit/table.h"
+#include "verify/subject/faulty_subjects.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+namespace {
+
+const char* const kBase = "opensubdiv-far";  // right at lattice points of a closed mesh, in double
+const char* const kBaseOptions = "precision=double";
+
+std::vector<Result> run(const lc_subject* subject, const std::string& options, const std::string& mesh, int depth) {
+  return Auditor(depth, 1).run({subject, options}, {mesh, data::named_mesh(mesh)});
+}
+
+const Result& row(const std::vector<Result>& results, const std::string& check) {
+  static const Result none;
+  const auto found = std::find_if(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
+  EXPECT_NE(found, results.end()) << check;
+  return found == results.end() ? none : *found;
+}
+
+std::set<std::string> red(const std::vector<Result>& results) {
+  std::set<std::string> names;
+  for (const Result& r : results)
+    if (is_bad(r)) names.insert(r.check);
+  return names;
+}
+
+std::string describe(const std::vector<Result>& results) {
+  std::string out;
+  for (const Result& r : results)
+    out += fmt::format("{}: {} {}/{} {}\n", r.check, word(r.status), r.bad, r.of, r.message);
+  return out;
+}
+
+TEST(Audit, AGoodSubjectHoldsOnAClosedMeshInEveryCheck) {
+  for (const char* mesh : {"bumpy:200", "tetrahedron", "bipyramid:7", "torus"}) {
+    const auto results = run(find_subject(kBase), kBaseOptions, mesh, 3);
+    EXPECT_TRUE(red(results).empty()) << mesh << "\n" << describe(results);
+    EXPECT_EQ(row(results, "positions").status, Status::kHeld);
+    EXPECT_EQ(row(results, "normals").status, Status::kHeld);
+    RecordProperty(fmt::format("worst_position_{}", mesh), fmt::format("{:.2e}", row(results, "positions").worst.value_or(-1)));
+  }
+}
+
+struct Planted {
+  const char* fault;
+  std::vector<const char*> seen_by;  // these at least
+};
+
+// Which checks must report which fault. A fault may turn more of them red (a shifted provenance spoils nearly
+// everything), so these are the ones whose business it is.
+const std::vector<Planted>& kill_table() {
+  static const std::vector<Planted> table{
+      {"nan_position", {"finite", "positions", "watertight"}},
+      {"infinite_position", {"finite", "positions", "watertight"}},
+      {"nan_normal", {"finite", "normals", "normal-length"}},
+      {"unwritten_position", {"written", "positions"}},
+      {"unwritten_normal", {"written", "normals"}},
+      {"unwritten_triangle", {"written", "coverage", "watertight"}},
+      {"wrong_limit_mask", {"positions"}},
+      {"wrong_edge_mask", {"positions"}},
+      {"flipped_normals", {"normals"}},
+      {"one_flipped_normal", {"normals"}},
+      {"long_normals", {"normal-length"}},
+      {"shifted_provenance", {"positions", "coverage"}},
+      {"mirrored_provenance", {"positions", "orientation"}},
+      {"swapped_points", {"positions", "orientation"}},
+      {"provenance_out_of_range", {"written", "coverage"}},
+      {"flipped_orientation", {"orientation"}},
+      {"one_flipped_triangle", {"orientation", "watertight"}},
+      {"missing_triangle", {"coverage", "watertight"}},
+      {"duplicated_triangle", {"coverage", "watertight"}},
+      {"wrong_triangle_face", {"coverage"}},
+      {"index_out_of_range", {"written", "coverage", "watertight"}},
+      {"t_vertex", {"t-vertices", "coverage", "watertight"}},
+      {"one_ulp_crack", {"shared-positions", "watertight"}},
+      {"one_ulp_normal", {"shared-normals"}},
+      {"negative_count", {"written"}},
+      {"count_too_large", {"written"}},
+      {"foreign_memory", {"written"}},
+      {"write_behind", {"written"}},
+      {"write_before", {"written"}},
+      {"modified_mesh", {"written"}},
+      {"overlapping_arrays", {"written"}},
+  };
+  return table;
+}
+
+class PlantedFault : public testing::TestWithParam<Planted> {};
+
+TEST_P(PlantedFault, IsSeenByTheChecksWhoseBusinessItIs) {
+  const auto results = run(lc_subject_faulty(), faulty_options(GetParam().fault, kBase, kBaseOptions), "bumpy:60", 2);
+  const std::set<std::string> names = red(results);
+  for (const char* check : GetParam().seen_by)
+    EXPECT_TRUE(names.contains(check)) << check << " did not see it:\n" << describe(results);
+  for (const Result& r : results) {
+    EXPECT_NE(r.status, Status::kError) << r.check << ": " << r.message;
+    if (r.status == Status::kFinding) {
+      EXPECT_GT(r.bad, 0) << r.check;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlantedFault, testing::ValuesIn(kill_table()),
+                         [](const auto& instance) { return std::string(instance.param.fault); });
+
+TEST(PlantedFaults, AreAllInTheTableAndEveryRowOfTheAuditIsTurnedRedByOne) {
+  std::set<std::string> planted, seen;
+  for (const Planted& p : kill_table()) {
+    planted.insert(p.fault);
+    seen.insert(p.seen_by.begin(), p.seen_by.end());
+  }
+  for (const Fault& f : faults())
+    EXPECT_TRUE(f.name == "none" || planted.contains(std::string(f.name))) << f.name << ": " << f.description;
+  for (const Check& check : checks())
+    for (const std::string_view name : check.rows) EXPECT_TRUE(seen.contains(std::string(name))) << name;
+}
+
+TEST(PlantedFaults, APerfectCopyOfAGoodSubjectHolds) {
+  const auto results = run(lc_subject_faulty(), faulty_options("none", kBase, kBaseOptions), "bumpy:60", 2);
+  EXPECT_TRUE(red(results).empty()) << describe(results);
+}
+
+TEST(PlantedFaults, TheWitnessNamesThePointAndTheCommandThatRecomputesIt) {
+  const auto results = run(lc_subject_faulty(), faulty_options("wrong_limit_mask", kBase, kBaseOptions), "bumpy:60", 2);
+  const Result& r = row(results, "positions");
+  ASSERT_TRUE(r.witness.has_value());
+  ASSERT_EQ(r.witness->expected.size(), 3U);
+  ASSERT_EQ(r.witness->got.size(), 3U);
+  EXPECT_NE(r.witness->expected, r.witness->got);
+  // The fault is at control vertices, which are corners.
+  for (const std::string& l : {r.witness->l1, r.witness->l2}) EXPECT_TRUE(l == "0" || l == "1") << l;
+  EXPECT_EQ(eval_command(r.mesh, *r.witness),
+            fmt::format("limitcheck eval bumpy:60 {} {} {}", r.witness->face, r.witness->l1, r.witness->l2));
+}
+
+TEST(Audit, TheNullSubjectFailsCleanly) {
+  const auto results = run(lc_subject_null(), "", "tetrahedron", 1);
+  EXPECT_FALSE(red(results).empty()) << describe(results);
+  for (const Result& r : results)
+    EXPECT_TRUE(r.check == "tessellates" || r.status != Status::kHeld) << r.check << " held with nothing to look at";
+}
+
+TEST(Audit, ASubjectThatRefusesIsARowAndNothingElseIsConfirmed) {
+  const auto results = run(find_subject(kBase), "no-such-option=1", "tetrahedron", 1);
+  EXPECT_EQ(row(results, "tessellates").status, Status::kFinding);
+  EXPECT_FALSE(row(results, "tessellates").message.empty());
+  std::size_t rows = 1;
+  for (const Check& check : checks()) rows += check.rows.size();
+  EXPECT_EQ(results.size(), rows);
+  for (const Result& r : results)
+    EXPECT_TRUE(r.check == "tessellates" || r.status == Status::kNotRun) << r.check;
+}
+
+TEST(Audit, TheBoundaryOfTheControlMeshIsTheOnlyBoundaryAllowed) {
+  for (const char* mesh : {"fan:1", "strip:3", "holes", "triangle", "two-components"}) {
+    const auto results = run(find_subject(kBase), kBaseOptions, mesh, 2);
+    EXPECT_EQ(row(results, "watertight").status, Status::kHeld) << mesh << "\n" << describe(results);
+    EXPECT_EQ(row(results, "coverage").status, Status::kHeld) << mesh << "\n" << describe(results);
+  }
+}
+
+TEST(Audit, ResultsDoNotDependOnThreads) {
+  const AuditMesh mesh{"bumpy:200", data::named_mesh("bumpy:200")};
+  const auto one = Auditor(3, 1).run({find_subject(kBase), ""}, mesh);
+  const auto four = Auditor(3, 4).run({find_subject(kBase), ""}, mesh);
+  ASSERT_EQ(one.size(), four.size());
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    EXPECT_EQ(one[k].worst, four[k].worst) << one[k].check;
+    EXPECT_EQ(one[k].rms, four[k].rms) << one[k].check;
+    EXPECT_EQ(one[k].bad, four[k].bad) << one[k].check;
+    EXPECT_EQ(one[k].message, four[k].message) << one[k].check;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The tolerances of the checks, and where they come from.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "verify/subject/subject.h"
+
+namespace limitcheck::verify {
+
+/// The unit roundoff u of a precision: half an ulp of 1.
+inline double unit_roundoff(lc_precision precision) {
+  return precision == LC_FLOAT32 ? 0x1p-24 : 0x1p-53;
+}
+
+/// How far a position may be from the exact one, in fractions of the bounding-box diagonal.
+///
+/// Every point of a subdivision is a convex combination of the level before: errors are not amplified, each
+/// level and the limit mask add their own roundings. Eight roundings of size u * M in each coordinate at each
+/// of depth + 2 steps (M = largest coordinate; an ordinary stencil has 3 to 7 terms), three coordinates:
+///     sqrt(3) * 8 (depth + 2) u M.
+/// At depth 5 on a bumpy sphere (M = 0.3 diagonals) this is 1.7e-6 in float; the good subjects reach 1e-7,
+/// the smallest fault in a mask that anybody would make is 1e-4. In double the reference itself, judged
+/// against 50 digits, is the limit: never less than 1e-14.
+inline double position_bound(lc_precision precision, int depth, double magnitude, double diagonal) {
+  const double rounding = std::sqrt(3.0) * 8 * (depth + 2) * unit_roundoff(precision) * magnitude / diagonal;
+  return precision == LC_FLOAT32 ? rounding : std::max(rounding, 1e-14);
+}
+
+/// How far a normal may be from the exact one, in degrees.
+///
+/// Normals come from differences of points 2^-depth apart, so rounding grows by 2 with each level. The float
+/// engine that takes them from the last level's differences is off by at most 8.4e-4 rad at depth 5 on 4000
+/// faces: 1e-3 rad up to depth 5, doubling beyond. In double the same would be 2e-12; 1e-9 rad leaves room
+/// for coarse evaluation at vertices of high valence and is still far below anything but rounding.
+inline double normal_bound(lc_precision precision, int depth) {
+  const double radians = precision == LC_FLOAT32 ? 1e-3 : 1e-9;
+  return std::ldexp(radians, std::max(0, depth - 5)) * 57.295779513082320877;
+}
+
+/// How far the length of a unit normal may be from 1: the rounding of three components, of a square root and
+/// of a division, and the float engine's reciprocal square root with one Newton step.
+inline double length_bound(lc_precision precision) {
+  return 8 * unit_roundoff(precision);
+}
+
+}  // namespace limitcheck::verify

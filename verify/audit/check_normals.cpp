@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
+
+#include "verify/audit/bounds.h"
+#include "verify/audit/checks.h"
+#include "verify/audit/statistics.h"
+
+namespace limitcheck::verify {
+namespace {
+
+void take(Result& r, const Statistics& s) {
+  r.bad = s.bad;
+  r.of = s.of;
+  r.worst = s.worst;
+  r.rms = s.rms;
+  r.p99 = s.p99;
+  r.status = s.of == 0 ? Status::kNotRun : s.bad > 0 ? Status::kFinding : Status::kHeld;
+}
+
+}  // namespace
+
+std::vector<Result> check_normals(const Evidence& e) {
+  Result angle = e.result("normals"), length = e.result("normal-length");
+  const Tessellation& t = e.tessellation;
+  if (!e.capabilities.normals) {
+    for (Result* r : {&angle, &length}) {
+      r->status = Status::kNotSupported;
+      r->message = "delivers no limit normals";
+    }
+    return {angle, length};
+  }
+  if (!t.has_normals()) {
+    angle.status = length.status = Status::kNotRun;
+    return {angle, length};
+  }
+
+  const std::size_t count = static_cast<std::size_t>(t.vertex_count());
+  std::vector<double> angles(count, -1), undefined(count, -1), lengths(count, -1);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
+    const Vector got = t.normal(static_cast<std::int64_t>(v));
+    lengths[v] = is_finite(got) ? std::abs(norm(got) - 1) : std::numeric_limits<double>::infinity();
+    const Lattice::Id id = e.point[v];
+    if (id == Lattice::kNone || e.capabilities.points != LC_POINTS_LIMIT) return;
+    (e.reference.has_normal(id) ? angles : undefined)[v] = angle_degrees(got, e.reference.normal(id));
+  });
+
+  angle.unit = "degrees";
+  angle.bound = normal_bound(e.capabilities.precision, e.lattice.depth());
+  const Statistics s = summarise(angles, *angle.bound);
+  take(angle, s);
+  if (s.worst_at >= 0) {
+    const Vector expected = e.reference.normal(e.point[s.worst_at]), got = t.normal(s.worst_at);
+    angle.witness = e.at_vertex(s.worst_at);
+    angle.witness->expected = {expected.begin(), expected.end()};
+    angle.witness->got = {got.begin(), got.end()};
+  }
+  // Where the surface has no normal any unit vector will do; say how many such points there are.
+  const Statistics without = summarise(undefined, std::numeric_limits<double>::infinity());
+  if (without.of > 0)
+    angle.message =
+        fmt::format("{} more where the surface has no normal, up to {} degrees from the reference's choice",
+                    without.of, without.worst ? fmt::format("{:.3g}", *without.worst) : "infinitely many");
+
+  length.unit = "|n| - 1";
+  length.bound = length_bound(e.capabilities.precision);
+  const Statistics l = summarise(lengths, *length.bound);
+  take(length, l);
+  if (l.worst_at >= 0) {
+    const Vector got = t.normal(l.worst_at);
+    length.witness = e.at_vertex(l.worst_at);
+    length.witness->got = {got.begin(), got.end()};
+  }
+  return {angle, length};
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "verify/audit/bounds.h"
+#include "verify/audit/checks.h"
+
+namespace limitcheck::verify {
+namespace {
+
+enum class Verdict : std::uint8_t { kNotPlaced, kGood, kClockwise, kFacesBack };
+
+// A facet may only be judged by its points if no allowed error of them can turn it over: each corner may move
+// by `slack`, which turns the facet's area vector by at most about slack * (sum of sides).
+Verdict judge(const Evidence& e, std::int64_t triangle, double slack) {
+  std::array<Lattice::Coordinates, 3> c;
+  if (!e.place(triangle, c)) return Verdict::kNotPlaced;
+
+  // On the lattice: exact, and all that counts where the facet is nearly degenerate in space.
+  const std::int64_t area = (c[1].i - c[0].i) * (c[2].j - c[0].j) - (c[2].i - c[0].i) * (c[1].j - c[0].j);
+  if (area < 0) return Verdict::kClockwise;
+  if (area == 0) return Verdict::kGood;  // no orientation; `watertight` counts it
+
+  // In space: as the facet of the exact surface over the same three lattice points faces.
+  const auto& v = e.tessellation.triangles()[triangle];
+  std::array<Vector, 3> got, exact;
+  for (int k = 0; k < 3; ++k) {
+    got[k] = e.tessellation.position(v[k]);
+    exact[k] = e.reference.position(e.point[v[k]]);
+    if (!is_finite(got[k])) return Verdict::kNotPlaced;
+  }
+  const Vector got_area = cross(got[1] - got[0], got[2] - got[0]);
+  const Vector exact_area = cross(exact[1] - exact[0], exact[2] - exact[0]);
+  const double sides = norm(exact[1] - exact[0]) + norm(exact[2] - exact[1]) + norm(exact[0] - exact[2]);
+  if (norm(exact_area) <= 4 * slack * (sides + slack)) return Verdict::kGood;
+  return dot(got_area, exact_area) < 0 ? Verdict::kFacesBack : Verdict::kGood;
+}
+
+}  // namespace
+
+std::vector<Result> check_orientation(const Evidence& e) {
+  Result r = e.result("orientation");
+  r.unit = "triangles";
+  r.bound = 0;
+  const std::int64_t count = e.tessellation.triangle_count();
+  const double slack =
+      position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal) * e.diagonal;
+  std::vector<Verdict> verdict(static_cast<std::size_t>(count));
+  tbb::parallel_for(std::int64_t{0}, count, [&](std::int64_t k) { verdict[k] = judge(e, k, slack); });
+
+  const auto number = [&](Verdict v) { return std::count(verdict.begin(), verdict.end(), v); };
+  const std::int64_t clockwise = number(Verdict::kClockwise), back = number(Verdict::kFacesBack);
+  r.of = count - number(Verdict::kNotPlaced);
+  r.bad = clockwise + back;
+  if (r.of == 0) r.status = Status::kNotRun;
+  if (r.bad == 0) return {r};
+
+  r.status = Status::kFinding;
+  r.message = fmt::format("{} triangles clockwise on their control face, {} face away from the exact facet",
+                          clockwise, back);
+  const auto bad = std::find_if(verdict.begin(), verdict.end(), [](Verdict v) { return v > Verdict::kGood; });
+  const std::int64_t triangle = bad - verdict.begin();
+  r.witness = e.at_vertex(e.tessellation.triangles()[triangle][0]);
+  r.witness->triangle = triangle;
+  return {r};
+}
+
+}  // namespace limitcheck::verify

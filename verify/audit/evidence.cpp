@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/evidence.h"
+
+#include <tbb/parallel_for.h>
+
+namespace limitcheck::verify {
+
+Result Evidence::result(std::string check) const {
+  Result r;
+  r.subject = subject;
+  r.mesh = mesh_name;
+  r.check = std::move(check);
+  r.depth = lattice.depth();
+  r.status = Status::kHeld;
+  return r;
+}
+
+Witness Evidence::at_vertex(std::int64_t vertex) const {
+  const lc_provenance& p = tessellation.provenance()[vertex];
+  Witness w;
+  w.vertex = vertex;
+  w.face = p.face;
+  w.l1 = fraction(p.i, p.denominator);
+  w.l2 = fraction(p.j, p.denominator);
+  return w;
+}
+
+Witness Evidence::at_point(Lattice::Id id) const {
+  const lc_provenance p = lattice.provenance(id);
+  Witness w;
+  w.face = p.face;
+  w.l1 = fraction(p.i, p.denominator);
+  w.l2 = fraction(p.j, p.denominator);
+  return w;
+}
+
+bool Evidence::place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>& corners) const {
+  if (!tessellation.triangle_ok(triangle)) return false;
+  const std::int32_t face = tessellation.triangle_face()[triangle];
+  const auto& vertices = tessellation.triangles()[triangle];
+  for (int k = 0; k < 3; ++k) {
+    const Lattice::Id id = point[vertices[k]];
+    if (id == Lattice::kNone) return false;
+    const auto coordinates = lattice.in_face(id, face);
+    if (!coordinates) return false;
+    corners[k] = *coordinates;
+  }
+  return true;
+}
+
+std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice) {
+  std::vector<Lattice::Id> ids(static_cast<std::size_t>(tessellation.vertex_count()));
+  const auto provenance = tessellation.provenance();
+  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t v) { ids[v] = lattice.id(provenance[v]); });
+  return ids;
+}
+
+}  // namespace limitcheck::verify

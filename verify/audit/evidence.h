@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What the checks look at: one tessellation of one control mesh by one subject, and the truth about it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "verify/audit/lattice.h"
+#include "verify/audit/reference_surface.h"
+#include "verify/audit/result.h"
+#include "verify/subject/host.h"
+
+namespace limitcheck::verify {
+
+/// All references outlive the evidence. Read-only, shared by checks that may run at the same time.
+struct Evidence {
+  std::string subject, mesh_name;
+  const lc_capabilities& capabilities;
+  const data::ControlMesh& mesh;             // rounded to the subject's precision
+  std::span<const std::int32_t> face_depth;  // as requested; -1 is culled
+  const Tessellation& tessellation;
+  const Lattice& lattice;             // of the largest depth requested
+  const ReferenceSurface& reference;  // evaluated at every point named below
+  std::vector<Lattice::Id> point;     // of each vertex, by its provenance; kNone: no lattice point
+  double diagonal = 0;                // of the bounding box of the control mesh
+  double magnitude = 0;               // largest absolute coordinate of the control mesh
+
+  /// A result of this subject and mesh, held and with nothing in it.
+  Result result(std::string check) const;
+  /// The witness for a vertex: where it lies by its provenance.
+  Witness at_vertex(std::int64_t vertex) const;
+  /// The witness for a lattice point.
+  Witness at_point(Lattice::Id id) const;
+  /// The lattice coordinates of the corners of a triangle in the face it claims to be part of; false if an
+  /// index, the face or a corner's provenance does not allow to say.
+  bool place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>& corners) const;
+};
+
+/// Ids of all vertices of a tessellation, in parallel.
+std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/json.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& x) {
+  return x && std::isfinite(*x) ? Json(*x) : Json(nullptr);
+}
+Json index(std::int64_t k) {
+  return k >= 0 ? Json(k) : Json(nullptr);
+}
+Json text(const std::string& s) {
+  return s.empty() ? Json(nullptr) : Json(s);
+}
+
+// JSON has no NaN: a witness for one says so in words.
+Json numbers(const std::vector<double>& list) {
+  if (list.empty()) return nullptr;
+  Json out = Json::array();
+  for (const double x : list)
+    out.push_back(std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x));
+  return out;
+}
+
+Json witness(const std::optional<Witness>& w) {
+  if (!w) return nullptr;
+  return {{"face", index(w->face)},
+          {"l1", text(w->l1)},
+          {"l2", text(w->l2)},
+          {"vertex", index(w->vertex)},
+          {"triangle", index(w->triangle)},
+          {"expected", numbers(w->expected)},
+          {"got", numbers(w->got)}};
+}
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  Json out{{"program", "limitcheck audit"},
+           {"version", report.version},
+           {"depth", report.depth},
+           {"seconds", report.seconds},
+           {"held", report.held()}};
+  out["subjects"] = report.subjects;
+  out["meshes"] = Json::array();
+  for (const auto& m : report.meshes)
+    out["meshes"].push_back({{"name", m.name}, {"vertices", m.vertices}, {"faces", m.faces}});
+  out["results"] = Json::array();
+  for (const Result& r : report.results)
+    out["results"].push_back({{"subject", r.subject},
+                              {"mesh", r.mesh},
+                              {"depth", r.depth},
+                              {"check", r.check},
+                              {"status", word(r.status)},
+                              {"count", r.bad},
+                              {"of", r.of},
+                              {"worst", number(r.worst)},
+                              {"bound", number(r.bound)},
+                              {"unit", text(r.unit)},
+                              {"rms", number(r.rms)},
+                              {"p99", number(r.p99)},
+                              {"worst_absolute", number(r.worst_absolute)},
+                              {"worst_ulps", number(r.worst_ulps)},
+                              {"message", text(r.message)},
+                              {"witness", witness(r.witness)}});
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_text(const std::filesystem::path& file, const std::string& content) {
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  std::filesystem::path temporary = file;
+  temporary += fmt::format(".{}.tmp", ::getpid());
+  {
+    std::ofstream out(temporary, std::ios::binary);
+    out << content;
+    out.close();
+    if (!out) {
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      throw std::runtime_error("cannot write " + file.string());
+    }
+  }
+  std::filesystem::rename(temporary, file);
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "verify/audit/result.h"
+
+namespace limitcheck::verify {
+
+/// The report as one JSON document. Keys of the header: program, version, depth, seconds, held, subjects,
+/// meshes (name with the generator's seed, vertices, faces). `results`: subject, mesh, depth, check, status,
+/// count (how many are wrong), of (of how many), worst, bound, unit, rms, p99, worst_absolute, worst_ulps,
+/// message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got) - null where it does not
+/// apply.
+std::string to_json(const Report& report);
+
+/// Writes text to a temporary name beside `file` and renames it; makes the folder. Throws std::runtime_error.
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/reference_surface.h"
+
+#include <tbb/parallel_for.h>
+
+#include "reference/refine.h"
+#include "reference/stam.h"
+
+namespace limitcheck::verify {
+namespace {
+
+Vector vector(const reference::Vec3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+// The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
+struct ReferenceSurface::Evaluator {
+  std::unique_ptr<reference::StamEvaluator<double>> limit;
+  std::unique_ptr<reference::RefinedMesh<double>> refined;
+};
+
+ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points)
+    : mesh_(mesh), lattice_(mesh_, depth), points_(points), evaluator_(std::make_unique<Evaluator>()) {
+  const auto size = static_cast<std::size_t>(lattice_.size());
+  position_.resize(size);
+  if (points_ == LC_POINTS_LIMIT) normal_.resize(size);
+  state_.assign(size, State::kMissing);
+}
+
+ReferenceSurface::~ReferenceSurface() = default;
+
+void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
+  // What is missing, each point once.
+  std::vector<Lattice::Id> wanted;
+  for (const Lattice::Id id : ids)
+    if (id != Lattice::kNone && state_[id] == State::kMissing) {
+      state_[id] = State::kWanted;
+      wanted.push_back(id);
+    }
+  if (wanted.empty()) return;
+
+  if (points_ == LC_POINTS_LIMIT) {
+    if (!evaluator_->limit) evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_);
+    tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
+      const Lattice::Id id = wanted[k];
+      const lc_provenance p = lattice_.provenance(id);
+      // Dyadic fractions are exact doubles; thirds are not.
+      const auto& limit = *evaluator_->limit;
+      const auto point =
+          p.denominator % 3 != 0
+              ? limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
+                               static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
+              : limit.evaluate(p.face, reference::Parameter::fraction(p.i, p.denominator),
+                               reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
+      position_[id] = vector(point.position);
+      normal_[id] = vector(point.normal);
+      state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
+    });
+    return;
+  }
+
+  if (!evaluator_->refined)
+    evaluator_->refined =
+        std::make_unique<reference::RefinedMesh<double>>(reference::refine<double>(mesh_, lattice_.depth()));
+  for (const Lattice::Id id : wanted) {
+    const lc_provenance p = lattice_.provenance(id);
+    const auto scale =
+        lattice_.n() / p.denominator;  // 0 for a face centre, which is no vertex of a refined mesh
+    state_[id] = State::kNoNormal;
+    position_[id] = scale == 0 || p.denominator % 3 == 0
+                        ? Vector{}
+                        : vector(evaluator_->refined->positions()[evaluator_->refined->vertex(
+                              p.face, static_cast<int>(p.i * scale), static_cast<int>(p.j * scale))]);
+  }
+}
+
+}  // namespace limitcheck::verify

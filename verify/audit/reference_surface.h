@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The exact surface at the lattice points of a control mesh: the expected values of the checks.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/audit/lattice.h"
+#include "verify/audit/vector.h"
+
+namespace limitcheck::verify {
+
+/// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that
+/// several subjects share it.
+class ReferenceSurface {
+ public:
+  /// `mesh` is copied. `depth` is that of the lattice.
+  ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points);
+  ~ReferenceSurface();
+
+  const data::ControlMesh& mesh() const { return mesh_; }
+  const Lattice& lattice() const { return lattice_; }
+  lc_points points() const { return points_; }
+
+  /// Evaluates what is missing among these points (kNone is skipped), in parallel. Not to be called at the
+  /// same time as anything else.
+  void prepare(std::span<const Lattice::Id> ids);
+
+  /// The rest only for points that were prepared. Position: double, error see reference/stam.h.
+  const Vector& position(Lattice::Id id) const { return position_[id]; }
+  /// Unit normal; limit points only.
+  const Vector& normal(Lattice::Id id) const { return normal_[id]; }
+  /// False where the surface has no normal (D12: zero by the masks; D5: boundary vertices without a tangent
+  /// plane).
+  bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
+
+ private:
+  enum class State : std::uint8_t { kMissing, kWanted, kRegular, kNoNormal };
+  struct Evaluator;
+
+  data::ControlMesh mesh_;
+  Lattice lattice_;
+  lc_points points_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::vector<Vector> position_, normal_;
+  std::vector<State> state_;
+};
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/result.h"
+
+namespace limitcheck::verify {
+
+std::string_view word(Status status) {
+  switch (status) {
+    case Status::kHeld:
+      return "held";
+    case Status::kFinding:
+      return "finding";
+    case Status::kNotSupported:
+      return "not-supported";
+    case Status::kNotRun:
+      return "not-run";
+    case Status::kError:
+      return "error";
+  }
+  return "error";
+}
+
+}  // namespace limitcheck::verify

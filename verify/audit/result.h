@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What an audit says: one row for each subject, mesh and check.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limitcheck::verify {
+
+enum class Status {
+  kHeld,          // looked at, nothing wrong
+  kFinding,       // looked at, something wrong: `bad` > 0
+  kNotSupported,  // the subject does not offer what this check looks at; not a fault
+  kNotRun,        // could not be looked at, because something before it failed; never a confirmation
+  kError          // subject or check broke down
+};
+
+/// "held", "finding", "not-supported", "not-run", "error": stable.
+std::string_view word(Status status);
+
+/// Where to look. Whatever does not apply is -1 or empty.
+struct Witness {
+  std::int64_t face = -1;      // control face, from 0 in file order
+  std::string l1, l2;          // exact fractions: "3/32"
+  std::int64_t vertex = -1;    // of the tessellation
+  std::int64_t triangle = -1;  // of the tessellation
+  std::vector<double> expected, got;
+};
+
+/// One row. `worst` and `bound` are in `unit`; so are rms and p99, which run over everything that was
+/// compared.
+struct Result {
+  std::string subject, mesh, check;
+  int depth = 0;
+  Status status = Status::kNotRun;
+  std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
+  std::optional<double> worst, bound, rms, p99;
+  std::string unit;
+  std::optional<double> worst_absolute;  // positions: in the mesh's own unit ...
+  std::optional<double> worst_ulps;      // ... and in units in the last place of the subject's precision
+  std::optional<Witness> witness;
+  std::string message;  // one sentence, may be empty
+};
+
+/// A finding, or a breakdown.
+inline bool is_bad(const Result& r) {
+  return r.status == Status::kFinding || r.status == Status::kError;
+}
+
+/// What the audit was run on and with: the header of table and JSON.
+struct Report {
+  struct Mesh {
+    std::string name;
+    std::int64_t vertices = 0, faces = 0;
+  };
+  std::string version;
+  int depth = 0;
+  std::vector<Mesh> meshes;
+  std::vector<std::string> subjects;
+  std::vector<Result> results;
+  double seconds = 0;
+
+  bool held() const {
+    for (const Result& r : results)
+      if (is_bad(r)) return false;
+    return true;
+  }
+};
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limitcheck::verify {
+
+Statistics summarise(const std::vector<double>& errors, double bound) {
+  Statistics s;
+  std::vector<double> finite;
+  finite.reserve(errors.size());
+  double worst = -1, sum = 0;
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    const double e = errors[k];
+    if (e < 0) continue;
+    ++s.of;
+    if (!(e <= bound)) ++s.bad;
+    if (e > worst) {
+      worst = e;
+      s.worst_at = static_cast<std::int64_t>(k);
+    }
+    if (!std::isfinite(e)) continue;
+    finite.push_back(e);
+    sum += e * e;
+  }
+  if (worst >= 0 && std::isfinite(worst)) s.worst = worst;
+  if (!finite.empty()) {
+    s.rms = std::sqrt(sum / static_cast<double>(finite.size()));
+    const std::size_t rank = (99 * finite.size() + 99) / 100 - 1;
+    std::nth_element(finite.begin(), finite.begin() + static_cast<std::ptrdiff_t>(rank), finite.end());
+    s.p99 = finite[rank];
+  }
+  return s;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace limitcheck::verify {
+
+/// Of a list of errors >= 0. An infinite entry is something that could not be measured (a NaN where a number
+/// should be): it is bad and it is the worst, but rms and p99 run over the finite entries. Negative entries
+/// are left out altogether: not looked at.
+struct Statistics {
+  std::int64_t of = 0, bad = 0;  // looked at; not within the bound
+  std::int64_t worst_at = -1;    // index of the first largest entry, -1 if nothing was looked at
+  std::optional<double> worst;   // empty if infinite
+  std::optional<double> rms, p99;
+};
+
+/// Summed in order, so that the result does not depend on threads. p99: the smallest entry that at least 99 %
+/// of the finite entries do not exceed.
+Statistics summarise(const std::vector<double>& errors, double bound);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/table.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace limitcheck::verify {
+namespace {
+
+// The rows of one subject and check: one line of the table.
+struct Line {
+  std::string check;
+  std::vector<const Result*> results;  // one per mesh
+  const Result* shown = nullptr;       // the one whose numbers stand in the line
+  std::int64_t bad_meshes = 0, looked_at = 0;
+};
+
+// A finding before whatever held; then the larger worst value in units of its bound, then the larger share of
+// bad ones.
+bool worse(const Result& a, const Result& b) {
+  const auto rank = [](const Result& r) {
+    switch (r.status) {
+      case Status::kError:
+        return 4;
+      case Status::kFinding:
+        return 3;
+      case Status::kHeld:
+        return 2;
+      case Status::kNotRun:
+        return 1;
+      case Status::kNotSupported:
+        return 0;
+    }
+    return 0;
+  };
+  if (rank(a) != rank(b)) return rank(a) > rank(b);
+  const auto excess = [](const Result& r) {
+    if (!r.worst) return r.bad > 0 ? std::numeric_limits<double>::infinity() : -1.0;
+    return r.bound && *r.bound > 0 ? *r.worst / *r.bound : *r.worst;
+  };
+  if (excess(a) != excess(b)) return excess(a) > excess(b);
+  const auto share = [](const Result& r) {
+    return r.of > 0 ? static_cast<double>(r.bad) / static_cast<double>(r.of) : 0;
+  };
+  return share(a) > share(b);
+}
+
+std::vector<Line> lines_of(const Report& report, const std::string& subject) {
+  std::vector<Line> lines;
+  for (const Result& r : report.results) {
+    if (r.subject != subject) continue;
+    auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) { return l.check == r.check; });
+    if (line == lines.end()) line = lines.insert(lines.end(), Line{r.check, {}, nullptr, 0, 0});
+    line->results.push_back(&r);
+    line->bad_meshes += is_bad(r);
+    line->looked_at += r.status != Status::kNotSupported && r.status != Status::kNotRun;
+    if (line->shown == nullptr || worse(r, *line->shown)) line->shown = &r;
+  }
+  return lines;
+}
+
+const char* verdict(Status status) {
+  switch (status) {
+    case Status::kHeld:
+      return "held";
+    case Status::kFinding:
+      return "FINDING";
+    case Status::kNotSupported:
+      return "not supported";
+    case Status::kNotRun:
+      return "not run";
+    case Status::kError:
+      return "ERROR";
+  }
+  return "ERROR";
+}
+
+std::string painted(Status status, bool colour) {
+  const std::string padded = fmt::format("{:<14}", verdict(status));
+  if (!colour) return padded;
+  const char* code = status == Status::kHeld      ? "32"
+                     : status == Status::kFinding ? "31"
+                     : status == Status::kError   ? "1;31"
+                                                  : "2";
+  return fmt::format("\033[{}m{}\033[0m", code, padded);
+}
+
+std::string amount(const std::optional<double>& x) {
+  return x ? fmt::format("{:.2e}", *x) : "-";
+}
+
+// Numbers of a witness as their precision prints them: a float as a float.
+std::string numbers(const std::vector<double>& list) {
+  std::vector<std::string> words;
+  for (const double x : list) {
+    const auto single = static_cast<float>(x);
+    words.push_back(static_cast<double>(single) == x ? fmt::format("{}", single) : fmt::format("{}", x));
+  }
+  return fmt::format("{}", fmt::join(words, "  "));
+}
+
+std::string where(const Result& r) {
+  if (!r.witness) return "";
+  if (!r.witness->l1.empty())
+    return fmt::format("{} face {} ({}, {})", r.mesh, r.witness->face, r.witness->l1, r.witness->l2);
+  if (r.witness->triangle >= 0) return fmt::format("{} triangle {}", r.mesh, r.witness->triangle);
+  return r.mesh;
+}
+
+void add_line(std::string& out, const Result& r, const std::string& meshes, bool colour) {
+  const bool has_worst = r.worst.has_value() || r.rms.has_value();
+  const std::string count = r.of > 0 ? fmt::format("{}/{}", r.bad, r.of) : "-";
+  out += fmt::format("  {:<17} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", r.check,
+                     painted(r.status, colour), meshes, count, has_worst ? amount(r.worst) : "-",
+                     has_worst ? amount(r.bound) : "-", has_worst ? amount(r.p99) : "-", r.unit, where(r));
+}
+
+void add_finding(std::string& out, int number, const Line& line) {
+  const Result& r = *line.shown;
+  out += fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
+  if (r.status == Status::kError) {
+    out += fmt::format("{}: {}\n", r.mesh, r.message);
+    return;
+  }
+  out += fmt::format(
+      "{} of {}{}{}\n", r.bad, r.of, r.unit.empty() || r.worst ? "" : " " + r.unit,
+      r.worst ? fmt::format(" beyond {:.2e} {}, worst {:.3e}", r.bound.value_or(0), r.unit, *r.worst) : "");
+  std::vector<std::string> others;
+  for (const Result* other : line.results)
+    if (other != &r && is_bad(*other)) others.push_back(other->mesh);
+  out += fmt::format("     on {}", r.mesh);
+  if (!others.empty()) out += fmt::format("; also on {}", fmt::join(others, ", "));
+  out += "\n";
+  if (!r.message.empty()) out += fmt::format("     {}\n", r.message);
+  if (!r.witness) return;
+  const Witness& w = *r.witness;
+  std::vector<std::string> place;
+  if (w.face >= 0) place.push_back(fmt::format("face {}", w.face));
+  if (!w.l1.empty()) place.push_back(fmt::format("l1 = {}, l2 = {}", w.l1, w.l2));
+  if (w.vertex >= 0) place.push_back(fmt::format("vertex {}", w.vertex));
+  if (w.triangle >= 0) place.push_back(fmt::format("triangle {}", w.triangle));
+  if (!place.empty()) out += fmt::format("     witness   {}\n", fmt::join(place, ", "));
+  if (!w.expected.empty()) out += fmt::format("     expected  {}\n", numbers(w.expected));
+  if (!w.got.empty()) out += fmt::format("     got       {}\n", numbers(w.got));
+  if (const std::string command = eval_command(r.mesh, w); !command.empty())
+    out += fmt::format("     {}\n", command);
+}
+
+}  // namespace
+
+std::string eval_command(const std::string& mesh, const Witness& witness) {
+  if (witness.face < 0 || witness.l1.empty()) return "";
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
+  std::string quoted = mesh;
+  if (mesh.find_first_not_of(kPlain) != std::string::npos) {
+    quoted.clear();
+    for (const char c : mesh) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    quoted = fmt::format("'{}'", quoted);
+  }
+  return fmt::format("limitcheck eval {} {} {} {}", quoted, witness.face, witness.l1, witness.l2);
+}
+
+std::string to_table(const Report& report, bool colour, bool all) {
+  std::string out;
+  std::vector<std::string> meshes;
+  for (const auto& m : report.meshes) meshes.push_back(fmt::format("{} ({} faces)", m.name, m.faces));
+  out +=
+      fmt::format("limitcheck {}: depth {} on {}\n", report.version, report.depth, fmt::join(meshes, ", "));
+  const auto row = [&](auto... cell) {
+    return fmt::format("  {:<17} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", cell...);
+  };
+
+  std::vector<Line> findings;
+  for (const std::string& subject : report.subjects) {
+    out += "\n" + subject + "\n" +
+           row("check", "verdict", "meshes", "bad/looked at", "worst", "bound", "99 %", "unit", "where");
+    for (Line& line : lines_of(report, subject)) {
+      if (all)
+        for (const Result* r : line.results)
+          add_line(out, *r, r->status == Status::kHeld ? "1/1" : "0/1", colour);
+      else
+        add_line(out, *line.shown,
+                 fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()), colour);
+      if (line.bad_meshes > 0) findings.push_back(std::move(line));
+    }
+  }
+  if (!findings.empty()) out += fmt::format("\nFindings (\"meshes\" above: held on so many of so many)\n");
+  for (std::size_t k = 0; k < findings.size(); ++k) add_finding(out, static_cast<int>(k) + 1, findings[k]);
+
+  std::int64_t held = 0, bad = 0, other = 0;
+  for (const Result& r : report.results) (r.status == Status::kHeld ? held : is_bad(r) ? bad : other) += 1;
+  out += fmt::format("\n{} held, {} findings, {} not supported or not run; {:.1f} s\n", held, bad, other,
+                     report.seconds);
+  return out;
+}
+
+}  // namespace limitcheck::verify

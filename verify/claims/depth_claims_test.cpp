@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Section 4.1: what the heuristics do, as corrected and as printed.                       [C22, C26-C30, C82]
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "data/generators/bumpy_sphere.h"
+#include "fast/depth.h"
+#include "fast/ring.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using fast::Camera;
+using fast::DepthOptions;
+using fast::Facing;
+using fast::Strategy;
+
+struct Scene {
+  explicit Scene(int faces, int max_depth = 5)
+      : mesh(data::bumpy_sphere(faces, 1)), adjacency(mesh), heuristics(mesh, adjacency, max_depth) {}
+  data::ControlMesh mesh;
+  fast::Adjacency adjacency;
+  fast::DepthHeuristics heuristics;
+};
+
+double cosine(double degrees) {
+  return std::cos(degrees * std::numbers::pi / 180);
+}
+
+/// N . N^(l) of each corner of each face and level 0 .. levels, the face's own sub-triangle only: [3 f +
+/// k][l].
+std::vector<std::vector<double>> corner_cosines(const Scene& scene, int levels) {
+  std::vector<std::vector<double>> result(3 * scene.mesh.triangles.size());
+  fast::Ring ring;
+  for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v) {
+    ring.gather(scene.mesh, scene.adjacency, v);
+    const fast::Point3 normal = ring.limit_normal();
+    for (int l = 0; l <= levels; ++l) {
+      if (l > 0) ring.subdivide();
+      std::int32_t h =
+          scene.adjacency.outgoing(v);  // triangle i of the ring lies in the face of the i-th half-edge
+      for (int i = 0; i < ring.faces(); ++i, h = scene.adjacency.rotate(h)) {
+        result[h].push_back(dot(ring.face_normal(i), normal));
+      }
+    }
+  }
+  return result;
+}
+
+TEST(Sec41_Depth, TakesSevenValuesOfWhichTheDeepestIs1024Triangles) {
+  RecordProperty("claim", "C22");
+  const Scene scene(800);
+  std::set<std::int32_t> met;
+  DepthOptions options;
+  options.strategy = Strategy::kProjectSphere;
+  options.target_pixels = 10;
+  for (const double distance : {2., 4., 8., 16., 32., 64., 128.}) {
+    Camera camera;
+    camera.eye = {0, 0, distance};
+    for (const std::int32_t d : scene.heuristics.depths(options, camera)) met.insert(d);
+  }
+  EXPECT_EQ(met, (std::set<std::int32_t>{-1, 0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(std::pow(4, *met.rbegin()), 1024);
+}
+
+// "The minimal l with N . N^(l) < cos alpha": read literally, a corner is outside the cone at first or never
+// again.
+TEST(Sec41_ConeFormula, WithThePrintedInequalityHoldsAtDepthZeroOrNeverAndWithTheReversedOneAtSomeDepth) {
+  RecordProperty("claim", "C27");
+  constexpr int kLevels = 10;
+  for (const int faces : {200, 800, 4000}) {
+    const Scene scene(faces);
+    const auto cosines = corner_cosines(scene, kLevels);
+    for (const double alpha : {15., 30.}) {
+      const double limit = cosine(alpha);
+      int literal_at_zero = 0, literal_later = 0, literal_never = 0, corrected = 0;
+      for (int f = 0; f < faces; ++f) {
+        int literal = -1, reversed = -1;
+        for (int l = kLevels; l >= 0; --l) {
+          const double a = cosines[3 * f][l], b = cosines[3 * f + 1][l], c = cosines[3 * f + 2][l];
+          if (a < limit && b < limit && c < limit) literal = l;
+          if (a >= limit && b >= limit && c >= limit) reversed = l;
+        }
+        ++(literal == 0 ? literal_at_zero : literal > 0 ? literal_later : literal_never);
+        corrected += reversed >= 0;
+      }
+      const std::string key = fmt::format("_{}_faces_{}_degrees", faces, alpha);
+      RecordProperty("literal_at_zero_percent" + key, fmt::format("{:.1f}", 100. * literal_at_zero / faces));
+      RecordProperty("literal_later_faces" + key, std::to_string(literal_later));
+      RecordProperty("reversed_never_faces" + key, std::to_string(faces - corrected));
+      EXPECT_GE(corrected, .99 * faces) << "inside its cones at some depth, but for a few extreme spikes";
+      EXPECT_GT(literal_never, 0) << "by no depth";
+      EXPECT_LE(literal_later, faces / 50) << "a corner inside by chance at depth 0, then all three outside";
+    }
+  }
+}
+
+TEST(Sec41_ConeRules, OfTheFormulaAndOfTheProcedureDiffer) {
+  RecordProperty("claim", "C28");
+  constexpr int kLevels = fast::kDeepest;
+  for (const int faces : {200, 800, 4000}) {
+    const Scene scene(faces, kLevels);
+    const auto cosines = corner_cosines(scene, kLevels);
+    const double limit = cosine(15);
+    double formula_sum = 0, procedure_sum = 0;
+    for (std::int32_t f = 0; f < faces; ++f) {
+      int formula = 0, procedure = 0;
+      while (formula < kLevels && std::min({cosines[3 * f][formula], cosines[3 * f + 1][formula],
+                                            cosines[3 * f + 2][formula]}) < limit) {
+        ++formula;
+      }
+      for (int k = 0; k < 3; ++k) {
+        procedure = std::max(procedure, scene.heuristics.cone_depth(scene.adjacency.corner(f, k), limit));
+      }
+      EXPECT_GE(procedure + 1, formula) << "the procedure is the conservative one, but for C30";
+      formula_sum += formula;
+      procedure_sum += procedure;
+    }
+    RecordProperty(fmt::format("mean_depth_formula_{}", faces), fmt::format("{:.3f}", formula_sum / faces));
+    RecordProperty(fmt::format("mean_depth_procedure_{}", faces),
+                   fmt::format("{:.3f}", procedure_sum / faces));
+    EXPECT_GT(procedure_sum, formula_sum + .4 * faces) << faces;
+  }
+}
+
+// The procedure and the formula meet where they must: the vertex value is the smallest over its triangles.
+TEST(Sec41_ConeRules, TheProcedureTakesTheWorstOfAllIncidentSubTriangles) {
+  RecordProperty("claim", "C28, C29");
+  const Scene scene(200);
+  const auto cosines = corner_cosines(scene, 5);
+  for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v) {
+    for (int l = 0; l <= 5; ++l) {
+      double worst = 1;
+      for (std::int32_t h = 0; h < 600; ++h) {
+        if (scene.adjacency.origin(h) == v) worst = std::min(worst, cosines[h][l]);
+      }
+      ASSERT_EQ(scene.heuristics.cone_cosine(v, l), worst) << "vertex " << v << " level " << l;
+    }
+  }
+}
+
+TEST(Sec41_Cone, OnceEnteredItIsHardlyEverLeft) {
+  RecordProperty("claim", "C30");
+  constexpr int kLevels = 6;
+  for (const int faces : {200, 800, 4000}) {
+    const Scene scene(faces, kLevels);
+    const auto cosines = corner_cosines(scene, kLevels);
+    for (const double alpha : {15., 30.}) {
+      const double limit = cosine(alpha);
+      int left_by_face = 0, left_by_vertex = 0;
+      for (int f = 0; f < faces; ++f) {
+        bool entered = false, left = false;
+        for (int l = 0; l <= kLevels; ++l) {
+          const bool inside =
+              std::min({cosines[3 * f][l], cosines[3 * f + 1][l], cosines[3 * f + 2][l]}) >= limit;
+          left = left || (entered && !inside);
+          entered = entered || inside;
+        }
+        left_by_face += left;
+      }
+      for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v) {
+        bool entered = false, left = false;
+        for (int l = 0; l <= kLevels; ++l) {
+          const bool inside = scene.heuristics.cone_cosine(v, l) >= limit;
+          left = left || (entered && !inside);
+          entered = entered || inside;
+        }
+        left_by_vertex += left;
+      }
+      const std::string key = fmt::format("_{}_faces_{}_degrees", faces, alpha);
+      RecordProperty("left_again_faces" + key, std::to_string(left_by_face));
+      RecordProperty("left_again_vertices" + key, std::to_string(left_by_vertex));
+      EXPECT_LE(left_by_face, std::max(1, faces / 100)) << key;
+      EXPECT_LE(left_by_vertex, std::max(1, faces / 400)) << key;
+    }
+  }
+}
+
+// T2 of the register: combined is nowhere below either, stays culled, and costs more per visible face.
+TEST(Sec41_Combined, AsTheMaximumIsNeverBelowEitherAndKeepsCulledFacesCulled) {
+  RecordProperty("claim", "C82, C26");
+  double previous_sphere = 1e300, previous_combined = 0;
+  for (const int faces : {200, 800, 4000}) {
+    const Scene scene(faces);
+    DepthOptions options;
+    options.angle_front = options.angle_silhouette = 60;
+    std::vector<std::int32_t> depth[3];
+    double triangles[3] = {0, 0, 0};
+    std::int64_t visible = 0;
+    for (const auto& [i, strategy] :
+         {std::pair{0, Strategy::kProjectSphere}, std::pair{1, Strategy::kCurvature},
+          std::pair{2, Strategy::kCombined}}) {
+      options.strategy = strategy;
+      depth[i] = scene.heuristics.depths(options, {});
+      for (const std::int32_t d : depth[i]) triangles[i] += d < 0 ? 0 : std::pow(4., d);
+    }
+    const auto facing = scene.heuristics.facing(Camera{});
+    std::set<Facing> classes(facing.begin(), facing.end());
+    EXPECT_EQ(classes.size(), 3u) << "front, silhouette and back all occur";
+    for (int f = 0; f < faces; ++f) {
+      ASSERT_EQ(depth[2][f], std::max(depth[0][f], depth[1][f]));
+      ASSERT_EQ(depth[2][f] == fast::kCulled, facing[f] == Facing::kBack);
+      visible += depth[2][f] >= 0;
+    }
+    const double sphere = triangles[0] / static_cast<double>(visible),
+                 combined = triangles[2] / static_cast<double>(visible);
+    RecordProperty(fmt::format("triangles_per_visible_face_project_sphere_{}", faces),
+                   fmt::format("{:.1f}", sphere));
+    RecordProperty(fmt::format("triangles_per_visible_face_combined_{}", faces),
+                   fmt::format("{:.1f}", combined));
+    EXPECT_LT(sphere, previous_sphere);
+    EXPECT_GT(combined, previous_combined);
+    previous_sphere = sphere;
+    previous_combined = combined;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

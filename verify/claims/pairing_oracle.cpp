@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "verify/claims/pairing_oracle.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/max_cardinality_matching.hpp>
+#include <tuple>
+
+namespace limitcheck::verify {
+
+namespace {
+
+std::vector<std::int32_t> free_neighbours(const fast::Adjacency& adjacency, const std::vector<bool>& free,
+                                          std::int32_t f) {
+  std::vector<std::int32_t> result;
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t g = adjacency.neighbour(f, k);
+    if (g >= 0 && free[g]) result.push_back(g);
+  }
+  return result;
+}
+
+std::vector<int> sets(const fast::Adjacency& adjacency, const std::vector<bool>& free, bool greatest) {
+  std::vector<int> set(free.size(), -1);
+  const auto faces = static_cast<std::int32_t>(free.size());
+  for (std::int32_t f = 0; f < faces; ++f) {
+    if (!free[f]) continue;
+    const auto count = free_neighbours(adjacency, free, f).size();
+    set[f] = count <= 1 ? 0 : count == 3 ? 3 : greatest ? 1 : -2;
+  }
+  // S1, by iteration from all (greatest) or none (least) of the faces with two free neighbours.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::int32_t f = 0; f < faces; ++f) {
+      if (set[f] != (greatest ? 1 : -2)) continue;
+      const auto around = free_neighbours(adjacency, free, f);
+      const bool supported = std::any_of(around.begin(), around.end(),
+                                         [&](std::int32_t g) { return set[g] == 0 || set[g] == 1; });
+      if (supported == greatest) continue;
+      set[f] = greatest ? -2 : 1;
+      changed = true;
+    }
+  }
+  for (std::int32_t f = 0; f < faces; ++f) {
+    if (set[f] != -2) continue;
+    const auto around = free_neighbours(adjacency, free, f);
+    if (std::all_of(around.begin(), around.end(), [&](std::int32_t g) { return set[g] == 3; })) set[f] = 2;
+  }
+  return set;
+}
+
+}  // namespace
+
+std::vector<int> sets_by_definition(const fast::Adjacency& adjacency, const std::vector<bool>& free) {
+  return sets(adjacency, free, true);
+}
+
+std::vector<int> sets_by_least_fixpoint(const fast::Adjacency& adjacency, const std::vector<bool>& free) {
+  return sets(adjacency, free, false);
+}
+
+std::string first_violation(const fast::Adjacency& adjacency, std::span<const std::int32_t> depth,
+                            const fast::PairingResult& result) {
+  std::vector<bool> free(depth.size());
+  for (std::size_t f = 0; f < depth.size(); ++f) free[f] = depth[f] >= 0;
+  for (std::size_t round = 0; round < result.pairs.size(); ++round) {
+    const auto& [f, g, edge0, edge1, pair_depth] = result.pairs[round];
+    const std::vector<int> set = sets_by_definition(adjacency, free);
+    if (set[f] < 0) return fmt::format("round {}: face {} is not free", round, f);
+    int highest = 4;
+    for (const int s : set) {
+      if (s >= 0) highest = std::min(highest, s);
+    }
+    if (set[f] != highest) {
+      return fmt::format("round {}: face {} is of S{}, but S{} is not empty", round, f, set[f], highest);
+    }
+    const auto around = free_neighbours(adjacency, free, f);
+    free[f] = false;
+    if (g < 0) {
+      if (!around.empty()) return fmt::format("round {}: face {} is left alone beside a free one", round, f);
+      continue;
+    }
+    if (std::find(around.begin(), around.end(), g) == around.end()) {
+      return fmt::format("round {}: face {} gets {}, which is no free neighbour", round, f, g);
+    }
+    // In S0 before not in S0; among these an equal depth before another; then by priority.
+    const auto rank = [&](std::int32_t h) { return std::tuple(set[h] != 0, depth[h] != depth[f], set[h]); };
+    for (const std::int32_t h : around) {
+      if (rank(h) < rank(g))
+        return fmt::format("round {}: face {} gets {}, but {} ranks before it", round, f, g, h);
+    }
+    free[g] = false;
+  }
+  const auto left = std::find(free.begin(), free.end(), true);
+  return left == free.end() ? std::string() : fmt::format("face {} is never taken", left - free.begin());
+}
+
+std::int64_t fewest_singletons(const fast::Adjacency& adjacency, std::span<const std::int32_t> depth) {
+  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
+  Graph dual(depth.size());
+  std::int64_t visible = 0;
+  for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
+    if (depth[f] < 0) continue;
+    ++visible;
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t g = adjacency.neighbour(f, k);
+      if (g > f && depth[g] >= 0) add_edge(static_cast<std::size_t>(f), static_cast<std::size_t>(g), dual);
+    }
+  }
+  std::vector<boost::graph_traits<Graph>::vertex_descriptor> mate(depth.size());
+  const auto index = get(boost::vertex_index, dual);
+  // Without Boost's own verifier, which g++ 12 warns about.
+  boost::matching<Graph, decltype(mate.data()), decltype(index), boost::edmonds_augmenting_path_finder,
+                  boost::extra_greedy_matching, boost::no_matching_verifier>(dual, mate.data(), index);
+  return visible - 2 * static_cast<std::int64_t>(boost::matching_size(dual, mate.data()));
+}
+
+}  // namespace limitcheck::verify

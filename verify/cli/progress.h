@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace limitcheck::cli {
+
+/// One line on standard error that says what is being done now, rewritten in place; nothing at all if
+/// standard error is no terminal. Not thread-safe.
+class Progress {
+ public:
+  Progress();
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Shows `text` behind a bar of done / total; at most ten times a second, so call it as often as you like.
+  void show(std::size_t done, std::size_t total, const std::string& text);
+  /// Wipes the line.
+  void clear();
+
+ private:
+  bool terminal_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace limitcheck::cli

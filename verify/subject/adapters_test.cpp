@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// The adapters deliver what their libraries compute, and say truly where each point lies.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "data/generators/named_mesh.h"
+#include "verify/subject/host.h"
+#include "verify/subject/registry.h"
+#include "verify/subject/test_lattice.h"
+
+namespace {
+
+using namespace limitcheck;
+using namespace limitcheck::verify;
+using namespace limitcheck::verify::test;
+
+struct Named {
+  const char* subject;
+  const char* options;
+};
+const std::vector<Named> kAdapters{
+    {"opensubdiv-far", ""}, {"opensubdiv-far", "precision=double"},
+    {"opensubdiv-bfr", ""}, {"opensubdiv-bfr", "precision=double,approx-level=4"},
+    {"cgal", ""},           {"openmesh", ""}};
+
+// Each control face is covered by 4^d triangles of the lattice, each once, corners on the face,
+// counter-clockwise.
+void expect_full_lattice(const data::ControlMesh& mesh, const Tessellation& t,
+                         const std::vector<int>& depth) {
+  std::vector<std::set<std::array<std::int64_t, 3>>> cells(mesh.triangles.size());
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
+    ASSERT_TRUE(t.triangle_ok(k));
+    const auto face = t.triangle_face()[static_cast<std::size_t>(k)];
+    std::array<std::array<std::int64_t, 3>, 3> l{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& p = t.provenance()[t.triangles()[static_cast<std::size_t>(k)][c]];
+      const auto at = on_face(mesh, p, face);
+      ASSERT_TRUE(at.has_value()) << "triangle " << k << " is not on face " << face;
+      EXPECT_EQ(p.denominator, std::uint32_t{1} << depth[static_cast<std::size_t>(face)]);
+      l[c] = *at;
+    }
+    const auto turn = (l[1][1] - l[0][1]) * (l[2][2] - l[0][2]) - (l[2][1] - l[0][1]) * (l[1][2] - l[0][2]);
+    EXPECT_EQ(turn, 1) << "triangle " << k;
+    cells[static_cast<std::size_t>(face)].insert(
+        {l[0][1] + l[1][1] + l[2][1], l[0][2] + l[1][2] + l[2][2], 0});  // its centre: no two cells share it
+  }
+  std::int64_t sum = 0;
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    const auto expected = depth[f] < 0 ? 0 : std::int64_t{1} << (2 * depth[f]);
+    EXPECT_EQ(static_cast<std::int64_t>(cells[f].size()), expected) << "face " << f;
+    sum += expected;
+  }
+  EXPECT_EQ(t.triangle_count(), sum);
+}
+
+TEST(Adapters, CoverEachFaceByItsLatticeOnceAndCounterClockwise) {
+  for (const Named& named : kAdapters) {
+    for (const auto& [name, mesh] : shapes()) {
+      for (const int depth : {0, 1, 3}) {
+        SCOPED_TRACE(std::string(named.subject) + " " + named.options + " on " + name);
+        Session session(*find_subject(named.subject), mesh, named.options);
+        const Tessellation t = session.tessellate(depth);
+        EXPECT_TRUE(t.defects().empty());
+        EXPECT_TRUE(t.overruns().empty());
+        EXPECT_EQ(t.has_normals(), session.capabilities().normals == 1);
+        expect_full_lattice(session.mesh(), t, std::vector<int>(mesh.triangles.size(), depth));
+        for (std::int64_t v = 0; v < t.vertex_count(); ++v) EXPECT_FALSE(t.position_unwritten(v));
+      }
+    }
+  }
+}
+
+TEST(Adapters, TakeADepthForEachFaceWhereTheySaySo) {
+  const auto mesh = data::named_mesh("octahedron");
+  const std::vector<std::int32_t> depth{0, 3, -1, 1, 2, -1, 3, 0};
+  for (const Named& named : kAdapters) {
+    Session session(*find_subject(named.subject), mesh, named.options);
+    if (session.capabilities().per_face_depth == 0) continue;
+    SCOPED_TRACE(named.subject);
+    expect_full_lattice(mesh, session.tessellate(depth), depth);
+  }
+}
+
+TEST(Adapters, ThatRefineAWholeMeshShareEveryPoint) {
+  for (const char* subject : {"opensubdiv-far", "cgal", "openmesh"}) {
+    for (const auto& [name, mesh] : shapes()) {
+      Session session(*find_subject(subject), mesh);
+      for (const auto& [place, vertices] : places(mesh, session.tessellate(3))) {
+        EXPECT_EQ(vertices.size(), 1u) << subject << " on " << name;
+      }
+    }
+  }
+}
+
+// One step by hand, the rules written out: C10, C11, C12, D1. It decides that both libraries use Loop's
+// weights (with Warren's the vertex of valence 4 would move by 0.375 instead of 0.484 of the way) and the
+// B-spline boundary.
+std::map<Place, std::array<double, 3>> refined_once(const data::ControlMesh& mesh) {
+  std::map<std::pair<int, int>, std::vector<int>> opposite;
+  std::vector<std::set<int>> ring(mesh.positions.size()), rim(mesh.positions.size());
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      opposite[std::minmax(a, b)].push_back(t[(k + 2) % 3]);
+      ring[static_cast<std::size_t>(a)].insert(b);
+      ring[static_cast<std::size_t>(b)].insert(a);
+    }
+  }
+  const auto at = [&](int v) { return mesh.positions[static_cast<std::size_t>(v)]; };
+  std::map<Place, std::array<double, 3>> result;
+  for (const auto& [edge, apexes] : opposite) {
+    const auto [a, b] = edge;
+    auto& point = result[{1, a, b, 1, 2}];
+    for (std::size_t c = 0; c < 3; ++c) {
+      point[c] = apexes.size() == 2 ? (3 * (at(a)[c] + at(b)[c]) + at(apexes[0])[c] + at(apexes[1])[c]) / 8
+                                    : (at(a)[c] + at(b)[c]) / 2;
+    }
+    if (apexes.size() == 1) {
+      rim[static_cast<std::size_t>(a)].insert(b);
+      rim[static_cast<std::size_t>(b)].insert(a);
+    }
+  }
+  for (std::size_t v = 0; v < ring.size(); ++v) {
+    const auto& neighbours = rim[v].empty() ? ring[v] : rim[v];
+    const double n = static_cast<double>(neighbours.size());
+    const double a =
+        rim[v].empty() ? 0.625 - std::pow(3 + 2 * std::cos(2 * std::numbers::pi / n), 2) / 64 : 0.25;
+    auto& point = result[{0, static_cast<int>(v), 0, 0, 0}];
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0;
+      for (const int w : neighbours) sum += at(w)[c];
+      point[c] = (1 - a) * mesh.positions[v][c] + a / n * sum;
+    }
+  }
+  return result;
+}
+
+TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
+  double worst = 0;
+  for (const char* subject : {"cgal", "openmesh"}) {
+    for (const auto& [name, mesh] : shapes()) {
+      Session session(*find_subject(subject), mesh);
+      const Tessellation t = session.tessellate(1);
+      const auto expected = refined_once(mesh);
+      for (const auto& [place, vertices] : places(mesh, t)) {
+        const double error = distance(t.position(vertices[0]), expected.at(place));
+        EXPECT_LE(error, 1e-15) << subject << " on " << name;  // a dozen roundings of numbers near 1
+        worst = std::max(worst, error);
+      }
+    }
+  }
+  RecordProperty("worst", std::to_string(worst));
+}
+
+TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
+  const auto bytes = [](const Tessellation& t) {
+    std::string all;
+    for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+      for (const auto bits : {t.position_bits(v), t.has_normals() ? t.normal_bits(v) : t.position_bits(v)}) {
+        all.append(reinterpret_cast<const char*>(bits.data()), bits.size());
+      }
+    }
+    all.append(reinterpret_cast<const char*>(t.provenance().data()), t.provenance().size_bytes());
+    all.append(reinterpret_cast<const char*>(t.triangles().data()), t.triangles().size_bytes());
+    return all;
+  };
+  const tbb::global_control four(tbb::global_control::max_allowed_parallelism,
+                                 4);  // whatever this machine has
+  const auto mesh = data::named_mesh("bumpy:800");
+  for (const Named& named : kAdapters) {
+    Session session(*find_subject(named.subject), mesh, named.options);
+    const std::string one = bytes(session.tessellate(3, 1));
+    EXPECT_EQ(one, bytes(session.tessellate(3, 4))) << named.subject;
+    EXPECT_EQ(one, bytes(session.tessellate(3, 1))) << named.subject << ", asked again";
+  }
+}
+
+// OpenMesh reads beyond its weight table from valence 50 on: the adapter refuses in its place, and says why.
+TEST(OpenMesh, IsNotRunWhereItReadsOutOfBounds) {
+  EXPECT_NO_THROW(Session(*lc_subject_openmesh(), data::named_mesh("wheel:49")));
+  try {
+    Session(*lc_subject_openmesh(), data::named_mesh("wheel:50"));
+    FAIL() << "valence 50 was accepted";
+  } catch (const SubjectError& error) {
+    EXPECT_EQ(error.status(), LC_INVALID_INPUT);
+    EXPECT_NE(std::string(error.what()).find("50 weights"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace

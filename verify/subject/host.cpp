@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "verify/subject/host.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "verify/subject/host_memory.h"
+
+namespace limitcheck::verify {
+namespace {
+
+const char* text(const std::string& options) {
+  return options.empty() ? nullptr : options.c_str();
+}
+
+// Calls a function of the subject and turns every way of failing into a SubjectError. C++ subjects may throw
+// although the interface is C: that is a failure of theirs, not the end of the run.
+template <class Call>
+void call(const lc_subject& subject, const char* function, Call&& function_call) {
+  const char* message = nullptr;
+  lc_status status = LC_FAILED;
+  try {
+    status = function_call(&message);
+  } catch (const std::exception& error) {
+    throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw: {}", subject.name, function, error.what()));
+  } catch (...) {
+    throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw", subject.name, function));
+  }
+  if (status == LC_OK) return;
+  if (status != LC_NOT_SUPPORTED && status != LC_INVALID_INPUT) status = LC_FAILED;
+  throw SubjectError(
+      status, fmt::format("{}: {}", subject.name, message != nullptr ? message : "no reason was given"));
+}
+
+}  // namespace
+
+lc_capabilities capabilities(const lc_subject& subject, const std::string& options) {
+  if (subject.abi != LC_SUBJECT_ABI) {
+    throw SubjectError(LC_NOT_SUPPORTED,
+                       fmt::format("the subject was built for interface {}, this program has {}", subject.abi,
+                                   LC_SUBJECT_ABI));
+  }
+  lc_capabilities result{};
+  call(subject, "capabilities",
+       [&](const char** message) { return subject.capabilities(text(options), &result, message); });
+  if (result.precision != LC_FLOAT32 && result.precision != LC_FLOAT64) {
+    throw SubjectError(LC_FAILED,
+                       fmt::format("{}: unknown precision {}", subject.name, int{result.precision}));
+  }
+  return result;
+}
+
+Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options)
+    : subject_(subject),
+      options_(std::move(options)),
+      capabilities_(verify::capabilities(subject, options_)),
+      mesh_(mesh) {
+  positions_.reserve(3 * mesh_.positions.size());
+  for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
+    for (double& x : mesh_.positions[v]) {
+      if (capabilities_.precision == LC_FLOAT32) x = static_cast<double>(static_cast<float>(x));
+      if (!std::isfinite(x)) {
+        throw SubjectError(
+            LC_INVALID_INPUT,
+            fmt::format("vertex {} has no finite position in the precision of {}", v, subject_.name));
+      }
+      positions_.push_back(x);
+    }
+  }
+  triangles_.reserve(3 * mesh_.triangles.size());
+  for (const auto& t : mesh_.triangles) triangles_.insert(triangles_.end(), t.begin(), t.end());
+
+  const lc_mesh view{positions_.data(), static_cast<std::int64_t>(mesh_.positions.size()), triangles_.data(),
+                     static_cast<std::int64_t>(mesh_.triangles.size())};
+  call(subject_, "create",
+       [&](const char** message) { return subject_.create(&view, text(options_), &instance_, message); });
+}
+
+Session::~Session() {
+  try {
+    subject_.destroy(instance_);
+  } catch (...) {  // nothing left to report to
+  }
+}
+
+std::string Session::label() const {
+  return options_.empty() ? std::string(subject_.name) : fmt::format("{}:{}", subject_.name, options_);
+}
+
+Tessellation Session::tessellate(int depth, int threads) {
+  const std::vector<std::int32_t> all(mesh_.triangles.size(), depth);
+  return tessellate(all, threads);
+}
+
+Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int threads) {
+  if (face_depth.size() != mesh_.triangles.size() || threads < 1 ||
+      std::any_of(face_depth.begin(), face_depth.end(), [](std::int32_t d) { return d < -1; })) {
+    throw std::invalid_argument("tessellate: one depth >= -1 for each face, and one thread or more");
+  }
+  if (!face_depth.empty()) {
+    const auto [least, most] = std::minmax_element(face_depth.begin(), face_depth.end());
+    if (*most > capabilities_.max_depth) {
+      throw SubjectError(LC_NOT_SUPPORTED, fmt::format("{}: depth {} is beyond its largest, {}",
+                                                       subject_.name, *most, capabilities_.max_depth));
+    }
+    if (capabilities_.per_face_depth == 0 && (*least != *most || *least == -1)) {
+      throw SubjectError(LC_NOT_SUPPORTED, fmt::format("{}: no depth per face", subject_.name));
+    }
+  }
+
+  Tessellation result;
+  result.memory_ = std::make_shared<detail::Memory>();
+  result.precision_ = capabilities_.precision;
+  result.faces_ = static_cast<std::int64_t>(mesh_.triangles.size());
+  const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate};
+  lc_tessellation out{};
+  call(subject_, "tessellate",
+       [&](const char** message) { return subject_.tessellate(instance_, &request, &out, message); });
+
+  // The arrays are the host's, so the subject can let go at once; a copy, because it may clear its own.
+  const lc_tessellation delivered = out;
+  try {
+    subject_.release(instance_, &out);
+  } catch (...) {
+    result.defects_.push_back({Defect::Kind::kThrew, "", 1, -1, "release() threw"});
+  }
+  result.inspect(delivered, capabilities_.normals != 0);
+
+  std::int64_t changed = 0, first = -1;
+  for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
+    if (std::equal(mesh_.positions[v].begin(), mesh_.positions[v].end(),
+                   positions_.begin() + 3 * static_cast<std::ptrdiff_t>(v)))
+      continue;
+    if (changed++ == 0) first = static_cast<std::int64_t>(v);
+  }
+  for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+    if (std::equal(mesh_.triangles[f].begin(), mesh_.triangles[f].end(),
+                   triangles_.begin() + 3 * static_cast<std::ptrdiff_t>(f)))
+      continue;
+    if (changed++ == 0) first = static_cast<std::int64_t>(f);
+  }
+  if (changed > 0) {
+    result.defects_.push_back(
+        {Defect::Kind::kMeshModified, "mesh", changed, first,
+         fmt::format("the subject changed {} vertices or faces of the control mesh", changed)});
+  }
+  return result;
+}
+
+}  // namespace limitcheck::verify

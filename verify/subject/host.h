@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// The host's side of the door (verify/subject/subject.h): hands a control mesh to a subject and takes back
+// what it delivers, trusting nothing.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/subject/subject.h"
+#include "verify/subject/subject_error.h"
+
+namespace limitcheck::verify {
+
+/// Something is wrong with the arrays themselves, whatever is in them. One record per kind and array: how
+/// many elements, and the first of them.
+struct Defect {
+  enum class Kind {
+    kNegativeCount,      // vertex_count or triangle_count below 0
+    kMissingArray,       // NULL although there are elements (normals: although the capabilities promise them)
+    kForeignPointer,     // not inside memory from allocate(), or misaligned
+    kArrayTooSmall,      // the counts do not fit in the memory behind the pointer
+    kOverlappingArrays,  // two arrays share memory
+    kIndexOutOfRange,    // a triangle names a vertex that does not exist
+    kFaceOutOfRange,     // triangle_face names a control face that does not exist
+    kProvenanceOutOfRange,  // face does not exist, denominator 0, or i + j > denominator
+    kMeshModified,          // the subject wrote to the control mesh
+    kThrew,                 // release() let an exception through
+  };
+  Kind kind;
+  std::string array;        // "positions", "normals", "provenance", "triangles", "triangle_face", "mesh", ""
+  std::int64_t count = 0;   // elements concerned
+  std::int64_t first = -1;  // the first of them, or -1
+  std::string message;      // the whole in one sentence
+};
+
+/// A write outside an array, into the guard zone.
+struct Overrun {
+  std::string array;          // the array that begins in the block written around, or "block of N bytes"
+  bool before = false;        // in front of the first byte, else behind the last
+  std::int64_t distance = 0;  // bytes between the array and the farthest byte changed (1 = the neighbour)
+};
+
+namespace detail {
+class Memory;
+}
+
+/// What a subject delivered for one request. Owns its memory and outlives the session. Thread-safe for
+/// reading.
+///
+/// If the arrays cannot be trusted as memory (negative count, missing, foreign, too small, overlapping), the
+/// defect is recorded and vertex_count() = triangle_count() = 0: reading is always safe. Contents are handed
+/// on as delivered: ask triangle_ok(t) before using the indices of t, provenance_ok(v) before using the
+/// provenance of v.
+class Tessellation {
+ public:
+  lc_precision precision() const { return precision_; }
+  std::int64_t vertex_count() const { return vertices_; }
+  std::int64_t triangle_count() const { return triangles_; }
+  bool has_normals() const { return normals_ != nullptr; }
+
+  /// Position or unit normal of vertex v, 0 <= v < vertex_count(), whatever the precision (exact conversion).
+  std::array<double, 3> position(std::int64_t v) const { return read(positions_, v); }
+  std::array<double, 3> normal(std::int64_t v) const { return read(normals_, v); }
+
+  /// The same as raw bytes (12 or 24), for comparing bits.
+  std::span<const std::byte> position_bits(std::int64_t v) const { return bits(positions_, v); }
+  std::span<const std::byte> normal_bits(std::int64_t v) const { return bits(normals_, v); }
+
+  /// True if some coordinate still holds the 0xFF bytes it was handed out with. (A NaN that arithmetic makes
+  /// has other bits.)
+  bool position_unwritten(std::int64_t v) const { return unwritten(positions_, v); }
+  bool normal_unwritten(std::int64_t v) const { return unwritten(normals_, v); }
+
+  /// 3 * vertex_count() coordinates, x y z; empty if the subject's precision is the other one.
+  std::span<const float> positions_f32() const { return array<float>(positions_, LC_FLOAT32); }
+  std::span<const double> positions_f64() const { return array<double>(positions_, LC_FLOAT64); }
+  std::span<const float> normals_f32() const { return array<float>(normals_, LC_FLOAT32); }
+  std::span<const double> normals_f64() const { return array<double>(normals_, LC_FLOAT64); }
+
+  std::span<const lc_provenance> provenance() const {
+    return {provenance_, static_cast<std::size_t>(vertices_)};
+  }
+  std::span<const std::array<std::uint32_t, 3>> triangles() const {
+    return {indices_, static_cast<std::size_t>(triangles_)};
+  }
+  std::span<const std::int32_t> triangle_face() const {
+    return {triangle_face_, static_cast<std::size_t>(triangles_)};
+  }
+
+  /// Indices and control face of triangle t are in range.
+  bool triangle_ok(std::int64_t t) const;
+  /// The control face exists and (i, j) / denominator lies in its domain.
+  bool provenance_ok(std::int64_t v) const;
+
+  const std::vector<Defect>& defects() const { return defects_; }
+  const std::vector<Overrun>& overruns() const { return overruns_; }
+
+ private:
+  friend class Session;
+  std::size_t coordinate_size() const { return precision_ == LC_FLOAT32 ? sizeof(float) : sizeof(double); }
+  std::array<double, 3> read(const void* array, std::int64_t v) const;
+  std::span<const std::byte> bits(const void* array, std::int64_t v) const;
+  bool unwritten(const void* array, std::int64_t v) const;
+  template <class T>
+  std::span<const T> array(const void* data, lc_precision precision) const {
+    if (precision != precision_ || data == nullptr) return {};
+    return {static_cast<const T*>(data), 3 * static_cast<std::size_t>(vertices_)};
+  }
+  void inspect(const lc_tessellation& out, bool promises_normals);
+
+  std::shared_ptr<detail::Memory> memory_;
+  lc_precision precision_ = LC_FLOAT32;
+  std::int64_t faces_ = 0, vertices_ = 0, triangles_ = 0;
+  const void* positions_ = nullptr;
+  const void* normals_ = nullptr;
+  const lc_provenance* provenance_ = nullptr;
+  const std::array<std::uint32_t, 3>* indices_ = nullptr;
+  const std::int32_t* triangle_face_ = nullptr;
+  std::vector<Defect> defects_;
+  std::vector<Overrun> overruns_;
+};
+
+/// The capabilities of a subject under these options. Throws SubjectError.
+lc_capabilities capabilities(const lc_subject& subject, const std::string& options = {});
+
+/// One control mesh in the hands of one subject: create() ... destroy().
+class Session {
+ public:
+  /// Rounds the positions to the subject's precision and calls create(). `mesh` is valid (data/validate.h).
+  /// Throws SubjectError: the subject refuses, or a coordinate is not finite after rounding.
+  Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const lc_subject& subject() const { return subject_; }
+  const lc_capabilities& capabilities() const { return capabilities_; }
+  /// "name" or "name:options".
+  std::string label() const;
+  /// The mesh as the subject got it: the reference takes these rounded positions as exact.
+  const data::ControlMesh& mesh() const { return mesh_; }
+
+  /// Tessellates.
+  ///   face_depth   one per control face: 0..max_depth, or -1 (culled)
+  ///   threads      at most so many, >= 1
+  /// Throws SubjectError: the subject fails; or, without asking it, LC_NOT_SUPPORTED if the depths are beyond
+  /// max_depth or differ although it cannot. Throws std::invalid_argument: wrong number of depths, depth <
+  /// -1, threads < 1.
+  Tessellation tessellate(std::span<const std::int32_t> face_depth, int threads = 1);
+  /// The same depth for all faces.
+  Tessellation tessellate(int depth, int threads = 1);
+
+ private:
+  const lc_subject& subject_;
+  std::string options_;
+  lc_capabilities capabilities_{};
+  data::ControlMesh mesh_;
+  // The subject's copy, so that a subject that writes to it is found out and does not spoil the reference's.
+  std::vector<double> positions_;
+  std::vector<std::int32_t> triangles_;
+  void* instance_ = nullptr;
+};
+
+}  // namespace limitcheck::verify

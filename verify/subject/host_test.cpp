@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// The host trusts nothing: every way of handing back bad memory or bad indices is a defect, none is a crash.
+#include "verify/subject/host.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "data/shapes.h"
+#include "verify/subject/faulty_subjects.h"
+#include "verify/subject/registry.h"
+
+extern "C" const lc_subject* subject_in_c(void);
+
+namespace {
+
+using namespace limitcheck;
+using namespace limitcheck::verify;
+using Kind = Defect::Kind;
+
+// One coordinate is not a float.
+data::ControlMesh octahedron() {
+  auto mesh = data::octahedron();
+  mesh.positions[5][2] = -1.1;
+  return mesh;
+}
+
+Tessellation planted(const char* fault, int depth = 2) {
+  Session session(*lc_subject_faulty(), octahedron(),
+                  faulty_options(fault, "opensubdiv-far", "precision=double"));
+  return session.tessellate(depth);
+}
+
+testing::AssertionResult has_only(const Tessellation& t, Kind kind, const char* array) {
+  if (t.defects().size() != 1) return testing::AssertionFailure() << t.defects().size() << " defects";
+  const Defect& defect = t.defects().front();
+  if (defect.kind != kind || defect.array != array) return testing::AssertionFailure() << defect.message;
+  return testing::AssertionSuccess();
+}
+
+lc_status status_of(const auto& work) {
+  try {
+    work();
+  } catch (const SubjectError& error) {
+    EXPECT_STRNE(error.what(), "");
+    return error.status();
+  }
+  return LC_OK;
+}
+
+TEST(Door, IsPlainC) {
+  Session session(*subject_in_c(), octahedron());
+  EXPECT_EQ(session.tessellate(0).vertex_count(), 0);
+  EXPECT_EQ(status_of([] { Session(*subject_in_c(), octahedron(), "a=b"); }), LC_INVALID_INPUT);
+}
+
+TEST(Door, RefusesAnotherInterfaceVersion) {
+  lc_subject other = *lc_subject_null();
+  ++other.abi;
+  EXPECT_EQ(status_of([&] { Session(other, octahedron()); }), LC_NOT_SUPPORTED);
+}
+
+TEST(Host, FindsNothingWrongWithASoundSubject) {
+  const Tessellation t = planted("none");
+  EXPECT_TRUE(t.defects().empty());
+  EXPECT_TRUE(t.overruns().empty());
+  ASSERT_EQ(t.triangle_count(), 8 * 16);
+  ASSERT_EQ(t.vertex_count(), 66);
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+    EXPECT_TRUE(t.provenance_ok(v));
+    EXPECT_FALSE(t.position_unwritten(v) || t.normal_unwritten(v));
+  }
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k) EXPECT_TRUE(t.triangle_ok(k));
+}
+
+TEST(Host, TakesTheNullSubjectForWhatItIs) {
+  Session session(*lc_subject_null(), octahedron());
+  const Tessellation t = session.tessellate(3);
+  EXPECT_TRUE(t.defects().empty());
+  EXPECT_EQ(t.vertex_count(), 0);
+  EXPECT_EQ(t.triangle_count(), 0);
+}
+
+TEST(Host, RoundsTheControlMeshToThePrecisionOfTheSubject) {
+  Session narrow(*lc_subject_opensubdiv_far(), octahedron());
+  Session wide(*lc_subject_opensubdiv_far(), octahedron(), "precision=double");
+  EXPECT_EQ(narrow.mesh().positions[5][2], double{-1.1F});
+  EXPECT_EQ(wide.mesh().positions[5][2], -1.1);
+  EXPECT_EQ(narrow.tessellate(1).positions_f32().size(), 3u * 18);
+  EXPECT_EQ(narrow.tessellate(1).positions_f64().size(), 0u);
+  EXPECT_EQ(wide.tessellate(1).positions_f64().size(), 3u * 18);
+  EXPECT_EQ(wide.label(), "opensubdiv-far:precision=double");
+}
+
+TEST(Host, RefusesCoordinatesThatAreNotFiniteInThePrecisionOfTheSubject) {
+  auto mesh = octahedron();
+  mesh.positions[0][0] = 1e300;
+  EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh); }), LC_INVALID_INPUT);
+  EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh, "precision=double"); }), LC_OK);
+  mesh.positions[0][0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh, "precision=double"); }),
+            LC_INVALID_INPUT);
+}
+
+TEST(Host, RefusesUnknownOptionsAndValues) {
+  for (const char* options :
+       {"precision=half", "depth=3", "precision", "=double", "precision=double,precision=float"}) {
+    EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), octahedron(), options); }),
+              LC_INVALID_INPUT)
+        << options;
+  }
+  EXPECT_EQ(
+      status_of([&] { Session(*lc_subject_faulty(), octahedron(), "of=opensubdiv-far,precision=half"); }),
+      LC_INVALID_INPUT);
+  EXPECT_EQ(status_of([&] { Session(*lc_subject_faulty(), octahedron(), "of=nobody"); }), LC_INVALID_INPUT);
+}
+
+TEST(Host, DoesNotAskForDepthsBeyondTheCapabilities) {
+  Session session(*lc_subject_opensubdiv_far(), octahedron());
+  EXPECT_EQ(status_of([&] { session.tessellate(99); }), LC_NOT_SUPPORTED);
+  const std::vector<std::int32_t> mixed{1, 1, 1, 1, 2, 2, 2, 2};
+  EXPECT_EQ(status_of([&] { session.tessellate(mixed); }), LC_NOT_SUPPORTED);
+  EXPECT_THROW(session.tessellate(std::vector<std::int32_t>(3, 1)), std::invalid_argument);
+  EXPECT_THROW(session.tessellate(-2), std::invalid_argument);
+  EXPECT_THROW(session.tessellate(1, 0), std::invalid_argument);
+}
+
+TEST(Host, SeesWritesOutsideTheArrays) {
+  const Tessellation behind = planted("write_behind");
+  ASSERT_EQ(behind.overruns().size(), 1u);
+  EXPECT_EQ(behind.overruns()[0].array, "positions");
+  EXPECT_FALSE(behind.overruns()[0].before);
+  EXPECT_LE(behind.overruns()[0].distance, 8);
+  const Tessellation before = planted("write_before");
+  ASSERT_EQ(before.overruns().size(), 1u);
+  EXPECT_TRUE(before.overruns()[0].before);
+  EXPECT_LE(before.overruns()[0].distance, 8);
+}
+
+TEST(Host, SeesWhatIsLeftUnwritten) {
+  const auto count = [](const Tessellation& t, auto member) {
+    std::int64_t n = 0;
+    for (std::int64_t v = 0; v < t.vertex_count(); ++v) n += (t.*member)(v);
+    return n;
+  };
+  EXPECT_EQ(count(planted("unwritten_position"), &Tessellation::position_unwritten), 1);
+  EXPECT_EQ(count(planted("unwritten_normal"), &Tessellation::normal_unwritten), 1);
+  EXPECT_EQ(count(planted("nan_position"), &Tessellation::position_unwritten), 0);  // written, and wrong
+  EXPECT_TRUE(has_only(planted("unwritten_triangle"), Kind::kIndexOutOfRange, "triangles"));
+}
+
+TEST(Host, ReportsContentsOutOfRangeAndHandsThemOn) {
+  const Tessellation indices = planted("index_out_of_range");
+  EXPECT_TRUE(has_only(indices, Kind::kIndexOutOfRange, "triangles"));
+  ASSERT_EQ(indices.triangle_count(), 128);
+  EXPECT_FALSE(indices.triangle_ok(indices.defects()[0].first));
+  const Tessellation places = planted("provenance_out_of_range");
+  EXPECT_TRUE(has_only(places, Kind::kProvenanceOutOfRange, "provenance"));
+  EXPECT_FALSE(places.provenance_ok(places.defects()[0].first));
+}
+
+TEST(Host, TakesNothingFromMemoryItCannotTrust) {
+  struct Case {
+    const char* fault;
+    Kind kind;
+    const char* array;
+  };
+  for (const Case& c : {Case{"negative_count", Kind::kNegativeCount, ""},
+                        Case{"foreign_memory", Kind::kForeignPointer, "normals"},
+                        Case{"overlapping_arrays", Kind::kOverlappingArrays, "normals"}}) {
+    const Tessellation t = planted(c.fault);
+    EXPECT_TRUE(has_only(t, c.kind, c.array)) << c.fault;
+    EXPECT_EQ(t.vertex_count() + t.triangle_count(), 0) << c.fault;
+  }
+  const Tessellation large = planted("count_too_large");
+  EXPECT_EQ(large.defects().size(), 3u);  // positions, normals, provenance
+  EXPECT_EQ(large.defects()[0].kind, Kind::kArrayTooSmall);
+  EXPECT_EQ(large.vertex_count(), 0);
+}
+
+TEST(Host, SeesThatTheControlMeshWasWrittenTo) {
+  EXPECT_TRUE(has_only(planted("modified_mesh"), Kind::kMeshModified, "mesh"));
+}
+
+// A subject may be C++ and throw through the door.
+TEST(Host, TurnsExceptionsOfASubjectIntoFailures) {
+  lc_subject subject = *lc_subject_null();
+  subject.tessellate = [](void*, const lc_request*, lc_tessellation*, const char**) -> lc_status { throw 1; };
+  Session session(subject, octahedron());
+  EXPECT_EQ(status_of([&] { session.tessellate(1); }), LC_FAILED);
+}
+
+// NULL where memory is impossible, not an exception through C.
+TEST(Host, RefusesMemoryBeyondAllReason) {
+  lc_subject subject = *lc_subject_null();
+  subject.tessellate = [](void*, const lc_request* request, lc_tessellation*, const char**) {
+    return request->allocate(request->host, std::size_t{1} << 60) == nullptr ? LC_NOT_SUPPORTED : LC_OK;
+  };
+  Session session(subject, octahedron());
+  EXPECT_EQ(status_of([&] { session.tessellate(1); }), LC_NOT_SUPPORTED);
+}
+
+// Each fault changes what is delivered: a fault that does nothing would make a check look blind.
+TEST(FaultySubject, EveryFaultChangesSomething) {
+  const Tessellation good = planted("none");
+  const auto bytes = [](const Tessellation& t) {
+    std::string all;
+    const auto add = [&](const auto span) {
+      all.append(reinterpret_cast<const char*>(span.data()), span.size_bytes());
+      all += '|';
+    };
+    add(t.positions_f64());
+    add(t.normals_f64());
+    add(t.provenance());
+    add(t.triangles());
+    add(t.triangle_face());
+    return all + std::to_string(t.defects().size()) + std::to_string(t.overruns().size());
+  };
+  for (const Fault& fault : faults()) {
+    EXPECT_EQ(bytes(planted(std::string(fault.name).c_str())) == bytes(good), fault.name == "none")
+        << fault.name;
+  }
+}
+
+TEST(FaultySubject, CrackAndTVertexKeepEveryOtherPoint) {
+  const Tessellation good = planted("none"), crack = planted("one_ulp_crack"), t_vertex = planted("t_vertex");
+  EXPECT_EQ(crack.vertex_count(), good.vertex_count() + 1);
+  EXPECT_EQ(crack.triangle_count(), good.triangle_count());
+  EXPECT_EQ(t_vertex.vertex_count(), good.vertex_count());
+  EXPECT_EQ(t_vertex.triangle_count(), good.triangle_count() - 1);
+  EXPECT_EQ(status_of([] { planted("t_vertex", 0); }),
+            LC_NOT_SUPPORTED);  // no point inside an edge at depth 0
+}
+
+TEST(Registry, FindsEverySubjectByItsName) {
+  for (const lc_subject* subject : built_in_subjects()) {
+    EXPECT_EQ(find_subject(subject->name), subject);
+    EXPECT_EQ(subject->abi, LC_SUBJECT_ABI);
+  }
+  EXPECT_EQ(find_subject("null"), lc_subject_null());
+  EXPECT_EQ(find_subject("faulty"), lc_subject_faulty());
+  EXPECT_EQ(find_subject("nobody"), nullptr);
+}
+
+}  // namespace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What the two OpenSubdiv adapters share. Private to them: the only header that shows OpenSubdiv's types.
+#pragma once
+
+#include <opensubdiv/far/error.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "verify/subject/adapter.h"
+
+namespace limitcheck::verify {
+
+/// OpenSubdiv reports errors through one process-wide callback, by default a line on standard output. While
+/// an object of this class lives, what is reported on its thread is kept instead. (SetErrorCallback is called
+/// once, for good.)
+class OpenSubdivErrors {
+ public:
+  OpenSubdivErrors() {
+    static const bool installed = [] {
+      OpenSubdiv::Far::SetErrorCallback(
+          [](OpenSubdiv::Far::ErrorType, const char* message) { text() = message; });
+      OpenSubdiv::Far::SetWarningCallback([](const char*) {});
+      return true;
+    }();
+    (void)installed;
+    text().clear();
+  }
+  /// Throws SubjectError(LC_FAILED) if something was reported.
+  void check() const {
+    if (!text().empty()) throw SubjectError(LC_FAILED, text());
+  }
+
+ private:
+  static std::string& text() {
+    thread_local std::string message;
+    return message;
+  }
+};
+
+/// The refiner of a control mesh: Loop's scheme, boundary vertices on the B-spline curve, none of them a
+/// corner.
+inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const lc_mesh& mesh) {
+  using namespace OpenSubdiv;
+  const OpenSubdivErrors errors;
+  const std::vector<int> sizes(static_cast<std::size_t>(mesh.triangle_count), 3);
+  Far::TopologyDescriptor descriptor;
+  descriptor.numVertices = static_cast<int>(mesh.vertex_count);
+  descriptor.numFaces = static_cast<int>(mesh.triangle_count);
+  descriptor.numVertsPerFace = sizes.data();
+  descriptor.vertIndicesPerFace = mesh.triangles;
+  Sdc::Options scheme;
+  scheme.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  std::unique_ptr<Far::TopologyRefiner> refiner(
+      Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_LOOP, scheme)));
+  errors.check();
+  if (refiner == nullptr) throw SubjectError(LC_INVALID_INPUT, "OpenSubdiv makes no topology of this mesh");
+  return refiner;
+}
+
+}  // namespace limitcheck::verify

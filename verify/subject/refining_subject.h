@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// A subject from a library that refines a mesh step by step and stops there: no limit points, no normals.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "verify/subject/adapter.h"
+#include "verify/subject/lattice_tracker.h"
+
+namespace limitcheck::verify {
+
+/// T is the library's mesh behind
+///   T(const lc_mesh&)                               throws SubjectError if the library refuses it
+///   void refine()                                   one step
+///   std::int64_t vertex_count() const
+///   std::array<double, 3> position(std::int64_t) const
+///   std::vector<std::array<std::uint32_t, 3>> triangles() const
+template <class T>
+class RefiningSubject {
+ public:
+  static lc_capabilities capabilities(Options&) {
+    return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, 8, 0, 0, 1};
+  }
+
+  RefiningSubject(const lc_mesh& mesh, Options&) : control_(mesh) { (void)T(mesh); }
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    T mesh(control_);
+    LatticeTracker tracker(control_);
+    for (int level = 0; level < request.face_depth[0]; ++level) {
+      mesh.refine();
+      tracker.step(mesh.vertex_count(), mesh.triangles());
+    }
+    const auto triangle_count = static_cast<std::int64_t>(tracker.triangles().size());
+    const auto output = allocate_output<double>(request, out, tracker.vertex_count(), triangle_count, false);
+    for (std::int64_t v = 0; v < tracker.vertex_count(); ++v) {
+      const auto p = mesh.position(v);
+      std::copy(p.begin(), p.end(), output.positions + 3 * v);
+    }
+    const auto provenance = tracker.provenance();
+    std::copy(provenance.begin(), provenance.end(), output.provenance);
+    for (std::int64_t t = 0; t < triangle_count; ++t) {
+      const auto& corners = tracker.triangles()[static_cast<std::size_t>(t)];
+      std::copy(corners.begin(), corners.end(), output.triangles + 3 * t);
+      output.triangle_face[t] = tracker.triangle_face()[static_cast<std::size_t>(t)];
+    }
+  }
+
+ private:
+  const lc_mesh control_;
+};
+
+}  // namespace limitcheck::verify

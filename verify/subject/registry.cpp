@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+
+std::vector<const lc_subject*> built_in_subjects() {
+  return {lc_subject_sliding_window(), lc_subject_opensubdiv_far(), lc_subject_opensubdiv_bfr(),
+          lc_subject_cgal(), lc_subject_openmesh()};
+}
+
+const lc_subject* find_subject(std::string_view name) {
+  std::vector<const lc_subject*> all = built_in_subjects();
+  all.insert(all.end(), {lc_subject_null(), lc_subject_faulty()});
+  for (const lc_subject* subject : all) {
+    if (subject->name == name) return subject;
+  }
+  return nullptr;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The subjects that are built in.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "verify/subject/subject.h"
+
+extern "C" {
+const lc_subject* lc_subject_sliding_window();
+const lc_subject* lc_subject_opensubdiv_far();
+const lc_subject* lc_subject_opensubdiv_bfr();
+const lc_subject* lc_subject_cgal();
+const lc_subject* lc_subject_openmesh();
+const lc_subject* lc_subject_null();
+const lc_subject* lc_subject_faulty();  // options: verify/subject/faulty_subjects.h
+}
+
+namespace limitcheck::verify {
+
+/// The tessellators, in the order in which they are listed and audited.
+std::vector<const lc_subject*> built_in_subjects();
+
+/// By name, `null` and `faulty` included; nullptr if there is none.
+const lc_subject* find_subject(std::string_view name);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Our own engine, judged through the door like everybody else: pairing, sliding window, crack repair. As
+// strips and fans (the default) every face and pair delivers its border points itself, so that their bits can
+// be compared; as an indexed mesh they are shared.
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <variant>
+
+#include "fast/frame.h"
+#include "verify/subject/adapter.h"
+#include "verify/subject/registry.h"
+
+namespace {
+
+using namespace limitcheck;
+using namespace limitcheck::verify;
+
+struct Settings {
+  explicit Settings(Options& options) {
+    wide = options.choice("precision", {"float", "double"}) == 1;
+    indexed = options.choice("output", {"strips", "indexed"}) == 1;
+    tessellator.provenance = true;
+    tessellator.cracks.repair = std::array{
+        fast::Repair::kFan, fast::Repair::kStitch,
+        fast::Repair::kNone}[static_cast<std::size_t>(options.choice("repair", {"fan", "stitch", "none"}))];
+    tessellator.cracks.centre = std::array{fast::FanCentre::kLimit, fast::FanCentre::kFlatLimit,
+                                           fast::FanCentre::kFlatControl}[static_cast<std::size_t>(
+        options.choice("centre", {"limit", "flat", "flat-control"}))];
+    tessellator.pairing.rule = options.choice("pairing", {"corrected", "printed"}) == 1
+                                   ? fast::PairingRule::kPrinted
+                                   : fast::PairingRule::kCorrected;
+  }
+  bool wide = false, indexed = false;
+  fast::TessellatorOptions tessellator;
+};
+
+data::ControlMesh control_mesh(const lc_mesh& mesh) {
+  data::ControlMesh out;
+  for (std::int64_t v = 0; v < mesh.vertex_count; ++v)
+    out.positions.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
+  for (std::int64_t f = 0; f < mesh.triangle_count; ++f)
+    out.triangles.push_back({mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]});
+  return out;
+}
+
+class SlidingWindowSubject {
+ public:
+  static lc_capabilities capabilities(Options& options) {
+    const Settings settings(options);
+    return {settings.wide ? LC_FLOAT64 : LC_FLOAT32,
+            LC_WEIGHTS_LOOP,
+            LC_BOUNDARY_SPLINE,
+            LC_POINTS_LIMIT,
+            fast::kDeepest,
+            1,
+            1,
+            settings.tessellator.cracks.centre == fast::FanCentre::kLimit ? 1 : 0};
+  }
+
+  SlidingWindowSubject(const lc_mesh& mesh, Options& options)
+      : settings_(options), mesh_(control_mesh(mesh)) {
+    use_threads(1);
+  }
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
+    settings_.wide ? run(*double_, request, out) : run(*float_, request, out);
+  }
+
+ private:
+  void use_threads(int threads) {
+    settings_.tessellator.threads = threads;
+    try {
+      if (settings_.wide)
+        double_ = std::make_unique<fast::Tessellator<double>>(mesh_, settings_.tessellator);
+      else
+        float_ = std::make_unique<fast::Tessellator<float>>(mesh_, settings_.tessellator);
+    } catch (const std::invalid_argument& error) {
+      throw SubjectError(LC_INVALID_INPUT, error.what());
+    }
+  }
+
+  template <class Real>
+  void run(fast::Tessellator<Real>& tessellator, const lc_request& request, lc_tessellation& out) {
+    const std::span<const std::int32_t> depth(request.face_depth, mesh_.triangles.size());
+    if (settings_.indexed) {
+      fast::IndexedMesh<Real> mesh;
+      tessellator.frame(depth, mesh);
+      const auto output = deliver(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size());
+      std::size_t at = 0;
+      for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t) output.triangles[at++] = v;
+      std::copy(mesh.triangle_face.begin(), mesh.triangle_face.end(), output.triangle_face);
+      return;
+    }
+    fast::DrawList<Real> list;
+    const fast::FrameStats stats = tessellator.frame(depth, list);
+    const auto output =
+        deliver(request, out, list.vertices, list.provenance, static_cast<std::size_t>(stats.triangles));
+    std::size_t at = 0;
+    for (const fast::Draw& draw : list.draws) {
+      for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
+        output.triangle_face[at / 3] = draw.face_of(t);
+        for (const std::int32_t v : draw.triangle(t))
+          output.triangles[at++] = static_cast<std::uint32_t>(draw.first + v);
+      }
+    }
+  }
+
+  template <class Real>
+  static Output<Real> deliver(const lc_request& request, lc_tessellation& out,
+                              const std::vector<fast::SurfaceVertex<Real>>& vertices,
+                              const std::vector<fast::LatticePoint>& provenance, std::size_t triangles) {
+    const auto output = allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices.size()),
+                                              static_cast<std::int64_t>(triangles), true);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const auto& [position, normal] = vertices[v];
+      std::size_t i = 3 * v;
+      for (const Real x : {position.x, position.y, position.z}) output.positions[i++] = x;
+      i = 3 * v;
+      for (const Real x : {normal.x, normal.y, normal.z}) output.normals[i++] = x;
+      output.provenance[v] = {provenance[v].face, provenance[v].i, provenance[v].j,
+                              provenance[v].denominator};
+    }
+    return output;
+  }
+
+  Settings settings_;
+  data::ControlMesh mesh_;
+  std::unique_ptr<fast::Tessellator<float>> float_;
+  std::unique_ptr<fast::Tessellator<double>> double_;
+};
+
+}  // namespace
+
+const lc_subject* lc_subject_sliding_window() {
+  static const lc_subject subject = make_subject<SlidingWindowSubject>(
+      "sliding-window", "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000)",
+      "precision=float|double, output=strips|indexed, repair=fan|stitch|none, "
+      "centre=limit|flat|flat-control, "
+      "pairing=corrected|printed");
+  return &subject;
+}

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "verify/watertight/watertight.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Triangle = std::array<std::int32_t, 3>;
+using Edge = SurfaceReport::Edge;
+constexpr std::size_t kWitnesses = 16;
+constexpr std::int32_t kGrain = 4096;
+
+bool degenerate(const Triangle& t) {
+  return t[0] < 0 || t[1] < 0 || t[2] < 0 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+// What one block of consecutive points found; blocks are joined in order, so threads do not show.
+struct Block {
+  std::int64_t directed_edges = 0, crowded = 0, clashing = 0, bow_ties = 0, duplicates = 0;
+  std::vector<Edge> open, crowded_witness, clashing_witness;
+  std::vector<std::int32_t> bow_tie_witness, duplicate_witness;
+};
+
+template <class T>
+void witness(std::vector<T>& list, const T& value) {
+  if (list.size() < kWitnesses) list.push_back(value);
+}
+
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more, std::size_t limit) {
+  list.insert(list.end(), more.begin(),
+              more.begin() + std::min(more.size(), limit - std::min(limit, list.size())));
+}
+
+// The star of a point v: for each triangle (v, next, previous) counter-clockwise. The directed edge v -> next
+// belongs to v; the directed edge previous -> v is seen here and belongs to `previous`.
+struct Ray {
+  std::int32_t next, previous, triangle;
+};
+
+class StarInspector {
+ public:
+  void inspect(std::int32_t v, std::span<Ray> star, Block& out) {
+    std::sort(star.begin(), star.end(), [](const Ray& a, const Ray& b) {
+      return a.next != b.next ? a.next < b.next : a.triangle < b.triangle;
+    });
+    by_previous_.assign(star.begin(), star.end());
+    std::sort(by_previous_.begin(), by_previous_.end(), [](const Ray& a, const Ray& b) {
+      return a.previous != b.previous ? a.previous < b.previous : a.triangle < b.triangle;
+    });
+    edges(v, star, out);
+    duplicates(v, star, out);
+    if (fans(star) > 1) {
+      ++out.bow_ties;
+      witness(out.bow_tie_witness, v);
+    }
+  }
+
+ private:
+  // Every neighbour w: how many triangles run v -> w, how many w -> v.
+  void edges(std::int32_t v, std::span<const Ray> star, Block& out) {
+    std::size_t i = 0, j = 0;
+    while (i < star.size() || j < by_previous_.size()) {
+      const std::int32_t w =
+          j == by_previous_.size() || (i < star.size() && star[i].next < by_previous_[j].previous)
+              ? star[i].next
+              : by_previous_[j].previous;
+      const std::size_t i0 = i, j0 = j;
+      while (i < star.size() && star[i].next == w) ++i;
+      while (j < by_previous_.size() && by_previous_[j].previous == w) ++j;
+      const std::size_t away = i - i0, back = j - j0;
+      const Edge edge{v, w, away > 0 ? star[i0].triangle : by_previous_[j0].triangle};
+      if (away == 1 && back == 0) out.open.push_back(edge);
+      if (v > w) continue;  // undirected facts are told once, by the smaller point
+      ++out.directed_edges;
+      if (away + back > 2) {
+        ++out.crowded;
+        witness(out.crowded_witness, edge);
+      } else if (away == 2 || back == 2) {
+        ++out.clashing;
+        witness(out.clashing_witness, edge);
+      }
+    }
+  }
+
+  // Told by the smallest of the three points.
+  void duplicates(std::int32_t v, std::span<const Ray> star, Block& out) {
+    pairs_.clear();
+    for (const Ray& r : star)
+      if (v < r.next && v < r.previous)
+        pairs_.push_back({std::min(r.next, r.previous), std::max(r.next, r.previous), r.triangle});
+    std::sort(pairs_.begin(), pairs_.end());
+    for (std::size_t k = 1; k < pairs_.size(); ++k)
+      if (pairs_[k][0] == pairs_[k - 1][0] && pairs_[k][1] == pairs_[k - 1][1]) {
+        ++out.duplicates;
+        witness(out.duplicate_witness, pairs_[k][2]);
+      }
+  }
+
+  // The number of fans: triangles of the star joined where they share a neighbour.
+  int fans(std::span<const Ray> star) {
+    const auto n = static_cast<std::int32_t>(star.size());
+    parent_.resize(star.size());
+    for (std::int32_t k = 0; k < n; ++k) parent_[k] = k;
+    int count = n;
+    const auto join = [&](std::int32_t a, std::int32_t b) {
+      a = root(a), b = root(b);
+      if (a == b) return;
+      parent_[a] = b;
+      --count;
+    };
+    for (std::int32_t k = 1; k < n; ++k)
+      if (star[k].next == star[k - 1].next) join(k, k - 1);
+    for (std::int32_t k = 0; k < n; ++k) {  // the triangles whose `next` is this triangle's `previous`
+      const auto it = std::lower_bound(star.begin(), star.end(), star[k].previous,
+                                       [](const Ray& r, std::int32_t w) { return r.next < w; });
+      if (it != star.end() && it->next == star[k].previous)
+        join(k, static_cast<std::int32_t>(it - star.begin()));
+    }
+    for (std::int32_t k = 1; count > 1 && k < n; ++k) {  // two that run into one neighbour (clashing edges)
+      const auto index = [&](const Ray& r) {
+        const auto it = std::lower_bound(star.begin(), star.end(), r, [](const Ray& a, const Ray& b) {
+          return a.next != b.next ? a.next < b.next : a.triangle < b.triangle;
+        });
+        return static_cast<std::int32_t>(it - star.begin());
+      };
+      if (by_previous_[k].previous == by_previous_[k - 1].previous)
+        join(index(by_previous_[k]), index(by_previous_[k - 1]));
+    }
+    return count;
+  }
+
+  std::int32_t root(std::int32_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+
+  std::vector<Ray> by_previous_;
+  std::vector<std::array<std::int32_t, 3>> pairs_;
+  std::vector<std::int32_t> parent_;
+};
+
+// Closed walks along the open edges, or -1 where a point has more than one of them leaving or none.
+std::int64_t count_loops(std::int64_t point_count, const std::vector<Edge>& open) {
+  std::vector<std::int32_t> leaving(static_cast<std::size_t>(point_count), -1);
+  for (std::size_t e = 0; e < open.size(); ++e) {
+    if (leaving[open[e].from] >= 0) return -1;
+    leaving[open[e].from] = static_cast<std::int32_t>(e);
+  }
+  std::vector<bool> walked(open.size(), false);
+  std::int64_t loops = 0;
+  for (std::size_t start = 0; start < open.size(); ++start) {
+    if (walked[start]) continue;
+    ++loops;
+    for (auto e = static_cast<std::int32_t>(start); !walked[e]; e = leaving[open[e].to]) {
+      walked[e] = true;
+      if (leaving[open[e].to] < 0) return -1;
+    }
+  }
+  return loops;
+}
+
+}  // namespace
+
+SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle> triangles) {
+  SurfaceReport report;
+  report.triangles = static_cast<std::int64_t>(triangles.size());
+
+  // The stars, laid out one after the other (counting sort by point).
+  std::vector<std::int32_t> start(static_cast<std::size_t>(point_count) + 1, 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (degenerate(triangles[t])) {
+      ++report.degenerate_triangles;
+      witness(report.degenerate_witness, static_cast<std::int32_t>(t));
+      continue;
+    }
+    for (const std::int32_t p : triangles[t]) ++start[p + 1];
+  }
+  for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
+  std::vector<Ray> rays(static_cast<std::size_t>(start.back()));
+  {
+    std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const Triangle& c = triangles[t];
+      if (degenerate(c)) continue;
+      for (int k = 0; k < 3; ++k)
+        rays[fill[c[k]]++] = {c[(k + 1) % 3], c[(k + 2) % 3], static_cast<std::int32_t>(t)};
+    }
+  }
+
+  const auto block_count = static_cast<std::int32_t>((point_count + kGrain - 1) / kGrain);
+  std::vector<Block> blocks(static_cast<std::size_t>(block_count));
+  tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, block_count, 1), [&](const auto& range) {
+    StarInspector inspector;
+    for (std::int32_t b = range.begin(); b < range.end(); ++b) {
+      const auto end =
+          static_cast<std::int32_t>(std::min<std::int64_t>(point_count, std::int64_t{kGrain} * (b + 1)));
+      for (std::int32_t p = kGrain * b; p < end; ++p)
+        if (start[p] < start[p + 1])
+          inspector.inspect(p, std::span(rays).subspan(start[p], start[p + 1] - start[p]), blocks[b]);
+    }
+  });
+  for (const Block& b : blocks) {
+    report.edges += b.directed_edges;
+    report.crowded_edges += b.crowded;
+    report.clashing_edges += b.clashing;
+    report.bow_tie_points += b.bow_ties;
+    report.duplicate_triangles += b.duplicates;
+    append(report.open_edges, b.open, b.open.size() + report.open_edges.size());
+    append(report.crowded_witness, b.crowded_witness, kWitnesses);
+    append(report.clashing_witness, b.clashing_witness, kWitnesses);
+    append(report.bow_tie_witness, b.bow_tie_witness, kWitnesses);
+    append(report.duplicate_witness, b.duplicate_witness, kWitnesses);
+  }
+  report.open_loops = count_loops(point_count, report.open_edges);
+  return report;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "verify/watertight/watertight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace limitcheck::verify {
+namespace {
+
+using Triangles = std::vector<std::array<std::int32_t, 3>>;
+
+const Triangles kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+
+// Both methods are asked, and must agree on manifold and closed; the report of ours is returned.
+SurfaceReport look(std::int64_t points, const Triangles& triangles) {
+  const SurfaceReport report = inspect_surface(points, triangles);
+  const SurfaceJudgement judgement = judge_surface(points, triangles);
+  EXPECT_EQ(report.manifold(), judgement.manifold());
+  if (report.manifold()) {
+    EXPECT_EQ(report.closed(), judgement.closed);
+    EXPECT_EQ(report.open_loops, judgement.boundary_cycles);
+  }
+  return report;
+}
+
+// A (rows x columns) grid on a torus or, open, on a plane.
+Triangles grid(std::int32_t rows, std::int32_t columns, bool wrap) {
+  Triangles out;
+  const std::int32_t pitch = wrap ? columns : columns + 1;
+  const auto at = [&](std::int32_t r, std::int32_t c) {
+    return wrap ? (r % rows) * pitch + c % columns : r * pitch + c;
+  };
+  for (std::int32_t r = 0; r < rows; ++r)
+    for (std::int32_t c = 0; c < columns; ++c) {
+      out.push_back({at(r, c), at(r, c + 1), at(r + 1, c + 1)});
+      out.push_back({at(r, c), at(r + 1, c + 1), at(r + 1, c)});
+    }
+  return out;
+}
+
+TEST(Merge, JoinsEqualCoordinatesOnlyAndNumbersByFirstAppearance) {
+  const double tiny = std::nextafter(1.0, 2.0);
+  const std::vector<double> p{1, 2, 3, tiny, 2, 3, 1, 2, 3, 3, 2, 1, tiny, 2, 3};
+  const MergedPoints merged = merge_identical(std::span<const double>(p));
+  EXPECT_EQ(merged.point_of, (std::vector<std::int32_t>{0, 1, 0, 2, 1}));
+  EXPECT_EQ(merged.vertex_of, (std::vector<std::int32_t>{0, 1, 3}));
+}
+
+TEST(Merge, TakesMinusZeroForZeroAndNaNForNoPlace) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> p{0, 0, 1, -0.0F, 0, 1, nan, 0, 1, nan, 0, 1};
+  const MergedPoints merged = merge_identical(std::span<const float>(p));
+  EXPECT_EQ(merged.point_of, (std::vector<std::int32_t>{0, 0, -1, -1}));
+}
+
+TEST(Surface, AClosedTetrahedronIsClosed) {
+  const SurfaceReport r = look(4, kTetrahedron);
+  EXPECT_TRUE(r.closed());
+  EXPECT_EQ(r.edges, 6);
+  EXPECT_EQ(r.open_loops, 0);
+}
+
+TEST(Surface, AMissingTriangleOpensOneLoop) {
+  const SurfaceReport r = look(4, {kTetrahedron.begin(), kTetrahedron.end() - 1});
+  EXPECT_TRUE(r.manifold());
+  EXPECT_FALSE(r.closed());
+  EXPECT_EQ(r.open_edges.size(), 3U);
+  EXPECT_EQ(r.open_loops, 1);
+}
+
+TEST(Surface, AnAnnulusHasTwoLoops) {
+  Triangles ring = grid(2, 8, true);
+  ring.resize(16);  // one row of the torus
+  const SurfaceReport r = look(16, ring);
+  EXPECT_TRUE(r.manifold());
+  EXPECT_EQ(r.open_loops, 2);
+  EXPECT_EQ(r.open_edges.size(), 16U);
+}
+
+TEST(Surface, AFlippedTriangleClashes) {
+  Triangles t = kTetrahedron;
+  std::swap(t[2][0], t[2][1]);
+  const SurfaceReport r = look(4, t);
+  EXPECT_EQ(r.clashing_edges, 3);
+  EXPECT_EQ(r.bow_tie_points, 0);
+  EXPECT_FALSE(r.manifold());
+}
+
+TEST(Surface, ADuplicateTriangleIsCounted) {
+  Triangles t = kTetrahedron;
+  t.push_back({1, 3, 0});
+  const SurfaceReport r = look(4, t);
+  EXPECT_EQ(r.duplicate_triangles, 1);
+  EXPECT_EQ(r.duplicate_witness, (std::vector<std::int32_t>{4}));
+  EXPECT_EQ(r.crowded_edges, 3);
+}
+
+TEST(Surface, ADegenerateTriangleIsCounted) {
+  Triangles t = kTetrahedron;
+  t.push_back({1, 1, 0});
+  t.push_back({1, -1, 0});
+  const SurfaceReport r = look(4, t);
+  EXPECT_EQ(r.degenerate_triangles, 2);
+  EXPECT_FALSE(r.manifold());
+}
+
+TEST(Surface, ThreeTrianglesAtAnEdgeAreCrowded) {
+  const SurfaceReport r = look(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  EXPECT_EQ(r.crowded_edges, 1);
+  ASSERT_EQ(r.crowded_witness.size(), 1U);
+  EXPECT_EQ(r.crowded_witness[0].from, 0);
+  EXPECT_EQ(r.crowded_witness[0].to, 1);
+}
+
+TEST(Surface, TwoConesAtOnePointAreABowTie) {
+  Triangles t = kTetrahedron;  // a second tetrahedron over 4, 5, 6 and the same apex 3
+  for (const auto& [a, b, c] : kTetrahedron) {
+    const auto other = [](std::int32_t p) { return p == 3 ? 3 : p + 4; };
+    t.push_back({other(a), other(b), other(c)});
+  }
+  const SurfaceReport closed = look(7, t);
+  EXPECT_EQ(closed.bow_tie_points, 1);
+  EXPECT_EQ(closed.bow_tie_witness, (std::vector<std::int32_t>{3}));
+  const SurfaceReport open = look(5, {{0, 1, 2}, {0, 3, 4}});
+  EXPECT_EQ(open.bow_tie_points, 1);
+}
+
+TEST(Surface, ATVertexIsFoundExactly) {
+  // Square 0 1 2 3; the lower side is split at 4 by a triangle outside and not by the one inside.
+  const std::vector<double> p{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.25, 0, 0, 0.5, -1, 0};
+  const Triangles t{{0, 1, 2}, {0, 2, 3}, {0, 5, 4}, {4, 5, 1}};
+  const MergedPoints merged = merge_identical(std::span<const double>(p));
+  const SurfaceReport r = inspect_surface(6, t);
+  std::vector<TVertex> found = find_t_vertices(p, merged.vertex_of, r.open_edges);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].point, 4);
+  EXPECT_EQ(r.open_edges[found[0].edge].from, 0);
+  EXPECT_EQ(r.open_edges[found[0].edge].to, 1);
+
+  std::vector<double> moved = p;  // one ulp off the edge: a crack, and no T-vertex
+  moved[13] = std::numeric_limits<double>::denorm_min();
+  EXPECT_TRUE(find_t_vertices(moved, merged.vertex_of, r.open_edges).empty());
+}
+
+TEST(Surface, ABigTorusIsClosedByBothMethods) {
+  const Triangles t = grid(256, 512, true);
+  const SurfaceReport r = look(256 * 512, t);
+  EXPECT_TRUE(r.closed());
+  EXPECT_EQ(r.edges, 3 * 256 * 512);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

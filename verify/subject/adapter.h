@@ -24,6 +24,13 @@ struct Output {
   std::int32_t* triangle_face;
 };
 
+/// Refuses what does not fit in 32-bit indices when each triangle becomes 4^depth, halfedges included.
+inline void refuse_too_many_triangles(const lc_mesh& mesh, int depth) {
+  if (mesh.triangle_count > (std::int64_t{UINT32_MAX} / 6 >> (2 * depth))) {
+    throw SubjectError(LC_NOT_SUPPORTED, "more triangles at this depth than 32-bit indices can name");
+  }
+}
+
 /// Allocates from the host and announces the arrays in `out`. Throws SubjectError if the host has no memory,
 /// or the vertices outnumber 32-bit indices.
 template <class Real>

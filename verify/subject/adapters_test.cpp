@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
@@ -15,6 +14,7 @@
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
+#include "verify/subject/test_limit.h"
 
 namespace {
 
@@ -157,7 +157,7 @@ TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
       }
     }
   }
-  RecordProperty("worst", std::to_string(worst));
+  record("worst_distance", worst);
 }
 
 TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
@@ -174,12 +174,25 @@ TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
   };
   const tbb::global_control four(tbb::global_control::max_allowed_parallelism,
                                  4);  // whatever this machine has
-  const auto mesh = data::named_mesh("bumpy:800");
+  const auto mesh = data::named_mesh("bumpy:4000");
   for (const Named& named : kAdapters) {
     Session session(*find_subject(named.subject), mesh, named.options);
-    const std::string one = bytes(session.tessellate(3, 1));
-    EXPECT_EQ(one, bytes(session.tessellate(3, 4))) << named.subject;
-    EXPECT_EQ(one, bytes(session.tessellate(3, 1))) << named.subject << ", asked again";
+    const std::string one = bytes(session.tessellate(2, 1));
+    EXPECT_EQ(one, bytes(session.tessellate(2, 4))) << named.subject;
+    EXPECT_EQ(one, bytes(session.tessellate(2, 1))) << named.subject << ", asked again";
+  }
+}
+
+TEST(Adapters, RefuseWhatDoesNotFitIn32BitIndices) {
+  const auto mesh = data::named_mesh("bumpy:11000");
+  for (const char* subject : {"opensubdiv-far", "cgal", "openmesh"}) {
+    Session session(*find_subject(subject), mesh);
+    try {
+      session.tessellate(8);
+      FAIL() << subject;
+    } catch (const SubjectError& error) {
+      EXPECT_EQ(error.status(), LC_NOT_SUPPORTED) << subject;
+    }
   }
 }
 

@@ -25,7 +25,7 @@ void faces_in_parallel(std::int64_t faces, int threads, const Body& body) {
     return;
   }
   tbb::task_arena(threads).execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, faces, 16),
+    tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, faces),
                       [&](const auto& range) { body(range.begin(), range.end()); });
   });
 }

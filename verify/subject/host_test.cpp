@@ -150,6 +150,34 @@ TEST(Host, SeesWhatIsLeftUnwritten) {
   EXPECT_TRUE(has_only(planted("unwritten_triangle"), Kind::kIndexOutOfRange, "triangles"));
 }
 
+// What the door promises about memory, and what comes of a subject that allocates and then writes nothing.
+TEST(Host, HandsOutAlignedMemoryFullOfOnes) {
+  lc_subject subject = *lc_subject_null();
+  subject.tessellate = [](void*, const lc_request* request, lc_tessellation* out, const char** message) {
+    const auto get = [request](std::size_t bytes) { return request->allocate(request->host, bytes); };
+    out->vertex_count = out->triangle_count = 7;
+    out->positions = get(7 * 24);
+    out->normals = get(7 * 24);
+    out->provenance = static_cast<lc_provenance*>(get(7 * sizeof(lc_provenance)));
+    out->triangles = static_cast<std::uint32_t*>(get(7 * 12));
+    out->triangle_face = static_cast<std::int32_t*>(get(7 * 4));
+    for (const void* p : {out->positions, out->normals, static_cast<void*>(out->triangles)}) {
+      if (reinterpret_cast<std::uintptr_t>(p) % 64 == 0) continue;
+      *message = "not aligned";
+      return LC_FAILED;
+    }
+    return LC_OK;
+  };
+  Session session(subject, octahedron());
+  const Tessellation t = session.tessellate(0);
+  for (int k = 0; k < 7; ++k) {
+    EXPECT_TRUE(t.position_unwritten(k) && t.normal_unwritten(k));
+    EXPECT_FALSE(t.provenance_ok(k) || t.triangle_ok(k));
+  }
+  EXPECT_EQ(t.defects().size(), 3u);  // triangles, triangle_face, provenance
+  EXPECT_TRUE(t.overruns().empty());
+}
+
 TEST(Host, ReportsContentsOutOfRangeAndHandsThemOn) {
   const Tessellation indices = planted("index_out_of_range");
   EXPECT_TRUE(has_only(indices, Kind::kIndexOutOfRange, "triangles"));

@@ -45,6 +45,7 @@ class FarSubject {
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const int depth = request.face_depth[0];
+    refuse_too_many_triangles(mesh_, depth);
     const OpenSubdivErrors errors;
     refiner_->Unrefine();
     // Without the full topology of the last level, Limit() returns and leaves its output as it was.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
 #include "verify/subject/registry.h"
@@ -32,6 +31,12 @@ struct Deviation {
   double position = 0;                              // of the box
   double interior_normal = 0, boundary_normal = 0;  // degrees; 180 for NaN
 };
+
+void record_all(const Deviation& worst) {
+  record("position_of_the_box", worst.position);
+  record("interior_normal_degrees", worst.interior_normal);
+  record("boundary_normal_degrees", worst.boundary_normal);
+}
 
 // Worst deviation from the masks. Boundary vertices of four faces or more are left out, and those of one face
 // where the subject is known to fail: they have tests of their own.
@@ -65,8 +70,7 @@ TEST(OpenSubdivFar, DeliversLimitPositionsAndNormals) {
     worst = {std::max(worst.position, d.position), std::max(worst.interior_normal, d.interior_normal),
              std::max(worst.boundary_normal, d.boundary_normal)};
   }
-  std::printf("worst: position %.2g of the box, normals %.2g and %.2g degrees\n", worst.position,
-              worst.interior_normal, worst.boundary_normal);
+  record_all(worst);
 }
 
 TEST(OpenSubdivBfr, IsExactAtLatticePointsWhenApproximatedToTheirDepth) {
@@ -78,8 +82,7 @@ TEST(OpenSubdivBfr, IsExactAtLatticePointsWhenApproximatedToTheirDepth) {
     worst = {std::max(worst.position, d.position), std::max(worst.interior_normal, d.interior_normal),
              std::max(worst.boundary_normal, d.boundary_normal)};
   }
-  std::printf("worst: position %.2g of the box, normals %.2g and %.2g degrees\n", worst.position,
-              worst.interior_normal, worst.boundary_normal);
+  record_all(worst);
 }
 
 TEST(OpenSubdivBfr, IsAnApproximationAtItsDefaultLevel) {
@@ -103,9 +106,8 @@ TEST(OpenSubdivBfr, ComputesSharedPointsWithOtherBitsInEachFace) {
     positions += std::any_of(vertices.begin(), vertices.end(), [&](std::int64_t v) {
       return differ(t.position_bits(v), t.position_bits(first));
     });
-    normals += std::any_of(vertices.begin(), vertices.end(), [&](std::int64_t v) {
-      return differ(t.normal_bits(v), t.normal_bits(first));
-    });
+    normals += std::any_of(vertices.begin(), vertices.end(),
+                           [&](std::int64_t v) { return differ(t.normal_bits(v), t.normal_bits(first)); });
   }
   EXPECT_EQ(shared, 402 + 1200 * 15);
   EXPECT_GT(static_cast<double>(positions), 0.8 * static_cast<double>(shared));
@@ -126,7 +128,7 @@ TEST(OpenSubdivFar, UsesATangentMaskOfAnotherRuleAtBoundaryVerticesOfFourFacesOr
     const double to_other = faces > 3 ? angle(normal, boundary_normal(ring, true)) : to_rule;
     EXPECT_LE(to_other, 1e-10) << faces << " faces";
     EXPECT_EQ(to_rule > 0.1, faces > 3) << faces << " faces: " << to_rule;
-    std::printf("%d faces: %.3g degrees from the tangent plane\n", faces, to_rule);
+    record("degrees_at_" + std::to_string(faces) + "_faces", to_rule);
   }
 }
 
@@ -139,7 +141,7 @@ TEST(OpenSubdivBfr, HasNoNormalAtABoundaryVertexOfOneFace) {
     const Place at{0, corner, 0, 0, 0};
     const double a = angle(t.normal(places(mesh, t).at(at)[0]), boundary_normal(expected.at(at), false));
     EXPECT_FALSE(a < 1) << "corner " << corner << ": " << a;  // wrong, or NaN
-    std::printf("corner %d: %g degrees\n", corner, a);
+    record("degrees_at_corner_" + std::to_string(corner), a);
   }
 }
 

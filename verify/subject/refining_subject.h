@@ -2,6 +2,7 @@
 // A subject from a library that refines a mesh step by step and stops there: no limit points, no normals.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -27,6 +28,7 @@ class RefiningSubject {
   RefiningSubject(const lc_mesh& mesh, Options&) : control_(mesh) { (void)T(mesh); }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
+    refuse_too_many_triangles(control_, request.face_depth[0]);
     T mesh(control_);
     LatticeTracker tracker(control_);
     for (int level = 0; level < request.face_depth[0]; ++level) {

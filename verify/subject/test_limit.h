@@ -3,11 +3,15 @@
 // that shares nothing with OpenSubdiv (nor with reference/). For tests of this folder.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "verify/subject/host.h"
@@ -110,6 +114,13 @@ inline Point boundary_normal(const Ring& ring, bool hoppe) {
   along.front() = 1;
   along.back() = -1;
   return unit_cross(weighted(ring, 0, along), weighted(ring, centre, across));
+}
+
+/// Keeps the worst value seen in the test's record.
+inline void record(const std::string& what, double worst) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", worst);
+  testing::Test::RecordProperty(what, text);
 }
 
 /// In degrees; NaN if either is.

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Three ways to the same points: the naive subdivider, Stam's evaluator, OpenSubdiv's uniform refinement with
+// its limit masks. They share no code: reference/ has both of ours, by different methods.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "reference/naive.h"
+#include "reference/stam.h"
+#include "verify/subject/registry.h"
+#include "verify/subject/test_lattice.h"
+#include "verify/subject/test_limit.h"
+
+namespace {
+
+using namespace limitcheck;
+using namespace limitcheck::verify;
+using namespace limitcheck::verify::test;
+
+// Vertices where OpenSubdiv's tangents are of another rule, so that its normal is not the surface's (see
+// opensubdiv_test.cpp): on the boundary, with four faces or more.
+std::set<std::int64_t> boundary_vertices_of_four_faces_or_more(const data::ControlMesh& mesh) {
+  std::vector<int> faces(mesh.positions.size()), edges(mesh.positions.size());
+  std::set<std::pair<int, int>> directed;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++faces[static_cast<std::size_t>(t[k])];
+      directed.emplace(t[k], t[(k + 1) % 3]);
+    }
+  }
+  std::set<std::int64_t> result;
+  for (const auto& [a, b] : directed) {
+    if (directed.contains({b, a})) continue;
+    for (const int v : {a, b}) {
+      if (faces[static_cast<std::size_t>(v)] >= 4) result.insert(v);
+    }
+  }
+  return result;
+}
+
+struct Worst {
+  double position = 0;  // of the box
+  double normal = 0;    // degrees
+};
+
+Worst against_stam(const char* subject, const char* options, const std::string& name, int depth) {
+  const auto mesh = data::named_mesh(name);
+  const auto spared = boundary_vertices_of_four_faces_or_more(mesh);
+  Session session(*find_subject(subject), mesh, options);
+  const Tessellation t = session.tessellate(depth, 2);
+  const reference::StamEvaluator<double> stam(session.mesh());
+  const double unit = box_diagonal(mesh);
+  Worst worst;
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+    const lc_provenance& p = t.provenance()[static_cast<std::size_t>(v)];
+    const auto exact = stam.evaluate(p.face, double(p.i) / p.denominator, double(p.j) / p.denominator,
+                                     reference::Order::kFirst);
+    worst.position =
+        std::max(worst.position,
+                 distance(t.position(v), {exact.position.x, exact.position.y, exact.position.z}) / unit);
+    const Place at = place(mesh, p);
+    const bool spare =
+        std::get<0>(at) == 0 && spared.contains(std::get<1>(at)) && std::string(subject) != "naive";
+    const double a = angle(t.normal(v), {exact.normal.x, exact.normal.y, exact.normal.z});
+    if (!spare) worst.normal = std::max(worst.normal, std::isnan(a) ? 180 : a);
+  }
+  record("position_" + name, worst.position);
+  record("normal_" + name, worst.normal);
+  return worst;
+}
+
+const std::vector<std::string> kMeshes{"bumpy:200",  "bumpy:800", "bumpy:4000",     "tetrahedron",
+                                       "octahedron", "cube",      "torus",          "wheel:3",
+                                       "wheel:7",    "wheel:50",  "fan:3",          "ragged-disc",
+                                       "holes",      "strip:5",   "two-components", "triangle"};
+
+TEST(Agreement, OfTheNaiveSubdividerWithStamsEvaluator) {
+  for (const auto& name : kMeshes) {
+    const Worst worst = against_stam("naive", "", name, 3);
+    EXPECT_LE(worst.position, 1e-14) << name;
+    EXPECT_LE(worst.normal, 1e-9) << name;
+  }
+}
+
+// Vertices are merged where they agree in every bit and nowhere else: the triangles are those of the
+// subdivider.
+TEST(Naive, HandsOnEveryBitOfTheSubdivider) {
+  Session session(*lc_subject_naive(), data::named_mesh("bumpy:200"));
+  const Tessellation t = session.tessellate(3);
+  const reference::NaiveSubdivider<double> subdivider(session.mesh());
+  std::int64_t triangle = 0;
+  for (std::size_t face = 0; face < subdivider.face_count(); ++face) {
+    subdivider.tessellate(face, 3, [&](const reference::LeafTriangle<double>& leaf) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto v = t.triangles()[static_cast<std::size_t>(triangle)][k];
+        const auto& [p, n] = std::tie(leaf[k].position, leaf[k].normal);
+        EXPECT_EQ(t.position(v), (Point{p.x, p.y, p.z})) << "triangle " << triangle << " corner " << k;
+        EXPECT_EQ(t.normal(v), (Point{n.x, n.y, n.z})) << "triangle " << triangle << " corner " << k;
+      }
+      ++triangle;
+    });
+  }
+  EXPECT_EQ(triangle, t.triangle_count());
+  EXPECT_LT(t.vertex_count(), 2 * 200 * 45);  // 45 lattice points a face; merging does happen
+}
+
+TEST(Agreement, OfOpenSubdivFarInDoubleWithStamsEvaluator) {
+  for (const auto& name : kMeshes) {
+    const Worst worst = against_stam("opensubdiv-far", "precision=double", name, 3);
+    EXPECT_LE(worst.position, 1e-14) << name;
+    EXPECT_LE(worst.normal, 1e-9) << name;
+  }
+}
+
+TEST(Agreement, OfOpenSubdivBfrAtLevelsBeyondTheDepthWithStamsEvaluator) {
+  for (const char* name : {"bumpy:200", "bumpy:800", "octahedron", "wheel:3", "wheel:7", "torus"}) {
+    const Worst worst = against_stam("opensubdiv-bfr", "precision=double,approx-level=4", name, 3);
+    EXPECT_LE(worst.position, 1e-14) << name;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The faults that the subject `faulty` plants. Private to it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/subject/faulty_subjects.h"
+
+namespace limitcheck::verify {
+
+/// What a subject delivered, in vectors, so that vertices and triangles can be added and removed.
+template <class Real>
+struct Copy {
+  std::vector<std::array<Real, 3>> positions, normals;
+  std::vector<lc_provenance> provenance;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::int32_t> triangle_face;
+  // Faults of the memory: planted when it is handed over.
+  std::optional<std::int64_t> announced_vertices;
+  bool foreign_normals = false, overlap = false, overrun = false, underrun = false, modify_mesh = false;
+};
+
+template <class Real>
+struct PlantedFault {
+  Fault fault;
+  void (*plant)(const data::ControlMesh&, Copy<Real>&);
+};
+
+/// Throws SubjectError(LC_NOT_SUPPORTED) from plant() where there is nothing to plant the fault in.
+/// Instantiated for float and double.
+template <class Real>
+const std::vector<PlantedFault<Real>>& planted_faults();
+
+}  // namespace limitcheck::verify

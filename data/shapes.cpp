@@ -67,7 +67,7 @@ ControlMesh sectors_of_lattice(const std::vector<std::array<double, 2>>& directi
 
 void append(ControlMesh& mesh, const ControlMesh& other, double shift_x) {
   const auto offset = static_cast<std::int32_t>(mesh.positions.size());
-  for (const auto& p : other.positions) mesh.positions.push_back({p[0] + shift_x, p[1], p[2]});
+  for (const auto& p : other.positions) mesh.positions.push_back({rounded(p[0] + shift_x), p[1], p[2]});
   for (const auto& t : other.triangles)
     mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }

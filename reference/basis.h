@@ -78,9 +78,11 @@ void combine(std::array<N, 12>& result, const std::array<N, T>& monomial, const 
   for (std::size_t i = 0; i < 12; ++i) result[i] = monomial[0] * table[0][i];
   for (std::size_t t = 1; t < T; ++t)
     for (std::size_t i = 0; i < 12; ++i) result[i] += monomial[t] * table[t][i];
+  const N twelfth = N(1) / N(12);
+  for (N& r : result) r *= twelfth;
 }
 
-/// The table in the number type, divided by 12.
+/// The table in the number type: small integers, exact in all of them.
 template <class N>
 struct BasisCoefficients {
   std::array<std::array<N, 12>, 15> value;
@@ -91,7 +93,7 @@ struct BasisCoefficients {
     const BasisTable& t = basis_table();
     const auto copy = [](auto& to, const auto& from) {
       for (std::size_t m = 0; m < from.size(); ++m)
-        for (std::size_t i = 0; i < 12; ++i) to[m][i] = N(from[m][i]) / N(12);
+        for (std::size_t i = 0; i < 12; ++i) to[m][i] = N(from[m][i]);
     };
     copy(value, t.value);
     copy(da, t.da);

@@ -4,6 +4,7 @@
 
 #include "data/known_answers.h"
 #include "reference/basis.h"
+#include "reference/certified.h"
 #include "reference/masks.h"
 #include "reference/normal.h"
 #include "reference/number_exact.h"
@@ -96,6 +97,55 @@ void check_surfaces() {
 }
 TEST(KnownAnswers_SurfacePoints, ByStamToThirtyNineDigits) { check_surfaces<StamEvaluator<N>>(); }
 TEST(KnownAnswers_SurfacePoints, BySubdivisionToThirtyNineDigits) { check_surfaces<SubdivisionEvaluator<N>>(); }
+
+TEST(KnownAnswers_SurfacePoints, AreInsideTheCertifiedEnclosures) {
+  for (const auto& a : answers().surfaces) {
+    const CertifiedEvaluator evaluator(a.vertices, a.faces);
+    for (const auto& s : a.samples) {
+      const auto p = evaluator.evaluate(a.face, Parameter::parse(s.barycentric[1]), Parameter::parse(s.barycentric[2]), 45);
+      const auto check = [&](const Enclosure3& got, const data::Numeral3& expected) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Decimal100 want = data::parse<Decimal100>(expected[i]), value(got[i].value);
+          const Decimal100 rounding = abs(want) * Decimal100("1e-41") + Decimal100("1e-43");  // of the answer's own 42 digits
+          EXPECT_LE(abs(want - value), Decimal100(got[i].radius) + rounding) << a.id << " " << s.barycentric[1] << " " << s.barycentric[2];
+          EXPECT_LE(got[i].radius, 1e-43);
+        }
+      };
+      check(p.position, s.position);
+      check(p.d1, s.d_dl1);
+      check(p.d2, s.d_dl2);
+      check(p.normal, s.unit_normal);
+    }
+  }
+}
+
+TEST(KnownAnswers_SurfacePoints, InDoubleWithinAFewUlpOfTheControlPoints) {
+  // One ulp of the largest control coordinate, 2: 2^-52 * 2. The bounds stand in stam.h.
+  constexpr double kUlp = 0x1p-51;
+  double position = 0, first = 0, normal = 0;
+  for (const auto& a : answers().surfaces) {
+    // The control points are rounded to double first: the truth is that of the rounded mesh.
+    const data::ControlMesh mesh = data::control_mesh(a.vertices, a.faces);
+    const StamEvaluator<double> fast(mesh);
+    const StamEvaluator<N> exact(mesh);
+    for (const auto& s : a.samples) {
+      const Parameter l1 = Parameter::parse(s.barycentric[1]), l2 = Parameter::parse(s.barycentric[2]);
+      const auto got = fast.evaluate(a.face, l1, l2);
+      const auto want = exact.evaluate(a.face, l1, l2);
+      const auto error = [](const Vec3<double>& x, const Vec3<N>& y) { return size(Vec3<N>{x.x, x.y, x.z} - y) / kUlp; };
+      position = std::max(position, error(got.position, want.position));
+      first = std::max({first, error(got.d1, want.d1), error(got.d2, want.d2)});
+      normal = std::max(normal, error(got.normal, want.normal));
+    }
+  }
+  RecordProperty("position_ulp", std::to_string(position));
+  RecordProperty("first_ulp", std::to_string(first));
+  RecordProperty("normal_ulp", std::to_string(normal));
+  std::printf("worst in ulp of 2: position %.2f, d1 d2 %.2f, normal %.2f\n", position, first, normal);
+  EXPECT_LE(position, 2);
+  EXPECT_LE(first, 8);
+  EXPECT_LE(normal, 8);
+}
 
 TEST(KnownAnswers_ClosedMeshes, OneStepIsExactInRationals) {
   for (const auto& a : answers().closed_meshes) {

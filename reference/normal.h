@@ -43,6 +43,13 @@ bool has_normal(const Vec3<N>& t1, const Vec3<N>& t2, Vec3<N>& cross_product) {
   return dot(cross_product, cross_product) > limit;
 }
 
+/// Whether t1 x t2 loses several digits: their angle has a sine below 1/100.
+template <class N>
+bool nearly_parallel(const Vec3<N>& t1, const Vec3<N>& t2) {
+  const Vec3<N> a = rescaled(t1), b = rescaled(t2), c = cross(a, b);
+  return N(10000) * dot(c, c) < dot(a, a) * dot(b, b);
+}
+
 /// The normal of tangents t1, t2; where they fail, that of `fallback`, a vector that may be zero; else (0, 0, 1). [D12]
 template <class N>
 Normal<N> unit_normal(const Vec3<N>& t1, const Vec3<N>& t2, const Vec3<N>& fallback) {

@@ -78,6 +78,13 @@ Parameter Parameter::parse(std::string_view text) {
   return p;
 }
 
+Parameter Parameter::complement(const Parameter& l1, const Parameter& l2) {
+  Rational value = 1 - exact_value(l1) - exact_value(l2);
+  Parameter p(value.convert_to<double>());
+  p.exact_ = std::make_shared<RationalParameter>(RationalParameter{std::move(value)});
+  return p;
+}
+
 std::string Parameter::to_string() const { return exact_value(*this).str(); }
 
 }  // namespace limitcheck::reference

@@ -22,6 +22,9 @@ class Parameter {
   /// Throws std::invalid_argument on anything else.
   static Parameter parse(std::string_view text);
 
+  /// 1 - l1 - l2, exactly
+  static Parameter complement(const Parameter& l1, const Parameter& l2);
+
   bool is_double() const { return !exact_; }
   double as_double() const { return value_; }  ///< nearest double
   const RationalParameter* exact() const { return exact_.get(); }

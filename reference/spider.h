@@ -153,6 +153,12 @@ class Spider {
   /// coordinates of r_i and r_{i+1}. Zero except on the boundary.
   void linear_part(int sector, long exponent, Vec3<N>& to_first, Vec3<N>& to_second) const;
 
+  /// Near a boundary vertex of K != 3 faces one mode outgrows the others, and d1 and d2 become parallel to its amplitude A:
+  /// d1 = f1 A + r1, d2 = f2 A + r2. These are the spider without it, for r1 and r2, and with (1, 0, 0) in its place and
+  /// nothing else, for f1 and f2.
+  Spider without_dominant() const;
+  Spider only_dominant() const;
+
   /// Points of sector i after J steps, without limit and linear part, divided by growth^J:
   ///   r[0..5] = r_{i-2} .. r_{i+3}, q[0..2] = q_{i-1} .. q_{i+1}, p[0..1] = p_i, p_{i+1}
   /// r_{i-1}, q_{i-1} (r_{i+2}, q_{i+1}) beyond a boundary are ghosts; further ones are not set.
@@ -163,6 +169,8 @@ class Spider {
   void sector(int i, const SpiderPower<N>& power, Sector& result) const;
 
  private:
+  bool along_dominates() const { return kind_->count_ <= 2; }
+
   const SpiderKind<N>* kind_;
   Vec3<N> limit_, mean_, along_, linear_;
   std::vector<Vec3<N>> cosine_, sine_;  ///< amplitudes of the modes; no cosines on the boundary

@@ -174,6 +174,22 @@ void Spider<N>::linear_part(int sector, long exponent, Vec3<N>& to_first, Vec3<N
 }
 
 template <class N>
+Spider<N> Spider<N>::without_dominant() const {
+  Spider result = *this;
+  (along_dominates() ? result.along_ : result.sine_.front()) = Vec3<N>{};
+  return result;
+}
+
+template <class N>
+Spider<N> Spider<N>::only_dominant() const {
+  Spider result = *this;
+  result.limit_ = result.mean_ = result.along_ = result.linear_ = Vec3<N>{};
+  for (auto* all : {&result.cosine_, &result.sine_, &result.q_, &result.p_}) all->assign(all->size(), Vec3<N>{});
+  (along_dominates() ? result.along_ : result.sine_.front()).x = N(1);
+  return result;
+}
+
+template <class N>
 void Spider<N>::sector(int i, const SpiderPower<N>& power, Sector& s) const {
   const SpiderKind<N>& kind = *kind_;
   const int count = kind.count_;

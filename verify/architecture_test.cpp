@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The house rules: arrows point down only, and the reference and the fast engine have nothing in common but the control
-// mesh. Read from the sources and from the symbols of the libraries.
+// The house rules: arrows point down only, and the reference and the fast engine have nothing in common but
+// the control mesh. Read from the sources and from the symbols of the libraries.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -58,7 +58,8 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
     const auto complain = [&](const std::string& why) {
       found.push_back(path + ":" + std::to_string(number) + ": " + target + " " + why);
     };
-    if (may_include().contains(top) && !may_include().at(folder).contains(top)) complain("is not for " + folder);
+    if (may_include().contains(top) && !may_include().at(folder).contains(top))
+      complain("is not for " + folder);
     if (match[1] == "\"" && !may_include().contains(top)) complain("is not a path from the project root");
     const auto rule = allowed_in().find(top);
     if (rule == allowed_in().end()) continue;
@@ -83,10 +84,12 @@ TEST(House, ArrowsPointDownOnly) {
       const std::string extension = entry.path().extension();
       if (extension != ".h" && extension != ".cpp" && extension != ".c") continue;
       ++looked_at[folder];
-      for (const std::string& v : violations(entry.path().lexically_relative(root), read(entry.path()))) ADD_FAILURE() << v;
+      for (const std::string& v : violations(entry.path().lexically_relative(root), read(entry.path())))
+        ADD_FAILURE() << v;
     }
   }
-  for (const char* folder : {"data", "reference", "fast", "verify"}) EXPECT_GT(looked_at[folder], 1) << folder;
+  for (const char* folder : {"data", "reference", "fast", "verify"})
+    EXPECT_GT(looked_at[folder], 1) << folder;
 }
 
 TEST(House, TheScannerSeesWhatItIsThereFor) {
@@ -98,14 +101,16 @@ TEST(House, TheScannerSeesWhatItIsThereFor) {
   EXPECT_EQ(violations("verify/a.cpp", "#include \"masks.h\"\n").size(), 1U);
   EXPECT_EQ(violations("reference/a.cpp", "#include <CGAL/Surface_mesh.h>\n").size(), 1U);
   EXPECT_EQ(violations("data/io/a.cpp", "#include <CGAL/IO/polygon_soup_io.h>\n").size(), 1U);
-  EXPECT_TRUE(violations("fast/a.cpp", "#include \"fast/masks.h\"\n#include <vector>\n#include \"data/control_mesh.h\"\n").empty());
+  EXPECT_TRUE(violations("fast/a.cpp",
+                         "#include \"fast/masks.h\"\n#include <vector>\n#include \"data/control_mesh.h\"\n")
+                  .empty());
   EXPECT_TRUE(violations("verify/watertight/a.cpp", "#include <CGAL/Surface_mesh.h>\n").empty());
 }
 
 // Names of a static library that other objects can see, demangled; `defined` or mentioned at all.
 Names symbols(const std::string& library, bool defined) {
-  const std::string command = "nm -C --extern-only --format=just-symbols " + std::string(defined ? "--defined-only " : "") +
-                              "'" + library + "' 2>/dev/null";
+  const std::string command = "nm -C --extern-only --format=just-symbols " +
+                              std::string(defined ? "--defined-only " : "") + "'" + library + "' 2>/dev/null";
   Names names;
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   if (!pipe) return names;
@@ -121,8 +126,8 @@ Names symbols(const std::string& library, bool defined) {
   return names;
 }
 
-// A name of this project that is not data's: a function or object of reference, fast or verify, or an instance of a
-// standard template with one of their types.
+// A name of this project that is not data's: a function or object of reference, fast or verify, or an
+// instance of a standard template with one of their types.
 bool is_own(const std::string& name) {
   static const std::regex own("limitcheck::(?!data::)");
   return std::regex_search(name, own);

@@ -199,8 +199,8 @@ class PlyReader {
 
  private:
   void read_header() {
-    if (!scanner_.next_line() || scanner_.word() != "ply")
-      scanner_.syntax_error("does not begin with \"ply\"");
+    if (!scanner_.next_line()) scanner_.truncated("has no lines");
+    if (scanner_.word() != "ply") scanner_.syntax_error("does not begin with \"ply\"");
     scanner_.end_of_line();
     bool has_format = false;
     for (;;) {

@@ -54,6 +54,7 @@ void read_ascii(std::string_view content, const std::string& name, PolygonSoup& 
       line("solid");
       TextScanner look_ahead = scanner;
       if (begins_with(look_ahead.word(), 'e')) break;
+      const std::int64_t facet_line = scanner.line();
       expect(scanner, {"facet", "normal"});  // the numbers of the normal follow: of no use, and often wrong
       line("facet");
       expect(scanner, {"outer", "loop"});
@@ -67,7 +68,7 @@ void read_ascii(std::string_view content, const std::string& name, PolygonSoup& 
         soup.positions.push_back({x, y, z});
         soup.position_lines.push_back(scanner.line());
       }
-      soup.close_polygon(scanner.line());
+      soup.close_polygon(facet_line);
       line("facet");
       expect(scanner, {"endloop"});
       line("facet");

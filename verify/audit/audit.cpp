@@ -46,6 +46,11 @@ ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, lc_points
 }
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
+  return run(audited, mesh, std::vector<std::int32_t>(mesh.mesh.triangles.size(), depth_));
+}
+
+std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh,
+                                 std::span<const std::int32_t> face_depth) {
   if (cached_mesh_ != mesh.name) cache_.clear();
   cached_mesh_ = mesh.name;
 
@@ -68,7 +73,6 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   // Tessellate.
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
-  const std::vector<std::int32_t> face_depth(mesh.mesh.triangles.size(), depth_);
   try {
     step(name, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options);

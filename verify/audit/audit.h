@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ class Auditor {
   /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`.
   /// A subject that refuses or fails gives rows, never an exception. `mesh` is valid (data/validate.h).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
+
+  /// The same at one depth for each control face, 0 to the auditor's depth, or -1 (culled).
+  std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh,
+                          std::span<const std::int32_t> face_depth);
 
   /// All of them, results ordered by subject, then mesh.
   std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes);

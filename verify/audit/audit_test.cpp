@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The auditor audited: good subjects hold, every planted fault turns the checks red that are meant to see it, and a
-// subject that refuses or crashes in an orderly way is a row.
+// The auditor audited: good subjects hold, every planted fault turns the checks red that are meant to see it,
+// and a subject that refuses or crashes in an orderly way is a row.
 #include "verify/audit/audit.h"
 
 #include <fmt/core.h>
@@ -21,13 +21,15 @@ namespace {
 const char* const kBase = "opensubdiv-far";  // right at lattice points of a closed mesh, in double
 const char* const kBaseOptions = "precision=double";
 
-std::vector<Result> run(const lc_subject* subject, const std::string& options, const std::string& mesh, int depth) {
+std::vector<Result> run(const lc_subject* subject, const std::string& options, const std::string& mesh,
+                        int depth) {
   return Auditor(depth, 1).run({subject, options}, {mesh, data::named_mesh(mesh)});
 }
 
 const Result& row(const std::vector<Result>& results, const std::string& check) {
   static const Result none;
-  const auto found = std::find_if(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
+  const auto found =
+      std::find_if(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
   EXPECT_NE(found, results.end()) << check;
   return found == results.end() ? none : *found;
 }
@@ -52,7 +54,8 @@ TEST(Audit, AGoodSubjectHoldsOnAClosedMeshInEveryCheck) {
     EXPECT_TRUE(red(results).empty()) << mesh << "\n" << describe(results);
     EXPECT_EQ(row(results, "positions").status, Status::kHeld);
     EXPECT_EQ(row(results, "normals").status, Status::kHeld);
-    RecordProperty(fmt::format("worst_position_{}", mesh), fmt::format("{:.2e}", row(results, "positions").worst.value_or(-1)));
+    RecordProperty(fmt::format("worst_position_{}", mesh),
+                   fmt::format("{:.2e}", row(results, "positions").worst.value_or(-1)));
   }
 }
 
@@ -103,7 +106,8 @@ const std::vector<Planted>& kill_table() {
 class PlantedFault : public testing::TestWithParam<Planted> {};
 
 TEST_P(PlantedFault, IsSeenByTheChecksWhoseBusinessItIs) {
-  const auto results = run(lc_subject_faulty(), faulty_options(GetParam().fault, kBase, kBaseOptions), "bumpy:60", 2);
+  const auto results =
+      run(lc_subject_faulty(), faulty_options(GetParam().fault, kBase, kBaseOptions), "bumpy:60", 2);
   const std::set<std::string> names = red(results);
   for (const char* check : GetParam().seen_by)
     EXPECT_TRUE(names.contains(check)) << check << " did not see it:\n" << describe(results);
@@ -136,7 +140,8 @@ TEST(PlantedFaults, APerfectCopyOfAGoodSubjectHolds) {
 }
 
 TEST(PlantedFaults, TheWitnessNamesThePointAndTheCommandThatRecomputesIt) {
-  const auto results = run(lc_subject_faulty(), faulty_options("wrong_limit_mask", kBase, kBaseOptions), "bumpy:60", 2);
+  const auto results =
+      run(lc_subject_faulty(), faulty_options("wrong_limit_mask", kBase, kBaseOptions), "bumpy:60", 2);
   const Result& r = row(results, "positions");
   ASSERT_TRUE(r.witness.has_value());
   ASSERT_EQ(r.witness->expected.size(), 3U);
@@ -152,7 +157,8 @@ TEST(Audit, TheNullSubjectFailsCleanly) {
   const auto results = run(lc_subject_null(), "", "tetrahedron", 1);
   EXPECT_FALSE(red(results).empty()) << describe(results);
   for (const Result& r : results)
-    EXPECT_TRUE(r.check == "tessellates" || r.status != Status::kHeld) << r.check << " held with nothing to look at";
+    EXPECT_TRUE(r.check == "tessellates" || r.status != Status::kHeld)
+        << r.check << " held with nothing to look at";
 }
 
 TEST(Audit, ASubjectThatRefusesIsARowAndNothingElseIsConfirmed) {
@@ -172,6 +178,28 @@ TEST(Audit, TheBoundaryOfTheControlMeshIsTheOnlyBoundaryAllowed) {
     EXPECT_EQ(row(results, "watertight").status, Status::kHeld) << mesh << "\n" << describe(results);
     EXPECT_EQ(row(results, "coverage").status, Status::kHeld) << mesh << "\n" << describe(results);
   }
+}
+
+// The recursive subdivider does nothing about cracks, so it shows what differing depths do without.
+TEST(Audit, DifferingDepthsWithoutRepairAreTiledButNotTight) {
+  const AuditMesh mesh{"bumpy:60", data::named_mesh("bumpy:60")};
+  std::vector<std::int32_t> depth(mesh.mesh.triangles.size());
+  for (std::size_t f = 0; f < depth.size(); ++f) depth[f] = static_cast<std::int32_t>(f % 4);
+  const auto results = Auditor(3, 1).run({find_subject("naive"), ""}, mesh, depth);
+  EXPECT_EQ(row(results, "positions").status, Status::kHeld) << describe(results);
+  EXPECT_EQ(row(results, "coverage").status, Status::kHeld) << describe(results);
+  EXPECT_EQ(row(results, "orientation").status, Status::kHeld) << describe(results);
+  EXPECT_EQ(row(results, "watertight").status, Status::kFinding) << describe(results);
+  EXPECT_EQ(row(results, "t-vertices").status, Status::kFinding) << describe(results);
+}
+
+TEST(Audit, TheRimOfCulledFacesIsABoundaryThatIsAllowed) {
+  const AuditMesh mesh{"tetrahedron",
+                       data::named_mesh("tetrahedron")};  // bit-symmetric: the naive points do agree
+  const auto results =
+      Auditor(2, 1).run({find_subject("naive"), ""}, mesh, std::vector<std::int32_t>{2, -1, 2, 2});
+  for (const char* check : {"coverage", "watertight", "positions"})
+    EXPECT_EQ(row(results, check).status, Status::kHeld) << describe(results);
 }
 
 TEST(Audit, ResultsDoNotDependOnThreads) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "verify/audit/checks.h"
 #include "verify/watertight/watertight.h"
@@ -79,135 +80,176 @@ Lattice::Id point_inside(const Evidence& e, const OpenEdge& edge, Lattice::Id fr
   return Lattice::kNone;
 }
 
+// What the merged surface looks like, to us and to CGAL.
+struct Looked {
+  MergedPoints merged;
+  SurfaceReport report;
+  SurfaceJudgement judgement;
+};
+
+Looked look(const Tessellation& t) {
+  Looked l;
+  l.merged =
+      t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
+  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()),
+                                                     {-1, -1, -1});
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k)
+    if (t.triangle_ok(k))
+      for (int c = 0; c < 3; ++c) triangles[k][c] = l.merged.point_of[t.triangles()[k][c]];
+  const auto points = static_cast<std::int64_t>(l.merged.vertex_of.size());
+  tbb::parallel_invoke([&] { l.report = inspect_surface(points, triangles); },
+                       [&] { l.judgement = judge_surface(points, triangles); });
+  return l;
+}
+
+// The open edges that are no boundary, and the boundary that is not there.
+struct Cracks {
+  std::vector<OpenEdge> edges;
+  std::int64_t missed = 0;         // steps of the boundary
+  std::optional<Witness> witness;  // of the first crack or, if there is none, of the first step missed
+  std::int64_t split = 0;          // edges with another vertex inside
+  std::optional<Witness> split_witness;
+};
+
+Cracks find_cracks(const Evidence& e, const Looked& looked, const Boundary& boundary) {
+  const Tessellation& t = e.tessellation;
+  const auto vertex_at = [&](const OpenEdge& edge,
+                             std::int32_t point) {  // the triangle's own vertex at this point
+    for (const std::uint32_t v : t.triangles()[edge.triangle])
+      if (looked.merged.point_of[v] == point) return static_cast<std::int64_t>(v);
+    return std::int64_t{-1};
+  };
+  const auto with_triangle = [](Witness w, std::int64_t triangle) {
+    w.triangle = triangle;
+    return w;
+  };
+  std::vector<bool> named(static_cast<std::size_t>(e.lattice.size()), false);
+  for (const Lattice::Id id : e.point)
+    if (id != Lattice::kNone) named[id] = true;
+
+  // By provenance: an open edge is a step of the boundary, once, or a crack, perhaps with a lattice point
+  // inside.
+  Cracks c;
+  std::vector<bool> met(boundary.steps.size(), false);
+  std::vector<bool> split;  // of each crack
+  bool placed = true;       // every crack has its place on the lattice
+  for (const OpenEdge& edge : looked.report.open_edges) {
+    const std::int64_t vertex = vertex_at(edge, edge.from);
+    const Lattice::Id from = e.point[vertex], to = e.point[vertex_at(edge, edge.to)];
+    const auto step = std::lower_bound(boundary.steps.begin(), boundary.steps.end(), std::pair(from, to));
+    if (step != boundary.steps.end() && *step == std::pair(from, to) && !met[step - boundary.steps.begin()]) {
+      met[step - boundary.steps.begin()] = true;
+      continue;
+    }
+    if (!c.witness) c.witness = with_triangle(e.at_vertex(vertex), edge.triangle);
+    c.edges.push_back(edge);
+    split.push_back(false);
+    placed = placed && from != Lattice::kNone && to != Lattice::kNone;
+    if (from == Lattice::kNone || to == Lattice::kNone) continue;
+    const Lattice::Id inside = point_inside(e, edge, from, to, named);
+    if (inside == Lattice::kNone) continue;
+    split.back() = true;
+    if (!c.split_witness) c.split_witness = with_triangle(e.at_point(inside), edge.triangle);
+  }
+
+  // In space, exactly, where provenance does not tell.
+  if (!placed) {
+    std::vector<double> places;
+    for (std::int64_t v = 0; v < t.vertex_count(); ++v)
+      for (const double x : t.position(v)) places.push_back(x);
+    for (const TVertex& tee : find_t_vertices(places, looked.merged.vertex_of, c.edges)) {
+      split[tee.edge] = true;
+      if (!c.split_witness)
+        c.split_witness =
+            with_triangle(e.at_vertex(looked.merged.vertex_of[tee.point]), c.edges[tee.edge].triangle);
+    }
+  }
+  c.split = std::count(split.begin(), split.end(), true);
+  c.missed = std::count(met.begin(), met.end(), false);
+  if (c.missed > 0 && !c.witness)
+    c.witness = e.at_point(boundary.steps[std::find(met.begin(), met.end(), false) - met.begin()].first);
+  return c;
+}
+
+// Somewhere the surface is not manifold.
+std::optional<Witness> not_manifold(const Evidence& e, const Looked& looked) {
+  const SurfaceReport& r = looked.report;
+  std::int32_t triangle = -1;
+  if (!r.degenerate_witness.empty()) {
+    triangle = r.degenerate_witness.front();
+  } else if (!r.duplicate_witness.empty()) {
+    triangle = r.duplicate_witness.front();
+  } else if (!r.crowded_witness.empty()) {
+    triangle = r.crowded_witness.front().triangle;
+  } else if (!r.clashing_witness.empty()) {
+    triangle = r.clashing_witness.front().triangle;
+  }
+  if (triangle >= 0) {
+    Witness w;
+    if (e.tessellation.triangle_ok(triangle)) w = e.at_vertex(e.tessellation.triangles()[triangle][0]);
+    w.triangle = triangle;
+    return w;
+  }
+  if (!r.bow_tie_witness.empty()) return e.at_vertex(looked.merged.vertex_of[r.bow_tie_witness.front()]);
+  return std::nullopt;
+}
+
+void tell(const SurfaceReport& report, const Cracks& cracks, const Boundary& boundary, Result& r) {
+  const auto part = [&](std::int64_t count, const char* what) {
+    if (count == 0) return;
+    r.bad += count;
+    r.message += fmt::format("{}{} {}", r.message.empty() ? "" : ", ", count, what);
+  };
+  part(static_cast<std::int64_t>(cracks.edges.size()), "open edges that are no boundary");
+  part(cracks.missed, "boundary edges missing");
+  part(report.degenerate_triangles, "degenerate triangles");
+  part(report.duplicate_triangles, "duplicate triangles");
+  part(report.crowded_edges, "edges of three or more triangles");
+  part(report.clashing_edges, "edges of two triangles that run the same way");
+  part(report.bow_tie_points, "points with more than one fan of triangles");
+  if (r.bad == 0 && boundary.loops >= 0 && report.open_loops != boundary.loops) {
+    r.bad = 1;
+    r.message = fmt::format("{} boundary loops instead of {}", report.open_loops, boundary.loops);
+  }
+  if (r.bad > 0) r.status = Status::kFinding;
+}
+
 }  // namespace
 
 std::vector<Result> check_watertight(const Evidence& e) {
   Result surface = e.result("watertight"), tees = e.result("t-vertices");
   surface.unit = tees.unit = "edges";
   surface.bound = tees.bound = 0;
-  const Tessellation& t = e.tessellation;
-  if (t.triangle_count() == 0) {
+  if (e.tessellation.triangle_count() == 0) {
     surface.status = tees.status = Status::kNotRun;
     return {surface, tees};
   }
-
-  // Merge, look, and let CGAL look.
-  const MergedPoints merged =
-      t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
-  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()),
-                                                     {-1, -1, -1});
-  for (std::int64_t k = 0; k < t.triangle_count(); ++k)
-    if (t.triangle_ok(k))
-      for (int c = 0; c < 3; ++c) triangles[k][c] = merged.point_of[t.triangles()[k][c]];
-  const auto points = static_cast<std::int64_t>(merged.vertex_of.size());
-  SurfaceReport report;
-  SurfaceJudgement judgement;
-  tbb::parallel_invoke([&] { report = inspect_surface(points, triangles); },
-                       [&] { judgement = judge_surface(points, triangles); });
-
-  // Open edges: exactly the boundary that was asked for?
-  const auto corner_at = [&](const OpenEdge& edge,
-                             std::int32_t point) {  // the triangle's own vertex at this point
-    for (const std::uint32_t v : t.triangles()[edge.triangle])
-      if (merged.point_of[v] == point) return static_cast<std::int64_t>(v);
-    return std::int64_t{-1};
-  };
+  const Looked looked = look(e.tessellation);
+  const SurfaceReport& ours = looked.report;
+  const SurfaceJudgement& cgal = looked.judgement;
   const Boundary boundary = expected_boundary(e);
-  std::vector<bool> met(boundary.steps.size(), false);
-  std::vector<bool> named(static_cast<std::size_t>(e.lattice.size()), false);
-  for (const Lattice::Id id : e.point)
-    if (id != Lattice::kNone) named[id] = true;
-  std::vector<OpenEdge> crack_edges;
-  std::vector<bool> split;  // of each crack edge: another vertex lies inside it
-  for (const OpenEdge& edge : report.open_edges) {
-    const std::int64_t from_vertex = corner_at(edge, edge.from);
-    const Lattice::Id from = e.point[from_vertex], to = e.point[corner_at(edge, edge.to)];
-    const auto step = std::lower_bound(boundary.steps.begin(), boundary.steps.end(), std::pair(from, to));
-    if (from != Lattice::kNone && step != boundary.steps.end() && *step == std::pair(from, to) &&
-        !met[step - boundary.steps.begin()]) {
-      met[step - boundary.steps.begin()] = true;
-      continue;
-    }
-    if (crack_edges.empty()) {
-      surface.witness = e.at_vertex(from_vertex);
-      surface.witness->triangle = edge.triangle;
-    }
-    crack_edges.push_back(edge);
-    split.push_back(false);
-    if (from == Lattice::kNone || to == Lattice::kNone) continue;
-    if (const Lattice::Id inside = point_inside(e, edge, from, to, named); inside != Lattice::kNone) {
-      split.back() = true;
-      if (!tees.witness) tees.witness = e.at_point(inside), tees.witness->triangle = edge.triangle;
-    }
-  }
-  // ... and in space, exactly: what provenance does not tell.
-  std::vector<double> places;
-  for (std::int64_t v = 0; !crack_edges.empty() && v < t.vertex_count(); ++v)
-    for (const double x : t.position(v)) places.push_back(x);
-  for (const TVertex& tee : find_t_vertices(places, merged.vertex_of, crack_edges)) {
-    split[tee.edge] = true;
-    if (!tees.witness)
-      tees.witness = e.at_vertex(merged.vertex_of[tee.point]),
-      tees.witness->triangle = crack_edges[tee.edge].triangle;
-  }
-  const auto cracks = static_cast<std::int64_t>(crack_edges.size());
-  const auto missed = static_cast<std::int64_t>(std::count(met.begin(), met.end(), false));
-  if (missed > 0 && !surface.witness)
-    surface.witness =
-        e.at_point(boundary.steps[std::find(met.begin(), met.end(), false) - met.begin()].first);
-
-  const auto triangle_witness = [&](const std::vector<std::int32_t>& list) {
-    if (list.empty() || surface.witness) return;
-    surface.witness = Witness{};
-    surface.witness->triangle = list.front();
-    if (t.triangle_ok(list.front())) {
-      surface.witness = e.at_vertex(t.triangles()[list.front()][0]);
-      surface.witness->triangle = list.front();
-    }
-  };
-  triangle_witness(report.degenerate_witness);
-  triangle_witness(report.duplicate_witness);
-  for (const auto* list : {&report.crowded_witness, &report.clashing_witness})
-    if (!list->empty()) triangle_witness({list->front().triangle});
-  if (!report.bow_tie_witness.empty() && !surface.witness)
-    surface.witness = e.at_vertex(merged.vertex_of[report.bow_tie_witness.front()]);
-
-  surface.of = report.edges;
-  surface.bad = cracks + missed + report.degenerate_triangles + report.duplicate_triangles +
-                report.crowded_edges + report.clashing_edges + report.bow_tie_points;
-  std::vector<std::string> parts;
-  const auto part = [&](std::int64_t count, const char* what) {
-    if (count > 0) parts.push_back(fmt::format("{} {}", count, what));
-  };
-  part(cracks, "open edges that are no boundary");
-  part(missed, "boundary edges missing");
-  part(report.degenerate_triangles, "degenerate triangles");
-  part(report.duplicate_triangles, "duplicate triangles");
-  part(report.crowded_edges, "edges of three or more triangles");
-  part(report.clashing_edges, "edges of two triangles that run the same way");
-  part(report.bow_tie_points, "points with more than one fan of triangles");
-  if (surface.bad == 0 && boundary.loops >= 0 && report.open_loops != boundary.loops) {
-    ++surface.bad;
-    parts.push_back(fmt::format("{} boundary loops instead of {}", report.open_loops, boundary.loops));
-  }
-  for (const std::string& p : parts) surface.message += (surface.message.empty() ? "" : ", ") + p;
-  if (surface.bad > 0) surface.status = Status::kFinding;
+  const Cracks cracks = find_cracks(e, looked, boundary);
+  surface.of = ours.edges;
+  surface.witness = cracks.witness ? cracks.witness : not_manifold(e, looked);
+  tell(ours, cracks, boundary, surface);
 
   // Two methods, one answer.
-  const bool agree = report.manifold() == judgement.manifold() &&
-                     (!report.manifold() || (report.open_edges.empty() == judgement.closed &&
-                                             report.open_loops == judgement.boundary_cycles));
+  const bool agree = ours.manifold() == cgal.manifold() &&
+                     (!ours.manifold() ||
+                      (ours.open_edges.empty() == cgal.closed && ours.open_loops == cgal.boundary_cycles));
   if (!agree) {
     surface.status = Status::kError;
     surface.message = fmt::format(
-        "our own count (manifold {}, {} open edges, {} loops) and CGAL's (manifold {}, closed {}, "
-        "{} cycles) disagree; ours: {}",
-        report.manifold(), report.open_edges.size(), report.open_loops, judgement.manifold(),
-        judgement.closed, judgement.boundary_cycles, surface.message);
+        "our own count (manifold {}, {} open edges, {} loops) and CGAL's (manifold {}, closed {}, {} cycles) "
+        "disagree; "
+        "ours: {}",
+        ours.manifold(), ours.open_edges.size(), ours.open_loops, cgal.manifold(), cgal.closed,
+        cgal.boundary_cycles, surface.message);
   }
 
-  tees.of = static_cast<std::int64_t>(report.open_edges.size());
-  tees.bad = std::count(split.begin(), split.end(), true);
+  tees.of = static_cast<std::int64_t>(ours.open_edges.size());
+  tees.bad = cracks.split;
+  tees.witness = cracks.split_witness;
   if (tees.bad > 0) {
     tees.status = Status::kFinding;
     tees.message = fmt::format("{} edges with another vertex inside", tees.bad);

@@ -38,7 +38,13 @@ Report example() {
   worst.status = Status::kFinding;
   worst.bad = 3;
   worst.worst = 0.125;
-  worst.witness = Witness{2, "3/8", "1/4", 17, -1, {0.1, 0.2, 0.3}, {static_cast<double>(0.1F), std::numeric_limits<double>::quiet_NaN(), 1}};
+  worst.witness = Witness{2,
+                          "3/8",
+                          "1/4",
+                          17,
+                          -1,
+                          {0.1, 0.2, 0.3},
+                          {static_cast<double>(0.1F), std::numeric_limits<double>::quiet_NaN(), 1}};
   return report;
 }
 
@@ -74,13 +80,15 @@ TEST(Json, HasTheStableKeys) {
 }
 
 TEST(Json, IsWrittenWholeOrNotAtAll) {
-  const auto folder = std::filesystem::temp_directory_path() / ("limitcheck-json-" + std::to_string(::getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("limitcheck-json-" + std::to_string(::getpid()));
   write_text(folder / "deep" / "report.json", "{}\n");
   std::ifstream in(folder / "deep" / "report.json");
   std::string text;
   std::getline(in, text);
   EXPECT_EQ(text, "{}");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "deep"), {}), 1) << "no temporary file stays";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "deep"), {}), 1)
+      << "no temporary file stays";
   EXPECT_THROW(write_text("/proc/no/such.json", "x"), std::exception);
   std::filesystem::remove_all(folder);
 }

@@ -19,8 +19,8 @@ struct Line {
   std::int64_t bad_meshes = 0, looked_at = 0;
 };
 
-// A finding before whatever held; then the larger worst value in units of its bound, then the larger share of
-// bad ones.
+// A finding before whatever held; then the larger worst value in units of its bound; where nothing but
+// equality will do (bound 0), and where that is the same, the larger share of bad ones.
 bool worse(const Result& a, const Result& b) {
   const auto rank = [](const Result& r) {
     switch (r.status) {
@@ -30,17 +30,18 @@ bool worse(const Result& a, const Result& b) {
         return 3;
       case Status::kHeld:
         return 2;
-      case Status::kNotRun:
-        return 1;
       case Status::kNotSupported:
+        return 1;
+      case Status::kNotRun:
         return 0;
     }
     return 0;
   };
   if (rank(a) != rank(b)) return rank(a) > rank(b);
   const auto excess = [](const Result& r) {
+    if (r.bound == 0) return 0.0;
     if (!r.worst) return r.bad > 0 ? std::numeric_limits<double>::infinity() : -1.0;
-    return r.bound && *r.bound > 0 ? *r.worst / *r.bound : *r.worst;
+    return r.bound ? *r.worst / *r.bound : *r.worst;
   };
   if (excess(a) != excess(b)) return excess(a) > excess(b);
   const auto share = [](const Result& r) {
@@ -97,6 +98,10 @@ std::string amount(const std::optional<double>& x) {
 std::string numbers(const std::vector<double>& list) {
   std::vector<std::string> words;
   for (const double x : list) {
+    if (std::isnan(x)) {
+      words.emplace_back("nan");
+      continue;
+    }
     const auto single = static_cast<float>(x);
     words.push_back(static_cast<double>(single) == x ? fmt::format("{}", single) : fmt::format("{}", x));
   }
@@ -115,8 +120,9 @@ void add_line(std::string& out, const Result& r, const std::string& meshes, bool
   const bool has_worst = r.worst.has_value() || r.rms.has_value();
   const std::string count = r.of > 0 ? fmt::format("{}/{}", r.bad, r.of) : "-";
   out += fmt::format("  {:<17} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", r.check,
-                     painted(r.status, colour), meshes, count, has_worst ? amount(r.worst) : "-",
-                     has_worst ? amount(r.bound) : "-", has_worst ? amount(r.p99) : "-", r.unit, where(r));
+                     painted(r.status, colour), meshes, count,
+                     has_worst ? (r.worst ? amount(r.worst) : "nan") : "-", has_worst ? amount(r.bound) : "-",
+                     has_worst ? amount(r.p99) : "-", r.unit, where(r));
 }
 
 void add_finding(std::string& out, int number, const Line& line) {
@@ -126,14 +132,22 @@ void add_finding(std::string& out, int number, const Line& line) {
     out += fmt::format("{}: {}\n", r.mesh, r.message);
     return;
   }
-  out += fmt::format(
-      "{} of {}{}{}\n", r.bad, r.of, r.unit.empty() || r.worst ? "" : " " + r.unit,
-      r.worst ? fmt::format(" beyond {:.2e} {}, worst {:.3e}", r.bound.value_or(0), r.unit, *r.worst) : "");
+  out += fmt::format("{} of {}", r.bad, r.of);
+  if (!r.rms) {
+    out += r.unit.empty() ? "" : " " + r.unit;
+  } else {
+    out += r.bound == 0 ? " differ" : fmt::format(" beyond {:.2e} {}", r.bound.value_or(0), r.unit);
+    out += r.worst ? fmt::format(", worst {:.3e} {}", *r.worst, r.unit) : ", worst not finite";
+  }
+  out += fmt::format("\n     on {}", r.mesh);
   std::vector<std::string> others;
   for (const Result* other : line.results)
     if (other != &r && is_bad(*other)) others.push_back(other->mesh);
-  out += fmt::format("     on {}", r.mesh);
+  constexpr std::size_t kNamed = 5;
+  const std::size_t more = others.size() - std::min(others.size(), kNamed);
+  others.resize(others.size() - more);
   if (!others.empty()) out += fmt::format("; also on {}", fmt::join(others, ", "));
+  if (more > 0) out += fmt::format(" and {} more", more);
   out += "\n";
   if (!r.message.empty()) out += fmt::format("     {}\n", r.message);
   if (!r.witness) return;
@@ -166,10 +180,12 @@ std::string eval_command(const std::string& mesh, const Witness& witness) {
 
 std::string to_table(const Report& report, bool colour, bool all) {
   std::string out;
-  std::vector<std::string> meshes;
-  for (const auto& m : report.meshes) meshes.push_back(fmt::format("{} ({} faces)", m.name, m.faces));
-  out +=
-      fmt::format("limitcheck {}: depth {} on {}\n", report.version, report.depth, fmt::join(meshes, ", "));
+  std::int64_t faces = 0;
+  for (const auto& m : report.meshes) faces += m.faces;
+  out += fmt::format(
+      "limitcheck {}: depth {} on {} ({} faces)\n", report.version, report.depth,
+      report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),
+      faces);
   const auto row = [&](auto... cell) {
     return fmt::format("  {:<17} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", cell...);
   };
@@ -188,7 +204,11 @@ std::string to_table(const Report& report, bool colour, bool all) {
       if (line.bad_meshes > 0) findings.push_back(std::move(line));
     }
   }
-  if (!findings.empty()) out += fmt::format("\nFindings (\"meshes\" above: held on so many of so many)\n");
+  if (!findings.empty())
+    out +=
+        "\nFindings, each at its worst. (Meshes above: held on so many of so many. Expected values are those "
+        "of the "
+        "control mesh rounded to the subject's precision.)\n";
   for (std::size_t k = 0; k < findings.size(); ++k) add_finding(out, static_cast<int>(k) + 1, findings[k]);
 
   std::int64_t held = 0, bad = 0, other = 0;

@@ -14,6 +14,7 @@
 #include "verify/audit/table.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
+#include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::cli {
@@ -54,6 +55,13 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a) {
     std::string known = "all";
     for (const lc_subject* s : verify::built_in_subjects()) known += fmt::format(", {}", s->name);
     throw std::invalid_argument(fmt::format("there is no subject '{}'; there are: {}", name, known));
+  }
+  try {
+    (void)verify::capabilities(*subject, options);
+  } catch (
+      const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
+    throw std::invalid_argument(fmt::format("{}{}{}", error.what(), subject->options ? "; options: " : "",
+                                            subject->options ? subject->options : ""));
   }
   return {{subject, options}};
 }
@@ -114,7 +122,7 @@ int audit(Arguments a) {
 
 void add_audit(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("audit", "Judge tessellators against the exact surface");
+  CLI::App* command = app.add_subcommand("audit", "Judge a tessellator against the exact surface");
   command->add_option(
       "SUBJECT", a->subject,
       "Built-in subject, NAME or NAME:key=value,..., or all. Without it: all on the default meshes, and "

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// libFuzzer target, one for each format: any bytes are either refused by an InputError or give a mesh that
+// the writers and readers carry unchanged.
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "data/error.h"
+#include "data/io/read.h"
+#include "data/io/write.h"
+#include "data/validate.h"
+
+using namespace limitcheck::data;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  // Both rules for polygons get their share; the seeds stay ordinary files.
+  const ReadOptions options{size % 2 == 0 ? Triangulation::kFan : Triangulation::kShortestDiagonal};
+  ControlMesh mesh;
+  try {
+    mesh = read_mesh(std::string_view(reinterpret_cast<const char*>(bytes), size),
+                     FileFormat::LIMITCHECK_FUZZ_FORMAT, "input", options);
+  } catch (const InputError&) {
+    return 0;
+  }
+  if (!validate(mesh).empty()) std::abort();
+  for (const FileFormat format : {FileFormat::kObj, FileFormat::kOff, FileFormat::kPly}) {
+    const ControlMesh again = read_mesh(mesh_content(mesh, format), format, "written");
+    if (again.positions != mesh.positions || again.triangles != mesh.triangles) std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+
+#include "data/error.h"
+#include "data/generators/bumpy_sphere.h"
+#include "data/generators/named_mesh.h"
+#include "data/io/write.h"
+#include "data/shapes.h"
+#include "data/validate.h"
+
+namespace limitcheck::data {
+namespace {
+
+// FNV-1a over the bits of all positions and indices.
+std::uint64_t hash(const ControlMesh& mesh) {
+  std::uint64_t value = 0xcbf29ce484222325u;
+  const auto add = [&](std::uint64_t word) {
+    for (int i = 0; i < 8; ++i) value = (value ^ (word >> 8 * i & 0xff)) * 0x100000001b3u;
+  };
+  for (const auto& p : mesh.positions) {
+    for (const double x : p) add(std::bit_cast<std::uint64_t>(x));
+  }
+  for (const auto& t : mesh.triangles) {
+    for (const std::int32_t v : t) add(static_cast<std::uint32_t>(v));
+  }
+  return value;
+}
+
+std::string code_of(const std::string& specification) {
+  try {
+    named_mesh(specification);
+  } catch (const InputError& error) {
+    return error.code();
+  }
+  return "made";
+}
+
+// [C71]
+TEST(Sec6_BumpySphere, HasTwiceItsVerticesMinusFourFacesAndIsAClosedManifold) {
+  for (const int faces : {4, 6, 8, 20, 200, 800, 2000, 4000}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      const ControlMesh mesh = bumpy_sphere(faces, seed);
+      EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(faces));
+      EXPECT_EQ(mesh.triangles.size(), 2 * mesh.positions.size() - 4);
+      EXPECT_TRUE(validate(mesh).empty());
+    }
+  }
+}
+
+TEST(Sec6_BumpySphere, HasRadiiUniformInTheirRange) {
+  const ControlMesh mesh = bumpy_sphere(40000, 5);
+  double least = 9, most = 0, sum = 0, sum_of_squares = 0;
+  std::array<double, 3> direction_sum{};
+  for (const auto& p : mesh.positions) {
+    const double r = std::hypot(p[0], p[1], p[2]);
+    least = std::min(least, r);
+    most = std::max(most, r);
+    sum += r;
+    sum_of_squares += r * r;
+    for (int axis = 0; axis < 3; ++axis) direction_sum[axis] += p[axis] / r;
+  }
+  const double n = static_cast<double>(mesh.positions.size()), mean = sum / n;
+  EXPECT_GE(least, 0.5 - 1e-15);
+  EXPECT_LE(most, 1.5 + 1e-15);
+  EXPECT_LT(least, 0.501);
+  EXPECT_GT(most, 1.499);
+  // Five standard deviations of the mean of n uniform numbers, and of the mean direction.
+  EXPECT_NEAR(mean, 1, 5 * std::sqrt(1 / 12.0 / n));
+  EXPECT_NEAR(sum_of_squares / n - mean * mean, 1 / 12.0, 0.005);
+  for (const double s : direction_sum) EXPECT_NEAR(s / n, 0, 5 * std::sqrt(1 / 3.0 / n));
+}
+
+// The triangulation by its definition: every other direction lies strictly below the plane of each face.
+TEST(Sec6_BumpySphere, IsTriangulatedByTheConvexHullOfItsDirections) {
+  const ControlMesh mesh = bumpy_sphere(200, 1);
+  std::vector<std::array<long double, 3>> d;
+  for (const auto& p : mesh.positions) {
+    const long double r =
+        std::sqrt((long double)p[0] * p[0] + (long double)p[1] * p[1] + (long double)p[2] * p[2]);
+    d.push_back({p[0] / r, p[1] / r, p[2] / r});
+  }
+  for (const auto& t : mesh.triangles) {
+    const auto &a = d[t[0]], &b = d[t[1]], &c = d[t[2]];
+    for (std::size_t v = 0; v < d.size(); ++v) {
+      if (v == std::size_t(t[0]) || v == std::size_t(t[1]) || v == std::size_t(t[2])) continue;
+      long double e[3][3];
+      for (int k = 0; k < 3; ++k) e[0][k] = b[k] - a[k], e[1][k] = c[k] - a[k], e[2][k] = d[v][k] - a[k];
+      const long double volume = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+                                 e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+                                 e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+      ASSERT_LT(volume, 0) << "face " << t[0] << " " << t[1] << " " << t[2] << ", vertex " << v;
+    }
+  }
+}
+
+// The values were obtained with g++ 12 and with clang 14, optimised and not; other compilers must give the
+// same.
+TEST(Sec6_BumpySphere, IsTheSameWithEveryCompiler) {
+  EXPECT_EQ(hash(bumpy_sphere(200, 1)), 0u);
+  EXPECT_EQ(hash(bumpy_sphere(4000, 7)), 0u);
+  EXPECT_EQ(hash(bumpy_sphere_of_vertices(402, 1)), hash(bumpy_sphere(800, 1)));
+  EXPECT_NE(hash(bumpy_sphere(200, 2)), hash(bumpy_sphere(200, 1)));
+}
+
+TEST(NamedMesh, EveryStockShapeIsTheSameWithEveryCompilerAndValid) {
+  std::uint64_t all = 0;
+  for (const std::string& name : stock_shapes()) {
+    const ControlMesh mesh = named_mesh(name);
+    EXPECT_TRUE(validate(mesh).empty()) << name;
+    all = all * 31 + hash(mesh);
+  }
+  EXPECT_EQ(all, 0u);
+}
+
+TEST(NamedMesh, ParametersFollowBehindColons) {
+  EXPECT_EQ(hash(named_mesh("bumpy:800:3")), hash(bumpy_sphere(800, 3)));
+  EXPECT_EQ(hash(named_mesh("bumpy:800")), hash(bumpy_sphere(800, 1)));
+  EXPECT_EQ(hash(named_mesh("bumpy-vertices:402")), hash(bumpy_sphere(800, 1)));
+  EXPECT_EQ(hash(named_mesh("wheel:7")), hash(wheel(7, 3)));
+  EXPECT_EQ(hash(named_mesh("wheel:7:1")), hash(wheel(7, 1)));
+}
+
+TEST(NamedMesh, WhatCannotBeMadeIsAnError) {
+  for (const char* name : {"", "nope", "Bumpy:800", "bumpy 800"})
+    EXPECT_EQ(code_of(name), "NAME_UNKNOWN") << name;
+  for (const char* name :
+       {"bumpy", "bumpy:", "bumpy:801", "bumpy:2", "bumpy:-4", "bumpy:8e2", "bumpy:800:1:2", "bumpy:800:x",
+        "wheel:2", "wheel", "wheel:99999999999999999999", "wheel:4294967299", "tetrahedron:1",
+        "bumpy:18446744073709551615", "bumpy-vertices:3", "fan:0", "sheet:0:1"}) {
+    EXPECT_EQ(code_of(name), "NAME_BAD_PARAMETER") << name;
+  }
+}
+
+TEST(NamedMesh, EveryListedNameExists) {
+  for (const NamedMesh& listed : named_meshes()) {
+    const std::string name = listed.name.substr(0, listed.name.find_first_of(":["));
+    EXPECT_NE(code_of(name), "NAME_UNKNOWN") << name;
+  }
+}
+
+TEST(OpenMesh, TakesAFileOrAName) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "open_mesh.obj";
+  write_mesh(file, icosahedron());
+  EXPECT_EQ(hash(open_mesh(file.string())), hash(icosahedron()));
+  EXPECT_EQ(hash(open_mesh("icosahedron")), hash(icosahedron()));
+  try {
+    open_mesh("missing.obj");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), "FILE_CANNOT_OPEN");
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::data

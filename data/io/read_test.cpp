@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "data/io/read.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <clocale>
+#include <cmath>
+#include <limits>
+
+#include "data/error.h"
+#include "data/shapes.h"
+
+namespace limitcheck::data {
+namespace {
+
+using Triangles = std::vector<std::array<std::int32_t, 3>>;
+
+std::string wellformed(const std::string& name) {
+  return LIMITCHECK_SOURCE_DIR "/data/wellformed/" + name;
+}
+
+std::string error_of(const std::string& content, FileFormat format = FileFormat::kObj,
+                     ReadOptions options = {}) {
+  try {
+    read_mesh(content, format, "cage.obj", options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Read, ErrorsNameFileLineCodeAndElements) {
+  EXPECT_EQ(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\n\nf 1 2 5\n"),
+            "cage.obj:9: MESH_NONMANIFOLD_EDGE: edge 0–1 has 3 faces (0, 1, 2)");
+}
+
+TEST(Read, MoreThanOneFaultIsCounted) {
+  EXPECT_EQ(error_of("v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 inf 0\nf 1 2 3\n"),
+            "cage.obj:1: MESH_NOT_FINITE: vertex 0 lies at (nan, 0, 0); 2 more faults");
+}
+
+TEST(Read, EveryFormOfATetrahedronIsTheSameTetrahedron) {
+  const ControlMesh expected = tetrahedron();
+  for (const char* name : {"tetrahedron.v4.f4.obj", "tetrahedron.v4.f4.crlf.obj",
+                           "tetrahedron.v4.f4.cr_only.obj", "tetrahedron.v4.f4.no_last_newline.obj",
+                           "tetrahedron.v4.f4.negative_indices.obj", "tetrahedron.v4.f4.faces_first.obj",
+                           "tetrahedron.v4.f4.continued.obj", "tetrahedron.v4.f4.everything.obj"}) {
+    const ControlMesh mesh = read_mesh(wellformed(name));
+    EXPECT_EQ(mesh.positions, expected.positions) << name;
+    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+  }
+}
+
+TEST(Read, EveryFormOfAnOffOrPlyIsTheSameMesh) {
+  ControlMesh expected{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  for (const char* name : {"tetrahedron.v4.f4.off", "tetrahedron.v4.f4.counts_beside.off",
+                           "tetrahedron.v4.f4.comments_and_colours.off", "tetrahedron.v4.f4.coff.off",
+                           "tetrahedron.v4.f4.stcnoff.off"}) {
+    const ControlMesh mesh = read_mesh(wellformed(name));
+    EXPECT_EQ(mesh.positions, expected.positions) << name;
+    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+  }
+  expected.positions[3][2] = 0.1;
+  for (const char* name :
+       {"tetrahedron.v4.f4.ascii.ply", "tetrahedron.v4.f4.little.ply", "tetrahedron.v4.f4.big.ply",
+        "tetrahedron.v4.f4.crlf.ply", "tetrahedron.v4.f4.faces_first.ply"}) {
+    const ControlMesh mesh = read_mesh(wellformed(name));
+    EXPECT_EQ(mesh.positions, expected.positions) << name;
+    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+  }
+  expected.positions[3][2] = 0.1F;
+  const ControlMesh mesh = read_mesh(wellformed("tetrahedron.v4.f4.float_and_more.ply"));
+  EXPECT_EQ(mesh.positions, expected.positions);
+  EXPECT_EQ(mesh.triangles, expected.triangles);
+}
+
+TEST(Read, EveryFormOfAnStlIsTheSameMeshWithVerticesInOrderOfAppearance) {
+  const ControlMesh expected{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+                             {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {1, 0, 3}}};
+  for (const char* name :
+       {"tetrahedron.v4.f4.stl", "tetrahedron.v4.f4.begins_with_solid.stl", "tetrahedron.v4.f4.ascii.stl",
+        "tetrahedron.v4.f4.upper_case.stl", "tetrahedron.v4.f4.minus_zero.stl"}) {
+    const ControlMesh mesh = read_mesh(wellformed(name));
+    EXPECT_EQ(mesh.positions, expected.positions) << name;
+    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+  }
+}
+
+// Expected values: hexadecimal floating point, which no decimal reader is involved in.
+TEST(Read, DecimalsAreCorrectlyRounded) {
+  const ControlMesh mesh = read_mesh(
+      "v 0.1 1e-400 2.2250738585072011e-308\nv 9007199254740993 5e-324 -0\n"
+      "v 0.500000000000000166533453693773481063544750213623046875 1.7976931348623157e308 +3\nf 1 2 3\n",
+      FileFormat::kObj, "text");
+  const auto& p = mesh.positions;
+  EXPECT_EQ(p[0], (std::array<double, 3>{0x1.999999999999ap-4, 0.0, 0x0.fffffffffffffp-1022}));
+  EXPECT_EQ(p[1], (std::array<double, 3>{0x1p53, 0x1p-1074, 0.0}));
+  EXPECT_TRUE(std::signbit(p[1][2]));
+  EXPECT_EQ(p[2], (std::array<double, 3>{0x1.0000000000002p-1, 0x1.fffffffffffffp1023, 3.0}));
+}
+
+TEST(Read, TheLocaleDoesNotMatter) {
+  // C.UTF-8 has a point too; a locale with a comma is used where the machine has one.
+  for (const char* locale : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE"}) {
+    if (std::setlocale(LC_ALL, locale) != nullptr) break;
+  }
+  const ControlMesh mesh = read_mesh("v 0.5 1e-999 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", FileFormat::kObj, "text");
+  std::setlocale(LC_ALL, "C");
+  EXPECT_EQ(mesh.positions[0][0], 0.5);
+  EXPECT_EQ(error_of("v 0,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            "cage.obj:1: FILE_SYNTAX: x is not a number: \"0,5\"");
+}
+
+TEST(Read, PolygonsAreFansFromTheirFirstCornerByDefault) {
+  const ControlMesh mesh = read_mesh(wellformed("pentagon.v5.f3.obj"));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+}
+
+// [C09] The same quad, its diagonals 0-2 and 1-3 of lengths sqrt(a^2 + 1) and 2.
+TEST(Read, QuadsAreCutAlongTheShorterDiagonalOnRequest) {
+  const auto cut = [](const std::string& x) {
+    return read_mesh("v -1 0 0\nv 0 -1 0\nv " + x + " 0 0\nv 0 1 0\nf 1 2 3 4\n", FileFormat::kObj, "text",
+                     {Triangulation::kShortestDiagonal})
+        .triangles;
+  };
+  EXPECT_EQ(cut("2"), (Triangles{{1, 2, 3}, {1, 3, 0}}));    // 3 against 2
+  EXPECT_EQ(cut("0.5"), (Triangles{{0, 1, 2}, {0, 2, 3}}));  // 1.5 against 2
+  EXPECT_EQ(cut("1"), (Triangles{{0, 1, 2}, {0, 2, 3}}));    // equal
+}
+
+TEST(Read, PolygonsAreRefusedOnRequest) {
+  const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  EXPECT_EQ(error_of(quad, FileFormat::kObj, {Triangulation::kNone}),
+            "cage.obj:5: MESH_POLYGON: face 0 has 4 corners, only triangles are accepted");
+  EXPECT_EQ(error_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", FileFormat::kObj, {Triangulation::kNone}),
+            "accepted");
+}
+
+TEST(Read, AFileThatIsNotOneCannotBeOpened) {
+  const auto code = [](const std::string& file) -> std::string {
+    try {
+      read_mesh(file);
+    } catch (const InputError& error) {
+      return error.code();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(code("/nowhere/cage.obj"), "FILE_CANNOT_OPEN");
+  EXPECT_EQ(code(LIMITCHECK_SOURCE_DIR "/data/known_answers.json"), "FILE_UNKNOWN_FORMAT");
+  EXPECT_EQ(code("cage"), "FILE_UNKNOWN_FORMAT");
+  const std::string folder = testing::TempDir() + "folder.obj";
+  std::filesystem::create_directories(folder);
+  EXPECT_EQ(code(folder), "FILE_CANNOT_OPEN");
+}
+
+}  // namespace
+}  // namespace limitcheck::data

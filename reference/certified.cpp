@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "reference/certified.h"
+
+#include <flint/flint.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "reference/ball.h"
+#include "reference/parameter_exact.h"
+#include "reference/stam.h"
+
+namespace limitcheck::reference {
+
+struct CertifiedEvaluator::Data {
+  std::vector<std::array<Rational, 3>> positions;
+  Topology topology;
+};
+
+namespace {
+
+/// The faces that touch the corners of one face and their vertices: all that the face's surface depends on.
+struct Neighbourhood {
+  std::vector<std::array<Rational, 3>> positions;
+  std::vector<Triangle> triangles;
+};
+
+Neighbourhood neighbourhood(const Topology& topology, const std::vector<std::array<Rational, 3>>& positions, std::size_t face) {
+  std::vector<std::int32_t> faces{static_cast<std::int32_t>(face)};
+  for (const std::int32_t v : topology.triangles()[face])
+    for (const std::int32_t f : topology.faces(v))
+      if (f >= 0 && std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+  Neighbourhood result;
+  std::map<std::int32_t, std::int32_t> renumbered;
+  for (const std::int32_t f : faces) {
+    Triangle t = topology.triangles()[static_cast<std::size_t>(f)];
+    for (std::int32_t& v : t) {
+      const auto [entry, is_new] = renumbered.try_emplace(v, static_cast<std::int32_t>(renumbered.size()));
+      if (is_new) result.positions.push_back(positions[static_cast<std::size_t>(v)]);
+      v = entry->second;
+    }
+    result.triangles.push_back(t);
+  }
+  return result;
+}
+
+double radius_of(const Ball& a) {
+  mag_t radius;
+  mag_init(radius);
+  mag_set(radius, arb_radref(a.raw()));
+  const bool exact = mag_is_zero(radius) != 0;
+  const double result = mag_get_d(radius);  // exact but for overflow to infinity and underflow to zero
+  mag_clear(radius);
+  return exact ? 0 : std::max(result * (1 + 1e-9), std::numeric_limits<double>::denorm_min());
+}
+
+/// Upper bound of |a|, as a double.
+double magnitude(const Ball& a) {
+  Ball bound;
+  arb_get_mag(arb_radref(bound.raw()), a.raw());
+  return radius_of(bound);
+}
+
+/// Largest decimal exponent e with 10^e <= the magnitude the ball may have; very small for an exact zero.
+long decimal_exponent(const Ball& a) {
+  const long binary = NumberTraits<Ball>::exponent(a);
+  return binary == kZeroExponent ? std::numeric_limits<int>::min()
+                                 : static_cast<long>(std::floor(static_cast<double>(binary) * std::log10(2.0)));
+}
+
+/// 10^e as a ball
+Ball power_of_ten(long e) {
+  Ball result(10);
+  arb_pow_ui(result.raw(), result.raw(), static_cast<ulong>(std::labs(e)), Ball::precision());
+  return e < 0 ? Ball(1) / result : result;
+}
+
+/// The ball's midpoint rounded to a multiple of 10^-decimals (10^-decimals may exceed 1), with a radius that covers both.
+Enclosure print(const Ball& a, long decimals) {
+  const long saved = Ball::precision();
+  Ball::precision() = saved + 64;
+  Ball middle;
+  arf_set(arb_midref(middle.raw()), arb_midref(a.raw()));
+  const Ball shifted = middle * power_of_ten(decimals);
+  fmpz_t mantissa;
+  fmpz_init(mantissa);
+  arf_get_fmpz(mantissa, arb_midref(shifted.raw()), ARF_RND_NEAR);
+  Ball printed;
+  arb_set_fmpz(printed.raw(), mantissa);
+  const Ball difference = a - printed * power_of_ten(-decimals);  // holds every (true - printed)
+  Enclosure result{"", magnitude(difference)};
+
+  // mantissa 10^-decimals as plain decimals, or with an exponent where that would be long.
+  char* raw = fmpz_get_str(nullptr, 10, mantissa);
+  std::string digits(raw);
+  flint_free(raw);
+  fmpz_clear(mantissa);
+  Ball::precision() = saved;
+  const bool negative = digits.front() == '-';
+  if (negative) digits.erase(0, 1);
+  if (digits == "0") {
+    result.value = "0";
+    return result;
+  }
+  const long exponent = static_cast<long>(digits.size()) - 1 - decimals;
+  if (exponent < -6 || decimals < 0) {
+    std::string fraction = digits.substr(1);
+    result.value = digits.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" + std::to_string(exponent);
+  } else if (decimals == 0) {
+    result.value = digits;
+  } else {
+    if (exponent < 0) digits = std::string(static_cast<std::size_t>(-exponent), '0') + digits;
+    result.value = digits.substr(0, digits.size() - static_cast<std::size_t>(decimals)) + "." + digits.substr(digits.size() - static_cast<std::size_t>(decimals));
+  }
+  if (negative) result.value = std::string(1, '-').append(result.value);
+  return result;
+}
+
+/// Prints a group of numbers to `digits` significant digits of the largest of them, or says that it cannot yet.
+class Printer {
+ public:
+  Printer(int digits, bool last_chance) : digits_(digits), last_chance_(last_chance) {}
+
+  template <std::size_t Size>
+  std::array<Enclosure, Size> operator()(const std::array<const Ball*, Size>& group) {
+    long exponent = std::numeric_limits<int>::min();
+    double worst = 0;
+    std::array<Enclosure, Size> result;
+    for (const Ball* a : group) {
+      if (arb_is_finite(a->raw()) == 0) {  // a division by something not told from zero
+        enough_ = false;
+        result.fill({"0", std::numeric_limits<double>::infinity()});
+        if (last_chance_) largest_ = std::numeric_limits<double>::infinity();
+        return result;
+      }
+      exponent = std::max(exponent, decimal_exponent(*a));
+    }
+    if (exponent == std::numeric_limits<int>::min()) {
+      result.fill({"0", 0.0});
+      return result;
+    }
+    const long decimals = digits_ - 1 - exponent;
+    for (std::size_t i = 0; i < Size; ++i) {
+      const Ball unit = power_of_ten(-decimals);
+      Ball radius;
+      arf_set_mag(arb_midref(radius.raw()), arb_radref(group[i]->raw()));
+      if (!(radius * Ball(8) < unit)) {
+        enough_ = false;
+        if (!last_chance_) return result;
+        result[i] = {"0", magnitude(*group[i])};  // not told from zero: the radius says how far
+      } else {
+        result[i] = print(*group[i], decimals);
+      }
+      worst = std::max(worst, result[i].radius);
+    }
+    largest_ = std::max(largest_, worst);
+    return result;
+  }
+  Enclosure3 operator()(const Vec3<Ball>& v) { return (*this)(std::array<const Ball*, 3>{&v.x, &v.y, &v.z}); }
+  Enclosure operator()(const Ball& a) { return (*this)(std::array<const Ball*, 1>{&a})[0]; }
+
+  bool enough() const { return enough_; }
+  double largest() const { return largest_; }
+
+ private:
+  int digits_;
+  bool last_chance_;
+  bool enough_ = true;
+  double largest_ = 0;
+};
+
+std::vector<std::array<Rational, 3>> exact_positions(const data::ControlMesh& mesh) {
+  std::vector<std::array<Rational, 3>> result;
+  for (const auto& p : mesh.positions) result.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
+  return result;
+}
+
+}  // namespace
+
+CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh)
+    : data_(new Data{exact_positions(mesh), Topology(mesh.positions.size(), mesh.triangles)}) {}
+
+CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions, const std::vector<Triangle>& triangles) {
+  std::vector<std::array<Rational, 3>> exact;
+  for (const auto& p : positions)
+    exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])), exact_value(Parameter::parse(p[2]))});
+  data_.reset(new Data{std::move(exact), Topology(positions.size(), triangles)});
+}
+
+CertifiedEvaluator::~CertifiedEvaluator() = default;
+
+CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const {
+  if (digits < 1 || digits > 10000) throw std::invalid_argument("digits must be 1..10000");
+  if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.triangles().size())
+    throw std::out_of_range("no face " + std::to_string(face));
+  const Neighbourhood local = neighbourhood(data_->topology, data_->positions, static_cast<std::size_t>(face));
+
+  const long first = static_cast<long>(digits * 3.33) + 64;
+  struct Restore {
+    long saved = Ball::precision();
+    ~Restore() { Ball::precision() = saved; }
+  } restore;
+  for (long bits = first;; bits *= 2) {
+    Ball::precision() = bits;
+    const bool last_chance = bits >= 8 * first;
+    std::vector<Vec3<Ball>> positions;
+    for (const auto& p : local.positions)
+      positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]), NumberTraits<Ball>::from_rational(p[2])});
+    const StamEvaluator<Ball> evaluator(std::move(positions), local.triangles);
+    const SurfacePoint<Ball> s = evaluator.evaluate(0, l1, l2);
+    const bool has_normal = s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
+    if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
+
+    Printer print(digits, last_chance);
+    CertifiedPoint result;
+    result.position = print(s.position);
+    result.d1 = print(s.d1);
+    result.d2 = print(s.d2);
+    result.normal = print(s.normal);
+    result.normal_kind = s.normal_kind;
+    result.first_exist = s.first_exist;
+    if (s.second_exist) {
+      result.d11 = print(s.d11);
+      result.d12 = print(s.d12);
+      result.d22 = print(s.d22);
+      if (has_normal) {
+        const Ball e = dot(s.d1, s.d1), f = dot(s.d1, s.d2), g = dot(s.d2, s.d2);
+        const Ball l = dot(s.d11, s.normal), m = dot(s.d12, s.normal), n = dot(s.d22, s.normal);
+        const Ball area = Ball(1) / (e * g - f * f);
+        result.gaussian_curvature = print((l * n - m * m) * area);
+        result.mean_curvature = print((Ball(2) * f * m - e * n - g * l) * area * (Ball(1) / Ball(2)));
+      }
+    }
+    result.radius = print.largest();
+    result.precision = bits;
+    if (print.enough() || last_chance) return result;
+  }
+}
+
+}  // namespace limitcheck::reference

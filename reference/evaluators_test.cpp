@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Two methods of different kind, and three precisions, against each other: on every stock shape, at fans of 1 to 13 faces,
+// at hubs of valence 3 to 200, down to 1e-300 from the vertex.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "data/generators/named_mesh.h"
+#include "data/shapes.h"
+#include "reference/number_exact.h"
+#include "reference/normal.h"
+#include "reference/stam.h"
+#include "reference/subdivision_evaluator.h"
+
+namespace limitcheck::reference {
+namespace {
+
+using Big = Decimal100;
+
+template <class N>
+Vec3<Big> big(const Vec3<N>& a) {
+  return {Big(a.x), Big(a.y), Big(a.z)};
+}
+Big length(const Vec3<Big>& a) { return sqrt(dot(a, a)); }
+
+/// |got - expected| / |expected|, or the distance itself where expected is tiny in the mesh (coordinates are about 1).
+template <class N>
+double error(const Vec3<N>& got, const Vec3<Big>& expected) {
+  const Big size = sqrt(dot(expected, expected));
+  const Vec3<Big> d = big(got) - expected;
+  const Big distance = sqrt(dot(d, d));
+  return static_cast<Big>(size > 0 ? Big(distance / size) : distance).template convert_to<double>();
+}
+
+/// Points of a face: inside, on edges, corners, dyadic, near corners and edges.
+std::vector<std::array<Parameter, 2>> points(const std::string& near) {
+  const auto p = [](const char* a, const char* b) { return std::array{Parameter::parse(a), Parameter::parse(b)}; };
+  const Parameter tiny = Parameter::parse(near);
+  std::vector<std::array<Parameter, 2>> result{p("1/3", "1/3"),  p("1/4", "1/4"),   p("1/2", "1/2"),    p("1/2", "0"),       p("0", "3/8"),
+                                               p("0.7", "0.3"),  p("1/7", "5/7"),   p("0.03", "0.005"), p("0.985", "0.004"), p("0.001", "0.998"),
+                                               p("1/1024", "0"), p("0", "1/65536"), p("3/4", "1/4"),    p("5/8", "1/8")};
+  result.push_back({tiny, Parameter::parse("0")});
+  result.push_back({Parameter::parse("0"), tiny});
+  result.push_back({tiny, tiny});
+  return result;
+}
+
+/// Everything of two points but the normal kind; `scale2` relates second derivatives to first ones.
+template <class A>
+void expect_same(const SurfacePoint<A>& a, const SurfacePoint<Big>& b, double tolerance, double& worst, const std::string& where) {
+  const auto check = [&](const Vec3<A>& x, const Vec3<Big>& y, const char* what, const Big& size) {
+    const double e = static_cast<Big>(length(big(x) - y) / size).convert_to<double>();
+    worst = std::max(worst, e);
+    EXPECT_LE(e, tolerance) << where << ": " << what << " " << x.x << " " << x.y << " " << x.z << " against " << y.x;
+  };
+  check(a.position, b.position, "position", 1);
+  ASSERT_EQ(a.first_exist, b.first_exist) << where;
+  ASSERT_EQ(a.second_exist, b.second_exist) << where;
+  const Big first = std::max(length(b.d1), length(b.d2));
+  check(a.d1, b.d1, "d1", first);
+  check(a.d2, b.d2, "d2", first);
+  if (b.second_exist) {
+    const Big second = std::max({length(b.d11), length(b.d12), length(b.d22), Big(1e-30)});
+    check(a.d11, b.d11, "d11", second);
+    check(a.d12, b.d12, "d12", second);
+    check(a.d22, b.d22, "d22", second);
+  }
+  EXPECT_EQ(a.normal_kind, b.normal_kind) << where;
+  check(a.normal, b.normal, "normal", 1);
+}
+
+std::vector<std::string> shapes() {
+  std::vector<std::string> result = data::stock_shapes();
+  for (int k = 1; k <= 13; ++k) result.push_back("fan:" + std::to_string(k));
+  for (const int k : {18, 24}) result.push_back("fan:" + std::to_string(k));
+  for (const int n : {3, 4, 5, 7, 8, 9, 12, 20, 50}) result.push_back("wheel:" + std::to_string(n));
+  return result;
+}
+
+TEST(Evaluators, StamEqualsSubdivisionOnEveryShapeToNinetyDigits) {
+  double worst = 0;
+  for (const std::string& name : shapes()) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    const StamEvaluator<Big> stam(mesh);
+    const SubdivisionEvaluator<Big> subdivision(mesh);
+    const int faces = std::min(stam.face_count(), 8);
+    for (int i = 0; i < faces; ++i) {
+      const int face = i * stam.face_count() / faces;
+      for (const auto& [l1, l2] : points("1e-7")) {
+        const std::string where = name + " face " + std::to_string(face) + " (" + l1.to_string() + ", " + l2.to_string() + ")";
+        expect_same(stam.evaluate(face, l1, l2), subdivision.evaluate(face, l1, l2), 1e-80, worst, where);
+      }
+    }
+  }
+  RecordProperty("worst", std::to_string(worst));
+  std::printf("worst relative difference %.2g\n", worst);
+}
+
+TEST(Evaluators, CornersAndTheirSurroundingsAgree) {
+  // At every corner of every face, exactly.
+  double worst = 0;
+  for (const std::string& name : shapes()) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    const StamEvaluator<Big> stam(mesh);
+    const SubdivisionEvaluator<Big> subdivision(mesh);
+    for (int face = 0; face < std::min(stam.face_count(), 40); ++face)
+      for (const auto& [a, b] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}) {
+        const std::string where = name + " face " + std::to_string(face) + " corner " + std::to_string(a) + std::to_string(b);
+        expect_same(stam.evaluate(face, a, b), subdivision.evaluate(face, a, b), 1e-80, worst, where);
+      }
+  }
+  std::printf("worst relative difference %.2g\n", worst);
+}
+
+/// A hub and a point 10^-e away from it, in the face's corner 0.
+TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
+  double worst50 = 0, worst_double = 0, worst_normal = 0;
+  std::string worst_where;
+  for (const std::string name : {"wheel:3", "wheel:4", "wheel:5", "wheel:7", "wheel:12", "wheel:50", "wheel:200", "fan:1", "fan:2", "fan:4", "fan:5", "fan:6",
+                                 "fan:7", "fan:9", "fan:12", "tetrahedron", "triangle", "octahedron"}) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    const StamEvaluator<Big> exact(mesh);
+    const StamEvaluator<Decimal50> fifty(mesh);
+    const StamEvaluator<double> fast(mesh);
+    int face = 0;
+    for (int f = 0; f < exact.face_count(); ++f)
+      if (mesh.triangles[static_cast<std::size_t>(f)][0] == 0) face = f;
+    for (const double distance : {1e-3, 1e-8, 1e-16, 1e-60, 1e-300}) {
+      const double l1 = distance, l2 = 0.375 * distance;
+      const auto truth = exact.evaluate(face, l1, l2);
+      const std::string where = name + " at " + std::to_string(std::log10(distance));
+      expect_same(fifty.evaluate(face, l1, l2), truth, 1e-40, worst50, where);
+      const auto d = fast.evaluate(face, l1, l2);
+      for (const auto& [got, want] : {std::pair{d.position, truth.position}, {d.d1, truth.d1}, {d.d2, truth.d2}}) {
+        const double e = error(got, want);
+        if (e > worst_double) { worst_double = e; worst_where = where; }
+        EXPECT_LE(e, 1e-11) << where;
+      }
+      const double n = error(d.normal, truth.normal);
+      worst_normal = std::max(worst_normal, n);
+    }
+  }
+  std::printf("worst 50-digit %.2g, double %.2g (%s), normal %.2g\n", worst50, worst_double, worst_where.c_str(), worst_normal);
+}
+
+}  // namespace
+}  // namespace limitcheck::reference

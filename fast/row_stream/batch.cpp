@@ -13,7 +13,7 @@ struct Place {
   std::int32_t core;
 };
 
-void put_corner(const Rings& rings, Place place, int corner, int depth, int lanes, float* out) {
+void put_corner(const Rings& rings, Place place, int width, int depth, int lanes, float* out) {
   const auto& head = rings.corner(place.vertex).head;
   for (std::size_t k = 0; k < head.size(); ++k) out[static_cast<int>(k) * lanes] = head[k];
 
@@ -24,7 +24,7 @@ void put_corner(const Rings& rings, Place place, int corner, int depth, int lane
     while (at < 0) at += ring.period;
   }
   out += CornerBlock::kWindow * lanes;
-  for (int t = window_width(corner, depth); t > 0; --t, out += 3 * lanes) {
+  for (int t = width; t > 0; --t, out += 3 * lanes) {
     const Rings::Point& p = rings.points()[static_cast<std::size_t>(entries[at])];
     out[0] = p[0], out[lanes] = p[1], out[2 * lanes] = p[2];
     if (++at == ring.period) at = 0;
@@ -54,15 +54,27 @@ void gather(const Adjacency& adjacency, const Rings& rings, std::span<const Pair
     const auto out = [&](int corner) { return input + corner * corner_block_size(depth) * lanes + lane; };
 
     const Place a{adjacency.origin(ac), rings.slot(ac) - 1};
-    put_corner(rings, a, kA, depth, lanes, out(kA));
-    put_corner(rings, {adjacency.origin(cd), rings.slot(cd)}, kC, depth, lanes, out(kC));
-    put_corner(rings, {adjacency.origin(da), rings.slot(da)}, kD, depth, lanes, out(kD));
+    put_corner(rings, a, window_width(kA, depth), depth, lanes, out(kA));
+    put_corner(rings, {adjacency.origin(cd), rings.slot(cd)}, window_width(kC, depth), depth, lanes, out(kC));
+    put_corner(rings, {adjacency.origin(da), rings.slot(da)}, window_width(kD, depth), depth, lanes, out(kD));
     if (ca < 0) {
       put_ghost(rings, a, kB, depth, lanes, out(kB));
     } else {
       const std::int32_t bc = Adjacency::prev(ca);
-      put_corner(rings, {adjacency.origin(bc), rings.slot(bc)}, kB, depth, lanes, out(kB));
+      put_corner(rings, {adjacency.origin(bc), rings.slot(bc)}, window_width(kB, depth), depth, lanes, out(kB));
     }
+  }
+}
+
+void gather_edges(const Adjacency& adjacency, const Rings& rings, std::span<const std::int32_t> half_edges, int depth,
+                  int lanes, float* input) {
+  for (int lane = 0; lane < lanes; ++lane) {
+    const std::int32_t h = half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
+    const std::int32_t after = Adjacency::next(h);  // from Q to the left neighbour, which comes before P in Q's ring
+    const int width = edge_window_width(depth);
+    put_corner(rings, {adjacency.origin(h), rings.slot(h)}, width, depth, lanes, input + lane);
+    put_corner(rings, {adjacency.origin(after), rings.slot(after) + 1}, width, depth, lanes,
+               input + edge_block_size(depth) * lanes + lane);
   }
 }
 

@@ -23,6 +23,8 @@ namespace limitcheck::fast::row_stream::generic {
 #include "fast/row_stream/rows-inl.h"
 // the stream uses the rows
 #include "fast/row_stream/stream-inl.h"
+// and so do the strips along edges
+#include "fast/row_stream/edge-inl.h"
 
 }  // namespace limitcheck::fast::row_stream::generic
 

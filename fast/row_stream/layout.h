@@ -2,6 +2,7 @@
 // Where the numbers of one batch of pairs lie: shared by the gatherer, which fills them, and the kernels.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 namespace limitcheck::fast::row_stream {
@@ -65,12 +66,26 @@ constexpr int work_size(int depth) {
   return border_offset(depth) + 4 * kBorderSize * (depth + 1);
 }
 
+/// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of three.
+constexpr int edge_window_width(int depth) { return 3 + 2 * depth; }
+constexpr int edge_block_size(int depth) { return CornerBlock::kWindow + 3 * edge_window_width(depth); }
+constexpr int edge_input_size(int depth) { return 2 * edge_block_size(depth); }
+constexpr int edge_work_size(int depth) { return 2 * 3 * 3 * ((1 << depth) + 2) + 6; }
+constexpr int edge_output_size(int depth) { return 6 * ((1 << depth) + 1); }
+
 /// From the kernel's coordinates to the caller's: position = centre + unit * x.
 template <class T>
 struct Placement {
   T centre[3];
   T unit;
 };
+
+/// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large.
+template <class T>
+Placement<T> scaled(Placement<T> placement, int depth) {
+  placement.unit = static_cast<T>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
+  return placement;
+}
 
 /// Where the vertices of a batch go: vertex i of row j of the pair in lane k starts at
 /// base + k * lane_stride + j * row_stride + 6 * i, in numbers; position then unit normal.

@@ -15,10 +15,14 @@ namespace {
 
 constexpr std::size_t kLine = 64;
 
-void prepare(Workspace& workspace, int depth, int lanes) {
+int checked(int depth) {
   if (depth < 0 || depth > kMaxDepth) throw std::invalid_argument("row streaming: depth is 0 to 10");
+  return depth;
+}
+
+void prepare(Workspace& workspace, int depth, int lanes) {
   const auto n = static_cast<std::size_t>(lanes);
-  workspace.input.grow(n * static_cast<std::size_t>(input_size(depth)));
+  workspace.input.grow(n * static_cast<std::size_t>(input_size(checked(depth))));
   workspace.work.grow(n * static_cast<std::size_t>(work_size(depth)));
 }
 
@@ -92,6 +96,24 @@ void RowStream::whole(std::span<const Pair> pairs, int depth, Workspace& workspa
     kernel_.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
     if (batch.size() < lanes)
       std::memcpy(out + first * pair_size, workspace.row.data(), batch.size() * pair_size * sizeof(Vertex));
+  }
+}
+
+void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out) const {
+  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
+  const auto length = static_cast<std::size_t>(side(depth));
+  workspace.input.grow(lanes * static_cast<std::size_t>(edge_input_size(checked(depth))));
+  workspace.work.grow(lanes * static_cast<std::size_t>(edge_work_size(depth)));
+  workspace.row.grow(lanes * static_cast<std::size_t>(edge_output_size(depth)));
+
+  for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
+    const auto batch = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
+    gather_edges(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data());
+    kernel_.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), workspace.row.data());
+    for (std::size_t e = 0; e < batch.size(); ++e) {
+      float* to = out[(first + e) * length].position;
+      for (std::size_t k = 0; k < 6 * length; ++k) to[k] = workspace.row.data()[k * lanes + e];
+    }
   }
 }
 

@@ -138,6 +138,7 @@ void expect_equal_bits(const std::vector<NamedMesh>& meshes, int most) {
         for (const Kernel& kernel : kernels()) {
           if (!kernel.fused && depth > 3) continue;
           add_shared_points(other, depth, kernel, known, shared);
+          add_edges(other, depth, kernel, known, shared);
         }
       }
       EXPECT_EQ(shared.different(), 0) << name << " depth " << depth << " of " << shared.compared();

@@ -118,4 +118,25 @@ inline void add_shared_points(const data::ControlMesh& mesh, int depth, const Ke
   }
 }
 
+/// Adds the points of every control edge, evaluated by themselves from either side.
+inline void add_edges(const data::ControlMesh& mesh, int depth, const Kernel& kernel,
+                      const std::vector<std::int32_t>& known, SharedPoints& shared) {
+  const Adjacency adjacency(mesh);
+  const RowStream stream(mesh, adjacency, kernel);
+  std::vector<std::int32_t> half_edges(3 * mesh.triangles.size());
+  for (std::size_t h = 0; h < half_edges.size(); ++h) half_edges[h] = static_cast<std::int32_t>(h);
+  const std::size_t length = static_cast<std::size_t>(side(depth));
+  std::vector<Vertex> out(half_edges.size() * length);
+  Workspace workspace;
+  stream.edges(half_edges, depth, workspace, out.data());
+  const int size = 1 << depth;
+  for (std::int32_t h : half_edges) {
+    for (int t = 0; t <= size; ++t) {
+      std::array<int, 3> l{};
+      l[h % 3] = size - t, l[(h + 1) % 3] = t;
+      shared.add(mesh, {h / 3, l[1], l[2]}, size, out[h * length + t], known);
+    }
+  }
+}
+
 }  // namespace limitcheck::fast::row_stream

@@ -21,8 +21,6 @@ class Stream {
         placement_(placement),
         target_(target) {
     for (int level = 0; level <= depth; ++level) rows_[level] = work + (rows_offset(level) + 3) * L;
-    // 12 for the limit rule, 8 per level.
-    placement_.unit = static_cast<Scalar>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
   }
 
   HWY_ATTR void run() {
@@ -31,34 +29,20 @@ class Stream {
   }
 
  private:
-  // Ring recursion of one corner through all levels; what the rows of each level take from it is kept.
+  // One corner through all levels; what the rows of each level take from it is kept.
   HWY_ATTR void refine_corner(int corner) {
     Scalar* block = input_ + corner * corner_block_size(depth_) * L;
     Scalar* window = block + CornerBlock::kWindow * L;
-    const V k0 = N::load(block), k1 = N::load(block + L), k2 = N::load(block + 2 * L),
-            k3 = N::load(block + 3 * L);
-    for (int c = 0; c < 3; ++c, window += L) {
-      V v = N::load(block + (CornerBlock::kCentre + c) * L),
-        sum = N::load(block + (CornerBlock::kSum + c) * L);
-      for (int level = 0;; ++level) {
-        Scalar* kept = border(level, corner) + c * L;
-        const int first = depth_ - level;
-        N::store(v, kept);
-        N::store(N::load(window + 3 * first * L), kept + 3 * L);
-        N::store(N::load(window + 3 * (first + core_width(corner) - 1) * L), kept + 6 * L);
-        if (level == depth_) break;
-
-        const int width = window_width(corner, first) - 2;
-        V before = N::load(window), here = N::load(window + 3 * L);
-        for (int t = 0; t < width; ++t) {
-          const V after = N::load(window + 3 * (t + 2) * L);
-          N::store(edge_rule<N>(v, here, before, after), window + 3 * t * L);
-          before = here, here = after;
-        }
-        const V next = N::fma(k0, v, k1 * sum);
-        sum = N::fma(k2, v, k3 * sum);
-        v = next;
+    for (int level = 0;; ++level) {
+      const int first = depth_ - level;
+      Scalar* kept = border(level, corner);
+      for (int c = 0; c < 3 * L; c += L) {
+        N::store(N::load(block + CornerBlock::kCentre * L + c), kept + c);
+        N::store(N::load(window + 3 * first * L + c), kept + 3 * L + c);
+        N::store(N::load(window + 3 * (first + core_width(corner) - 1) * L + c), kept + 6 * L + c);
       }
+      if (level == depth_) return;
+      refine_ring<N>(block, window, window_width(corner, first) - 2);
     }
   }
 

@@ -24,6 +24,8 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 #include "fast/row_stream/rows-inl.h"
 // the stream uses the rows
 #include "fast/row_stream/stream-inl.h"
+// and so do the strips along edges
+#include "fast/row_stream/edge-inl.h"
 // the number type of this target
 #include "fast/row_stream/lanes-inl.h"
 
@@ -41,13 +43,18 @@ template <int lanes>
 HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& placement, float* work,
                                const Target<float>& target) {
   using Number = LaneNumber<hn::CappedTag<float, lanes>>;
-  Stream<Number>(input, depth, placement, work, target).run();
+  Stream<Number>(input, depth, scaled(placement, depth), work, target).run();
   return target_name(Number::lanes);
 }
 
 template <int lanes>
+HWY_ATTR void run_edge_lanes(float* input, int depth, const Placement<float>& placement, float* work, float* out) {
+  EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>>(input, depth, work).run(scaled(placement, depth), out);
+}
+
+template <int lanes>
 void add(std::vector<Kernel>& list) {
-  list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_lanes<lanes>});
+  list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_lanes<lanes>, &run_edge_lanes<lanes>});
 }
 
 #endif  // not the baseline
@@ -76,8 +83,12 @@ HWY_EXPORT(list_kernels);
 
 const char* run_scalar(float* input, int depth, const Placement<float>& placement, float* work,
                        const Target<float>& target) {
-  generic::Stream<ScalarNumber<float>>(input, depth, placement, work, target).run();
+  generic::Stream<ScalarNumber<float>>(input, depth, scaled(placement, depth), work, target).run();
   return "scalar";
+}
+
+void run_edge_scalar(float* input, int depth, const Placement<float>& placement, float* work, float* out) {
+  generic::EdgeStrip<ScalarNumber<float>>(input, depth, work).run(scaled(placement, depth), out);
 }
 
 std::vector<Kernel> find_kernels() {
@@ -90,7 +101,7 @@ std::vector<Kernel> find_kernels() {
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  list.push_back({"scalar", 1, false, &run_scalar});
+  list.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar});
   return list;
 }
 

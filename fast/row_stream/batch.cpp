@@ -61,16 +61,18 @@ void gather(const Adjacency& adjacency, const Rings& rings, std::span<const Pair
       put_ghost(rings, a, kB, depth, lanes, out(kB));
     } else {
       const std::int32_t bc = Adjacency::prev(ca);
-      put_corner(rings, {adjacency.origin(bc), rings.slot(bc)}, window_width(kB, depth), depth, lanes, out(kB));
+      put_corner(rings, {adjacency.origin(bc), rings.slot(bc)}, window_width(kB, depth), depth, lanes,
+                 out(kB));
     }
   }
 }
 
-void gather_edges(const Adjacency& adjacency, const Rings& rings, std::span<const std::int32_t> half_edges, int depth,
-                  int lanes, float* input) {
+void gather_edges(const Adjacency& adjacency, const Rings& rings, std::span<const std::int32_t> half_edges,
+                  int depth, int lanes, float* input) {
   for (int lane = 0; lane < lanes; ++lane) {
     const std::int32_t h = half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
-    const std::int32_t after = Adjacency::next(h);  // from Q to the left neighbour, which comes before P in Q's ring
+    const std::int32_t after =
+        Adjacency::next(h);  // from Q to the left neighbour, which comes before P in Q's ring
     const int width = edge_window_width(depth);
     put_corner(rings, {adjacency.origin(h), rings.slot(h)}, width, depth, lanes, input + lane);
     put_corner(rings, {adjacency.origin(after), rings.slot(after) + 1}, width, depth, lanes,

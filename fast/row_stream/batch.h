@@ -17,8 +17,9 @@ namespace limitcheck::fast::row_stream {
 void gather(const Adjacency& adjacency, const Rings& rings, std::span<const Pair> pairs, int depth, int lanes,
             float* input);
 
-/// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) * lanes.
-void gather_edges(const Adjacency& adjacency, const Rings& rings, std::span<const std::int32_t> half_edges, int depth,
-                  int lanes, float* input);
+/// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) *
+/// lanes.
+void gather_edges(const Adjacency& adjacency, const Rings& rings, std::span<const std::int32_t> half_edges,
+                  int depth, int lanes, float* input);
 
 }  // namespace limitcheck::fast::row_stream

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A strip of three rows along a control edge: its points alone, at any depth. Included like rules-inl.h.
 
-/// `lanes` control edges P Q of one depth, N = 2^depth, at once. Work O(2^depth): the rows next to an edge need
-/// nothing but themselves and the rings of its two ends, and the same operations give the same bits as a pair that
-/// has the edge on its border or for its diagonal.
+/// `lanes` control edges P Q of one depth, N = 2^depth, at once. Work O(2^depth): the rows next to an edge
+/// need nothing but themselves and the rings of its two ends, and the same operations give the same bits as a
+/// pair that has the edge on its border or for its diagonal.
 ///
-///      up 0   up 1   ..  up N-1        up: left of P Q, down: right of it. Points off the ends come from the rings.
+///      up 0   up 1   ..  up N-1        up: left of P Q, down: right of it. Points off the ends come from the
+///      rings.
 ///     P ---- 1 ---- 2 .. ---- Q
 ///      down 0 down 1 .. down N-1
 template <class N>
@@ -15,7 +16,8 @@ class EdgeStrip {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  /// input: edge_input_size(depth) * lanes numbers, windows are overwritten; work: edge_work_size(depth) * lanes.
+  /// input: edge_input_size(depth) * lanes numbers, windows are overwritten; work: edge_work_size(depth) *
+  /// lanes.
   HWY_ATTR EdgeStrip(Scalar* input, int depth, Scalar* work) : depth_(depth) {
     for (int end = 0; end < 2; ++end) block_[end] = input + end * edge_block_size(depth) * L;
     const int length = 3 * ((1 << depth) + 2) * L;
@@ -39,15 +41,16 @@ class EdgeStrip {
   }
 
  private:
-  // Window of an end at a level: three entries and `first` more on either side, the middle one along the edge.
+  // Window of an end at a level: three entries and `first` more on either side, the middle one along the
+  // edge.
   Scalar* window(int end, int entry) { return block_[end] + (CornerBlock::kWindow + 3 * entry) * L; }
 
   HWY_ATTR static void copy(const Scalar* from, Scalar* to) {
     for (int c = 0; c < 3; ++c) N::store(N::load(from + c * L), to + c * L);
   }
 
-  // What the rings of the ends give a level: the ends, and the points next to them across the edge. At P the left
-  // neighbour comes after the edge, at Q before it.
+  // What the rings of the ends give a level: the ends, and the points next to them across the edge. At P the
+  // left neighbour comes after the edge, at Q before it.
   HWY_ATTR void take_ends(int level) {
     const int size = 1 << level, middle = depth_ - level + 1, k = level % 2;
     copy(block_[0] + CornerBlock::kCentre * L, line_[k]);
@@ -69,7 +72,8 @@ class EdgeStrip {
         const V up = N::load(up_[from] + k), up_before = N::load(up_[from] + k - step);
         const V down = N::load(down_[from] + k), down_before = N::load(down_[from] + k - step);
         const V w = N::load(line_[from] + k - step);
-        N::store(vertex_rule<N>(v, ring_sum(Hexagon<V>{e, up, up_before, w, down_before, down})), line_[to] + child);
+        N::store(vertex_rule<N>(v, ring_sum(Hexagon<V>{e, up, up_before, w, down_before, down})),
+                 line_[to] + child);
         N::store(edge_rule<N>(v, e, up, down), line_[to] + child + step);
         N::store(edge_rule<N>(v, up, e, up_before), up_[to] + child);
         N::store(edge_rule<N>(e, up, v, N::load(up_[from] + k + step)), up_[to] + child + step);
@@ -87,8 +91,9 @@ class EdgeStrip {
     V slant[3], across[3], normal[3];
     for (int c = 0; c < 3; ++c) {
       const int k = (3 * i + c) * L;
-      const Hexagon<V> h{N::load(line_[from] + k + step), N::load(up_[from] + k),   N::load(up_[from] + k - step),
-                         N::load(line_[from] + k - step), N::load(down_[from] + k - step), N::load(down_[from] + k)};
+      const Hexagon<V> h{N::load(line_[from] + k + step), N::load(up_[from] + k),
+                         N::load(up_[from] + k - step),   N::load(line_[from] + k - step),
+                         N::load(down_[from] + k - step), N::load(down_[from] + k)};
       const Limit<V> point = limit_rule<N>(N::load(line_[from] + k), h);
       N::store(N::fma(point.position, N::splat(placement.unit), N::splat(placement.centre[c])), out + c * L);
       slant[c] = point.slant;

@@ -66,12 +66,23 @@ constexpr int work_size(int depth) {
   return border_offset(depth) + 4 * kBorderSize * (depth + 1);
 }
 
-/// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of three.
-constexpr int edge_window_width(int depth) { return 3 + 2 * depth; }
-constexpr int edge_block_size(int depth) { return CornerBlock::kWindow + 3 * edge_window_width(depth); }
-constexpr int edge_input_size(int depth) { return 2 * edge_block_size(depth); }
-constexpr int edge_work_size(int depth) { return 2 * 3 * 3 * ((1 << depth) + 2) + 6; }
-constexpr int edge_output_size(int depth) { return 6 * ((1 << depth) + 1); }
+/// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of
+/// three.
+constexpr int edge_window_width(int depth) {
+  return 3 + 2 * depth;
+}
+constexpr int edge_block_size(int depth) {
+  return CornerBlock::kWindow + 3 * edge_window_width(depth);
+}
+constexpr int edge_input_size(int depth) {
+  return 2 * edge_block_size(depth);
+}
+constexpr int edge_work_size(int depth) {
+  return 2 * 3 * 3 * ((1 << depth) + 2) + 6;
+}
+constexpr int edge_output_size(int depth) {
+  return 6 * ((1 << depth) + 1);
+}
 
 /// From the kernel's coordinates to the caller's: position = centre + unit * x.
 template <class T>

@@ -99,7 +99,8 @@ void RowStream::whole(std::span<const Pair> pairs, int depth, Workspace& workspa
   }
 }
 
-void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out) const {
+void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
+                      Vertex* out) const {
   const auto lanes = static_cast<std::size_t>(kernel_.lanes);
   const auto length = static_cast<std::size_t>(side(depth));
   workspace.input.grow(lanes * static_cast<std::size_t>(edge_input_size(checked(depth))));
@@ -109,7 +110,8 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
   for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
     const auto batch = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
     gather_edges(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data());
-    kernel_.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), workspace.row.data());
+    kernel_.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
+                      workspace.row.data());
     for (std::size_t e = 0; e < batch.size(); ++e) {
       float* to = out[(first + e) * length].position;
       for (std::size_t k = 0; k < 6 * length; ++k) to[k] = workspace.row.data()[k * lanes + e];

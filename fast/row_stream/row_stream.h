@@ -80,8 +80,8 @@ class RowStream {
   /// All vertices: those of pairs[p] from out[p * side * side], row by row.
   void whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const;
 
-  /// The points of control edges at a depth of their own: those of half_edges[e], from its origin to its target, from
-  /// out[e * side]. The same bits as a pair of that depth gives them.
+  /// The points of control edges at a depth of their own: those of half_edges[e], from its origin to its
+  /// target, from out[e * side]. The same bits as a pair of that depth gives them.
   void edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out) const;
 
  private:

@@ -48,7 +48,8 @@ HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& 
 }
 
 template <int lanes>
-HWY_ATTR void run_edge_lanes(float* input, int depth, const Placement<float>& placement, float* work, float* out) {
+HWY_ATTR void run_edge_lanes(float* input, int depth, const Placement<float>& placement, float* work,
+                             float* out) {
   EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>>(input, depth, work).run(scaled(placement, depth), out);
 }
 

@@ -37,7 +37,7 @@ void put_ghost(const Rings& rings, Place a, int corner, int depth, int lanes, fl
   const Rings::Ring ring = rings.ring(a.vertex);
   const std::int32_t ghost = rings.entries()[static_cast<std::size_t>(ring.first + a.core)];
   const Rings::Point& p = rings.points()[static_cast<std::size_t>(ghost)];
-  for (int k = 0; k < 4; ++k) out[k * lanes] = 1;
+  for (int k = 0; k < 2; ++k) out[k * lanes] = 0;
   for (int k = CornerBlock::kCentre; k < CornerBlock::kWindow + 3 * window_width(corner, depth); ++k)
     out[k * lanes] = p[static_cast<std::size_t>((k - CornerBlock::kCentre) % 3)];
 }

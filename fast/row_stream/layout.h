@@ -32,14 +32,15 @@ constexpr int window_width(int corner, int depth) {
   return core_width(corner) + 2 * depth;
 }
 
-/// Input of a batch, in units of `lanes` numbers, three coordinates each unless said otherwise.
-/// c' = k0 c + k1 s, s' = k2 c + k3 s on the corner c and the sum s of its ring: both times 8 per level.
+/// Input of a batch, in units of `lanes` numbers, three coordinates each unless said otherwise. With d the
+/// sum of the differences from the corner c to its ring, c' = 8 c + k0 d and d' = k1 d, both times 8 per
+/// level: nothing is lost to cancellation, and moving the origin moves c alone.
 struct CornerBlock {
-  static constexpr int kCoefficients = 0;  // k0 k1 k2 k3
-  static constexpr int kCentre = 4;        // c
-  static constexpr int kSum = 7;           // s
-  static constexpr int kLimit = 10;        // limit position and unit normal, in the caller's coordinates
-  static constexpr int kWindow = 16;       // window_width entries; overwritten by the kernel
+  static constexpr int kCoefficients = 0;  // k0 k1
+  static constexpr int kCentre = 2;        // c
+  static constexpr int kDifference = 5;    // d
+  static constexpr int kLimit = 8;         // limit position and unit normal, in the caller's coordinates
+  static constexpr int kWindow = 14;       // window_width entries; overwritten by the kernel
 };
 
 constexpr int corner_block_size(int depth) {

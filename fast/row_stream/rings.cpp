@@ -165,14 +165,14 @@ Rings::Rings(const data::ControlMesh& mesh, const Adjacency& adjacency) {
         boundary ? boundary_limit(centre, geometry) : interior_limit(centre, geometry, tables);
     degenerate_normals_ += limit.degenerate ? 1 : 0;
     auto& head = corners_[static_cast<std::size_t>(v)].head;
-    for (int k = 0; k < 4; ++k) head[static_cast<std::size_t>(k)] = static_cast<float>(limit.recursion[k]);
+    for (int k = 0; k < 2; ++k) head[static_cast<std::size_t>(k)] = static_cast<float>(limit.recursion[k]);
     const auto put = [&](int at, const Vec& x) {
       head[static_cast<std::size_t>(at)] = static_cast<float>(x.x);
       head[static_cast<std::size_t>(at + 1)] = static_cast<float>(x.y);
       head[static_cast<std::size_t>(at + 2)] = static_cast<float>(x.z);
     };
     put(CornerBlock::kCentre, centre);
-    put(CornerBlock::kSum, limit.sum);
+    put(CornerBlock::kDifference, limit.difference);
     const Vec origin{placement.centre[0], placement.centre[1], placement.centre[2]};
     put(CornerBlock::kLimit, placement.unit * limit.position + origin);
     put(CornerBlock::kLimit + 3, limit.normal);

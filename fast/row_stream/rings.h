@@ -13,7 +13,7 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// Rings, sums and limits of all control vertices in float, the mesh moved to the origin and scaled to size 1
+/// Rings and limits of all control vertices in float, the mesh moved to the origin and scaled to size 1
 /// by a power of two.
 ///
 /// Order: an interior ring starts at its lexicographically smallest neighbour (position, then the positions
@@ -45,7 +45,7 @@ class Rings {
   /// Index in the ring of its origin of the vertex a half-edge points to.
   std::int32_t slot(std::int32_t h) const { return slot_[static_cast<std::size_t>(h)]; }
 
-  /// k0..k3, c, s, limit position, limit normal: the head of a CornerBlock.
+  /// k0, k1, c, d, limit position, limit normal: the head of a CornerBlock.
   struct Corner {
     std::array<float, CornerBlock::kWindow> head;
   };

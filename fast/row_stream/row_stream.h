@@ -62,7 +62,7 @@ struct RowView {
   }
 };
 
-/// A control mesh made ready: rings, sums and limits per vertex. Read only afterwards, so threads may share
+/// A control mesh made ready: rings and limits per vertex. Read only afterwards, so threads may share
 /// it.
 class RowStream {
  public:

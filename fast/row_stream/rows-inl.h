@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: MIT
 // One row of a level to the two rows of the next that it begins, and to its limit. Included like rules-inl.h.
 
-/// One level of a corner: its centre, its ring's sum, and the window of ring entries, which comes out `width`
-/// wide, one less at either end.
+/// One level of a corner: its centre, the sum of differences to its ring, and the window of ring entries,
+/// which comes out `width` wide, one less at either end.
 template <class N>
 HWY_ATTR void refine_ring(typename N::Scalar* block, typename N::Scalar* window, int width) {
   using V = typename N::V;
   constexpr int L = N::lanes;
-  const V k0 = N::load(block), k1 = N::load(block + L), k2 = N::load(block + 2 * L),
-          k3 = N::load(block + 3 * L);
+  const V k0 = N::load(block), k1 = N::load(block + L);
   for (int c = 0; c < 3; ++c, window += L) {
-    typename N::Scalar *centre = block + (CornerBlock::kCentre + c) * L,
-                       *sum = block + (CornerBlock::kSum + c) * L;
-    const V v = N::load(centre), s = N::load(sum);
+    typename N::Scalar* centre = block + (CornerBlock::kCentre + c) * L;
+    typename N::Scalar* difference = block + (CornerBlock::kDifference + c) * L;
+    const V v = N::load(centre), d = N::load(difference);
     V before = N::load(window), here = N::load(window + 3 * L);
     for (int t = 0; t < width; ++t) {
       const V after = N::load(window + 3 * (t + 2) * L);
       N::store(edge_rule<N>(v, here, before, after), window + 3 * t * L);
       before = here, here = after;
     }
-    N::store(N::fma(k0, v, k1 * s), centre);
-    N::store(N::fma(k2, v, k3 * s), sum);
+    N::store(N::fma(k0, d, N::splat(8) * v), centre);
+    N::store(k1 * d, difference);
   }
 }
 

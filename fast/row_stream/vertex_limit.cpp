@@ -69,16 +69,16 @@ VertexLimit interior_limit(const Vec& v, const std::vector<Vec>& ring, ValenceTa
   const double a = tables.weight(n);
 
   VertexLimit limit;
-  limit.recursion = {8 * (1 - a), 8 * a / n, 3. * n, 5};
+  limit.recursion = {8 * a / n, 5 - 8 * a};
   Vec along, across;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec d = ring[k] - v;
-    limit.sum = limit.sum + ring[k];
+    limit.difference = limit.difference + d;
     along = along + angles[k].cos * d;
     across = across + angles[k].sin * d;
   }
   const double w = 3. * n / (8 * a);
-  limit.position = (1 / (w + n)) * (w * v + limit.sum);
+  limit.position = v + (1 / (w + n)) * limit.difference;
   set_normal(limit, along, across, v, ring, true);
   return limit;
 }
@@ -86,9 +86,9 @@ VertexLimit interior_limit(const Vec& v, const std::vector<Vec>& ring, ValenceTa
 VertexLimit boundary_limit(const Vec& v, const std::vector<Vec>& ring) {
   const std::size_t faces = ring.size() - 1;
   VertexLimit limit;
-  limit.recursion = {6, 1, 8, 4};
-  limit.sum = ring.front() + ring.back();
-  limit.position = (1. / 6) * (4 * v + limit.sum);
+  limit.recursion = {1, 2};
+  limit.difference = (ring.front() - v) + (ring.back() - v);
+  limit.position = v + (1. / 6) * limit.difference;
 
   Vec across;
   if (faces == 1) {

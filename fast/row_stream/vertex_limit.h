@@ -16,8 +16,8 @@ struct Vec {
 };
 
 struct VertexLimit {
-  std::array<double, 4> recursion;  // c' = k0 c + k1 s, s' = k2 c + k3 s: both 8 times the subdivided ones
-  Vec sum;                          // s: sum of the ring; of its two ends on the boundary
+  std::array<double, 2> recursion;  // c' = 8 c + k0 d, d' = k1 d: both 8 times the subdivided ones
+  Vec difference;                   // d: sum of r_i - c over the ring; over its two ends on the boundary
   Vec position;
   Vec normal;               // unit, outward for a counter-clockwise ring
   bool degenerate = false;  // the tangents did not span a plane [claim D12]

@@ -23,10 +23,15 @@ void put_corner(const Rings& rings, Place place, int width, int depth, int lanes
   if (ring.period != Rings::kOpen) {
     while (at < 0) at += ring.period;
   }
+  // With an origin of its own a pair or edge wants differences from the corner; they are exact or nearly so.
+  constexpr Rings::Point kNothing{};
+  const Rings::Point& from =
+      has_local_origin(depth) ? rings.points()[static_cast<std::size_t>(place.vertex)] : kNothing;
   out += CornerBlock::kWindow * lanes;
   for (int t = width; t > 0; --t, out += 3 * lanes) {
     const Rings::Point& p = rings.points()[static_cast<std::size_t>(entries[at])];
-    out[0] = p[0], out[lanes] = p[1], out[2 * lanes] = p[2];
+    for (int c = 0; c < 3; ++c)
+      out[c * lanes] = p[static_cast<std::size_t>(c)] - from[static_cast<std::size_t>(c)];
     if (++at == ring.period) at = 0;
   }
 }
@@ -39,7 +44,9 @@ void put_ghost(const Rings& rings, Place a, int corner, int depth, int lanes, fl
   const Rings::Point& p = rings.points()[static_cast<std::size_t>(ghost)];
   for (int k = 0; k < 2; ++k) out[k * lanes] = 0;
   for (int k = CornerBlock::kCentre; k < CornerBlock::kWindow + 3 * window_width(corner, depth); ++k)
-    out[k * lanes] = p[static_cast<std::size_t>((k - CornerBlock::kCentre) % 3)];
+    out[k * lanes] = k >= CornerBlock::kWindow && has_local_origin(depth)
+                         ? 0
+                         : p[static_cast<std::size_t>((k - CornerBlock::kCentre) % 3)];
 }
 
 }  // namespace

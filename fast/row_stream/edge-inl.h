@@ -16,10 +16,11 @@ class EdgeStrip {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  /// input: edge_input_size(depth) * lanes numbers, windows are overwritten; work: edge_work_size(depth) *
-  /// lanes.
-  HWY_ATTR EdgeStrip(Scalar* input, int depth, Scalar* work) : depth_(depth) {
-    for (int end = 0; end < 2; ++end) block_[end] = input + end * edge_block_size(depth) * L;
+  /// work: edge_work_size(depth) * lanes.
+  HWY_ATTR EdgeStrip(int depth, const Placement<Scalar>& placement, Scalar* work)
+      : depth_(depth), placement_(placement), unit_(scaled(placement, depth).unit) {
+    for (int end = 0; end < 2; ++end) block_[end] = work + end * edge_block_size(depth) * L;
+    work += edge_input_size(depth) * L;
     const int length = 3 * ((1 << depth) + 2) * L;
     for (int k = 0; k < 2; ++k) {
       line_[k] = work + 3 * k * length + 3 * L;
@@ -28,16 +29,26 @@ class EdgeStrip {
     }
   }
 
-  /// Position and normal of points 0 .. 2^depth to out[6 k .. 6 k + 5], `lanes` numbers each.
-  HWY_ATTR void run(const Placement<Scalar>& placement, Scalar* out) {
-    fill();
+  /// Position and normal of points 0 .. 2^depth to out[6 k .. 6 k + 5], `lanes` numbers each. p, q: corner
+  /// blocks of the ends; p_first, q_first: where in their windows those of the edge begin. The blocks are
+  /// left alone.
+  HWY_ATTR void run(const Scalar* p, int p_first, const Scalar* q, int q_first, Scalar* out) {
+    V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
+    if (has_local_origin(depth_)) choose_origin<N>(p, q, origin);
+    for (int c = 0; c < 3; ++c)
+      centre_[c] = N::fma(origin[c], N::splat(placement_.unit), N::splat(placement_.centre[c]));
+    take_block<N>(p, p_first, edge_window_width(depth_), origin, has_local_origin(depth_), block_[0]);
+    take_block<N>(q, q_first, edge_window_width(depth_), origin, has_local_origin(depth_), block_[1]);
+
+    take_ends(0);
+    if (has_local_origin(depth_)) reconcile();
     for (int level = 0; level < depth_; ++level) refine(level);
     const int size = 1 << depth_;
     for (int k = 0; k < 6 * L; k += L) {
       N::store(N::load(block_[0] + CornerBlock::kLimit * L + k), out + k);
       N::store(N::load(block_[1] + CornerBlock::kLimit * L + k), out + 6 * size * L + k);
     }
-    for (int i = 1; i < size; ++i) limit(i, placement, out + 6 * i * L);
+    for (int i = 1; i < size; ++i) limit(i, out + 6 * i * L);
   }
 
  private:
@@ -61,7 +72,16 @@ class EdgeStrip {
     copy(window(0, middle - 1), down_[k]);
   }
 
-  HWY_ATTR void fill() { take_ends(0); }
+  // With an origin of their own the two ends know their common neighbours to a last bit each; both faces take
+  // the mean.
+  HWY_ATTR void reconcile() {
+    for (int c = 0; c < 3; ++c) {
+      const V up = N::load(window(0, depth_ + 2) + c * L) + N::load(window(1, depth_) + c * L);
+      const V down = N::load(window(0, depth_) + c * L) + N::load(window(1, depth_ + 2) + c * L);
+      N::store(N::splat(.5) * up, up_[0] + c * L);
+      N::store(N::splat(.5) * down, down_[0] + c * L);
+    }
+  }
 
   HWY_ATTR void refine(int level) {
     const int size = 1 << level, from = level % 2, to = 1 - from;
@@ -86,7 +106,7 @@ class EdgeStrip {
     take_ends(level + 1);
   }
 
-  HWY_ATTR void limit(int i, const Placement<Scalar>& placement, Scalar* out) {
+  HWY_ATTR void limit(int i, Scalar* out) {
     const int from = depth_ % 2, step = 3 * L;
     V slant[3], across[3], normal[3];
     for (int c = 0; c < 3; ++c) {
@@ -95,7 +115,7 @@ class EdgeStrip {
                          N::load(up_[from] + k - step),   N::load(line_[from] + k - step),
                          N::load(down_[from] + k - step), N::load(down_[from] + k)};
       const Limit<V> point = limit_rule<N>(N::load(line_[from] + k), h);
-      N::store(N::fma(point.position, N::splat(placement.unit), N::splat(placement.centre[c])), out + c * L);
+      N::store(N::fma(point.position, N::splat(unit_), centre_[c]), out + c * L);
       slant[c] = point.slant;
       across[c] = point.across;
     }
@@ -105,6 +125,9 @@ class EdgeStrip {
   }
 
   int depth_;
+  Placement<Scalar> placement_;
+  Scalar unit_;
+  V centre_[3];
   Scalar* block_[2];
   Scalar *line_[2], *up_[2], *down_[2];
 };

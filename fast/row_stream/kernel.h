@@ -21,10 +21,10 @@ namespace limitcheck::fast::row_stream::generic {
 #include "fast/row_stream/rules-inl.h"
 // rows use the rules
 #include "fast/row_stream/rows-inl.h"
-// the stream uses the rows
-#include "fast/row_stream/stream-inl.h"
-// and so do the strips along edges
+// strips along edges use their rules
 #include "fast/row_stream/edge-inl.h"
+// the stream uses all of them
+#include "fast/row_stream/stream-inl.h"
 
 }  // namespace limitcheck::fast::row_stream::generic
 

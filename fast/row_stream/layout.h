@@ -40,8 +40,17 @@ struct CornerBlock {
   static constexpr int kCentre = 2;        // c
   static constexpr int kDifference = 5;    // d
   static constexpr int kLimit = 8;         // limit position and unit normal, in the caller's coordinates
-  static constexpr int kWindow = 14;       // window_width entries; overwritten by the kernel
+  static constexpr int kWindow = 14;       // window_width entries, less c if has_local_origin; overwritten
 };
+
+/// From this depth on every control edge and every pair has an origin of its own, near it: differences of
+/// points are then formed from small numbers, and normals gain what the mesh is larger than an edge. The
+/// edges' points come from strips along them, which both faces compute alike. Below it the strips would cost
+/// more than normals need.
+inline constexpr int kLocalFrom = 4;
+constexpr bool has_local_origin(int depth) {
+  return depth >= kLocalFrom;
+}
 
 constexpr int corner_block_size(int depth) {
   return CornerBlock::kWindow + 3 * window_width(kA, depth);
@@ -63,9 +72,6 @@ constexpr int kBorderSize = 9;  // centre, first and last core entry
 constexpr int border_offset(int depth) {
   return rows_offset(depth + 1);
 }
-constexpr int work_size(int depth) {
-  return border_offset(depth) + 4 * kBorderSize * (depth + 1);
-}
 
 /// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of
 /// three.
@@ -79,10 +85,20 @@ constexpr int edge_input_size(int depth) {
   return 2 * edge_block_size(depth);
 }
 constexpr int edge_work_size(int depth) {
-  return 2 * 3 * 3 * ((1 << depth) + 2) + 6;
+  return 2 * 3 * 3 * ((1 << depth) + 2) + 6 + edge_input_size(depth);
 }
 constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);
+}
+
+/// The five edges of a pair that strips evaluate: A B, B C, D C, A D, A C.
+inline constexpr int kPairEdges = 5;
+constexpr int strips_offset(int depth) {
+  return border_offset(depth) + 4 * kBorderSize * (depth + 1);
+}
+constexpr int work_size(int depth) {
+  return strips_offset(depth) +
+         (has_local_origin(depth) ? edge_work_size(depth) + kPairEdges * edge_output_size(depth) : 0);
 }
 
 /// From the kernel's coordinates to the caller's: position = centre + unit * x.

@@ -105,7 +105,7 @@ void expect_the_limit_surface(const std::vector<NamedMesh>& meshes) {
     for (int depth = 0; depth <= 5; ++depth) {
       const Worst worst = worst_against_refinement(single, depth, kernels().front());
       EXPECT_LE(worst.position, 1.2e-7) << name << " depth " << depth << " " << worst.where;
-      const double bound = 1.2e-7 * (1 << depth) * diagonal(mesh) / shortest_edge(mesh);
+      const double bound = 2.4e-7 * (1 << depth) * diagonal(mesh) / shortest_edge(mesh);
       EXPECT_LE(worst.normal, bound) << name << " depth " << depth << " " << worst.where;
       all.position = std::max(all.position, worst.position);
       all.normal = std::max(all.normal, worst.normal);

@@ -1,6 +1,41 @@
 // SPDX-License-Identifier: MIT
 // One row of a level to the two rows of the next that it begins, and to its limit. Included like rules-inl.h.
 
+/// An origin near an edge, the same from either end, with few enough digits that moving there and back costs
+/// none.
+template <class N, class V>
+HWY_ATTR HWY_INLINE void choose_origin(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
+  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12
+  for (int c = 0; c < 3; ++c) {
+    const int k = (CornerBlock::kCentre + c) * N::lanes;
+    origin[c] = (N::splat(.5) * (N::load(p + k) + N::load(q + k)) + magic) - magic;
+  }
+}
+
+/// A corner block with `width` entries of its window from number `first` on, seen from the origin. May be in
+/// place.
+template <class N, class V>
+HWY_ATTR void take_block(const typename N::Scalar* from, int first, int width, const V* origin, bool relative,
+                         typename N::Scalar* to) {
+  constexpr int L = N::lanes;
+  if (from != to) {
+    for (int k = 0; k < CornerBlock::kWindow; ++k) N::store(N::load(from + k * L), to + k * L);
+  }
+  from += (CornerBlock::kWindow + 3 * first) * L;
+  for (int c = 0; c < 3; ++c) {
+    typename N::Scalar* centre = to + (CornerBlock::kCentre + c) * L;
+    V v = N::splat(0);
+    if (relative) {
+      v = N::load(centre) - origin[c];
+      N::store(v, centre);
+    }
+    for (int t = c; t < 3 * width; t += 3) {
+      const V entry = N::load(from + t * L);
+      N::store(relative ? entry + v : entry, to + (CornerBlock::kWindow + t) * L);
+    }
+  }
+}
+
 /// One level of a corner: its centre, the sum of differences to its ring, and the window of ring entries,
 /// which comes out `width` wide, one less at either end.
 template <class N>
@@ -85,18 +120,24 @@ class LimitRow {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  HWY_ATTR LimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const Placement<Scalar>& placement,
+  /// centre: of each lane in the caller's coordinates; unit: from the scaled placement.
+  HWY_ATTR LimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre, Scalar unit,
                     Scalar* out, std::ptrdiff_t lane_stride)
-      : s_(s), m_(m), n_(n), out_(out), lane_stride_(lane_stride), unit_(placement.unit) {
-    for (int c = 0; c < 3; ++c) centre_[c] = placement.centre[c];
+      : s_(s), m_(m), n_(n), out_(out), lane_stride_(lane_stride), unit_(unit) {
+    for (int c = 0; c < 3; ++c) centre_[c] = centre[c];
   }
 
   /// Row 0 or `size`: its ends are corners of the pair, whose limits the control vertices have.
   HWY_ATTR void outer(int size, const Scalar* first, const Scalar* last) {
-    corner(first);
+    given(first);
     for (int i = 1; i < size; ++i) point<Axis::kRow>(i);
-    corner(last);
-    N::scatter(block_, 6 * filled_, out_, lane_stride_);
+    given(last);
+    finish();
+  }
+  /// The same where a strip has evaluated the row.
+  HWY_ATTR void outer(int size, const Scalar* points) {
+    for (int i = 0; i <= size; ++i) given(points + 6 * i * L);
+    finish();
   }
 
   /// Row 0 < j < size: its ends lie on control edges, its point j on the diagonal.
@@ -106,7 +147,16 @@ class LimitRow {
     point<Axis::kDiagonal>(j);
     for (int i = j + 1; i < size; ++i) point<Axis::kRow>(i);
     point<Axis::kColumn>(size);
-    N::scatter(block_, 6 * filled_, out_, lane_stride_);
+    finish();
+  }
+  /// The same where strips have evaluated those three.
+  HWY_ATTR void inner(int size, int j, const Scalar* first, const Scalar* diagonal, const Scalar* last) {
+    given(first);
+    for (int i = 1; i < j; ++i) point<Axis::kRow>(i);
+    given(diagonal);
+    for (int i = j + 1; i < size; ++i) point<Axis::kRow>(i);
+    given(last);
+    finish();
   }
 
  private:
@@ -117,7 +167,7 @@ class LimitRow {
     for (int c = 0; c < 3; ++c) {
       const int k = (3 * i + c) * L;
       const Limit<V> limit = limit_rule<N>(N::load(m_ + k), hexagon<N, axis>(s_ + k, m_ + k, n_ + k));
-      N::store(N::fma(limit.position, N::splat(unit_), N::splat(centre_[c])), to + c * L);
+      N::store(N::fma(limit.position, N::splat(unit_), centre_[c]), to + c * L);
       slant[c] = limit.slant;
       across[c] = limit.across;
     }
@@ -127,8 +177,8 @@ class LimitRow {
     keep();
   }
 
-  HWY_ATTR HWY_INLINE void corner(const Scalar* limit) {
-    for (int k = 0; k < 6; ++k) N::store(N::load(limit + k * L), block_ + (6 * filled_ + k) * L);
+  HWY_ATTR HWY_INLINE void given(const Scalar* point) {
+    for (int k = 0; k < 6; ++k) N::store(N::load(point + k * L), block_ + (6 * filled_ + k) * L);
     keep();
   }
 
@@ -139,10 +189,13 @@ class LimitRow {
     filled_ = 0;
   }
 
+  HWY_ATTR void finish() { N::scatter(block_, 6 * filled_, out_, lane_stride_); }
+
   alignas(64) Scalar block_[6 * N::kBlock * L];
   int filled_ = 0;
   const Scalar *s_, *m_, *n_;
   Scalar* out_;
   std::ptrdiff_t lane_stride_;
-  Scalar centre_[3], unit_;
+  V centre_[3];
+  Scalar unit_;
 };

@@ -17,21 +17,53 @@ class Stream {
                   const Target<Scalar>& target)
       : input_(input),
         border_(work + border_offset(depth) * L),
+        strip_work_(work + strips_offset(depth) * L),
+        strips_(strip_work_ + edge_work_size(depth) * L),
         depth_(depth),
         placement_(placement),
+        unit_(scaled(placement, depth).unit),
         target_(target) {
     for (int level = 0; level <= depth; ++level) rows_[level] = work + (rows_offset(level) + 3) * L;
   }
 
   HWY_ATTR void run() {
+    for (int c = 0; c < 3; ++c) centre_[c] = N::splat(placement_.centre[c]);
+    if (has_local_origin(depth_)) move_origin();
     for (int corner = 0; corner < 4; ++corner) refine_corner(corner);
     for (int j = -1; j <= 2; ++j) receive(0, j);
   }
 
  private:
+  Scalar* corner_block(int corner) const { return input_ + corner * corner_block_size(depth_) * L; }
+  const Scalar* strip(int edge, int point) const {
+    return strips_ + (edge * edge_output_size(depth_) + 6 * point) * L;
+  }
+
+  // The pair's edges first, each from its own origin; then the pair from one on its diagonal.
+  HWY_ATTR void move_origin() {
+    struct Ends {
+      int p, p_first, q,
+          q_first;  // corners, and the other end's number among the core entries after the flap
+    };
+    constexpr Ends ends[kPairEdges] = {
+        {kA, 0, kB, 1}, {kB, 0, kC, 2}, {kD, 1, kC, 0}, {kA, 2, kD, 0}, {kA, 1, kC, 1}};
+    EdgeStrip<N> edge(depth_, placement_, strip_work_);
+    for (int e = 0; e < kPairEdges; ++e) {
+      edge.run(corner_block(ends[e].p), ends[e].p_first, corner_block(ends[e].q), ends[e].q_first,
+               strips_ + e * edge_output_size(depth_) * L);
+    }
+    V origin[3];
+    choose_origin<N>(corner_block(kA), corner_block(kC), origin);
+    for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
+    for (int corner = 0; corner < 4; ++corner) {
+      Scalar* block = corner_block(corner);
+      take_block<N>(block, 0, window_width(corner, depth_), origin, true, block);
+    }
+  }
+
   // One corner through all levels; what the rows of each level take from it is kept.
   HWY_ATTR void refine_corner(int corner) {
-    Scalar* block = input_ + corner * corner_block_size(depth_) * L;
+    Scalar* block = corner_block(corner);
     Scalar* window = block + CornerBlock::kWindow * L;
     for (int level = 0;; ++level) {
       const int first = depth_ - level;
@@ -91,8 +123,14 @@ class Stream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    LimitRow<N> row(s, m, n, placement_, target_.base + j * target_.row_stride, target_.lane_stride);
-    if (j == 0) {
+    LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride, target_.lane_stride);
+    if (has_local_origin(depth_)) {
+      if (j == 0 || j == size) {
+        row.outer(size, strip(j == 0 ? 0 : 2, 0));
+      } else {
+        row.inner(size, j, strip(3, j), strip(4, j), strip(1, j));
+      }
+    } else if (j == 0) {
       row.outer(size, corner_limit(kA), corner_limit(kB));
     } else if (j == size) {
       row.outer(size, corner_limit(kD), corner_limit(kC));
@@ -107,9 +145,11 @@ class Stream {
   }
 
   Scalar* input_;
-  Scalar* border_;
+  Scalar *border_, *strip_work_, *strips_;
   std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
   int depth_;
   Placement<Scalar> placement_;
+  V centre_[3];
+  Scalar unit_;
   Target<Scalar> target_;
 };

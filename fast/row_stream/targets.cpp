@@ -22,10 +22,10 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 #include "fast/row_stream/rules-inl.h"
 // rows use the rules
 #include "fast/row_stream/rows-inl.h"
-// the stream uses the rows
-#include "fast/row_stream/stream-inl.h"
-// and so do the strips along edges
+// strips along edges use their rules
 #include "fast/row_stream/edge-inl.h"
+// the stream uses all of them
+#include "fast/row_stream/stream-inl.h"
 // the number type of this target
 #include "fast/row_stream/lanes-inl.h"
 
@@ -43,14 +43,15 @@ template <int lanes>
 HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& placement, float* work,
                                const Target<float>& target) {
   using Number = LaneNumber<hn::CappedTag<float, lanes>>;
-  Stream<Number>(input, depth, scaled(placement, depth), work, target).run();
+  Stream<Number>(input, depth, placement, work, target).run();
   return target_name(Number::lanes);
 }
 
 template <int lanes>
-HWY_ATTR void run_edge_lanes(float* input, int depth, const Placement<float>& placement, float* work,
+HWY_ATTR void run_edge_lanes(const float* input, int depth, const Placement<float>& placement, float* work,
                              float* out) {
-  EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>>(input, depth, work).run(scaled(placement, depth), out);
+  EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>>(depth, placement, work)
+      .run(input, 0, input + edge_block_size(depth) * lanes, 0, out);
 }
 
 template <int lanes>
@@ -84,12 +85,14 @@ HWY_EXPORT(list_kernels);
 
 const char* run_scalar(float* input, int depth, const Placement<float>& placement, float* work,
                        const Target<float>& target) {
-  generic::Stream<ScalarNumber<float>>(input, depth, scaled(placement, depth), work, target).run();
+  generic::Stream<ScalarNumber<float>>(input, depth, placement, work, target).run();
   return "scalar";
 }
 
-void run_edge_scalar(float* input, int depth, const Placement<float>& placement, float* work, float* out) {
-  generic::EdgeStrip<ScalarNumber<float>>(input, depth, work).run(scaled(placement, depth), out);
+void run_edge_scalar(const float* input, int depth, const Placement<float>& placement, float* work,
+                     float* out) {
+  generic::EdgeStrip<ScalarNumber<float>>(depth, placement, work)
+      .run(input, 0, input + edge_block_size(depth), 0, out);
 }
 
 std::vector<Kernel> find_kernels() {

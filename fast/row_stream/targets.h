@@ -18,7 +18,8 @@ struct Kernel {
   const char* (*run)(float* input, int depth, const Placement<float>& placement, float* work,
                      const Target<float>& target);
   /// `lanes` control edges, see EdgeStrip: edge_output_size(depth) * lanes numbers to out.
-  void (*run_edges)(float* input, int depth, const Placement<float>& placement, float* work, float* out);
+  void (*run_edges)(const float* input, int depth, const Placement<float>& placement, float* work,
+                    float* out);
 };
 
 /// Those the machine has, best first; the last is plain scalar code and always there.

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// The engine of a batch: rows trickle down the levels, each point of each level is computed once.
+// Included like rules-inl.h.
+
+/// `lanes` pairs of one depth, from their control points to their limit points, a row at a time. A level
+/// keeps a window of three rows, so memory is O(2^depth) whatever the mesh; nothing is allocated.
+template <class N>
+class Stream {
+ public:
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  static constexpr int L = N::lanes;
+
+  /// input: input_size(depth) * lanes numbers, windows are overwritten; work: work_size(depth) * lanes.
+  /// Both aligned to 64 bytes; work holds finite numbers.
+  HWY_ATTR Stream(Scalar* input, int depth, const Placement<Scalar>& placement, Scalar* work,
+                  const Target<Scalar>& target)
+      : input_(input),
+        border_(work + border_offset(depth) * L),
+        strip_work_(work + strips_offset(depth) * L),
+        strips_(strip_work_ + edge_work_size(depth) * L),
+        depth_(depth),
+        placement_(placement),
+        unit_(scaled(placement, depth).unit),
+        target_(target) {
+    for (int level = 0; level <= depth; ++level) rows_[level] = work + (rows_offset(level) + 3) * L;
+  }
+
+  HWY_ATTR void run() {
+    for (int c = 0; c < 3; ++c) centre_[c] = N::splat(placement_.centre[c]);
+    if (has_local_origin(depth_)) move_origin();
+    for (int corner = 0; corner < 4; ++corner) refine_corner(corner);
+    for (int j = -1; j <= 2; ++j) receive(0, j);
+  }
+
+ private:
+  Scalar* corner_block(int corner) const { return input_ + corner * corner_block_size(depth_) * L; }
+  const Scalar* strip(int edge, int point) const {
+    return strips_ + (edge * edge_output_size(depth_) + 6 * point) * L;
+  }
+
+  // The pair's edges first, each from its own origin; then the pair from one on its diagonal.
+  HWY_ATTR void move_origin() {
+    struct Ends {
+      int p, p_first, q,
+          q_first;  // corners, and the other end's number among the core entries after the flap
+    };
+    constexpr Ends ends[kPairEdges] = {
+        {kA, 0, kB, 1}, {kB, 0, kC, 2}, {kD, 1, kC, 0}, {kA, 2, kD, 0}, {kA, 1, kC, 1}};
+    EdgeStrip<N> edge(depth_, placement_, strip_work_);
+    for (int e = 0; e < kPairEdges; ++e) {
+      edge.run(corner_block(ends[e].p), ends[e].p_first, corner_block(ends[e].q), ends[e].q_first,
+               strips_ + e * edge_output_size(depth_) * L);
+    }
+    V origin[3];
+    choose_origin<N>(corner_block(kA), corner_block(kC), origin);
+    for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
+    for (int corner = 0; corner < 4; ++corner) {
+      Scalar* block = corner_block(corner);
+      take_block<N>(block, 0, window_width(corner, depth_), origin, true, block);
+    }
+  }
+
+  // One corner through all levels; what the rows of each level take from it is kept.
+  HWY_ATTR void refine_corner(int corner) {
+    Scalar* block = corner_block(corner);
+    Scalar* window = block + CornerBlock::kWindow * L;
+    for (int level = 0;; ++level) {
+      const int first = depth_ - level;
+      Scalar* kept = border(level, corner);
+      for (int c = 0; c < 3 * L; c += L) {
+        N::store(N::load(block + CornerBlock::kCentre * L + c), kept + c);
+        N::store(N::load(window + 3 * first * L + c), kept + 3 * L + c);
+        N::store(N::load(window + 3 * (first + core_width(corner) - 1) * L + c), kept + 6 * L + c);
+      }
+      if (level == depth_) return;
+      refine_ring<N>(block, window, window_width(corner, first) - 2);
+    }
+  }
+
+  Scalar* border(int level, int corner) const { return border_ + kBorderSize * (4 * level + corner) * L; }
+  Scalar* row(int level, int j) const { return rows_[level] + (j + 1) % 3 * row_size(level) * L; }
+
+  HWY_ATTR void copy_point(const Scalar* from, Scalar* to_row, int i) const {
+    for (int c = 0; c < 3; ++c) N::store(N::load(from + c * L), to_row + (3 * i + c) * L);
+  }
+
+  // Points next to the corners come from their rings, whose valence is the corner's own. B and D first: with
+  // 2^level = 1 they share entries with A and C, and only those have the whole truth beside a singleton's
+  // diagonal.
+  HWY_ATTR void take_border(int level, int j) const {
+    const int size = 1 << level;
+    Scalar* r = row(level, j);
+    constexpr int kFirst = 3 * L, kLast = 6 * L;
+    const Scalar *a = border(level, kA), *b = border(level, kB), *c = border(level, kC),
+                 *d = border(level, kD);
+    if (j == -1) copy_point(b + kLast, r, size - 1), copy_point(a + kFirst, r, 0);
+    if (j == size - 1) copy_point(d + kFirst, r, -1);
+    if (j == 1) copy_point(b + kFirst, r, size + 1);
+    if (j == 0) copy_point(a + kLast, r, -1), copy_point(a, r, 0), copy_point(b, r, size);
+    if (j == size) copy_point(c + kLast, r, size + 1), copy_point(c, r, size), copy_point(d, r, 0);
+    if (j == size + 1) copy_point(d + kLast, r, 1), copy_point(c + kFirst, r, size);
+  }
+
+  // Row j of a level is complete but for what the corners own.
+  HWY_ATTR void receive(int level, int j) {
+    take_border(level, j);
+    if (j < 0) return;
+    const Scalar *middle = row(level, j - 1), *above = row(level, j);
+    const Scalar* below = j >= 1 ? row(level, j - 2) : nullptr;
+    const int size = 1 << level;
+    if (level == depth_) {
+      if (below) limit(below, middle, above, j - 1);
+      return;
+    }
+    if (below) {
+      refine_even_row<N>(below, middle, above, size, j - 1, row(level + 1, 2 * j - 2));
+      receive(level + 1, 2 * j - 2);
+    }
+    refine_odd_row<N>(middle, above, size, row(level + 1, 2 * j - 1));
+    receive(level + 1, 2 * j - 1);
+  }
+
+  HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
+    const int size = 1 << depth_;
+    LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride, target_.lane_stride);
+    if (has_local_origin(depth_)) {
+      if (j == 0 || j == size) {
+        row.outer(size, strip(j == 0 ? 0 : 2, 0));
+      } else {
+        row.inner(size, j, strip(3, j), strip(4, j), strip(1, j));
+      }
+    } else if (j == 0) {
+      row.outer(size, corner_limit(kA), corner_limit(kB));
+    } else if (j == size) {
+      row.outer(size, corner_limit(kD), corner_limit(kC));
+    } else {
+      row.inner(size, j);
+    }
+    if (target_.row) target_.row(target_.context, j);
+  }
+
+  const Scalar* corner_limit(int corner) const {
+    return input_ + (corner * corner_block_size(depth_) + CornerBlock::kLimit) * L;
+  }
+
+  Scalar* input_;
+  Scalar *border_, *strip_work_, *strips_;
+  std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
+  int depth_;
+  Placement<Scalar> placement_;
+  V centre_[3];
+  Scalar unit_;
+  Target<Scalar> target_;
+};

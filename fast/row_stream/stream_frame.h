@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Whole frames by row streaming: any depth per face, pairing, cracks closed, in parallel.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "data/control_mesh.h"
+#include "fast/frame.h"
+#include "fast/row_stream/row_stream.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// As fast::Tessellator<float>, with the points from row streaming: pairs of one depth together in the lanes
+/// of a vector, edges between unequal depths evaluated at the edge's own depth, which gives the bits that a
+/// pair of that depth has there. Depths 0..10. Results do not depend on the number of threads nor on the
+/// kernel.
+///   throws   std::invalid_argument, as fast::Tessellator
+class StreamTessellator {
+ public:
+  explicit StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options = {},
+                             const Kernel& kernel = kernels().front());
+  ~StreamTessellator();
+  StreamTessellator(StreamTessellator&&) noexcept;
+  StreamTessellator& operator=(StreamTessellator&&) noexcept;
+
+  const Adjacency& adjacency() const;
+  const RowStream& stream() const;
+
+  FrameStats frame(std::span<const std::int32_t> depth, DrawList<float>& out);
+  FrameStats frame(std::span<const std::int32_t> depth, IndexedMesh<float>& out);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Row streaming through the door. As strips and fans (the default) every face and pair delivers its border
+// points itself, so that their bits can be compared; as an indexed mesh they are shared. `target` forces one
+// compiled variant.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "fast/row_stream/stream_frame.h"
+#include "verify/subject/adapter.h"
+#include "verify/subject/registry.h"
+
+namespace {
+
+using namespace limitcheck;
+using namespace limitcheck::verify;
+namespace rs = limitcheck::fast::row_stream;
+
+struct Settings {
+  explicit Settings(Options& options) {
+    indexed = options.choice("output", {"strips", "indexed"}) == 1;
+    tessellator.provenance = true;
+    constexpr std::array kRepairs{fast::Repair::kFan, fast::Repair::kStitch, fast::Repair::kNone};
+    tessellator.cracks.repair =
+        kRepairs[static_cast<std::size_t>(options.choice("repair", {"fan", "stitch", "none"}))];
+    const std::string target = options.value("target", rs::kernels().front().name);
+    kernel = rs::find_kernel(target.c_str());
+    if (kernel == nullptr) {
+      std::string known;
+      for (const rs::Kernel& k : rs::kernels()) known += (known.empty() ? "" : ", ") + std::string(k.name);
+      throw SubjectError(LC_INVALID_INPUT, "target=" + target + ": this machine has " + known);
+    }
+  }
+  bool indexed = false;
+  fast::TessellatorOptions tessellator;
+  const rs::Kernel* kernel = nullptr;
+};
+
+data::ControlMesh control_mesh(const lc_mesh& mesh) {
+  data::ControlMesh out;
+  for (std::int64_t v = 0; v < mesh.vertex_count; ++v)
+    out.positions.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
+  for (std::int64_t f = 0; f < mesh.triangle_count; ++f)
+    out.triangles.push_back({mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]});
+  return out;
+}
+
+class RowStreamSubject {
+ public:
+  static lc_capabilities capabilities(Options& options) {
+    const Settings settings(options);
+    return {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, rs::kMaxDepth, 1, 1, 1};
+  }
+
+  RowStreamSubject(const lc_mesh& mesh, Options& options) : settings_(options), mesh_(control_mesh(mesh)) {
+    use_threads(1);
+  }
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
+    const std::span<const std::int32_t> depth(request.face_depth, mesh_.triangles.size());
+    if (settings_.indexed) {
+      fast::IndexedMesh<float> mesh;
+      tessellator_->frame(depth, mesh);
+      const auto output = deliver(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size());
+      std::size_t at = 0;
+      for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t) output.triangles[at++] = v;
+      std::copy(mesh.triangle_face.begin(), mesh.triangle_face.end(), output.triangle_face);
+      return;
+    }
+    fast::DrawList<float> list;
+    const fast::FrameStats stats = tessellator_->frame(depth, list);
+    const auto output =
+        deliver(request, out, list.vertices, list.provenance, static_cast<std::size_t>(stats.triangles));
+    std::size_t at = 0;
+    for (const fast::Draw& draw : list.draws) {
+      for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
+        output.triangle_face[at / 3] = draw.face_of(t);
+        for (const std::int32_t v : draw.triangle(t))
+          output.triangles[at++] = static_cast<std::uint32_t>(draw.first + v);
+      }
+    }
+  }
+
+ private:
+  void use_threads(int threads) {
+    settings_.tessellator.threads = threads;
+    try {
+      tessellator_ = std::make_unique<rs::StreamTessellator>(mesh_, settings_.tessellator, *settings_.kernel);
+    } catch (const std::invalid_argument& error) {
+      throw SubjectError(LC_INVALID_INPUT, error.what());
+    }
+  }
+
+  static Output<float> deliver(const lc_request& request, lc_tessellation& out,
+                               const std::vector<fast::SurfaceVertex<float>>& vertices,
+                               const std::vector<fast::LatticePoint>& provenance, std::size_t triangles) {
+    const auto output = allocate_output<float>(request, out, static_cast<std::int64_t>(vertices.size()),
+                                               static_cast<std::int64_t>(triangles), true);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const auto& [position, normal] = vertices[v];
+      std::size_t i = 3 * v;
+      for (const float x : {position.x, position.y, position.z}) output.positions[i++] = x;
+      i = 3 * v;
+      for (const float x : {normal.x, normal.y, normal.z}) output.normals[i++] = x;
+      output.provenance[v] = {provenance[v].face, provenance[v].i, provenance[v].j,
+                              provenance[v].denominator};
+    }
+    return output;
+  }
+
+  Settings settings_;
+  data::ControlMesh mesh_;
+  std::unique_ptr<rs::StreamTessellator> tessellator_;
+};
+
+}  // namespace
+
+const lc_subject* lc_subject_row_stream() {
+  static const lc_subject subject = make_subject<RowStreamSubject>(
+      "row-stream", "limitcheck's row streaming: one pair per vector lane, shared points bit-identical",
+      "output=strips|indexed, repair=fan|stitch|none, target=avx512|avx2|avx2/4|sse4|scalar|...");
+  return &subject;
+}

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <set>
 
 #include "data/generators/named_mesh.h"
@@ -63,6 +64,10 @@ struct Planted {
   const char* fault;
   std::vector<const char*> seen_by;  // these at least
 };
+// GoogleTest's name for a row.
+void PrintTo(const Planted& planted, std::ostream* out) {
+  *out << planted.fault;
+}
 
 // Which checks must report which fault. A fault may turn more of them red (a shifted provenance spoils nearly
 // everything), so these are the ones whose business it is.

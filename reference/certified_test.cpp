@@ -60,6 +60,23 @@ TEST(Certified, ConvexSurfacesHavePositiveCurvatures) {
   EXPECT_LE(abs(k - h * h), Big("1e-38"));
 }
 
+TEST(Certified, PrecisionRisesUntilTheNormalIsKnown) {
+  // Points all but on the line x = y: t1 x t2 cancels 80 or 130 bits, more than the first attempt has to
+  // spare.
+  for (const std::string offset : {"1e-24", "1e-40"}) {
+    std::vector<std::array<std::string, 3>> positions;
+    const data::ControlMesh mesh = data::octahedron();
+    for (const auto& p : mesh.positions) {
+      const Big x(p[0]), y = x + Big(offset) * Big(p[1]);
+      positions.push_back({x.str(), y.str(90), Big(0).str()});
+    }
+    const CertifiedPoint p = CertifiedEvaluator(positions, mesh.triangles).evaluate(0, 0.25, 0.25, 10);
+    EXPECT_EQ(p.normal_kind, NormalKind::kRegular) << offset;
+    EXPECT_EQ(abs(Big(p.normal[2].value)), 1) << offset;
+    EXPECT_LE(p.normal[2].radius, 1e-9) << offset;
+  }
+}
+
 TEST(Certified, DegenerateMeshesAreSaidToBeSo) {
   data::ControlMesh point = data::octahedron();
   for (auto& p : point.positions) p = {1, 2, 3};

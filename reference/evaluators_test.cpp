@@ -122,6 +122,64 @@ TEST(Evaluators, CornersAndTheirSurroundingsAgree) {
   std::printf("worst relative difference %.2g\n", worst);
 }
 
+TEST(Evaluators, DerivativesAreThoseOfThePositionsExactly) {
+  // The surface is a quartic on every small enough neighbourhood: these differences have no error.
+  const Parameter l1 = Parameter::parse("0.29"), l2 = Parameter::parse("0.13");
+  const Rational h(1, 1000000);
+  const auto shifted = [&](int i, int j) {
+    const auto text = [](const Rational& a) { return Parameter::parse(a.str()); };
+    return std::array{text(Rational(29, 100) + i * h), text(Rational(13, 100) + j * h)};
+  };
+  for (const std::string name : {"wheel:7", "fan:5", "torus:4:4", "triangle", "tetrahedron"}) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    const auto check = [&](const auto& evaluator) {
+      const auto at = [&](int i, int j) {
+        const auto p = shifted(i, j);
+        return evaluator.evaluate(0, p[0], p[1]);
+      };
+      const auto first = [&](auto along) {
+        return (along(1) - along(-1)) * (Big(2) / Big(3) / Big(h)) -
+               (along(2) - along(-2)) * (Big(1) / Big(12) / Big(h));
+      };
+      const auto s = evaluator.evaluate(0, l1, l2);
+      const auto expect = [&](const Vec3<Big>& got, const Vec3<Big>& want, const char* what) {
+        EXPECT_LE(length(got - want), Big("1e-80")) << name << " " << what;
+      };
+      expect(s.d1, first([&](int i) { return at(i, 0).position; }), "d1");
+      expect(s.d2, first([&](int j) { return at(0, j).position; }), "d2");
+      expect(s.d11, first([&](int i) { return at(i, 0).d1; }), "d11");
+      expect(s.d12, first([&](int i) { return at(i, 0).d2; }), "d12");
+      expect(s.d12, first([&](int j) { return at(0, j).d1; }), "d21");
+      expect(s.d22, first([&](int j) { return at(0, j).d2; }), "d22");
+    };
+    check(StamEvaluator<Big>(mesh));
+    check(SubdivisionEvaluator<Big>(mesh));
+  }
+}
+
+TEST(Evaluators, TakeDoublesWhoseSumIsRoundedToOne) {
+  const data::ControlMesh mesh = data::tetrahedron();
+  double worst = 0;  // 0.1 + 0.9 exceeds 1 by 2^-55
+  expect_same(StamEvaluator<Big>(mesh).evaluate(0, 0.1, 0.9),
+              SubdivisionEvaluator<Big>(mesh).evaluate(0, 0.1, 0.9), 1e-80, worst, "edge");
+}
+
+TEST(Evaluators, TheMapOfAnExtraordinaryCornerPointsAlongTheEdges) {
+  // Seen from the corner, a point of the edge 2^-60 away lies in the direction of d1 (d2).
+  for (const int n : {3, 5, 7}) {
+    const data::ControlMesh mesh = data::wheel(n);
+    const StamEvaluator<Big> stam(mesh);
+    for (int face = 0; face < stam.face_count(); ++face) {
+      if (mesh.triangles[static_cast<std::size_t>(face)][0] != 0) continue;
+      const auto corner = stam.evaluate(face, 0.0, 0.0);
+      const Vec3<Big> first = stam.evaluate(face, 0x1p-60, 0.0).position - corner.position;
+      const Vec3<Big> second = stam.evaluate(face, 0.0, 0x1p-60).position - corner.position;
+      EXPECT_LE(length(unit(first) - unit(corner.d1)), Big("1e-12")) << n;
+      EXPECT_LE(length(unit(second) - unit(corner.d2)), Big("1e-12")) << n;
+    }
+  }
+}
+
 /// A hub and a point 10^-e away from it, in the face's corner 0.
 TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
   double worst50 = 0, worst_double = 0, worst_normal = 0;
@@ -153,6 +211,7 @@ TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
       }
       const double n = error(d.normal, truth.normal);
       worst_normal = std::max(worst_normal, n);
+      EXPECT_LE(n, 1e-13) << where;
     }
   }
   std::printf("worst 50-digit %.2g, double %.2g (%s), normal %.2g\n", worst50, worst_double,

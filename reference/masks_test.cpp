@@ -206,5 +206,24 @@ TEST(D12_Normals, AreFiniteUnitVectorsWhateverTheRing) {
   check({{1e300, 0, 0}, {0, 1e300, 0}, {-1e300, 0, 0}, {0, -1e300, 0}}, false, NormalKind::kRegular, "huge");
 }
 
+TEST(D12_Normals, FallBackToWhereTheFacetsFace) {
+  const auto expect = [](const std::vector<Vec3<double>>& ring, bool boundary, NormalKind kind, double up,
+                         const char* what) {
+    const auto limit = vertex_limit<double>({0, 0, 0}, ring, boundary);
+    EXPECT_EQ(limit.normal.kind, kind) << what;
+    EXPECT_NEAR(limit.normal.direction.z, up, 1e-12) << what;
+  };
+  std::vector<Vec3<double>> twice;
+  for (int i = 0; i < 8; ++i) twice.push_back({NumberTraits<double>::cos_pi(i, 2), sin_pi<double>(i, 2), 0});
+  expect(twice, false, NormalKind::kFallback, 1, "winds round twice");
+  auto thin = twice;
+  for (auto& r : thin) r.y *= 1e-14;
+  expect(thin, false, NormalKind::kFallback, 1, "too thin for the steps: the control ring decides");
+  expect({{1, 0, 0}, {1, 1e-8, 0}, {-1, 0, 0}, {-1, -1e-8, 0}}, false, NormalKind::kRegular, 1,
+         "a sine of 1e-8 is enough");
+  // Across is parallel to along; the open fan faces up, the polygon closed over the boundary would not.
+  expect({{1, 1, 0}, {.25, .5, 0}, {.25, .5, 0}, {-1, 1, 0}}, true, NormalKind::kFallback, 1, "open fan");
+}
+
 }  // namespace
 }  // namespace limitcheck::reference

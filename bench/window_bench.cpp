@@ -4,8 +4,11 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
@@ -30,9 +33,8 @@ const data::ControlMesh& mesh_of(int faces) {
 
 /// One thread, every pair of the mesh, the strips looked at and forgotten.
 template <class Real, bool Carry>
-void window(benchmark::State& state) {
-  const auto& mesh = mesh_of(static_cast<int>(state.range(0)));
-  const int depth = static_cast<int>(state.range(1));
+void window(benchmark::State& state, int faces, int depth) {
+  const auto& mesh = mesh_of(faces);
   const fast::Adjacency adjacency(mesh);
   std::vector<fast::Vec3<Real>> positions;
   for (const auto& p : mesh.positions)
@@ -53,16 +55,16 @@ void window(benchmark::State& state) {
 
 /// Whole frames at one depth; the share of each stage.
 template <class Output>
-void frame(benchmark::State& state, int threads) {
-  const auto& mesh = mesh_of(static_cast<int>(state.range(0)));
+void frame(benchmark::State& state, int faces, int depth, int threads) {
+  const auto& mesh = mesh_of(faces);
   fast::TessellatorOptions options;
   options.threads = threads;
   fast::Tessellator<float> tessellator(mesh, options);
-  const std::vector<std::int32_t> depth(mesh.triangles.size(), static_cast<std::int32_t>(state.range(1)));
+  const std::vector<std::int32_t> depths(mesh.triangles.size(), depth);
   Output out;
   fast::FrameStats sum;
   for (auto _ : state) {
-    const auto stats = tessellator.frame(depth, out);
+    const auto stats = tessellator.frame(depths, out);
     sum.seconds_pairing += stats.seconds_pairing;
     sum.seconds_planning += stats.seconds_planning;
     sum.seconds_evaluation += stats.seconds_evaluation;
@@ -77,9 +79,8 @@ void frame(benchmark::State& state, int threads) {
 }
 
 /// The paper's recursive subdivider in double, every face by itself; compare with window-double. [C18]
-void naive(benchmark::State& state) {
-  const auto& mesh = mesh_of(static_cast<int>(state.range(0)));
-  const int depth = static_cast<int>(state.range(1));
+void naive(benchmark::State& state, int faces, int depth) {
+  const auto& mesh = mesh_of(faces);
   const reference::NaiveSubdivider<double> subdivider(mesh);
   std::int64_t leaves = 0;
   for (auto _ : state) {
@@ -94,10 +95,9 @@ void naive(benchmark::State& state) {
 }
 
 /// A subject through the door, its points counted as the window's: distinct per face pair.
-void subject(benchmark::State& state, const lc_subject* which, const char* options) {
-  const auto& mesh = mesh_of(static_cast<int>(state.range(0)));
-  const int depth = static_cast<int>(state.range(1));
-  verify::Session session(*which, mesh, options);
+void subject(benchmark::State& state, int faces, int depth, const lc_subject* which) {
+  const auto& mesh = mesh_of(faces);
+  verify::Session session(*which, mesh, "");
   for (auto _ : state) {
     auto tessellation = session.tessellate(depth, 1);
     benchmark::DoNotOptimize(tessellation.vertex_count());
@@ -108,9 +108,8 @@ void subject(benchmark::State& state, const lc_subject* which, const char* optio
                          benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void edges(benchmark::State& state) {
-  const auto& mesh = mesh_of(static_cast<int>(state.range(0)));
-  const int depth = static_cast<int>(state.range(1));
+void edges(benchmark::State& state, int faces, int depth) {
+  const auto& mesh = mesh_of(faces);
   const fast::Adjacency adjacency(mesh);
   std::vector<fast::Vec3<float>> positions;
   for (const auto& p : mesh.positions)
@@ -127,14 +126,47 @@ void edges(benchmark::State& state) {
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void add(const char* name, void (*function)(benchmark::State&), int low, int high) {
+constexpr int kFaces = 4000;
+
+std::string full_name(const std::string& name, int depth) {
+  return name + "/uniform/bumpy/faces:" + std::to_string(kFaces) + "/depth:" + std::to_string(depth);
+}
+
+void add(const char* name, const std::function<void(benchmark::State&, int, int)>& function, int low,
+         int high) {
   for (int depth = low; depth <= high; ++depth) {
-    benchmark::RegisterBenchmark(
-        (std::string(name) + "/uniform/bumpy/faces:4000/depth:" + std::to_string(depth)).c_str(), function)
-        ->Args({4000, depth})
-        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(full_name(name, depth).c_str(), [function, depth](benchmark::State& s) {
+      function(s, kFaces, depth);
+    })->Unit(benchmark::kMillisecond);
   }
 }
+
+/// The usual table, and then how many times as long a rival takes for a point, in this run.
+class Reporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs)
+      if (const auto it = run.counters.find("points/s"); !run.error_occurred && it != run.counters.end())
+        rate_[run.benchmark_name()] = it->second.value;
+  }
+  void Finalize() override {
+    const std::pair<const char*, const char*> rivals[] = {
+        {"naive-double", "window-double"}, {"subject-opensubdiv-bfr", "subject-sliding-window"}};
+    for (const auto& [slow, fast] : rivals) {
+      for (int depth = 0; depth <= 7; ++depth) {
+        const auto a = rate_.find(full_name(slow, depth)), b = rate_.find(full_name(fast, depth));
+        if (a == rate_.end() || b == rate_.end()) continue;
+        GetOutputStream() << slow << " / " << fast << ", time per point, depth " << depth << ": "
+                          << b->second / a->second << "\n";
+      }
+    }
+    ConsoleReporter::Finalize();
+  }
+
+ private:
+  std::map<std::string, double> rate_;
+};
 
 }  // namespace
 
@@ -144,20 +176,24 @@ int main(int argc, char** argv) {
   add("naive-double", naive, 3, 5);
   add("window-as-printed", window<float, false>, 3, 7);
   add(
-      "frame-strips", [](benchmark::State& s) { frame<fast::DrawList<float>>(s, 1); }, 0, 6);
+      "frame-strips", [](auto& s, int faces, int depth) { frame<fast::DrawList<float>>(s, faces, depth, 1); },
+      0, 6);
   add(
-      "frame-strips-all-threads", [](benchmark::State& s) { frame<fast::DrawList<float>>(s, 0); }, 3, 6);
+      "frame-strips-all-threads",
+      [](auto& s, int faces, int depth) { frame<fast::DrawList<float>>(s, faces, depth, 0); }, 3, 6);
   add(
-      "frame-indexed", [](benchmark::State& s) { frame<fast::IndexedMesh<float>>(s, 1); }, 3, 6);
+      "frame-indexed",
+      [](auto& s, int faces, int depth) { frame<fast::IndexedMesh<float>>(s, faces, depth, 1); }, 3, 6);
   add("crack-edges", edges, 3, 6);
   add(
-      "subject-sliding-window", [](benchmark::State& s) { subject(s, lc_subject_sliding_window(), ""); }, 3,
-      5);
+      "subject-sliding-window",
+      [](auto& s, int faces, int depth) { subject(s, faces, depth, lc_subject_sliding_window()); }, 3, 5);
   add(
-      "subject-opensubdiv-bfr", [](benchmark::State& s) { subject(s, lc_subject_opensubdiv_bfr(), ""); }, 3,
-      5);
+      "subject-opensubdiv-bfr",
+      [](auto& s, int faces, int depth) { subject(s, faces, depth, lc_subject_opensubdiv_bfr()); }, 3, 5);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
+  Reporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
   return 0;
 }

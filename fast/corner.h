@@ -107,8 +107,9 @@ inline typename Surface::Vertex regular_vertex_limit(const Vec3<N>& v, const Axi
   return Surface::vertex(
       regular_limit(v, r),
       [&] {
-        const Vec3<N> ring[] = {r.e, r.ne, r.nw, r.w, r.sw, r.se};
-        return fan_normal<N>(v, ring, false);
+        WideVec3<N> ring[] = {widen<N>(r.e), widen<N>(r.ne), widen<N>(r.nw),
+                              widen<N>(r.w), widen<N>(r.sw), widen<N>(r.se)};
+        return substitute_normal<N>(v, ring, false);
       },
       zero_normals);
 }
@@ -121,8 +122,8 @@ inline typename Surface::Vertex boundary_vertex_limit(const Vec3<N>& v, const Ve
   return Surface::vertex(
       regular_boundary_limit(v, e, ne, nw, w),
       [&] {
-        const Vec3<N> ring[] = {e, ne, nw, w};
-        return fan_normal<N>(v, ring, true);
+        WideVec3<N> ring[] = {widen<N>(e), widen<N>(ne), widen<N>(nw), widen<N>(w)};
+        return substitute_normal<N>(v, ring, true);
       },
       zero_normals);
 }

@@ -109,12 +109,22 @@ class FanCentreEvaluator {
     }
     return Surface::vertex(
         LimitFrame<N>{narrow<N>(frame.position), narrow<N>(frame.du), narrow<N>(frame.dv)},
-        [&] { return cross(points[6] - points[3], points[7] - points[3]); }, zero_normals_);
+        [&] { return substitute(wide, corner); }, zero_normals_);
   }
 
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:
+  /// The centre is no vertex: the face around it after one step, else the control face, else (0, 0, 1). [D12]
+  static Vec3<Wide> substitute(const std::array<Vec3<Wide>, 12>& points,
+                               const std::array<Vec3<N>, 3>& corner) {
+    const Wide tolerance = sizeof(N) == 4 ? Wide(1e-6) : Wide(1e-12);
+    const Vec3<Wide> finer[] = {points[6], points[7]}, control[] = {widen<N>(corner[1]), widen<N>(corner[2])};
+    Vec3<Wide> normal = area_normal<Wide>(points[3], finer, true, tolerance);
+    if (normal == Vec3<Wide>{}) normal = area_normal<Wide>(widen<N>(corner[0]), control, true, tolerance);
+    return normal != Vec3<Wide>{} ? normal : Vec3<Wide>{Wide(0), Wide(0), Wide(1)};
+  }
+
   std::vector<Vec3<N>> storage_;
   std::int64_t zero_normals_ = 0;
 };

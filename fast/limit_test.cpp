@@ -104,8 +104,9 @@ TEST(Sec31_LimitMasks, KeepTheirBitsUnderAHalfTurn) {
       return LimitSurface<float>::vertex(
           regular_limit(p[6], ring),
           [&] {
-            const Vec3<float> all[] = {r(0), r(1), r(2), r(3), r(4), r(5)};
-            return fan_normal<float>(p[6], all, false);
+            V all[] = {widen<float>(r(0)), widen<float>(r(1)), widen<float>(r(2)),
+                       widen<float>(r(3)), widen<float>(r(4)), widen<float>(r(5))};
+            return substitute_normal<float>(p[6], all, false);
           },
           zero);
     };
@@ -115,6 +116,57 @@ TEST(Sec31_LimitMasks, KeepTheirBitsUnderAHalfTurn) {
     };
     for (const auto& [x, y] : {std::pair{a.position, b.position}, {a.normal, b.normal}})
       EXPECT_TRUE(same(x.x, y.x) && same(x.y, y.y) && same(x.z, y.z)) << seed;
+  }
+}
+
+/// A bipyramid over eight points without first harmonic: A cos 2t + B sin 2t + C cos 3t + D sin 3t. The
+/// tangents at its apexes 8 and 9 vanish.
+data::ControlMesh without_first_harmonic(const V& a, const V& b, const V& c, const V& d) {
+  data::ControlMesh mesh = bipyramid(8);
+  for (int i = 0; i < 8; ++i) {
+    const double t = 2 * std::numbers::pi * i / 8;
+    const V p = std::cos(2 * t) * a + std::sin(2 * t) * b + std::cos(3 * t) * c + std::sin(3 * t) * d;
+    mesh.positions[static_cast<std::size_t>(i)] = {p.x, p.y, p.z};
+  }
+  return mesh;
+}
+
+TEST(D12_VanishingNormals, AreThoseOfTheFacesWeightedByAreaAfterOneStep) {
+  RecordProperty("claim", "D12");
+  const V a{1, .2, .3}, b{-.1, .9, .4}, c{.3, -.8, .1}, d{.2, .5, 2};
+  const data::ControlMesh mesh = without_first_harmonic(a, b, c, d);
+  const Adjacency adjacency(mesh);
+  std::vector<V> positions;
+  for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
+  const PreparedMesh<double> prepared(adjacency, positions);
+  EXPECT_EQ(prepared.zero_normals(), 2);
+  // The areas of a ring add up to n / 2 sum over k of sin(2 pi k / n) A_k x B_k, and a step multiplies the
+  // k-th harmonic by 3/8 + cos(2 pi k / n) / 4.
+  const auto after = [&](int steps) {
+    const double two = std::pow(.375, 2 * steps), three = std::pow(.375 - std::sqrt(.5) / 4, 2 * steps);
+    const V sum = two * cross(a, b) + std::sqrt(.5) * three * cross(c, d);
+    return 1 / size(sum) * sum;
+  };
+  ASSERT_GT(size(after(0) - after(1)), .1) << "of a ring that does not tell them apart";
+  ASSERT_GT(size(after(2) - after(1)), .01);
+  EXPECT_LE(size(prepared.limit(8).normal - after(1)), 1e-14);
+  EXPECT_LE(size(prepared.limit(9).normal + after(1)), 1e-14);
+}
+
+TEST(D12_VanishingNormals, OfCollinearAndCoincidentRingsPointUpwards) {
+  RecordProperty("claim", "D12");
+  data::ControlMesh mesh = bipyramid(7);
+  for (const bool collapsed : {false, true}) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const double t = collapsed ? .7 : std::sin(1. + static_cast<double>(i));
+      mesh.positions[i] = {.1 + .3 * t, .7 * t, .2 - .9 * t};  // not representable: collinear up to rounding
+    }
+    const Adjacency adjacency(mesh);
+    std::vector<V> positions;
+    for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
+    const PreparedMesh<double> prepared(adjacency, positions);
+    EXPECT_EQ(prepared.zero_normals(), 9);
+    for (int v = 0; v < 9; ++v) EXPECT_EQ(prepared.limit(v).normal, (V{0, 0, 1})) << v;
   }
 }
 

@@ -62,10 +62,31 @@ class PreparedMesh {
   }
 
   Vertex limit_of(std::int32_t v, const std::vector<Vec3<N>>& ring, bool open) {
-    const auto wide = vertex_limit<N>(position(v), ring, open);
+    auto wide = vertex_limit<N>(position(v), ring, open);
+    drop_noise(v, ring, wide);
     const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
     return Surface::vertex(
-        frame, [&] { return fan_normal<N>(position(v), ring, open); }, zero_normals_);
+        frame,
+        [&] {
+          std::vector<WideVec3<N>> wide_ring;
+          for (const Vec3<N>& p : ring) wide_ring.push_back(widen<N>(p));
+          return substitute_normal<N>(position(v), wide_ring, open);
+        },
+        zero_normals_);
+  }
+
+  /// A tangent of at most 1e-14 of what it sums is rounding error: its direction means nothing.       [D12]
+  void drop_noise(std::int32_t v, const std::vector<Vec3<N>>& ring,
+                  LimitFrame<typename NumberTraits<N>::Wide>& frame) const {
+    using W = typename NumberTraits<N>::Wide;
+    using std::sqrt;
+    W reach(0);
+    for (const Vec3<N>& p : ring) {
+      const Vec3<W> d = widen<N>(p) - widen<N>(position(v));
+      reach = reach + sqrt(dot(d, d));
+    }
+    for (Vec3<W>* tangent : {&frame.du, &frame.dv})
+      if (sqrt(dot(*tangent, *tangent)) <= W(1e-14) * reach) *tangent = Vec3<W>{};
   }
 
   const Adjacency* adjacency_;

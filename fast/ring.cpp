@@ -146,9 +146,9 @@ Point3 Ring::area_normal() const {
   double sizes = 0;
   for (int i = 0; i < faces(); ++i) {
     const auto a = static_cast<std::size_t>(i), b = a + 1 == points_.size() ? 0 : a + 1;
-    const Point3 n = cross(points_[a] - centre_, points_[b] - centre_);
-    sum = sum + n;
-    sizes += length(n);
+    const Point3 p = points_[a] - centre_, q = points_[b] - centre_;
+    sum = sum + cross(p, q);
+    sizes += length(p) * length(q);  // not the area: that of a collinear ring is rounding error itself
   }
   return length(sum) > kParallel * sizes ? unit_or_zero(sum) : Point3{};
 }

@@ -46,6 +46,7 @@ ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, lc_points
 }
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
+  if (!mesh.face_depth.empty()) return run(audited, mesh, mesh.face_depth);
   return run(audited, mesh, std::vector<std::int32_t>(mesh.mesh.triangles.size(), depth_));
 }
 

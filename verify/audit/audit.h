@@ -18,6 +18,8 @@ namespace limitcheck::verify {
 struct AuditMesh {
   std::string name;  // as `limitcheck eval` understands it
   data::ControlMesh mesh;
+  std::vector<std::int32_t> face_depth =
+      {};  // 0 .. the auditor's depth or -1 (culled); empty: all that depth
 };
 
 struct AuditSubject {
@@ -31,7 +33,8 @@ struct AuditStep {
   std::size_t done, total;  // pairs of subject and mesh
 };
 
-/// Audits subjects on control meshes at one depth; keeps the reference of the last mesh for the next subject.
+/// Audits subjects on control meshes, no deeper than one depth; keeps the reference of the last mesh for the
+/// next subject.
 class Auditor {
  public:
   /// depth >= 0; threads >= 1 are handed to the subjects (the checks use oneTBB's arena).

@@ -208,6 +208,43 @@ TEST(Audit, TheRimOfCulledFacesIsABoundaryThatIsAllowed) {
     EXPECT_EQ(row(results, check).status, Status::kHeld) << describe(results);
 }
 
+TEST(Audit, VisibleFacesThatMeetInAPointOnlyAreNoFault) {
+  const data::ControlMesh cage = data::named_mesh("icosahedron");
+  const auto& first = cage.triangles[0];
+  const std::int32_t pole = first[0];
+  const auto common = [&](const std::array<std::int32_t, 3>& t) {
+    return std::count_if(t.begin(), t.end(), [&](std::int32_t v) {
+      return std::find(first.begin(), first.end(), v) != first.end();
+    });
+  };
+  std::vector<std::int32_t> depth(cage.triangles.size(), 2);
+  int across = 0;  // the faces at the pole: one stays besides the first, which shares nothing else with it
+  for (std::size_t f = 1; f < depth.size(); ++f) {
+    const auto& t = cage.triangles[f];
+    if (std::count(t.begin(), t.end(), pole) == 0) continue;
+    if (common(t) > 1 || across++ > 0) depth[f] = -1;
+  }
+  ASSERT_EQ(across, 2);
+  const auto results = Auditor(2, 1).run({find_subject("sliding-window"), ""}, {"icosahedron", cage, depth});
+  EXPECT_TRUE(red(results).empty()) << describe(results);
+}
+
+TEST(Audit, OfRandomFacesCulledAndRandomDepthsOurEngineShowsExactlyTheOutline) {
+  for (const char* name : {"bumpy:60", "octahedron", "holes", "wheel:9"}) {
+    AuditMesh mesh{name, data::named_mesh(name)};
+    std::uint32_t state = 1;
+    for (int round = 0; round < 20; ++round) {
+      mesh.face_depth.clear();
+      for (std::size_t f = 0; f < mesh.mesh.triangles.size(); ++f) {
+        state = state * 1664525U + 1013904223U;
+        mesh.face_depth.push_back(static_cast<std::int32_t>((state >> 24) % 5) - 1);
+      }
+      const auto results = Auditor(3, 1).run({find_subject("sliding-window"), ""}, mesh);
+      EXPECT_TRUE(red(results).empty()) << name << " round " << round << "\n" << describe(results);
+    }
+  }
+}
+
 TEST(Audit, ResultsDoNotDependOnThreads) {
   const AuditMesh mesh{"bumpy:200", data::named_mesh("bumpy:200")};
   const auto one = Auditor(3, 1).run({find_subject(kBase), ""}, mesh);

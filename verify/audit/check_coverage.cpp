@@ -144,10 +144,11 @@ std::vector<Result> check_coverage(const Evidence& e) {
       if (!own.empty()) note(verdicts[f], static_cast<std::int64_t>(own.size()), own[0][0].i, own[0][0].j);
       return;
     }
-    bool plain = true;  // no neighbour is finer
+    // Nothing finer in sight, also not beyond a neighbour, which may be displayed as deep as that.
+    bool plain = true;
     for (int k = 0; k < 3; ++k)
       for (const std::int32_t g : e.lattice.edges()[e.lattice.edge_of(f, k)].face)
-        plain = plain && (g < 0 || e.face_depth[g] <= depth);
+        plain = plain && (g < 0 || deepest_near(e, g) <= depth);
     verdicts[f] = plain ? unit_tiling(own, e.lattice.scale(), depth, scratch.local())
                         : free_tiling(own, e.lattice.scale());
   });

@@ -3,65 +3,19 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
 #include "verify/audit/checks.h"
+#include "verify/audit/outline.h"
 #include "verify/watertight/watertight.h"
 
 namespace limitcheck::verify {
 namespace {
 
 using OpenEdge = SurfaceReport::Edge;
-
-// The steps along the boundary of what was asked for: (point, next point) on control edges with one visible
-// face, in the direction in which that face runs along them.
-struct Boundary {
-  std::vector<std::pair<Lattice::Id, Lattice::Id>> steps;  // sorted
-  std::int64_t loops = 0;
-};
-
-Boundary expected_boundary(const Evidence& e) {
-  Boundary b;
-  std::vector<OpenEdge> sides;  // the same at control level, to count loops
-  const Lattice& lattice = e.lattice;
-  for (const Lattice::Edge& edge : lattice.edges()) {
-    int visible = 0, side = 0;
-    for (int s = 0; s < 2; ++s)
-      if (edge.face[s] >= 0 && e.face_depth[edge.face[s]] >= 0) ++visible, side = s;
-    if (visible != 1) continue;
-    const std::int32_t face = edge.face[side];
-    const int k = edge.corner[side], depth = e.face_depth[face];
-    const std::uint32_t n = std::uint32_t{1} << depth;
-    const auto at = [&](std::uint32_t along) {  // steps from corner k to corner k + 1
-      lc_provenance p{face, 0, 0, n};
-      if (k == 0) p.i = along;
-      if (k == 1) p.i = n - along, p.j = along;
-      if (k == 2) p.j = n - along;
-      return lattice.id(p);
-    };
-    for (std::uint32_t along = 0; along < n; ++along) b.steps.emplace_back(at(along), at(along + 1));
-    const auto& corner = e.mesh.triangles[face];
-    sides.push_back({corner[k], corner[(k + 1) % 3], face});
-  }
-  std::sort(b.steps.begin(), b.steps.end());
-
-  // Loops. A vertex between two culled faces may lie on several: then they branch, and their number is not
-  // asked for.
-  std::vector<std::int32_t> leaving(e.mesh.positions.size(), -1);
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    if (leaving[sides[s].from] >= 0) b.loops = -1;
-    leaving[sides[s].from] = static_cast<std::int32_t>(s);
-  }
-  std::vector<bool> walked(sides.size(), false);
-  for (std::size_t s = 0; b.loops >= 0 && s < sides.size(); ++s) {
-    if (walked[s]) continue;
-    ++b.loops;
-    for (auto at = static_cast<std::int32_t>(s); at >= 0 && !walked[at]; at = leaving[sides[at].to])
-      walked[at] = true;
-  }
-  return b;
-}
 
 // A lattice point strictly inside the open edge that some vertex names, or kNone. The ends of an edge need a
 // common face to be compared in.
@@ -83,20 +37,55 @@ Lattice::Id point_inside(const Evidence& e, const OpenEdge& edge, Lattice::Id fr
 // What the merged surface looks like, to us and to CGAL.
 struct Looked {
   MergedPoints merged;
+  std::vector<std::int32_t> vertex_of;  // one vertex of each point, as merged, and ...
+  std::vector<std::int32_t>
+      place_of;  // ... the merged point it is: itself unless it stands for a further fan
   SurfaceReport report;
   SurfaceJudgement judgement;
 };
 
-Looked look(const Tessellation& t) {
+Looked look(const Evidence& e, const Outline& outline) {
+  const Tessellation& t = e.tessellation;
   Looked l;
   l.merged =
       t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
+  l.vertex_of = l.merged.vertex_of;
+  l.place_of.resize(l.vertex_of.size());
+  std::iota(l.place_of.begin(), l.place_of.end(), 0);
+
+  // The fan of the triangle's face at the control vertex that a corner is, 0 everywhere else.
+  const auto fan_at = [&](std::int64_t triangle, std::uint32_t vertex) {
+    const Lattice::Id id = e.point[vertex];
+    const std::int32_t face = t.triangle_face()[triangle];
+    if (id == Lattice::kNone || !e.lattice.is_vertex(id) || face < 0 ||
+        static_cast<std::size_t>(face) >= e.mesh.triangles.size())
+      return 0;
+    const auto& corner = e.mesh.triangles[face];
+    for (int k = 0; k < 3; ++k)
+      if (corner[k] == id) return outline.fan(face, k);
+    return 0;
+  };
+  std::map<std::pair<std::int32_t, int>, std::int32_t> further;  // merged point, fan -> point of its own
   std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()),
                                                      {-1, -1, -1});
-  for (std::int64_t k = 0; k < t.triangle_count(); ++k)
-    if (t.triangle_ok(k))
-      for (int c = 0; c < 3; ++c) triangles[k][c] = l.merged.point_of[t.triangles()[k][c]];
-  const auto points = static_cast<std::int64_t>(l.merged.vertex_of.size());
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
+    if (!t.triangle_ok(k)) continue;
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t vertex = t.triangles()[k][c];
+      std::int32_t& point = triangles[k][c];
+      point = l.merged.point_of[vertex];
+      const int fan = point < 0 ? 0 : fan_at(k, vertex);
+      if (fan == 0) continue;
+      const auto [it, is_new] =
+          further.try_emplace({point, fan}, static_cast<std::int32_t>(l.vertex_of.size()));
+      if (is_new) {
+        l.vertex_of.push_back(static_cast<std::int32_t>(vertex));
+        l.place_of.push_back(point);
+      }
+      point = it->second;
+    }
+  }
+  const auto points = static_cast<std::int64_t>(l.vertex_of.size());
   tbb::parallel_invoke([&] { l.report = inspect_surface(points, triangles); },
                        [&] { l.judgement = judge_surface(points, triangles); });
   return l;
@@ -111,12 +100,12 @@ struct Cracks {
   std::optional<Witness> split_witness;
 };
 
-Cracks find_cracks(const Evidence& e, const Looked& looked, const Boundary& boundary) {
+Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outline) {
   const Tessellation& t = e.tessellation;
   const auto vertex_at = [&](const OpenEdge& edge,
                              std::int32_t point) {  // the triangle's own vertex at this point
     for (const std::uint32_t v : t.triangles()[edge.triangle])
-      if (looked.merged.point_of[v] == point) return static_cast<std::int64_t>(v);
+      if (looked.merged.point_of[v] == looked.place_of[point]) return static_cast<std::int64_t>(v);
     return std::int64_t{-1};
   };
   const auto with_triangle = [](Witness w, std::int64_t triangle) {
@@ -130,15 +119,35 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Boundary& boun
   // By provenance: an open edge is a step of the boundary, once, or a crack, perhaps with a lattice point
   // inside.
   Cracks c;
-  std::vector<bool> met(boundary.steps.size(), false);
+  const auto& steps = outline.steps();
+  const auto step_of = [&](const OpenEdge& edge) {
+    const std::pair at(e.point[vertex_at(edge, edge.from)], e.point[vertex_at(edge, edge.to)]);
+    const auto step = std::lower_bound(steps.begin(), steps.end(), at, [](const auto& s, const auto& ends) {
+      return std::pair(s.from, s.to) < ends;
+    });
+    return step != steps.end() && std::pair(step->from, step->to) == at ? step - steps.begin() : -1;
+  };
+  // A side is shown at that one of its depths of which most is there.
+  std::vector<std::vector<double>> share(outline.sides().size());
+  for (std::size_t s = 0; s < share.size(); ++s)
+    share[s].resize(static_cast<std::size_t>(outline.sides()[s].most - outline.sides()[s].least) + 1);
+  for (const OpenEdge& edge : looked.report.open_edges)
+    if (const auto s = step_of(edge); s >= 0)
+      share[steps[s].side][steps[s].depth - outline.sides()[steps[s].side].least] +=
+          std::ldexp(1, -steps[s].depth);
+  const auto shown = [&](const Outline::Step& step) {
+    const auto& its = share[step.side];
+    return std::max_element(its.begin(), its.end()) - its.begin() ==
+           step.depth - outline.sides()[step.side].least;
+  };
+  std::vector<bool> met(steps.size(), false);
   std::vector<bool> split;  // of each crack
   bool placed = true;       // every crack has its place on the lattice
   for (const OpenEdge& edge : looked.report.open_edges) {
     const std::int64_t vertex = vertex_at(edge, edge.from);
     const Lattice::Id from = e.point[vertex], to = e.point[vertex_at(edge, edge.to)];
-    const auto step = std::lower_bound(boundary.steps.begin(), boundary.steps.end(), std::pair(from, to));
-    if (step != boundary.steps.end() && *step == std::pair(from, to) && !met[step - boundary.steps.begin()]) {
-      met[step - boundary.steps.begin()] = true;
+    if (const auto step = step_of(edge); step >= 0 && shown(steps[step]) && !met[step]) {
+      met[step] = true;
       continue;
     }
     if (!c.witness) c.witness = with_triangle(e.at_vertex(vertex), edge.triangle);
@@ -157,17 +166,17 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Boundary& boun
     std::vector<double> places;
     for (std::int64_t v = 0; v < t.vertex_count(); ++v)
       for (const double x : t.position(v)) places.push_back(x);
-    for (const TVertex& tee : find_t_vertices(places, looked.merged.vertex_of, c.edges)) {
+    for (const TVertex& tee : find_t_vertices(places, looked.vertex_of, c.edges)) {
       split[tee.edge] = true;
       if (!c.split_witness)
-        c.split_witness =
-            with_triangle(e.at_vertex(looked.merged.vertex_of[tee.point]), c.edges[tee.edge].triangle);
+        c.split_witness = with_triangle(e.at_vertex(looked.vertex_of[tee.point]), c.edges[tee.edge].triangle);
     }
   }
   c.split = std::count(split.begin(), split.end(), true);
-  c.missed = std::count(met.begin(), met.end(), false);
-  if (c.missed > 0 && !c.witness)
-    c.witness = e.at_point(boundary.steps[std::find(met.begin(), met.end(), false) - met.begin()].first);
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    if (met[s] || !shown(steps[s])) continue;
+    if (c.missed++ == 0 && !c.witness) c.witness = e.at_point(steps[s].from);
+  }
   return c;
 }
 
@@ -190,11 +199,11 @@ std::optional<Witness> not_manifold(const Evidence& e, const Looked& looked) {
     w.triangle = triangle;
     return w;
   }
-  if (!r.bow_tie_witness.empty()) return e.at_vertex(looked.merged.vertex_of[r.bow_tie_witness.front()]);
+  if (!r.bow_tie_witness.empty()) return e.at_vertex(looked.vertex_of[r.bow_tie_witness.front()]);
   return std::nullopt;
 }
 
-void tell(const SurfaceReport& report, const Cracks& cracks, const Boundary& boundary, Result& r) {
+void tell(const SurfaceReport& report, const Cracks& cracks, const Outline& outline, Result& r) {
   const auto part = [&](std::int64_t count, const char* what) {
     if (count == 0) return;
     r.bad += count;
@@ -207,9 +216,9 @@ void tell(const SurfaceReport& report, const Cracks& cracks, const Boundary& bou
   part(report.crowded_edges, "edges of three or more triangles");
   part(report.clashing_edges, "edges of two triangles that run the same way");
   part(report.bow_tie_points, "points with more than one fan of triangles");
-  if (r.bad == 0 && boundary.loops >= 0 && report.open_loops != boundary.loops) {
+  if (r.bad == 0 && report.open_loops != outline.loops()) {
     r.bad = 1;
-    r.message = fmt::format("{} boundary loops instead of {}", report.open_loops, boundary.loops);
+    r.message = fmt::format("{} boundary loops instead of {}", report.open_loops, outline.loops());
   }
   if (r.bad > 0) r.status = Status::kFinding;
 }
@@ -224,14 +233,14 @@ std::vector<Result> check_watertight(const Evidence& e) {
     surface.status = tees.status = Status::kNotRun;
     return {surface, tees};
   }
-  const Looked looked = look(e.tessellation);
+  const Outline outline(e);
+  const Looked looked = look(e, outline);
   const SurfaceReport& ours = looked.report;
   const SurfaceJudgement& cgal = looked.judgement;
-  const Boundary boundary = expected_boundary(e);
-  const Cracks cracks = find_cracks(e, looked, boundary);
+  const Cracks cracks = find_cracks(e, looked, outline);
   surface.of = ours.edges;
   surface.witness = cracks.witness ? cracks.witness : not_manifold(e, looked);
-  tell(ours, cracks, boundary, surface);
+  tell(ours, cracks, outline, surface);
 
   // Two methods, one answer.
   const bool agree = ours.manifold() == cgal.manifold() &&

@@ -3,6 +3,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace limitcheck::verify {
 
 Result Evidence::result(std::string check) const {
@@ -47,6 +49,15 @@ bool Evidence::place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>&
     corners[k] = *coordinates;
   }
   return true;
+}
+
+std::int32_t deepest_near(const Evidence& e, std::int32_t face) {
+  std::int32_t depth = e.face_depth[face];
+  if (depth < 0) return depth;
+  for (int k = 0; k < 3; ++k)
+    for (const std::int32_t g : e.lattice.edges()[e.lattice.edge_of(face, k)].face)
+      if (g >= 0) depth = std::max(depth, e.face_depth[g]);
+  return depth;
 }
 
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice) {

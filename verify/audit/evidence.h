@@ -38,6 +38,9 @@ struct Evidence {
   bool place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>& corners) const;
 };
 
+/// How deep a face may be displayed: the largest depth asked for it and, unless it is culled, its neighbours.
+std::int32_t deepest_near(const Evidence& e, std::int32_t face);
+
 /// Ids of all vertices of a tessellation, in parallel.
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice);
 

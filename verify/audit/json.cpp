@@ -50,6 +50,8 @@ std::string to_json(const Report& report) {
   Json out{{"program", "limitcheck audit"},
            {"version", report.version},
            {"depth", report.depth},
+           {"depths", report.depths},
+           {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
            {"seconds", report.seconds},
            {"held", report.held()}};
   out["subjects"] = report.subjects;

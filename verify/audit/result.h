@@ -58,7 +58,9 @@ struct Report {
     std::int64_t vertices = 0, faces = 0;
   };
   std::string version;
-  int depth = 0;
+  int depth = 0;                      // the largest
+  std::string depths = "uniform";     // how the faces got theirs: uniform, random, view
+  std::optional<std::uint64_t> seed;  // of random
   std::vector<Mesh> meshes;
   std::vector<std::string> subjects;
   std::vector<Result> results;

@@ -183,8 +183,11 @@ std::string to_table(const Report& report, bool colour, bool all) {
   std::string out;
   std::int64_t faces = 0;
   for (const auto& m : report.meshes) faces += m.faces;
+  std::string depth = fmt::format("depth {}", report.depth);
+  if (report.depths != "uniform") depth += fmt::format(" at most, {}", report.depths);
+  if (report.seed) depth += fmt::format(" (seed {})", *report.seed);
   out += fmt::format(
-      "limitcheck {}: depth {} on {} ({} faces)\n", report.version, report.depth,
+      "limitcheck {}: {} on {} ({} faces)\n", report.version, depth,
       report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),
       faces);
   const auto row = [&](auto... cell) {

@@ -4,11 +4,18 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 #include "data/generators/named_mesh.h"
+#include "data/splitmix64.h"
+#include "fast/depth.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
@@ -26,6 +33,7 @@ struct Arguments {
   std::string subject;
   std::vector<std::string> meshes, options;
   int depth = 4;
+  std::string depths = "uniform";
   int threads = 0;
   std::string json;
   bool each_mesh = false;
@@ -66,7 +74,58 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a) {
   return {{subject, options}};
 }
 
+// --depths: "uniform", "random", "random:SEED", "view".
+struct Depths {
+  std::string kind;
+  std::optional<std::uint64_t> seed;
+};
+
+Depths parse_depths(const std::string& text) {
+  if (text == "uniform" || text == "view") return {text, std::nullopt};
+  if (text == "random") return {text, 1};
+  if (text.starts_with("random:")) {
+    std::uint64_t seed = 0;
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data() + 7, last, seed);
+    if (error == std::errc() && end == last) return {"random", seed};
+  }
+  throw std::invalid_argument(fmt::format("--depths {}: uniform, random, random:SEED or view", text));
+}
+
+// A view of the whole mesh from twice its size away, slanting: half of a closed mesh is culled, a flat one
+// seen. Triangles of 10 pixels, so that a mesh of a few hundred faces shows more than one depth.
+std::vector<std::int32_t> view_depths(const data::ControlMesh& mesh, int deepest) {
+  fast::Point3 low = fast::to_point(mesh.positions.at(0)), high = low;
+  for (const auto& p : mesh.positions) {
+    low = {std::min(low.x, p[0]), std::min(low.y, p[1]), std::min(low.z, p[2])};
+    high = {std::max(high.x, p[0]), std::max(high.y, p[1]), std::max(high.z, p[2])};
+  }
+  const double size = fast::length(high - low);
+  fast::Camera camera;
+  camera.target = .5 * (low + high);
+  camera.eye = camera.target + (2 * size / std::sqrt(14)) * fast::Point3{1, 2, 3};
+  camera.near = .01 * size;
+  fast::DepthOptions options;
+  options.strategy = fast::Strategy::kCombined;
+  options.target_pixels = 10;
+  const fast::Adjacency adjacency(mesh);
+  return fast::DepthHeuristics(mesh, adjacency, deepest).depths(options, camera);
+}
+
+std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {
+  if (depths.kind == "uniform") return {};
+  if (depths.kind == "view") return view_depths(mesh, deepest);
+  data::SplitMix64 random(*depths.seed);
+  std::vector<std::int32_t> depth(mesh.triangles.size());
+  for (std::int32_t& d : depth)
+    d = static_cast<std::int32_t>(random.next() % (static_cast<std::uint64_t>(deepest) + 1));
+  return depth;
+}
+
 int audit(Arguments a) {
+  const Depths depths = parse_depths(a.depths);
+  if (depths.kind == "view" && a.depth > fast::kDeepest)
+    throw std::invalid_argument(fmt::format("--depths view: --depth {} at most", fast::kDeepest));
   const bool main_job = a.subject.empty();
   if (main_job) a.subject = "all";
   if (!a.json.empty() && a.json != "-" && !a.json.ends_with(".json"))
@@ -86,12 +145,16 @@ int audit(Arguments a) {
   verify::Report report;
   for (const std::string& name : a.meshes) {
     progress.show(0, 1, "mesh " + name);
-    meshes.push_back({name, data::open_mesh(name)});
+    data::ControlMesh mesh = data::open_mesh(name);
+    std::vector<std::int32_t> depth = face_depths(depths, mesh, a.depth);
+    meshes.push_back({name, std::move(mesh), std::move(depth)});
     report.meshes.push_back({name, static_cast<std::int64_t>(meshes.back().mesh.positions.size()),
                              static_cast<std::int64_t>(meshes.back().mesh.triangles.size())});
   }
   report.version = LIMITCHECK_VERSION;
   report.depth = a.depth;
+  report.depths = depths.kind;
+  report.seed = depths.seed;
   for (const auto& s : audited)
     report.subjects.push_back(s.options.empty() ? s.subject->name
                                                 : fmt::format("{}:{}", s.subject->name, s.options));
@@ -130,8 +193,15 @@ void add_audit(CLI::App& app, int& exit_code) {
           std::string(kReportFile));
   command->add_option("MESH", a->meshes,
                       "Control meshes: files or generator names (default: bumpy:800 and the stock shapes)");
-  command->add_option("--depth", a->depth, "Subdivision depth of every face")
+  command
+      ->add_option("--depth", a->depth,
+                   "Subdivision depth of every face; otherwise than with uniform depths, the largest")
       ->check(CLI::Range(0, 12))
+      ->capture_default_str();
+  command
+      ->add_option("--depths", a->depths,
+                   "uniform, random[:SEED] (0 .. depth) or view (by size on the screen and curvature, back "
+                   "faces culled)")
       ->capture_default_str();
   command->add_option("--option", a->options, "key=value for the subject; may be repeated")
       ->take_all()

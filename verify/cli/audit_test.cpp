@@ -31,7 +31,9 @@ TEST_F(AuditCommand, ExitsWithTwoOnBadUsageAndBadInput) {
   for (const char* arguments :
        {"audit no-such-subject", "audit naive no-such-mesh", "audit naive tetrahedron --depth 99",
         "audit naive tetrahedron --no-such-option", "audit naive --option nonsense=1 tetrahedron",
-        "audit all tetrahedron --option precision=double", "audit naive tetrahedron --json report.txt"}) {
+        "audit all tetrahedron --option precision=double", "audit naive tetrahedron --depths sideways",
+        "audit naive tetrahedron --depths random:x", "audit naive tetrahedron --depths view --depth 12",
+        "audit naive tetrahedron --json report.txt"}) {
     const Outcome o = run(arguments);
     EXPECT_EQ(o.code, 2) << arguments << "\n" << o.out;
     EXPECT_NE(o.err, "") << arguments;
@@ -70,6 +72,47 @@ TEST_F(AuditCommand, AnAuditOfAllSubjectsGoesOnWhenOneRefuses) {
   }
   EXPECT_TRUE(refused);
   EXPECT_TRUE(cgal);
+}
+
+TEST_F(AuditCommand, OurEngineHoldsAtRandomAndAtViewDependentDepths) {
+  for (const std::string depths : {"random", "random:7", "view"}) {
+    const Outcome o = run("audit sliding-window bumpy:200 icosahedron holes wheel:50 --depths " + depths +
+                          " --json report.json");
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+    const auto report = nlohmann::json::parse(read("report.json"));
+    EXPECT_EQ(report["depths"], depths.substr(0, depths.find(':')));
+    if (depths == "view") {
+      EXPECT_TRUE(report["seed"].is_null());
+      EXPECT_NE(o.out.find("depth 4 at most, view on 4 meshes"), std::string::npos) << o.out;
+    } else {
+      EXPECT_EQ(report["seed"], depths == "random" ? 1 : 7);
+      EXPECT_NE(o.out.find("depth 4 at most, random (seed "), std::string::npos) << o.out;
+    }
+    for (const auto& row : report["results"]) EXPECT_EQ(row["status"], "held") << row;
+  }
+}
+
+TEST_F(AuditCommand, WithoutRepairWatertightIsRedAtRandomAndAtViewDependentDepths) {
+  for (const std::string depths : {"random", "view"}) {
+    const Outcome o = run("audit sliding-window bumpy:200 --option repair=none --json - --depths " + depths);
+    EXPECT_EQ(o.code, 1) << o.err;
+    const auto report = nlohmann::json::parse(o.out);
+    for (const auto& row : report["results"]) {
+      if (row["check"] == "watertight" || row["check"] == "t-vertices") {
+        EXPECT_EQ(row["status"], "finding") << row;
+      }
+    }
+  }
+}
+
+TEST_F(AuditCommand, ASubjectWithoutADepthPerFaceIsNotSupportedAndNoFault) {
+  const Outcome o = run("audit cgal icosahedron --depths random --json -");
+  EXPECT_EQ(o.code, 0) << o.err;
+  const auto report = nlohmann::json::parse(o.out);
+  EXPECT_EQ(report["results"][0]["check"], "tessellates");
+  EXPECT_EQ(report["results"][0]["status"], "not-supported");
+  EXPECT_NE(report["results"][0]["message"].get<std::string>().find("one depth for the whole mesh"),
+            std::string::npos);
 }
 
 TEST_F(AuditCommand, TheCommandPrintedWithAFindingRecomputesTheExpectedValue) {

@@ -126,9 +126,11 @@ nlohmann::ordered_json report(const Arguments& a, const fast::FrameStats& s,
 
 std::string summary(const Arguments& a, const fast::FrameStats& s, const Timings& t) {
   std::string text =
-      fmt::format("{}{}: {} faces: {} pairs, {} singletons, {} fans, {} culled; {} triangles, {} vertices\n",
+      fmt::format("{}{}: {} faces: {} pairs, {} singletons, {} fans, {} culled; {} triangles, {} vertices",
                   a.mesh, a.output.empty() ? "" : " -> " + a.output, s.faces, s.pairs, s.singletons, s.fans,
                   s.culled, s.triangles, s.vertices);
+  if (s.zero_normals > 0) text += fmt::format(", {} substitute normals", s.zero_normals);
+  text += "\n";
   text += fmt::format(
       "milliseconds: read {:.1f}, prepare {:.1f}, heuristics {:.1f}, pairing {:.1f}, planning {:.1f}, "
       "evaluation {:.1f}, "
@@ -182,11 +184,6 @@ int tessellate(const Arguments& a) {
     fmt::print(stderr,
                "limitcheck: nothing to show: all {} faces are seen from behind (is the camera inside?)\n",
                stats.faces);
-  }
-  if (stats.zero_normals > 0) {
-    fmt::print(stderr,
-               "limitcheck: {} vertices have no tangent plane of their own and got a substitute normal\n",
-               stats.zero_normals);
   }
   if (a.json) {
     fmt::print("{}\n", report(a, stats, options, timings).dump(2));

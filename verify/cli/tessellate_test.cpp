@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -45,6 +46,17 @@ TEST_F(TessellateCommand, WritesAClosedManifoldWithEveryTriangleItReports) {
     }
     EXPECT_EQ(mesh.positions.size(), mesh.triangles.size() / 2 + 2);
   }
+}
+
+TEST_F(TessellateCommand, TellsOfSubstituteNormalsAndOnlyThen) {
+  {
+    std::ofstream cage(folder_ / "needle.obj");  // a tetrahedron whose corners lie on one line
+    cage << "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  }
+  const Outcome o = run("needle.obj --depth 2 -o needle.ply");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("substitute normals"), std::string::npos) << o.out << o.err;
+  EXPECT_EQ(run("tetrahedron --depth 2").out.find("substitute"), std::string::npos);
 }
 
 TEST_F(TessellateCommand, CountsWhatTheDesignNamesAndTimesEachStage) {

@@ -73,7 +73,8 @@ typedef struct lc_mesh {
 } lc_mesh;
 
 typedef struct lc_request {
-  const int32_t* face_depth; /* triangle_count entries: 0..max_depth, or -1 for a culled face */
+  const int32_t* face_depth; /* triangle_count entries: 0..max_depth, or -1 for a culled face. A face may be
+                                displayed deeper than asked for, but not deeper than a visible neighbour. */
   int32_t threads;           /* at most so many; results must not depend on it */
   void* host;
   void* (*allocate)(void* host,

@@ -60,6 +60,23 @@ TEST(Certified, ConvexSurfacesHavePositiveCurvatures) {
   EXPECT_LE(abs(k - h * h), Big("1e-38"));
 }
 
+TEST(Certified, CurvaturesAreThoseOfTheFundamentalForms) {
+  // At a point without symmetry, from the other method's derivatives, by way of the shape operator I^-1 II.
+  const data::ControlMesh mesh = data::wheel(7);
+  const Parameter l1 = Parameter::fraction(1, 5), l2 = Parameter::fraction(2, 7);
+  const SurfacePoint<Big> s = SubdivisionEvaluator<Big>(mesh).evaluate(0, l1, l2);
+  const Big e = dot(s.d1, s.d1), f = dot(s.d1, s.d2), g = dot(s.d2, s.d2), det = e * g - f * f;
+  const Big l = dot(s.d11, s.normal), m = dot(s.d12, s.normal), n = dot(s.d22, s.normal);
+  const Big shape[2][2] = {{(g * l - f * m) / det, (g * m - f * n) / det},
+                           {(e * m - f * l) / det, (e * n - f * m) / det}};
+  const Big k = shape[0][0] * shape[1][1] - shape[0][1] * shape[1][0];
+  const Big h = -(shape[0][0] + shape[1][1]) / 2;  // positive where convex
+  const CertifiedPoint p = CertifiedEvaluator(mesh).evaluate(0, l1, l2, 40);
+  EXPECT_NE(e, g);
+  EXPECT_LE(abs(Big(p.gaussian_curvature->value) - k), abs(k) * Big("1e-38"));
+  EXPECT_LE(abs(Big(p.mean_curvature->value) - h), abs(h) * Big("1e-38"));
+}
+
 TEST(Certified, PrecisionRisesUntilTheNormalIsKnown) {
   // Points all but on the line x = y: t1 x t2 cancels 80 or 130 bits, more than the first attempt has to
   // spare.

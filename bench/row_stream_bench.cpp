@@ -196,6 +196,8 @@ class Ratios : public benchmark::ConsoleReporter {
           20);
     ratio("depth 5, row buffer / scalar sliding window", buffer + place(4000, 5),
           "window/carry" + place(4000, 5), 20);
+    ratio("depth 5, scalar sliding window / Bfr streaming", "window/carry" + place(4000, 5),
+          "bfr/streaming" + place(4000, 5), 6);
     ratio("depth 5, row buffer / write-only 1 MB", buffer + place(4000, 5), "bound/cached", .45);
     ratio("depth 5, row buffer / write-only 16 KB", buffer + place(4000, 5), "bound/first-level", 0);
     ratio("depth 5, whole pairs / write-only to memory", "row-stream/whole" + place(4000, 5),

@@ -107,7 +107,9 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
                                                        subject_.name, *most, capabilities_.max_depth));
     }
     if (capabilities_.per_face_depth == 0 && (*least != *most || *least == -1)) {
-      throw SubjectError(LC_NOT_SUPPORTED, fmt::format("{}: takes one depth for the whole mesh, not one per face", subject_.name));
+      throw SubjectError(
+          LC_NOT_SUPPORTED,
+          fmt::format("{}: takes one depth for the whole mesh, not one per face", subject_.name));
     }
   }
 

@@ -130,7 +130,9 @@ int audit(Arguments a) {
   if (main_job) a.subject = "all";
   if (!a.json.empty() && a.json != "-" && !a.json.ends_with(".json"))
     throw std::invalid_argument(
-        fmt::format("--json {}: the file must end in .json, or be - for standard output", a.json));
+        fmt::format("--json {0}: the file must end in .json, or be - for standard output (--json alone goes "
+                    "last: {0} --json)",
+                    a.json));
   if (a.meshes.empty()) {
     a.meshes = {"bumpy:800"};
     for (std::string& shape : data::stock_shapes()) a.meshes.push_back(std::move(shape));

@@ -11,6 +11,7 @@
 
 #include "fast/row_stream/stream_frame.h"
 #include "verify/subject/adapter.h"
+#include "verify/subject/deliver_frame.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -61,29 +62,8 @@ class RowStreamSubject {
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
-    const std::span<const std::int32_t> depth(request.face_depth, mesh_.triangles.size());
-    if (settings_.indexed) {
-      fast::IndexedMesh<float> mesh;
-      tessellator_->frame(depth, mesh);
-      const auto output = deliver(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size());
-      std::size_t at = 0;
-      for (const auto& t : mesh.triangles)
-        for (const std::uint32_t v : t) output.triangles[at++] = v;
-      std::copy(mesh.triangle_face.begin(), mesh.triangle_face.end(), output.triangle_face);
-      return;
-    }
-    fast::DrawList<float> list;
-    const fast::FrameStats stats = tessellator_->frame(depth, list);
-    const auto output =
-        deliver(request, out, list.vertices, list.provenance, static_cast<std::size_t>(stats.triangles));
-    std::size_t at = 0;
-    for (const fast::Draw& draw : list.draws) {
-      for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
-        output.triangle_face[at / 3] = draw.face_of(t);
-        for (const std::int32_t v : draw.triangle(t))
-          output.triangles[at++] = static_cast<std::uint32_t>(draw.first + v);
-      }
-    }
+    deliver_frame<float>(*tessellator_, {request.face_depth, mesh_.triangles.size()}, settings_.indexed,
+                         request, out);
   }
 
  private:
@@ -94,23 +74,6 @@ class RowStreamSubject {
     } catch (const std::invalid_argument& error) {
       throw SubjectError(LC_INVALID_INPUT, error.what());
     }
-  }
-
-  static Output<float> deliver(const lc_request& request, lc_tessellation& out,
-                               const std::vector<fast::SurfaceVertex<float>>& vertices,
-                               const std::vector<fast::LatticePoint>& provenance, std::size_t triangles) {
-    const auto output = allocate_output<float>(request, out, static_cast<std::int64_t>(vertices.size()),
-                                               static_cast<std::int64_t>(triangles), true);
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      const auto& [position, normal] = vertices[v];
-      std::size_t i = 3 * v;
-      for (const float x : {position.x, position.y, position.z}) output.positions[i++] = x;
-      i = 3 * v;
-      for (const float x : {normal.x, normal.y, normal.z}) output.normals[i++] = x;
-      output.provenance[v] = {provenance[v].face, provenance[v].i, provenance[v].j,
-                              provenance[v].denominator};
-    }
-    return output;
   }
 
   Settings settings_;

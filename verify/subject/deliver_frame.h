@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A frame of one of our engines, handed through the door.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fast/frame.h"
+#include "fast/sink.h"
+#include "verify/subject/adapter.h"
+
+namespace limitcheck::verify {
+
+/// Allocates the output of a frame and copies its vertices and where they lie.
+template <class Real>
+Output<Real> deliver_vertices(const lc_request& request, lc_tessellation& out,
+                              const std::vector<fast::SurfaceVertex<Real>>& vertices,
+                              const std::vector<fast::LatticePoint>& provenance, std::size_t triangles) {
+  const auto output = allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices.size()),
+                                            static_cast<std::int64_t>(triangles), true);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const auto& [position, normal] = vertices[v];
+    std::size_t i = 3 * v;
+    for (const Real x : {position.x, position.y, position.z}) output.positions[i++] = x;
+    i = 3 * v;
+    for (const Real x : {normal.x, normal.y, normal.z}) output.normals[i++] = x;
+    output.provenance[v] = {provenance[v].face, provenance[v].i, provenance[v].j, provenance[v].denominator};
+  }
+  return output;
+}
+
+/// Runs one frame of a Tessellator<Real> or StreamTessellator, as one indexed mesh or as strips and fans.
+template <class Real, class Engine>
+void deliver_frame(Engine& engine, std::span<const std::int32_t> depth, bool indexed,
+                   const lc_request& request, lc_tessellation& out) {
+  std::size_t at = 0;
+  if (indexed) {
+    fast::IndexedMesh<Real> mesh;
+    engine.frame(depth, mesh);
+    const auto output = deliver_vertices(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size());
+    for (const auto& t : mesh.triangles)
+      for (const std::uint32_t v : t) output.triangles[at++] = v;
+    std::copy(mesh.triangle_face.begin(), mesh.triangle_face.end(), output.triangle_face);
+    return;
+  }
+  fast::DrawList<Real> list;
+  const fast::FrameStats stats = engine.frame(depth, list);
+  const auto output = deliver_vertices(request, out, list.vertices, list.provenance,
+                                       static_cast<std::size_t>(stats.triangles));
+  for (const fast::Draw& draw : list.draws) {
+    for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
+      output.triangle_face[at / 3] = draw.face_of(t);
+      for (const std::int32_t v : draw.triangle(t))
+        output.triangles[at++] = static_cast<std::uint32_t>(draw.first + v);
+    }
+  }
+}
+
+}  // namespace limitcheck::verify

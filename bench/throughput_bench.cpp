@@ -136,6 +136,14 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&arguments_left, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(arguments_left, arguments.data())) return 2;
 
+  // What tells runs apart that may not be compared.
+  std::string targets;
+  for (const auto& kernel : fast::row_stream::kernels())
+    targets += std::string(targets.empty() ? "" : " ") + kernel.name;
+  benchmark::AddCustomContext("compiler", LIMITCHECK_COMPILER);
+  benchmark::AddCustomContext("flags", LIMITCHECK_FLAGS);
+  benchmark::AddCustomContext("targets", targets);
+
   bench::RatioTable table(ours.front().name, threads.back());
   benchmark::RunSpecifiedBenchmarks(&table);
   for (const Route& route : routes) std::printf("%-26s %s\n", route.name.c_str(), route.what.c_str());

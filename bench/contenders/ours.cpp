@@ -63,9 +63,12 @@ class RowStreaming : public Contender {
       first *= lanes, last = std::min(last * lanes, pairs_.size());
       const auto some = std::span(pairs_).subspan(first, last - first);
       auto workspace = pool_.take([] { return std::make_unique<rs::Workspace>(); });
-      if (out_.empty())
+      if (out_.empty()) {
         stream_.rows(some, depth_, *workspace, nullptr, nullptr);
-      else
+        if constexpr (PLANTED_SLOWDOWN > 0)
+          stream_.rows(some.first(some.size() * PLANTED_SLOWDOWN / 100), depth_, *workspace, nullptr,
+                       nullptr);
+      } else
         stream_.whole(some, depth_, *workspace,
                       out_.data() + first * static_cast<std::size_t>(per_pair(1, depth_)));
       pool_.give(std::move(workspace));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench/reproduce/pixel_error.h"
+#include "bench/reproduction/pixel_error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -46,11 +47,12 @@ PixelErrorMeter::PixelErrorMeter(const data::ControlMesh& mesh, int depth)
 PixelErrorMeter::~PixelErrorMeter() = default;
 
 PixelError PixelErrorMeter::measure(const fast::DrawList<float>& frame, const fast::Camera& camera,
-                                    std::int64_t samples) const {
+                                    std::int64_t samples, std::optional<fast::Kind> kind) const {
   if (frame.provenance.size() != frame.vertices.size())
     throw std::invalid_argument("pixel error: the frame does not say where its vertices lie");
   std::int64_t triangles = 0;
-  for (const fast::Draw& draw : frame.draws) triangles += draw.triangle_count();
+  const auto counts = [&](const fast::Draw& draw) { return !kind || draw.kind == *kind; };
+  for (const fast::Draw& draw : frame.draws) triangles += counts(draw) ? draw.triangle_count() : 0;
   const std::int64_t step = std::max<std::int64_t>(1, 4 * triangles / std::max<std::int64_t>(1, samples));
 
   // Weights of the three corners.
@@ -58,8 +60,10 @@ PixelError PixelErrorMeter::measure(const fast::DrawList<float>& frame, const fa
       {{1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}}};
   const auto scale = static_cast<double>(state_->lattice.scale());
   Samples found;
-  std::int64_t count = 0, number = 0;
+  PixelError error;
+  std::int64_t number = 0;
   for (const fast::Draw& draw : frame.draws) {
+    if (!counts(draw)) continue;
     for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
       if (number++ % step != 0) continue;
       const std::int32_t face = draw.face_of(t);
@@ -86,15 +90,15 @@ PixelError PixelErrorMeter::measure(const fast::DrawList<float>& frame, const fa
         const Point3 sight = surface - camera.eye;
         const double distance = length(sight), away = dot(normal, sight) / distance;
         if (away > 0) continue;
-        ++count;
+        ++error.samples;
         const double pixels = std::abs(dot(normal, flat - surface)) *
                               std::sqrt(std::max(0., 1 - away * away)) * camera.focal_pixels() / distance;
+        error.mean += pixels;
         (away > -std::sin(20 * std::numbers::pi / 180) ? found.silhouette : found.interior).push_back(pixels);
       }
     }
   }
-  PixelError error;
-  error.samples = count;
+  if (error.samples > 0) error.mean /= static_cast<double>(error.samples);
   error.silhouette_99 = quantile(found.silhouette, .99);
   error.interior_99 = quantile(found.interior, .99);
   for (const double e : found.silhouette) error.silhouette_worst = std::max(error.silhouette_worst, e);

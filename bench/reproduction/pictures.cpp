@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bench/render/renderer.h"
-#include "bench/reproduce/reproduce.h"
+#include "bench/reproduction/reproduction.h"
 #include "data/generators/bumpy_sphere.h"
 #include "fast/frame.h"
 

@@ -14,4 +14,7 @@ void draw_pictures(const std::filesystem::path& folder);
 /// of them per second each engine makes and draws, and their error in pixels. quick: fewer frames.
 nlohmann::ordered_json sphere_table(bool quick);
 
+/// The trends T1 to T10 that a reproduction must show: an array of id, statement, held, figures.
+nlohmann::ordered_json check_trends(const nlohmann::ordered_json& spheres, bool quick);
+
 }  // namespace limitcheck::bench

@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "bench/render/renderer.h"
-#include "bench/reproduce/pixel_error.h"
-#include "bench/reproduce/reproduce.h"
-#include "bench/reproduce/scene.h"
+#include "bench/reproduction/pixel_error.h"
+#include "bench/reproduction/reproduction.h"
+#include "bench/reproduction/scene.h"
 #include "data/generators/bumpy_sphere.h"
 #include "fast/frame.h"
 #include "fast/row_stream/stream_frame.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "data/control_mesh.h"
 #include "fast/camera.h"
@@ -16,6 +18,7 @@ namespace limitcheck::bench {
 struct PixelError {
   double silhouette_99 = 0, interior_99 = 0;  // 99 % of the samples are not further away
   double silhouette_worst = 0, interior_worst = 0;
+  double mean = 0;  // of all samples
   std::int64_t samples = 0;
 };
 
@@ -26,8 +29,9 @@ class PixelErrorMeter {
   ~PixelErrorMeter();
 
   /// frame: with provenance. About `samples` points, evenly taken from its triangles.
-  PixelError measure(const fast::DrawList<float>& frame, const fast::Camera& camera,
-                     std::int64_t samples) const;
+  /// Of `kind` only, if given.
+  PixelError measure(const fast::DrawList<float>& frame, const fast::Camera& camera, std::int64_t samples,
+                     std::optional<fast::Kind> kind = {}) const;
 
  private:
   struct State;

@@ -11,10 +11,17 @@ import re
 STYLE = (pathlib.Path(__file__).resolve().parent / "style.css").read_text(encoding="utf-8")
 
 PICTURES = {
+    "figure-3.png": ("Figure 3", "The ring of a vertex after 0, 1 and 2 steps in place, the normals of its triangles, and the "
+                                 "cone of 30 degrees about the limit normal that they have to enter."),
+    "figure-6.png": ("Figure 6", "Random depths without repair: cracks wherever depths differ."),
+    "figure-7.png": ("Figure 7", "The same with the paper's fans, in orange: no crack is left."),
+    "figure-8.png": ("Figure 8", "Fans on an icosahedron: round the middle of the flat triangle (left) they dent the surface, "
+                                 "round the limit point (right) they do not."),
     "figure-10.png": ("Figure 10", "Bumpy spheres with 200 and 4000 control faces, uniform depth 4."),
     "figure-13.png": ("Figure 13", "Random depths from 0 to 4, fans in orange. Right: faces seen from behind left out, the "
                                    "object turned to show the gap; red is the inside."),
-    "figure-14.png": ("Figure 14", "Depth by curvature: the darker, the deeper; fans in orange."),
+    "figure-14.png": ("Figure 14", "Depth by curvature: the darker, the deeper; fans in orange. Right: the limit normals of the "
+                                   "control vertices, which decide."),
 }
 FIGURES = {
     "figure-11.svg": ("Figure 11", "Frames per second on turning bumpy spheres. The paper's own numbers are not in its text."),

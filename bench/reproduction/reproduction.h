@@ -7,7 +7,7 @@
 
 namespace limitcheck::bench {
 
-/// Figures 10, 13 and 14 as PNG files; their names are printed.
+/// Figures 3, 6, 7, 8, 10, 13 and 14 as PNG files; their names are printed.
 void draw_pictures(const std::filesystem::path& folder);
 
 /// Behind Fig. 11 and Fig. 12: for each size of bumpy sphere and each strategy what a frame holds, how many

@@ -14,7 +14,7 @@ import page  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SPECIFICATIONS = SOURCE / "papers" / "mueller-havemann-2000" / "figures"
-FIGURES = SOURCE / "bench" / "figures"
+HERE = SOURCE / "bench" / "report"
 
 
 class StepError(Exception):
@@ -40,20 +40,22 @@ def run(command, output=None, accepted=(0,)):
 
 
 def draw_figures(folder):
-    """SVG files of the specifications; returns why not, if they cannot be drawn."""
+    """SVG files of the specifications, and the viewer's script; returns why not, if they cannot be made."""
     if not shutil.which("node"):
         return "Node.js is not installed (Debian: nodejs npm): figures are left out, their data are in spheres.json."
-    if not (FIGURES / "node_modules").is_dir():
+    if not (HERE / "node_modules").is_dir():
         if not shutil.which("npm"):
             return "npm is not installed (Debian: npm): figures are left out, their data are in spheres.json."
-        say("installing Vega-Lite")
-        run(["npm", "install", "--prefix", FIGURES, "--no-audit", "--no-fund", "--no-package-lock"])
+        say("installing Vega-Lite and three.js")
+        run(["npm", "install", "--prefix", HERE, "--no-audit", "--no-fund", "--no-package-lock"])
     rows = folder / "spheres-rows.json"
     rows.write_text(json.dumps(json.loads((folder / "spheres.json").read_text())["rows"]), encoding="utf-8")
     for specification in sorted(SPECIFICATIONS.glob("*.vl.json")):
         name = specification.name.removesuffix(".vl.json")
-        run(["node", FIGURES / "render.mjs", specification, f"spheres={rows}"], folder / f"{name}.svg")
+        run(["node", HERE / "render.mjs", specification, f"spheres={rows}"], folder / f"{name}.svg")
     rows.unlink()
+    run([HERE / "node_modules" / ".bin" / "esbuild", HERE / "viewer.mjs", "--bundle", "--minify",
+         "--format=esm", "--log-level=error", f"--outfile={folder / 'viewer.js'}"])
     return None
 
 

@@ -122,6 +122,21 @@ def proofs(data):
             + table(header, [[number(r.get(h, "")) for h in header] for r in rows]))
 
 
+def view(folder):
+    script, data = folder / "viewer.js", folder / "model.json"
+    if not (script.is_file() and data.is_file()):
+        return ""
+    options = "".join(f"<option value={v}>{t}" for v, t in (("depth", "depth"), ("kind", "kind of triangle"),
+                                                            ("position", "error of position"), ("normal", "error of normal")))
+    code = script.read_text(encoding="utf-8").replace("</script", "<\\/script")
+    return ("<p>A bumpy sphere of 200 control faces by the combined strategy; errors are taken in the middle of each triangle. "
+            "Drag or use the arrow keys to turn it, two fingers or the wheel to come nearer.</p>"
+            f"<div id=viewer><p><label>Colour by <select>{options}</select></label> "
+            "<label><input type=checkbox name=wire checked> edges</label> <button>Go to the worst triangle</button> <output></output></p>"
+            "<canvas tabindex=0 aria-label='Tessellated bumpy sphere'></canvas></div>"
+            f"<script type='application/json' id=model>{data.read_text(encoding='utf-8')}</script><script type=module>{code}</script>")
+
+
 def picture(folder, name, title, caption):
     path = folder / name
     if not path.is_file():
@@ -145,6 +160,7 @@ def write(folder, missing):
     section("trends", "Does what the text says of its figures hold?", trends(loaded["trends"]) if loaded["trends"] else "")
     section("tables", "Tables", (pictures(FIGURES) + spheres(loaded["spheres"])) if loaded["spheres"] else "")
     section("pictures", "Pictures", pictures(PICTURES))
+    section("view", "A tessellation to turn", view(folder))
     section("claims", "Claims", claims(loaded["claims"]) if loaded["claims"] else "")
     section("audit", "Audit", audit(loaded["audit"]) if loaded["audit"] else "")
     section("proofs", "Proofs", proofs(loaded["proofs"]) if loaded["proofs"] else "")

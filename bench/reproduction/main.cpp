@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   try {
     fs::create_directories(folder);
     bench::draw_pictures(folder);
+    save("model.json", bench::model());
     const auto spheres = bench::sphere_table(quick);
     save("spheres.json", spheres);
     save("trends.json", bench::check_trends(spheres, quick));

@@ -10,7 +10,7 @@ import tempfile
 import decide
 import measure
 
-FIGURES = pathlib.Path(__file__).resolve().parent.parent / "figures"
+REPORT = pathlib.Path(__file__).resolve().parent.parent / "report"
 
 PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -59,12 +59,12 @@ def specification(rows):
 
 
 def draw(spec):
-    if not (FIGURES / "node_modules").is_dir():
-        raise measure.MeasureError(f"drawing needs Vega-Lite: npm install --prefix {FIGURES}")
+    if not (REPORT / "node_modules").is_dir():
+        raise measure.MeasureError(f"drawing needs Vega-Lite: npm install --prefix {REPORT}")
     with tempfile.NamedTemporaryFile("w", suffix=".vl.json") as file:
         json.dump(spec, file)
         file.flush()
-        done = subprocess.run(["node", str(FIGURES / "render.mjs"), file.name], capture_output=True, text=True, check=False)
+        done = subprocess.run(["node", str(REPORT / "render.mjs"), file.name], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise measure.MeasureError(done.stderr.strip())
     return done.stdout

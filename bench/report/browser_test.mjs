@@ -12,6 +12,7 @@ const browser = await chromium.launch({
 });
 for (const [name, viewport, colorScheme] of [["wide", { width: 1280, height: 900 }, "light"], ["phone", { width: 390, height: 844 }, "dark"]]) {
   const page = await browser.newPage({ viewport, colorScheme, offline: true });
+  page.setDefaultTimeout(120000);
   page.on("console", (message) => message.type() === "error" && problems.push(`${name}: console: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`${name}: ${error.message}`));
   await page.goto("file://" + path.resolve(page_file));

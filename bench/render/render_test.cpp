@@ -47,14 +47,14 @@ Image picture(const fast::DrawList<float>& frame, const Appearance& appearance =
 }
 
 TEST(Rendering, ShowsAPointWhereTheCameraProjectsIt) {
-  // The upper right quarter of the picture and nothing else.
+  // The left half of the upper right quarter and nothing else.
   const Image image =
-      picture(frame_of({vertex(0, 0), vertex(2, 0), vertex(0, 1), vertex(2, 1)}, fast::DrawMode::kStrip));
-  EXPECT_FALSE(white(image, 150, 25));
+      picture(frame_of({vertex(0, 0), vertex(1, 0), vertex(0, 1), vertex(1, 1)}, fast::DrawMode::kStrip));
+  EXPECT_FALSE(white(image, 147, 3));
   EXPECT_FALSE(white(image, 102, 47));
-  EXPECT_FALSE(white(image, 197, 3));
+  EXPECT_TRUE(white(image, 153, 3));
   EXPECT_TRUE(white(image, 97, 47));   // left of the middle
-  EXPECT_TRUE(white(image, 150, 53));  // below it
+  EXPECT_TRUE(white(image, 120, 53));  // below it
 }
 
 TEST(Rendering, DrawsFansAndTrianglesLikeStrips) {

@@ -76,6 +76,14 @@ TEST(PixelError, FallsByFourWithEachDepth) {
   }
 }
 
+TEST(PixelError, CountsWhatFacesTheViewerOnly) {
+  const auto mesh = data::icosahedron();  // all but a sphere: somewhat less than half of it is seen
+  const PixelErrorMeter meter(mesh, 3);
+  const auto frame = uniform(mesh, 3);
+  const auto seen = static_cast<double>(meter.measure(frame, viewer(0), 1 << 20).samples);
+  EXPECT_NEAR(seen / (4. * 20 * 64), .5 * (1 - .9 / length(viewer(0).eye)), .1);
+}
+
 TEST(PixelError, WantsProvenance) {
   const FlatSheet sheet;
   const PixelErrorMeter meter(sheet.mesh, 3);

@@ -86,14 +86,13 @@ class BasicRings {
  private:
   using Weight = typename NumberTraits<Wide>::Scalar;
   struct Scratch {
-    std::vector<std::int32_t> ring, half_edges;
+    std::vector<std::int32_t> vertices;
     std::vector<Vec3<Wide>> points, continued;
   };
 
   void lay_out(const Adjacency& adjacency);
   void make_vertex(const Adjacency& adjacency, std::int32_t v, Scratch& scratch);
-  bool walk(const Adjacency& adjacency, std::int32_t v, Scratch& scratch) const;
-  void continue_ring(const Vec3<Wide>& v, Scratch& scratch, Ring ring);
+  void continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide>> r, Ring ring, Scratch& scratch);
   void put_corner(std::int32_t v, const Vec3<Wide>& centre, const RingWeights<Weight>& weights,
                   const VertexLimit<Wide>& limit, const Vec3<Wide>& normal);
 

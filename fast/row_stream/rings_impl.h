@@ -14,19 +14,22 @@ namespace limitcheck::fast::row_stream {
 
 /// Where a closed ring, read from there on, is lexicographically smallest.
 template <class W>
-std::size_t canonical_start(std::span<const Vec3<W>> ring) {
-  const std::size_t n = ring.size();
+std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
   std::size_t best = 0;
+  bool unique = true;
   for (std::size_t k = 1; k < n; ++k) {
-    std::size_t i = k, j = best;
+    const bool less = ring[k].x < ring[best].x;
+    unique = less | (unique & (ring[k].x != ring[best].x));
+    best = less ? k : best;
+  }
+  if (unique) return best;
+  best = 0;
+  for (std::size_t k = 1; k < n; ++k) {
     for (std::size_t t = 0; t < n; ++t) {
-      const Vec3<W>&a = ring[i], &b = ring[j];
-      if (a != b) {
-        if (a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z) best = k;
-        break;
-      }
-      if (++i == n) i = 0;
-      if (++j == n) j = 0;
+      const Vec3<W>&a = ring[(k + t) % n], &b = ring[(best + t) % n];
+      if (a == b) continue;
+      if (a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z) best = k;
+      break;
     }
   }
   return best;
@@ -40,7 +43,8 @@ BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points)
                                 std::to_string(adjacency.vertex_count()) + " vertices");
   }
   lay_out(adjacency);
-  Scratch scratch;
+  const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());
+  Scratch scratch{std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(most), {}};
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
     if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, scratch);
   }
@@ -75,69 +79,57 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
 
 template <class N>
 void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scratch& scratch) {
-  const bool open = walk(adjacency, v, scratch);
-  const std::size_t n = scratch.ring.size(), faces = scratch.half_edges.size();
+  // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
+  const std::span<const std::int32_t> fan = adjacency.fan(v);
+  const Ring ring = rings_[static_cast<std::size_t>(v)];
+  const bool open = ring.period == kOpen;
+  const std::size_t faces = fan.size(), n = faces + (open ? 1 : 0);
+  const auto position = [&](std::int32_t at) {
+    const auto& p = points_[static_cast<std::size_t>(at)];
+    return widen<T>(Vec3<T>{p[0], p[1], p[2]});
+  };
+  std::int32_t* vertex = scratch.vertices.data();
+  Vec3<Wide>* points = scratch.points.data();
+  for (std::size_t k = 0; k < faces; ++k) {
+    vertex[k] = adjacency.target(fan[k]);
+    points[k] = position(vertex[k]);
+  }
+  if (open) {
+    vertex[faces] = adjacency.origin(Adjacency::prev(fan.back()));
+    points[faces] = position(vertex[faces]);
+  }
   std::size_t start = 0;
   if constexpr (std::is_floating_point_v<T>) {
-    if (!open) start = canonical_start<Wide>(scratch.points);
+    if (!open) start = canonical_start(points, n);
   }
-  const Ring ring = rings_[static_cast<std::size_t>(v)];
-  std::int32_t* entries = entries_.data() + ring.first;
-  if (start != 0)
-    std::rotate(scratch.points.begin(), scratch.points.begin() + static_cast<std::ptrdiff_t>(start),
-                scratch.points.end());
-  for (std::size_t k = 0, from = start; k < n; ++k) {
-    entries[k] = scratch.ring[from];
-    if (k < faces) slot_[static_cast<std::size_t>(scratch.half_edges[from])] = static_cast<std::int32_t>(k);
-    if (++from == n) from = 0;
-  }
+  for (std::size_t k = 0; k < start; ++k) vertex[n + k] = vertex[k], points[n + k] = points[k];
+  const std::span<const Vec3<Wide>> around(points + start, n);
 
-  const auto& p = points_[static_cast<std::size_t>(v)];
-  const Vec3<Wide> centre = widen<T>(Vec3<T>{p[0], p[1], p[2]});
-  if (open) continue_ring(centre, scratch, ring);
+  std::copy_n(vertex + start, n, entries_.data() + ring.first);
+  for (std::size_t k = 0; k < faces; ++k)
+    slot_[static_cast<std::size_t>(fan[k])] =
+        static_cast<std::int32_t>(k < start ? k + n - start : k - start);
+
+  const Vec3<Wide> centre = position(v);
+  if (open) continue_ring(centre, around, ring, scratch);
   const auto& weights = (open ? open_ : closed_)[n];
-  const std::span<const Vec3<Wide>> around(scratch.points);
-  const auto limit =
-      open ? open_limit<Wide>(centre, around, weights) : closed_limit<Wide>(centre, around, weights);
+  const auto limit = open ? open_limit(centre, around, weights) : closed_limit(centre, around, weights);
   Vec3<Wide> normal;
   if constexpr (N::kLinear) {
     normal = {N::tangent(limit.along.x, limit.across.x), N::tangent(limit.along.y, limit.across.y),
               N::tangent(limit.along.z, limit.across.z)};
   } else {
     bool degenerate = false;
-    normal = unit_normal<Wide>(limit, centre, around, !open, degenerate);
+    normal = unit_normal(limit, centre, around, !open, degenerate);
     degenerate_normals_ += degenerate ? 1 : 0;
   }
   put_corner(v, centre, weights, limit, normal);
 }
 
-// Neighbours counter-clockwise, and the half-edges to them; whether they are an open ring.
-template <class N>
-bool BasicRings<N>::walk(const Adjacency& adjacency, std::int32_t v, Scratch& scratch) const {
-  scratch.ring.clear();
-  scratch.half_edges.clear();
-  scratch.points.clear();
-  const auto add = [&](std::int32_t r) {
-    const auto& p = points_[static_cast<std::size_t>(r)];
-    scratch.ring.push_back(r);
-    scratch.points.push_back(widen<T>(Vec3<T>{p[0], p[1], p[2]}));
-  };
-  const std::int32_t start = adjacency.outgoing(v);
-  std::int32_t h = start;
-  do {
-    scratch.half_edges.push_back(h);
-    add(adjacency.target(h));
-    const std::int32_t last = Adjacency::prev(h);
-    h = adjacency.twin(last);
-    if (h < 0) add(adjacency.origin(last));
-  } while (h >= 0 && h != start);
-  return h < 0;
-}
-
 // The open ring continued by kReach entries at either end: index k of the ring is at [k + kReach].
 template <class N>
-void BasicRings<N>::continue_ring(const Vec3<Wide>& v, Scratch& scratch, Ring ring) {
-  const auto& r = scratch.points;
+void BasicRings<N>::continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide>> r, Ring ring,
+                                  Scratch& scratch) {
   const int last = static_cast<int>(r.size()) - 1;
   auto& all = scratch.continued;
   all.resize(r.size() + 2 * kReach);

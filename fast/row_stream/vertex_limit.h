@@ -108,15 +108,15 @@ RingWeights<S> RingWeights<S>::open(int n) {
 /// Closed ring, counter-clockwise, n >= 3.
 template <class W, class S>
 VertexLimit<W> closed_limit(const Vec3<W>& v, std::span<const Vec3<W>> ring, const RingWeights<S>& weights) {
-  VertexLimit<W> limit;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec3<W> d = ring[k] - v;
-    limit.difference = limit.difference + d;
-    limit.along = limit.along + weights.cosine[k] * d;
-    limit.across = limit.across + weights.sine[k] * d;
+  Vec3<W> difference, along, across;
+  const S *cosine = weights.cosine.data(), *sine = weights.sine.data();
+  for (const Vec3<W>& r : ring) {
+    const Vec3<W> d = r - v;
+    difference = difference + d;
+    along = along + *cosine++ * d;
+    across = across + *sine++ * d;
   }
-  limit.position = v + weights.limit * limit.difference;
-  return limit;
+  return {difference, v + weights.limit * difference, along, across};
 }
 
 /// Open ring r_0 .. r_K, K >= 1.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How far the float engines are from the limit surface, by depth: median, 99.9 % and worst, as a table.
-//   accuracy [MESH [DEEPEST [SUBJECT...]]]          bumpy:4000, 8, row-stream sliding-window unless given
+//   accuracy [MESH [DEEPEST [SUBJECT...]]]     bumpy:4000 8 row-stream:output=indexed
+//   sliding-window:output=indexed
 // Every lattice point of all faces up to two million of them; beyond, of faces evenly spread over the mesh.
 // The reference is Stam's evaluator in double on the control mesh rounded to float.
 #include <fmt/core.h>
@@ -87,7 +88,7 @@ int run(const std::vector<std::string>& arguments) {
   const int deepest = arguments.size() < 2 ? 8 : std::atoi(arguments[1].c_str());
   std::vector<std::string> subjects(arguments.begin() + std::min<std::ptrdiff_t>(2, std::ssize(arguments)),
                                     arguments.end());
-  if (subjects.empty()) subjects = {"row-stream", "sliding-window"};
+  if (subjects.empty()) subjects = {"row-stream:output=indexed", "sliding-window:output=indexed"};
   const data::ControlMesh mesh = data::open_mesh(name);
   fmt::print(
       "{}\n\n| subject | depth | points | position, diagonals: median | 99.9 % | worst "

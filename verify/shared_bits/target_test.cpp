@@ -106,7 +106,7 @@ TEST(Targets, OnlyTheKernelAskedForIsSeenRunning) {
     const auto work = [&] {
       for (int repeat = 0; repeat < 20; ++repeat) stream.whole(pairs, 5, workspace, out.data());
     };
-    expect_only(kernel.name, profile(work, part_of(meanings().at(kernel.name)), 40, 20));
+    expect_only(kernel.name, profile(work, part_of(meanings().at(kernel.name)), 40, 5));
   }
 }
 
@@ -118,7 +118,7 @@ TEST(Targets, OnlyTheTargetTheSubjectWasGivenIsSeenRunning) {
     const auto work = [&] {
       for (int repeat = 0; repeat < 5; ++repeat) session.tessellate(depth);
     };
-    expect_only(kernel.name, profile(work, part_of(meanings().at(kernel.name)), 40, 20));
+    expect_only(kernel.name, profile(work, part_of(meanings().at(kernel.name)), 40, 5));
   }
 }
 

@@ -134,8 +134,9 @@ VertexLimit<W> open_limit(const Vec3<W>& v, std::span<const Vec3<W>> ring, const
   return limit;
 }
 
-/// The unit normal along x across; where they are parallel or vanish, |product| <= 1e-12 |along| |across|,
-/// the area-weighted normal of the faces round v, or (0, 0, 1). [claim D12]
+/// The unit normal along x across; where they are parallel or vanish, |product| <= 1e-12 |along| |across|, or
+/// one of them is but the rounding error of its sum, the area-weighted normal of the faces round v, or (0, 0,
+/// 1). The mesh has size 1. [claim D12]
 template <class W>
 Vec3<W> unit_normal(const VertexLimit<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring, bool closed,
                     bool& degenerate) {
@@ -143,7 +144,13 @@ Vec3<W> unit_normal(const VertexLimit<W>& limit, const Vec3<W>& v, std::span<con
   const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
   Vec3<W> n = cross(limit.along, limit.across);
   W size = length(n);
-  degenerate = !(size > W(1e-12) * length(limit.along) * length(limit.across));
+  const W a = length(limit.along), b = length(limit.across);
+  degenerate = !(size > W(1e-12) * a * b);
+  if (a < W(1e-8) || b < W(1e-8)) [[unlikely]] {
+    W reach(0);
+    for (const Vec3<W>& r : ring) reach = reach + length(r - v);
+    degenerate = degenerate || !(a > W(1e-14) * reach) || !(b > W(1e-14) * reach);
+  }
   if (degenerate) [[unlikely]] {
     n = {};
     W scale(0);

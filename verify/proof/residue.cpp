@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "verify/proof/residue.h"
+
+#include <flint/ulong_extras.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace limitcheck::verify {
+namespace {
+
+// The largest primes of the form k * kOrder + 1 below 2^60 and 3 * 2^58: FLINT checks them at the start.
+nmod_t modulus_below(std::uint64_t limit) {
+  constexpr auto order = static_cast<std::uint64_t>(Residue::kOrder);
+  std::uint64_t p = (limit - 1) / order * order + 1;
+  while (n_is_prime(p) == 0) p -= order;
+  nmod_t modulus;
+  nmod_init(&modulus, p);
+  return modulus;
+}
+
+}  // namespace
+
+const nmod_t Residue::moduli_[2] = {modulus_below(std::uint64_t{1} << 60),
+                                    modulus_below(std::uint64_t{3} << 58)};
+
+/// Roots of unity, and the inverses of small integers, which are what kernels divide by.
+struct ResidueTables {
+  static constexpr int kSmall = 1025;
+  std::array<std::uint64_t, 2> root;
+  std::array<Residue, kSmall> inverse;
+
+  ResidueTables() {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const nmod_t m = Residue::moduli_[k];
+      const auto order = static_cast<std::uint64_t>(Residue::kOrder);
+      root[k] = n_powmod2_ui_preinv(n_primitive_root_prime(m.n), (m.n - 1) / order, m.n, m.ninv);
+    }
+    for (int k = 1; k < kSmall; ++k) {
+      Residue& r = inverse[static_cast<std::size_t>(k)];
+      r.first_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[0].n);
+      r.second_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[1].n);
+      r.approximation_ = 1. / k;
+    }
+  }
+  static const ResidueTables& get() {
+    static const ResidueTables tables;
+    return tables;
+  }
+  /// The root of unity e^(2 pi i p / q).
+  Residue turn(std::int64_t p, std::int64_t q) const {
+    if (q <= 0 || Residue::kOrder % q != 0)
+      throw std::domain_error("the proof's residues hold no root of unity of order " + std::to_string(q));
+    const std::int64_t e = ((p % q) + q) % q * (Residue::kOrder / q);
+    Residue r;
+    r.first_ = n_powmod2_ui_preinv(root[0], static_cast<std::uint64_t>(e), Residue::moduli_[0].n,
+                                   Residue::moduli_[0].ninv);
+    r.second_ = n_powmod2_ui_preinv(root[1], static_cast<std::uint64_t>(e), Residue::moduli_[1].n,
+                                    Residue::moduli_[1].ninv);
+    return r;
+  }
+  static Residue approximated(Residue r, double value) {
+    r.approximation_ = value;
+    return r;
+  }
+};
+
+Residue::Residue(int value) : approximation_(value) {
+  const auto size = static_cast<std::uint64_t>(std::abs(static_cast<std::int64_t>(value)));
+  first_ = value < 0 ? moduli_[0].n - size : size;
+  second_ = value < 0 ? moduli_[1].n - size : size;
+}
+
+Residue Residue::cosine(std::int64_t p, std::int64_t q) {
+  const ResidueTables& t = ResidueTables::get();
+  const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
+  return ResidueTables::approximated((t.turn(p, q) + t.turn(-p, q)) / Residue(2), std::cos(angle));
+}
+
+Residue Residue::sine(std::int64_t p, std::int64_t q) {
+  const ResidueTables& t = ResidueTables::get();
+  const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
+  Residue half_unit = t.turn(1, 4);  // i, of no size
+  half_unit = half_unit * Residue(2);
+  Residue inverse;
+  inverse.first_ = n_invmod(half_unit.first_, moduli_[0].n);
+  inverse.second_ = n_invmod(half_unit.second_, moduli_[1].n);
+  return ResidueTables::approximated((t.turn(p, q) - t.turn(-p, q)) * inverse, std::sin(angle));
+}
+
+Residue Residue::power_of_two(long exponent) {
+  Residue base = exponent < 0 ? Residue(1) / Residue(2) : Residue(2), power(1);
+  for (long k = std::abs(exponent); k > 0; --k) power *= base;
+  return power;
+}
+
+Residue Residue::inverse() const {
+  if (first_ == 0 || second_ == 0) throw std::domain_error("division by a residue of zero");
+  if (first_ < ResidueTables::kSmall && first_ == second_) return ResidueTables::get().inverse[first_];
+  Residue r;
+  r.first_ = n_invmod(first_, moduli_[0].n);
+  r.second_ = n_invmod(second_, moduli_[1].n);
+  r.approximation_ = 1 / approximation_;
+  return r;
+}
+
+}  // namespace limitcheck::verify

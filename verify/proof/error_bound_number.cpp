@@ -48,6 +48,14 @@ double rounding(double bound, double unit) {
   return std::fmin(unit * power, std::fmax(below, (bound - power) * kUpward)) + kUnderflow;
 }
 
+// The same of a constant that is known to `slop`: the distance to the nearest float changes no faster than
+// the value.
+double rounding_of_constant(double value, double slop) {
+  const double nearest = static_cast<double>(static_cast<float>(value));
+  return std::fmin(rounding(std::abs(value) + slop, table.model.unit),
+                   (std::abs(nearest - value) + slop) * kUpward + kUnderflow);
+}
+
 void commit(BoundForm& form, double size, bool single) {
   if (size == 0) return;
   if (single)
@@ -56,34 +64,43 @@ void commit(BoundForm& form, double size, bool single) {
     form.slop += size;
 }
 
-// a x + b y with exact factors, and without the rounding of the operation.
-BoundForm combine(double a, const BoundForm& x, double b, const BoundForm& y) {
+// a x + b y with exact factors, and without the rounding of the operation. `magnitude`: the result's.
+BoundForm combine(double a, const BoundForm& x, double b, const BoundForm& y, double& magnitude) {
+  const Column* const columns = table.columns.data();
   BoundForm out;
-  out.terms.reserve(x.terms.size() + y.terms.size() + 1);
-  double size = 0;
-  std::size_t i = 0, j = 0;
-  const auto put = [&](std::int32_t column, double weight, double parts) {
-    const double reach = range(column);
-    size += parts * reach;
-    if (std::abs(weight) <= kCancelled * parts)
-      out.slop += std::abs(weight) * reach;
-    else
-      out.terms.push_back({column, weight});
-  };
-  while (i < x.terms.size() || j < y.terms.size()) {
-    if (j == y.terms.size() || (i < x.terms.size() && x.terms[i].column < y.terms[j].column)) {
-      const double w = a * x.terms[i].weight;
-      put(x.terms[i++].column, w, std::abs(w));
-    } else if (i == x.terms.size() || y.terms[j].column < x.terms[i].column) {
-      const double w = b * y.terms[j].weight;
-      put(y.terms[j++].column, w, std::abs(w));
+  out.terms.resize(x.terms.size() + y.terms.size() + 1);
+  BoundForm::Term* to = out.terms.data();
+  double parts = 0, lost = 0, size = 0;
+  const auto put = [&](std::int32_t column, double weight, double part) {
+    const double range = columns[column].range;
+    parts += part * range;
+    if (std::abs(weight) <= kCancelled * part) {
+      lost += std::abs(weight) * range;
     } else {
-      const double v = a * x.terms[i].weight, w = b * y.terms[j].weight;
-      put(x.terms[i].column, v + w, std::abs(v) + std::abs(w));
+      size += std::abs(weight) * range;
+      *to++ = {column, weight};
+    }
+  };
+  const BoundForm::Term *i = x.terms.data(), *const i_end = i + x.terms.size();
+  const BoundForm::Term *j = y.terms.data(), *const j_end = j + y.terms.size();
+  while (i != i_end && j != j_end) {
+    if (i->column < j->column) {
+      const double w = a * i->weight;
+      put(i++->column, w, std::abs(w));
+    } else if (j->column < i->column) {
+      const double w = b * j->weight;
+      put(j++->column, w, std::abs(w));
+    } else {
+      const double v = a * i->weight, w = b * j->weight;
+      put(i->column, v + w, std::abs(v) + std::abs(w));
       ++i, ++j;
     }
   }
-  out.slop = kUpward * (out.slop + std::abs(a) * x.slop + std::abs(b) * y.slop + 0x1p-51 * size);
+  for (; i != i_end; ++i) put(i->column, a * i->weight, std::abs(a * i->weight));
+  for (; j != j_end; ++j) put(j->column, b * j->weight, std::abs(b * j->weight));
+  out.terms.resize(static_cast<std::size_t>(to - out.terms.data()));
+  out.slop = kUpward * (lost + std::abs(a) * x.slop + std::abs(b) * y.slop + 0x1p-51 * parts);
+  magnitude = kUpward * (size + out.slop);
   return out;
 }
 
@@ -102,12 +119,16 @@ Constant as_constant(const BoundForm& form) {
   return {value, error, form.slop};
 }
 
-// k x exactly; what the error of k adds is in `extra`.
-BoundForm times(const Constant& k, const BoundForm& x, double& extra) {
-  BoundForm out = combine(k.value, x, 0, {});
-  const double size = x.magnitude();
-  out.slop = kUpward * (out.slop + k.doubt * (x.slop + size));
+// k x + sign c without rounding; what the error of k adds is in `extra`.
+BoundForm times(const Constant& k, const BoundForm& x, double sign, const BoundForm& c, double& magnitude,
+                double& extra) {
+  BoundForm out = combine(k.value, x, sign, c, magnitude);
+  extra = 0;
+  if (k.exact()) return out;
+  const double size = x.magnitude(), doubt = kUpward * k.doubt * (x.slop + size);
+  out.slop = kUpward * (out.slop + doubt);
   extra = kUpward * k.error * size;
+  magnitude = kUpward * (magnitude + doubt + extra);
   return out;
 }
 
@@ -166,7 +187,7 @@ BoundForm BoundForm::rounded_constant(double value, double doubt, bool single, b
   BoundForm form = exact(value);
   if (is_exact) return form;
   form.slop = doubt + 0x1p-53 * std::abs(value);
-  if (single && table.model.constants) commit(form, rounding(form.magnitude(), table.model.unit), true);
+  if (single && table.model.constants) commit(form, rounding_of_constant(value, form.slop), true);
   return form;
 }
 
@@ -174,9 +195,10 @@ BoundForm BoundForm::sum(const BoundForm& a, double sign, const BoundForm& b, bo
   if (!a.bounded() || !b.bounded()) return unbounded();
   if (b.is_zero()) return a;
   if (a.is_zero()) return sign > 0 ? b : negated(b);
-  BoundForm out = combine(1, a, sign, b);
+  double magnitude = 0;
+  BoundForm out = combine(1, a, sign, b, magnitude);
   if (table.model.sums)
-    commit(out, rounding(out.magnitude(), single ? table.model.unit : table.model.wide_unit), single);
+    commit(out, rounding(magnitude, single ? table.model.unit : table.model.wide_unit), single);
   return out;
 }
 
@@ -185,14 +207,15 @@ BoundForm BoundForm::product(const BoundForm& a, const BoundForm& b, bool single
   if (a.is_zero() || b.is_zero()) return {};
   if (!a.is_constant()) return b.is_constant() ? product(b, a, single) : unbounded();
   const Constant k = as_constant(a);
-  double extra = 0;
-  BoundForm out = times(k, b, extra);
   if (k.exact() && is_power_of_two(k.value)) {
-    if (k.value != 1 && k.value != -1) out.slop += kUnderflow;
+    BoundForm out = b;
+    for (Term& t : out.terms) t.weight *= k.value;
+    out.slop = std::abs(k.value) * b.slop + (std::abs(k.value) == 1 ? 0 : kUnderflow);
     return out;
   }
-  if (table.model.products)
-    extra += rounding(out.magnitude() + extra, single ? table.model.unit : table.model.wide_unit);
+  double magnitude = 0, extra = 0;
+  BoundForm out = times(k, b, 1, {}, magnitude, extra);
+  if (table.model.products) extra += rounding(magnitude, single ? table.model.unit : table.model.wide_unit);
   commit(out, extra, single);
   return out;
 }
@@ -208,7 +231,10 @@ BoundForm BoundForm::quotient(const BoundForm& a, const BoundForm& b, bool singl
   out.slop = kUpward * (known + (p.doubt + ratio * q.doubt) / least);
   const double extra = kUpward * (p.error + ratio * q.error) / least;
   if (known == 0 && extra == 0) return out;
-  commit(out, extra + rounding(out.magnitude() + extra, single ? table.model.unit : table.model.wide_unit),
+  commit(out,
+         extra + (single && extra == 0
+                      ? rounding_of_constant(out.constant(), out.slop)
+                      : rounding(out.magnitude() + extra, single ? table.model.unit : table.model.wide_unit)),
          single);
   return out;
 }
@@ -219,10 +245,9 @@ BoundForm BoundForm::fused(const BoundForm& a, const BoundForm& b, double sign, 
   if (!a.is_constant()) return b.is_constant() ? fused(b, a, sign, c) : unbounded();
   const Constant k = as_constant(a);
   if (k.exact() && is_power_of_two(k.value) && c.is_zero()) return product(a, b, true);
-  double extra = 0;
-  BoundForm out = times(k, b, extra);
-  if (!c.is_zero()) out = combine(1, out, sign, c);
-  if (table.model.fused) extra += rounding(out.magnitude() + extra, table.model.unit);
+  double magnitude = 0, extra = 0;
+  BoundForm out = times(k, b, sign, c, magnitude, extra);
+  if (table.model.fused) extra += rounding(magnitude, table.model.unit);
   commit(out, extra, true);
   return out;
 }
@@ -233,8 +258,11 @@ BoundForm BoundForm::negated(BoundForm a) {
 }
 
 BoundForm BoundForm::narrowed(BoundForm a) {
-  if (a.is_zero() || !a.bounded() || !table.model.narrowing) return a;
-  commit(a, rounding(a.magnitude(), table.model.unit), true);
+  if (!a.bounded() || !table.model.narrowing) return a;
+  const bool constant = a.is_constant();
+  if (constant && a.error() == 0 && static_cast<float>(a.constant()) == a.constant()) return a;
+  commit(a, constant ? rounding_of_constant(a.constant(), a.slop) : rounding(a.magnitude(), table.model.unit),
+         true);
   return a;
 }
 

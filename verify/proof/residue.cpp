@@ -36,7 +36,13 @@ struct ResidueTables {
     for (std::size_t k = 0; k < 2; ++k) {
       const nmod_t m = Residue::moduli_[k];
       const auto order = static_cast<std::uint64_t>(Residue::kOrder);
-      root[k] = n_powmod2_ui_preinv(n_primitive_root_prime(m.n), (m.n - 1) / order, m.n, m.ninv);
+      for (std::uint64_t g = 2;; ++g) {
+        root[k] = nmod_pow_ui(g, (m.n - 1) / order, m);
+        bool primitive = true;
+        for (const std::uint64_t q : {2, 3, 5, 7, 11, 13, 17, 19})
+          primitive = primitive && nmod_pow_ui(root[k], order / q, m) != 1;
+        if (primitive) break;
+      }
     }
     for (int k = 1; k < kSmall; ++k) {
       Residue& r = inverse[static_cast<std::size_t>(k)];
@@ -55,10 +61,8 @@ struct ResidueTables {
       throw std::domain_error("the proof's residues hold no root of unity of order " + std::to_string(q));
     const std::int64_t e = ((p % q) + q) % q * (Residue::kOrder / q);
     Residue r;
-    r.first_ = n_powmod2_ui_preinv(root[0], static_cast<std::uint64_t>(e), Residue::moduli_[0].n,
-                                   Residue::moduli_[0].ninv);
-    r.second_ = n_powmod2_ui_preinv(root[1], static_cast<std::uint64_t>(e), Residue::moduli_[1].n,
-                                    Residue::moduli_[1].ninv);
+    r.first_ = nmod_pow_ui(root[0], static_cast<std::uint64_t>(e), Residue::moduli_[0]);
+    r.second_ = nmod_pow_ui(root[1], static_cast<std::uint64_t>(e), Residue::moduli_[1]);
     return r;
   }
   static Residue approximated(Residue r, double value) {

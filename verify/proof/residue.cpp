@@ -5,8 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace limitcheck::verify {
 namespace {
@@ -78,20 +81,18 @@ Residue::Residue(int value) : approximation_(value) {
 }
 
 Residue Residue::cosine(std::int64_t p, std::int64_t q) {
-  const ResidueTables& t = ResidueTables::get();
-  const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
-  return ResidueTables::approximated((t.turn(p, q) + t.turn(-p, q)) / Residue(2), std::cos(angle));
+  static thread_local std::map<std::pair<std::int64_t, std::int64_t>, Residue> known;
+  const auto [found, fresh] = known.try_emplace({p, q});
+  if (fresh) {
+    const ResidueTables& t = ResidueTables::get();
+    const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
+    found->second = ResidueTables::approximated((t.turn(p, q) + t.turn(-p, q)) / Residue(2), std::cos(angle));
+  }
+  return found->second;
 }
 
 Residue Residue::sine(std::int64_t p, std::int64_t q) {
-  const ResidueTables& t = ResidueTables::get();
-  const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
-  Residue half_unit = t.turn(1, 4);  // i, of no size
-  half_unit = half_unit * Residue(2);
-  Residue inverse;
-  inverse.first_ = n_invmod(half_unit.first_, moduli_[0].n);
-  inverse.second_ = n_invmod(half_unit.second_, moduli_[1].n);
-  return ResidueTables::approximated((t.turn(p, q) - t.turn(-p, q)) * inverse, std::sin(angle));
+  return cosine(4 * p - q, 4 * q);
 }
 
 Residue Residue::power_of_two(long exponent) {

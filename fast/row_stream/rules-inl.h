@@ -91,3 +91,14 @@ HWY_ATTR HWY_INLINE void normalise(V& x, V& y, V& z) {
   y = N::fma(y, inverse, N::splat(0));
   z = N::fma(z, inverse, N::splat(0));
 }
+
+/// What a point keeps of its tangents a and b: the unit normal, or a linear image of them.
+template <class N, class V>
+HWY_ATTR HWY_INLINE void normal_of(const V (&a)[3], const V (&b)[3], V (&normal)[3]) {
+  if constexpr (N::kLinear) {
+    for (int c = 0; c < 3; ++c) normal[c] = N::tangent(a[c], b[c]);
+  } else {
+    normal_direction<N>(a, b, normal);
+    normalise<N>(normal[0], normal[1], normal[2]);
+  }
+}

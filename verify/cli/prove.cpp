@@ -63,7 +63,8 @@ bool run(const Request& request) {
   const verify::ProofSet set = verify::proof_set(what);
   Progress progress;
   const auto rows = verify::prove(set.tasks, [&](std::size_t done) {
-    progress.show(done, set.tasks.size(), set.tasks[done - 1].group + " " + set.tasks[done - 1].neighbourhood.name);
+    progress.show(done, set.tasks.size(),
+                  set.tasks[done - 1].group + " " + set.tasks[done - 1].neighbourhood.name);
   });
   progress.clear();
   const verify::ProofReport report(set, rows);
@@ -79,11 +80,15 @@ bool run(const Request& request) {
 
 void add_prove(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "prove", "Prove that the kernels compute the exact limit surface, whatever the geometry, topology by topology");
+      "prove",
+      "Prove that the kernels compute the exact limit surface, whatever the geometry, topology by topology");
   auto request = std::make_shared<Request>();
-  command->add_option("--valences", request->valences, "Interior valences of the triples: 3:12, or a list 3,4,6")
+  command
+      ->add_option("--valences", request->valences, "Interior valences of the triples: 3:12, or a list 3,4,6")
       ->capture_default_str();
-  command->add_option("--depth", request->depth, "Deepest subdivision")->check(CLI::Range(0, 8))->capture_default_str();
+  command->add_option("--depth", request->depth, "Deepest subdivision")
+      ->check(CLI::Range(0, 8))
+      ->capture_default_str();
   command->add_option("--kernel", request->kernel, "The kernel")
       ->check(CLI::IsMember({"sliding-window", "row-stream", "all"}))
       ->capture_default_str();

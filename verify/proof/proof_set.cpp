@@ -34,7 +34,9 @@ std::vector<Neighbourhood> triples(const std::vector<int>& valences, std::vector
         std::vector<int> partners(open.rbegin(), open.rend());
         partners.push_back(d);
         for (int b = 3; b <= 12; ++b) partners.push_back(b);
-        const auto found = std::ranges::find_if(partners, [&](int b) { return interior_pair({a, b, c, d}).has_value(); });
+        const auto found = std::ranges::find_if(partners, [&](int b) {
+          return interior_pair({a, b, c, d}).has_value();
+        });
         if (found == partners.end()) {
           std::array<int, 3> triple{a, c, d};
           std::ranges::sort(triple);
@@ -55,7 +57,8 @@ std::vector<Neighbourhood> triples(const std::vector<int>& valences, std::vector
 ProofSet proof_set(const ProofRequest& request) {
   ProofSet set;
   const bool full = request.size == ProofSize::kFull;
-  const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic, int depth) {
+  const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic,
+                       int depth) {
     MapOptions options;
     options.arithmetic = arithmetic;
     options.last_depth = std::min(depth, request.depth);
@@ -78,13 +81,15 @@ ProofSet proof_set(const ProofRequest& request) {
   add("rational", rational, Arithmetic::kExact, full ? 5 : 3);
 
   for (const int n : {20, 50, 100})
-    for (const auto& valences : {std::array{n, 6, 6, 6}, std::array{6, n, 6, 6}, std::array{n, 5, 7, 6}, std::array{n, n, n, n}})
+    for (const auto& valences :
+         {std::array{n, 6, 6, 6}, std::array{6, n, 6, 6}, std::array{n, 5, 7, 6}, std::array{n, n, n, n}})
       high.push_back(*interior_pair(valences));
   add("high", high, Arithmetic::kResidues, full ? 6 : 4);
   add("high", high, Arithmetic::kDigits, full ? 3 : 1);
 
   std::set<std::string> seen;
-  for (const auto& valences : {std::array{6, 6, 6, 6}, std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
+  for (const auto& valences :
+       {std::array{6, 6, 6, 6}, std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
     for (Neighbourhood& pair : boundary_pairs(valences))
       if (seen.insert(pair.name).second) boundary.push_back(std::move(pair));
   add("boundary", boundary, Arithmetic::kResidues, full ? 6 : 4);

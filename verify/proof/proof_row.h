@@ -34,7 +34,7 @@ struct BoundProof {
 
 struct ProofRow {
   std::string topology;  ///< signature of the pair (neighbourhood.h)
-  std::string kernel;    ///< sliding-window, row-stream, crack-edge, crack-centre
+  std::string kernel;    ///< sliding-window, crack-edge, crack-centre, row-stream, row-stream-edge
   int first_depth = 0, last_depth = 0;
   std::int64_t points = 0;  ///< limit points compared
   MapProof map;

@@ -10,6 +10,7 @@
 #include "verify/proof/kernel_runs.h"
 #include "verify/proof/map_comparison.h"
 #include "verify/proof/prove_map.h"
+#include "verify/proof/stream_runs.h"
 
 namespace limitcheck::verify::detail {
 
@@ -20,6 +21,12 @@ std::vector<fast::Vec3<Stencil<C>>> identity(std::size_t n) {
   for (std::size_t k = 0; k < n; ++k) points[k].x = Stencil<C>::control_point(static_cast<int>(k));
   return points;
 }
+
+template <class C>
+struct StencilLane {
+  template <int tangent>
+  using Lane = fast::row_stream::LinearNumber<Stencil<C>, tangent>;
+};
 
 inline std::string describe(int depth, const fast::LatticePoint& p) {
   return fmt::format("depth {}, face {} at ({}/{}, {}/{})", depth, p.face, p.i, p.denominator, p.j,
@@ -66,6 +73,14 @@ std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOpt
     once.first_depth = once.last_depth = 0;
     rows.push_back(compare<C>(neighbourhood, "crack-centre", once, maps, [&](int, auto&& visit) {
       for (std::int32_t face = 0; face < 2; ++face) runs.centre(face, visit);
+    }));
+  }
+  if (options.row_stream) {
+    const StreamRuns<Stencil<C>, StencilLane<C>::template Lane> runs(neighbourhood.mesh, points);
+    rows.push_back(compare<C>(neighbourhood, "row-stream", options, maps,
+                              [&](int depth, auto&& visit) { runs.pair(depth, visit); }));
+    rows.push_back(compare<C>(neighbourhood, "row-stream-edge", options, maps, [&](int depth, auto&& visit) {
+      for (std::int32_t h = 0; h < 6; ++h) runs.edge(h, depth, visit);
     }));
   }
   return rows;

@@ -5,8 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace limitcheck::verify {
 namespace {
@@ -36,7 +39,13 @@ struct ResidueTables {
     for (std::size_t k = 0; k < 2; ++k) {
       const nmod_t m = Residue::moduli_[k];
       const auto order = static_cast<std::uint64_t>(Residue::kOrder);
-      root[k] = n_powmod2_ui_preinv(n_primitive_root_prime(m.n), (m.n - 1) / order, m.n, m.ninv);
+      for (std::uint64_t g = 2;; ++g) {
+        root[k] = nmod_pow_ui(g, (m.n - 1) / order, m);
+        bool primitive = true;
+        for (const std::uint64_t q : {2, 3, 5, 7, 11, 13, 17, 19})
+          primitive = primitive && nmod_pow_ui(root[k], order / q, m) != 1;
+        if (primitive) break;
+      }
     }
     for (int k = 1; k < kSmall; ++k) {
       Residue& r = inverse[static_cast<std::size_t>(k)];
@@ -55,10 +64,8 @@ struct ResidueTables {
       throw std::domain_error("the proof's residues hold no root of unity of order " + std::to_string(q));
     const std::int64_t e = ((p % q) + q) % q * (Residue::kOrder / q);
     Residue r;
-    r.first_ = n_powmod2_ui_preinv(root[0], static_cast<std::uint64_t>(e), Residue::moduli_[0].n,
-                                   Residue::moduli_[0].ninv);
-    r.second_ = n_powmod2_ui_preinv(root[1], static_cast<std::uint64_t>(e), Residue::moduli_[1].n,
-                                    Residue::moduli_[1].ninv);
+    r.first_ = nmod_pow_ui(root[0], static_cast<std::uint64_t>(e), Residue::moduli_[0]);
+    r.second_ = nmod_pow_ui(root[1], static_cast<std::uint64_t>(e), Residue::moduli_[1]);
     return r;
   }
   static Residue approximated(Residue r, double value) {
@@ -74,20 +81,18 @@ Residue::Residue(int value) : approximation_(value) {
 }
 
 Residue Residue::cosine(std::int64_t p, std::int64_t q) {
-  const ResidueTables& t = ResidueTables::get();
-  const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
-  return ResidueTables::approximated((t.turn(p, q) + t.turn(-p, q)) / Residue(2), std::cos(angle));
+  static thread_local std::map<std::pair<std::int64_t, std::int64_t>, Residue> known;
+  const auto [found, fresh] = known.try_emplace({p, q});
+  if (fresh) {
+    const ResidueTables& t = ResidueTables::get();
+    const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
+    found->second = ResidueTables::approximated((t.turn(p, q) + t.turn(-p, q)) / Residue(2), std::cos(angle));
+  }
+  return found->second;
 }
 
 Residue Residue::sine(std::int64_t p, std::int64_t q) {
-  const ResidueTables& t = ResidueTables::get();
-  const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
-  Residue half_unit = t.turn(1, 4);  // i, of no size
-  half_unit = half_unit * Residue(2);
-  Residue inverse;
-  inverse.first_ = n_invmod(half_unit.first_, moduli_[0].n);
-  inverse.second_ = n_invmod(half_unit.second_, moduli_[1].n);
-  return ResidueTables::approximated((t.turn(p, q) - t.turn(-p, q)) * inverse, std::sin(angle));
+  return cosine(4 * p - q, 4 * q);
 }
 
 Residue Residue::power_of_two(long exponent) {

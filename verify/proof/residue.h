@@ -17,13 +17,13 @@ class Residue {
  public:
   Residue() = default;
   Residue(int value);  // NOLINT: integers are residues
-  /// cos, sin (2 pi p / q); throws std::domain_error unless q divides kOrder.
+  /// cos, sin (2 pi p / q); throws std::domain_error unless q, for the sine 4 q, divides kOrder.
   static Residue cosine(std::int64_t p, std::int64_t q);
   static Residue sine(std::int64_t p, std::int64_t q);
   static Residue power_of_two(long exponent);
 
-  /// 1 .. 20, 25, 50 and 100 divide it.
-  static constexpr std::int64_t kOrder = 1163962800;
+  /// 16 * 9 * 25 * 7 * 11 * 13 * 17 * 19 * 4: with every n up to 20, with 50 and 100, 4 n divides it.
+  static constexpr std::int64_t kOrder = 4655851200;
 
   double approximation() const { return approximation_; }
   bool is_zero() const { return first_ == 0 && second_ == 0; }

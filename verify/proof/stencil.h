@@ -2,9 +2,9 @@
 // The number that a kernel runs on to show what it does: a row of weights over the control points.
 #pragma once
 
-#include <boost/container/small_vector.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "fast/limit.h"
 #include "verify/proof/coefficient.h"
@@ -27,7 +27,7 @@ class Stencil {
     int point;
     C weight;
   };
-  using Entries = boost::container::small_vector<Entry, 12>;
+  using Entries = std::vector<Entry>;
   using K = Coefficient<C>;
 
   Stencil() = default;
@@ -145,6 +145,18 @@ struct LinearSurface {
 }  // namespace limitcheck::verify
 
 namespace limitcheck::fast {
+
+/// Of the weights themselves.
+template <class C>
+struct WeightTraits {
+  static C cosine(int p, int q) { return verify::Coefficient<C>::cosine(p, q); }
+};
+template <>
+struct NumberTraits<verify::Residue> : WeightTraits<verify::Residue> {};
+template <>
+struct NumberTraits<verify::Surd> : WeightTraits<verify::Surd> {};
+template <>
+struct NumberTraits<reference::Decimal50> : WeightTraits<reference::Decimal50> {};
 
 template <class C>
 struct NumberTraits<verify::Stencil<C>> {

@@ -27,6 +27,8 @@ class PlantedFault {
   /// Counts one operation of the fault's sort; true for the one to spoil.
   bool strikes() { return left_-- == 0; }
   bool has_struck() const { return left_ < 0; }
+  /// Operations of its sort until it strikes.
+  std::int64_t left() const { return left_; }
 
  private:
   static inline thread_local PlantedFault* active_ = nullptr;

@@ -7,17 +7,12 @@
 #include <algorithm>
 #include <mutex>
 #include <set>
+#include <sstream>
 
 #include "data/generators/bumpy_sphere.h"
 
 namespace limitcheck::verify {
 namespace {
-
-/// A face with its corners on the pair's diagonal, in rising order, and the one that faces it.
-struct Triple {
-  int low, high, apex;
-  friend auto operator<=>(const Triple&, const Triple&) = default;
-};
 
 /// Pairs that hold every triple, two at a time where there is such a mesh.
 std::vector<Neighbourhood> triples(const std::vector<int>& valences, std::vector<std::string>& impossible) {
@@ -52,24 +47,51 @@ std::vector<Neighbourhood> triples(const std::vector<int>& valences, std::vector
   return pairs;
 }
 
+/// As few of the pairs as still hold every triple of valences, in any order of its corners.
+std::vector<Neighbourhood> each_triple_once(const std::vector<Neighbourhood>& pairs) {
+  const auto triples_of = [](const Neighbourhood& pair) {
+    std::array<int, 4> v{};
+    std::istringstream(pair.name) >> v[0] >> v[1] >> v[2] >> v[3];
+    std::array<std::array<int, 3>, 2> both{{{v[0], v[2], v[3]}, {v[0], v[1], v[2]}}};
+    for (auto& triple : both) std::ranges::sort(triple);
+    return both;
+  };
+  std::vector<Neighbourhood> chosen;
+  std::set<std::array<int, 3>> held;
+  for (const int fresh : {2, 1}) {
+    for (const Neighbourhood& pair : pairs) {
+      const auto [first, second] = triples_of(pair);
+      const int added = (held.contains(first) ? 0 : 1) + (second == first || held.contains(second) ? 0 : 1);
+      if (added < fresh) continue;
+      chosen.push_back(pair);
+      held.insert({first, second});
+    }
+  }
+  return chosen;
+}
+
 }  // namespace
 
 ProofSet proof_set(const ProofRequest& request) {
   ProofSet set;
   const bool full = request.size == ProofSize::kFull;
   const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic,
-                       int depth) {
+                       int first, int last) {
     MapOptions options;
     options.arithmetic = arithmetic;
-    options.last_depth = std::min(depth, request.depth);
+    options.first_depth = first;
+    options.last_depth = std::min(last, request.depth);
     options.sliding_window = request.sliding_window;
     options.row_stream = request.row_stream;
+    if (options.last_depth < first) return;
     for (const Neighbourhood& pair : pairs) set.tasks.push_back({group, pair, options});
   };
 
   const auto interior = triples(request.valences, set.impossible);
-  add("triples", interior, Arithmetic::kResidues, request.depth);
-  add("digits", interior, Arithmetic::kDigits, full ? 4 : 2);
+  const auto once = each_triple_once(interior);
+  add("triples", interior, Arithmetic::kResidues, 0, full ? request.depth : 4);
+  if (!full) add("deep", once, Arithmetic::kResidues, 5, request.depth);
+  add("digits", full ? interior : once, Arithmetic::kDigits, 0, full ? 4 : 2);
 
   std::vector<Neighbourhood> rational, high, boundary;
   constexpr int kRational[] = {3, 4, 6};
@@ -78,29 +100,34 @@ ProofSet proof_set(const ProofRequest& request) {
       for (const int c : kRational)
         for (const int d : kRational)
           if (auto pair = interior_pair({a, b, c, d})) rational.push_back(std::move(*pair));
-  add("rational", rational, Arithmetic::kExact, full ? 5 : 3);
+  add("rational", rational, Arithmetic::kExact, 0, full ? 5 : 2);
 
   for (const int n : {20, 50, 100})
     for (const auto& valences :
          {std::array{n, 6, 6, 6}, std::array{6, n, 6, 6}, std::array{n, 5, 7, 6}, std::array{n, n, n, n}})
       high.push_back(*interior_pair(valences));
-  add("high", high, Arithmetic::kResidues, full ? 6 : 4);
-  add("high", high, Arithmetic::kDigits, full ? 3 : 1);
+  add("high", high, Arithmetic::kResidues, 0, full ? 6 : 4);
+  if (!full) std::erase_if(high, [](const Neighbourhood& pair) { return pair.mesh.positions.size() > 100; });
+  add("high", high, Arithmetic::kDigits, 0, full ? 3 : 1);
 
   std::set<std::string> seen;
-  for (const auto& valences :
-       {std::array{6, 6, 6, 6}, std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
+  const auto add_boundary = [&](const std::array<int, 4>& valences) {
     for (Neighbourhood& pair : boundary_pairs(valences))
       if (seen.insert(pair.name).second) boundary.push_back(std::move(pair));
-  add("boundary", boundary, Arithmetic::kResidues, full ? 6 : 4);
-  add("boundary", boundary, Arithmetic::kDigits, full ? 3 : 1);
+  };
+  add_boundary({6, 6, 6, 6});
+  if (!full) add("boundary", boundary, Arithmetic::kDigits, 0, 1);
+  for (const auto& valences : {std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
+    add_boundary(valences);
+  add("boundary", boundary, Arithmetic::kResidues, 0, full ? 6 : 3);
+  if (full) add("boundary", boundary, Arithmetic::kDigits, 0, 3);
 
   std::vector<Neighbourhood> spheres;
   seen.clear();
   for (const int faces : full ? std::vector{200, 800, 2000, 4000} : std::vector{200})
     for (Neighbourhood& pair : pairs_of(data::bumpy_sphere(faces, 1)))
       if (seen.insert(pair.name).second) spheres.push_back(std::move(pair));
-  add("spheres", spheres, Arithmetic::kResidues, full ? 4 : 2);
+  add("spheres", spheres, Arithmetic::kResidues, 0, full ? 4 : 3);
   return set;
 }
 

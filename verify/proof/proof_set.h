@@ -35,11 +35,13 @@ struct ProofSet {
 };
 
 /// Groups, in this order:
-///   triples    every triple of valences, each of its three corners once facing the pair's diagonal; in
-///   residues digits     the same to 45 decimal digits, shallower, against Stam's evaluator too rational all
-///   pairs with valences 3, 4 and 6; exact high       valences 20, 50 and 100 boundary   around pairs of
-///   several valences: boundary edges, boundary vertices of 1 to 5 faces spheres    every pair of the bumpy
-///   spheres
+/// - triples: every triple of valences, each of its corners once facing the pair's diagonal; residues
+/// - deep: every triple once, the depths beyond
+/// - digits: the same to 45 decimal digits, shallower, against Stam's evaluator too
+/// - rational: all pairs with valences 3, 4 and 6; exact
+/// - high: valences 20, 50 and 100
+/// - boundary: boundary edges and vertices around pairs of several valences
+/// - spheres: every pair of the bumpy spheres
 ProofSet proof_set(const ProofRequest& request);
 
 /// Runs the tasks on all cores. The rows of task t are result[t], whatever the number of threads.

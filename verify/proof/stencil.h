@@ -106,7 +106,7 @@ class Stencil {
   template <bool kMinus>
   static Stencil sum(const Stencil& a, const Stencil& b) {
     PlantedFault* fault = PlantedFault::active();
-    if (fault == nullptr || fault->is_product()) return merged<kMinus>(a, b);
+    if (fault == nullptr || fault->is_product() || b.entries_.empty()) return merged<kMinus>(a, b);
     static thread_local Stencil before;
     const Stencil instead = before;
     before = b;
@@ -119,7 +119,7 @@ class Stencil {
   Stencil scaled(C factor) const {
     Stencil s;
     if (PlantedFault* fault = PlantedFault::active();
-        fault != nullptr && fault->is_product() && fault->strikes())
+        fault != nullptr && fault->is_product() && !entries_.empty() && fault->strikes())
       factor *= K::ratio((1 << 20) + 1, 1 << 20);
     if (K::is_zero(factor)) return s;
     s.constant_ = factor * constant_;

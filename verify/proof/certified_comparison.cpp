@@ -86,7 +86,8 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
     const auto l2 = reference::Parameter::fraction(at.j, at.denominator);
     const reference::CertifiedPoint exact = evaluator.evaluate(at.face, l1, l2, digits);
     double radius = 0;
-    const double position = distance(exact.position, tessellation.vertices[k].position, radius) / box * kUpward;
+    const double position =
+        distance(exact.position, tessellation.vertices[k].position, radius) / box * kUpward;
     errors.radius = std::max(errors.radius, radius / box);
     ++errors.points;
     if (position > errors.position) {

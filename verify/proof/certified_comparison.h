@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The float kernels against certified enclosures of the surface: an error that is a fact about the true surface.
+// The float kernels against certified enclosures of the surface: an error that is a fact about the true
+// surface.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +22,11 @@ struct CertifiedErrors {
 
 enum class FloatKernel : std::uint8_t { kSlidingWindow, kRowStream };
 
-/// Tessellates the mesh with the float kernel and compares about `points` of its lattice points, spread evenly
-/// over the output, with the exact limit: Stam's evaluator in ball arithmetic at `digits` digits, the control
-/// points taken as the floats they are. Upper bounds: float to double is exact, a decimal is read to 2^-53 of
-/// itself, and radius and reading are added. Points whose normal is no limit of tangents count for positions
-/// alone.
+/// Tessellates the mesh with the float kernel and compares about `points` of its lattice points, spread
+/// evenly over the output, with the exact limit: Stam's evaluator in ball arithmetic at `digits` digits, the
+/// control points taken as the floats they are. Upper bounds: float to double is exact, a decimal is read to
+/// 2^-53 of itself, and radius and reading are added. Points whose normal is no limit of tangents count for
+/// positions alone.
 ///   throws   std::invalid_argument: a coordinate that is no float
 CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& mesh, int depth, int points,
                                   int digits = 20);

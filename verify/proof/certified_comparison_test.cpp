@@ -12,8 +12,8 @@
 namespace limitcheck::verify {
 namespace {
 
-// Bound: five roundings of a coordinate in the box, an ulp of 2^-24 each, are 3e-7 of its side; the bounds proved
-// per topology are below 6e-7 of the unit box. Worst seen: see the properties.
+// Bound: five roundings of a coordinate in the box, an ulp of 2^-24 each, are 3e-7 of its side; the bounds
+// proved per topology are below 6e-7 of the unit box. Worst seen: see the properties.
 TEST(Certified, PositionsOfBothKernelsLieWithin3e7OfTheTrueSurface) {
   CertifiedErrors worst;
   for (const FloatKernel kernel : {FloatKernel::kSlidingWindow, FloatKernel::kRowStream}) {
@@ -22,7 +22,8 @@ TEST(Certified, PositionsOfBothKernelsLieWithin3e7OfTheTrueSurface) {
       for (const int depth : {1, 4}) {
         const CertifiedErrors errors = compare_certified(kernel, mesh, depth, 40);
         EXPECT_GT(errors.points, 2) << name;
-        EXPECT_LT(errors.position, 3e-7) << name << " face " << errors.face << ' ' << errors.l1 << ' ' << errors.l2;
+        EXPECT_LT(errors.position, 3e-7)
+            << name << " face " << errors.face << ' ' << errors.l1 << ' ' << errors.l2;
         EXPECT_LT(errors.radius, 1e-15) << name;
         EXPECT_GT(errors.position, 0) << name;
         worst.position = std::max(worst.position, errors.position);

@@ -106,6 +106,7 @@ double normal_error_share(const PointBound& bound) {
 BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
                        int last_depth, int meshes) {
   BoundProof proof;
+  proof.last_depth = last_depth;
   for (int depth = first_depth; depth <= last_depth; ++depth) {
     const KernelBounds bounds = bound_kernel(kernel, neighbourhood, depth);
     proof.position_bound = std::max(proof.position_bound, bounds.position());
@@ -114,6 +115,7 @@ BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood,
         search_worst(neighbourhood, bounds, meshes, static_cast<std::uint64_t>(depth) + 1);
     proof.position_worst = std::max(proof.position_worst, worst.position);
     proof.tangent_worst = std::max(proof.tangent_worst, worst.tangent);
+    proof.share = std::max({proof.share, worst.position_share, worst.tangent_share});
   }
   return proof;
 }

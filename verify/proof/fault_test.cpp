@@ -16,7 +16,7 @@ namespace {
 using Number = Stencil<Residue>;
 using Frame = fast::LimitFrame<Number>;
 using Points = std::vector<fast::Vec3<Number>>;
-using Window = WindowRuns<Number, LinearSurface<Residue>>;
+using Window = WindowRuns<Number, LinearSurface<Number>>;
 using RowStream = StreamRuns<Number, detail::StencilLane<Residue>::Lane>;
 using Maps = std::tuple<ReferenceMap<Residue, reference::SubdivisionEvaluator<Residue>>>;
 

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
 #include "data/shapes.h"
-#include "data/validate.h"
 #include "fast/adjacency.h"
 
 namespace limitcheck::verify {
@@ -35,6 +35,33 @@ TEST(Proof_Neighbourhoods, HaveTheInteriorValencesAskedForOrDoNotExist) {
   }
   RecordProperty("missing", missing);
   fmt::print("{} of 10000 have no mesh\n", missing);
+}
+
+TEST(Proof_Neighbourhoods, AtBoundariesHaveOneToFourBoundaryEdgesAndVerticesOfOneToFiveFaces) {
+  std::set<int> edges, diagonal_faces, other_faces;
+  for (const Neighbourhood& pair : boundary_pairs({6, 6, 6, 6})) {
+    const fast::Adjacency adjacency(pair.mesh);
+    int boundary = 0;
+    for (const int h : {1, 2, 3, 4}) boundary += adjacency.twin(h) < 0 ? 1 : 0;
+    edges.insert(boundary);
+    for (const int corner : {0, 1, 2, 3})
+      if (adjacency.on_boundary(corner))
+        (corner % 2 == 0 ? diagonal_faces : other_faces).insert(adjacency.valence(corner) - 1);
+    EXPECT_EQ(signature(pair.mesh, 0), pair.name);
+  }
+  EXPECT_EQ(edges, (std::set{0, 1, 2, 3, 4}));
+  EXPECT_EQ(diagonal_faces, (std::set{2, 3, 4, 5}));
+  EXPECT_EQ(other_faces, (std::set{1, 2, 3, 4, 5}));
+}
+
+TEST(Proof_Neighbourhoods, OfAMeshAreAllItsPairs) {
+  EXPECT_EQ(pairs_of(data::icosahedron()).size(), 1U);
+  EXPECT_EQ(pairs_of(data::icosahedron()).front().name, "5 5 5 5");
+  const auto pairs = pairs_of(data::bipyramid(7));
+  ASSERT_EQ(pairs.size(), 3U);  // across the equator, and down a side in two directions
+  std::set<std::string> names;
+  for (const Neighbourhood& pair : pairs) names.insert(pair.name);
+  EXPECT_EQ(names, (std::set<std::string>{"4 7 4 7", "4 4 7 4", "7 4 4 4"}));
 }
 
 }  // namespace

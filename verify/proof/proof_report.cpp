@@ -33,6 +33,8 @@ struct Line {
     bound->position_worst = std::max(bound->position_worst, row.bound->position_worst);
     bound->tangent_bound = std::max(bound->tangent_bound, row.bound->tangent_bound);
     bound->tangent_worst = std::max(bound->tangent_worst, row.bound->tangent_worst);
+    bound->share = std::max(bound->share, row.bound->share);
+    bound->last_depth = std::max(bound->last_depth, row.bound->last_depth);
   }
 
   std::string map() const {
@@ -54,7 +56,8 @@ std::string describe(const Witness& w) {
 
 bool ProofReport::held() const {
   return std::ranges::all_of(rows_, [](const auto& rows) {
-    return std::ranges::all_of(rows, [](const ProofRow& row) { return row.map.equal; });
+    return std::ranges::all_of(
+        rows, [](const ProofRow& row) { return row.map.equal && (!row.bound || row.bound->share <= 1); });
   });
 }
 
@@ -134,6 +137,8 @@ std::string ProofReport::json() const {
         j["worst"] = row.bound->position_worst;
         j["tangent_bound"] = row.bound->tangent_bound;
         j["tangent_worst"] = row.bound->tangent_worst;
+        j["bound_depth"] = row.bound->last_depth;
+        j["worst_share"] = row.bound->share;
       }
       rows.push_back(std::move(j));
     }

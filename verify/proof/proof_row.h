@@ -26,10 +26,12 @@ struct MapProof {
 
 /// Rounding of a float32 kernel over all control meshes in the unit box.
 struct BoundProof {
+  int last_depth = 0;
   double position_bound = 0;  ///< of a coordinate
   double position_worst = 0;  ///< observed
   double tangent_bound = 0;
   double tangent_worst = 0;
+  double share = 0;  ///< largest share of its own point's bound that an error had: at most 1
 };
 
 struct ProofRow {

@@ -8,8 +8,10 @@
 #include <mutex>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "data/generators/bumpy_sphere.h"
+#include "verify/proof/bounds.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -70,6 +72,16 @@ std::vector<Neighbourhood> each_triple_once(const std::vector<Neighbourhood>& pa
   return chosen;
 }
 
+BoundProof bound_of(const std::string& kernel, const ProofTask& task) {
+  for (const auto k : {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge, BoundedKernel::kCrackCentre,
+                       BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge}) {
+    if (kernel != name_of(k)) continue;
+    const int depth = k == BoundedKernel::kCrackCentre ? 0 : task.bound_depth;
+    return prove_bound(k, task.neighbourhood, 0, depth, task.bound_meshes);
+  }
+  throw std::logic_error("no bounds for " + kernel);
+}
+
 }  // namespace
 
 ProofSet proof_set(const ProofRequest& request) {
@@ -84,7 +96,10 @@ ProofSet proof_set(const ProofRequest& request) {
     options.sliding_window = request.sliding_window;
     options.row_stream = request.row_stream;
     if (options.last_depth < first) return;
-    for (const Neighbourhood& pair : pairs) set.tasks.push_back({group, pair, options});
+    // Rounding does not depend on the arithmetic of the map: bounds go with the residues.
+    const bool bounds = arithmetic == Arithmetic::kResidues && first == 0;
+    for (const Neighbourhood& pair : pairs)
+      set.tasks.push_back({group, pair, options, bounds ? options.last_depth : -1, full ? 400 : 40});
   };
 
   const auto interior = triples(request.valences, set.impossible);
@@ -137,7 +152,10 @@ std::vector<std::vector<ProofRow>> prove(const std::vector<ProofTask>& tasks,
   std::mutex mutex;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t t) {
-    result[t] = prove_map(tasks[t].neighbourhood, tasks[t].options);
+    const ProofTask& task = tasks[t];
+    result[t] = prove_map(task.neighbourhood, task.options);
+    for (ProofRow& row : result[t])
+      if (task.bound_depth >= 0) row.bound = bound_of(row.kernel, task);
     const std::scoped_lock lock(mutex);
     ++done;
     if (progress) progress(done);

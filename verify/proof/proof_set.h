@@ -22,11 +22,13 @@ struct ProofRequest {
   ProofSize size = ProofSize::kStandard;
 };
 
-/// One topology, one arithmetic.
+/// One topology, one arithmetic; and the bounds of the rounding errors, if asked for.
 struct ProofTask {
   std::string group;
   Neighbourhood neighbourhood;
   MapOptions options;
+  int bound_depth = -1;  ///< bounds for depths 0 .. bound_depth
+  int bound_meshes = 0;  ///< control meshes tried against them, at each depth
 };
 
 struct ProofSet {

@@ -63,7 +63,7 @@ std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOpt
   std::vector<ProofRow> rows;
   const auto points = identity<C>(neighbourhood.mesh.positions.size());
   if (options.sliding_window) {
-    const WindowRuns<Stencil<C>, LinearSurface<C>> runs(neighbourhood.mesh, points);
+    const WindowRuns<Stencil<C>, LinearSurface<Stencil<C>>> runs(neighbourhood.mesh, points);
     rows.push_back(compare<C>(neighbourhood, "sliding-window", options, maps,
                               [&](int depth, auto&& visit) { runs.pair(depth, visit); }));
     rows.push_back(compare<C>(neighbourhood, "crack-edge", options, maps, [&](int depth, auto&& visit) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/limit.h"
+#include "fast/masks.h"
 #include "verify/proof/coefficient.h"
 #include "verify/proof/fault.h"
 
@@ -130,16 +130,6 @@ class Stencil {
 
   C constant_{};
   Entries entries_;
-};
-
-/// Position and two tangents, whose plane is the tangent plane: all that is linear in a limit point.
-template <class C>
-struct LinearSurface {
-  using Vertex = fast::LimitFrame<Stencil<C>>;
-  static constexpr bool kLinear = true;
-  static Vertex vertex(const Vertex& frame, auto&& /*substitute*/, std::int64_t& /*zero_normals*/) {
-    return frame;
-  }
 };
 
 }  // namespace limitcheck::verify

@@ -62,7 +62,8 @@ struct ScalarNumber {
 template <class T, int tangent_number>
 struct LinearNumber : ScalarNumber<T> {
   static constexpr bool kLinear = true;
-  static const T& tangent(const T& first, const T& second) {
+  template <class X>  // T, or the number a ring is summed in
+  static const X& tangent(const X& first, const X& second) {
     if constexpr (tangent_number == 0)
       return first;
     else

@@ -12,6 +12,7 @@ enum ExitCode : int { kHeld = 0, kFindings = 1, kBadInput = 2 };
 void add_generate(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_audit(CLI::App& app, int& exit_code);
+void add_prove(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 void add_external(CLI::App& app, int& exit_code);
 

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   add_audit(app, exit_code);
   add_eval(app, exit_code);
   add_generate(app, exit_code);
+  add_prove(app, exit_code);
   add_tessellate(app, exit_code);
   add_external(app, exit_code);
 

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   add_eval(app, exit_code);
   add_generate(app, exit_code);
   add_tessellate(app, exit_code);
+  add_worker(app, exit_code);
 
   try {
     app.parse(argc, argv);

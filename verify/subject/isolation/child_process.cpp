@@ -114,6 +114,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Proces
   pipe_ = {pipes[0][1], pipes[1][0], pipes[2][0]};
   for (const int fd : {pipes[0][0], pipes[1][1], pipes[2][1]}) ::close(fd);
   for (const int fd : pipe_) fcntl(fd, F_SETFL, O_NONBLOCK);
+  start_clock();
 }
 
 ChildProcess::~ChildProcess() {
@@ -145,7 +146,10 @@ void ChildProcess::drain_errors() {
     if (n == 0) close_pipe(kErr);
     if (n <= 0) return;
     errors_.append(chunk.data(), static_cast<std::size_t>(n));
-    if (errors_.size() > 2 * kErrorTail) errors_.erase(0, errors_.size() - kErrorTail);
+    if (errors_.size() > kErrorTail) {
+      errors_.erase(0, errors_.size() - kErrorTail);
+      errors_cut_ = true;
+    }
   }
 }
 
@@ -158,16 +162,14 @@ void ChildProcess::fail(SubjectDied::Kind kind, const std::string& what) {
   kind_ = kind;
   epitaph_ = what;
   if (!errors_.empty()) {
-    const bool cut = errors_.size() > kErrorTail;
     std::string_view tail(errors_);
-    if (cut) tail.remove_prefix(tail.size() - kErrorTail);
     std::string lines;
     while (!tail.empty()) {
       const std::string_view one = tail.substr(0, tail.find('\n'));
       tail.remove_prefix(std::min(tail.size(), one.size() + 1));
       if (!one.empty()) lines += (lines.empty() ? "" : " | ") + protocol::printable(one, kErrorTail);
     }
-    epitaph_ += fmt::format("; its standard error{}: {}", cut ? " ends in" : "", lines);
+    epitaph_ += fmt::format("; its standard error{}: {}", errors_cut_ ? " ends in" : "", lines);
   }
   throw SubjectDied(kind_, epitaph_);
 }

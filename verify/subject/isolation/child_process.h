@@ -73,6 +73,7 @@ class ChildProcess : public protocol::Source {
   std::string buffer_;  // read from standard output and not yet taken
   std::size_t taken_ = 0;
   std::string errors_;  // the tail of standard error
+  bool errors_cut_ = false;
   std::string epitaph_;
   SubjectDied::Kind kind_ = SubjectDied::Kind::kCrash;
   bool not_started_ = false;

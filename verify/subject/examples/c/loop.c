@@ -1,17 +1,33 @@
 /* SPDX-License-Identifier: MIT */
-/* A subject in C: Loop subdivision of the whole mesh, step by step, in double; then every vertex is moved to its
- * limit. Slow, short and right; boundaries included. */
+/* A subject in C: Loop subdivision of the whole mesh, step by step, in double; then every vertex is moved to
+ * its limit. Slow, short and right; boundaries included. */
 #include <limitcheck/subject.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct Vec { double x, y, z; } Vec;
-typedef struct Triangle { int32_t v[3], face; uint32_t at[3][2]; } Triangle; /* corners, and (i, j) of each */
-typedef struct Half { int64_t key; int32_t opposite, middle; } Half; /* a -> b: third corner, edge point */
-typedef struct Mesh { Vec* p; Triangle* t; int32_t vertices, triangles; Half* table; size_t mask; } Mesh;
+typedef struct Vec {
+  double x, y, z;
+} Vec;
+typedef struct Triangle {
+  int32_t v[3], face;
+  uint32_t at[3][2];
+} Triangle; /* corners, and (i, j) of each */
+typedef struct Half {
+  int64_t key;
+  int32_t opposite, middle;
+} Half; /* a -> b: third corner, edge point */
+typedef struct Mesh {
+  Vec* p;
+  Triangle* t;
+  int32_t vertices, triangles;
+  Half* table;
+  size_t mask;
+} Mesh;
 
-static Vec add(Vec a, double w, Vec b) { return (Vec){a.x + w * b.x, a.y + w * b.y, a.z + w * b.z}; }
+static Vec add(Vec a, double w, Vec b) {
+  return (Vec){a.x + w * b.x, a.y + w * b.y, a.z + w * b.z};
+}
 
 static Half* half(const Mesh* m, int32_t a, int32_t b) { /* its entry, or the free one where it belongs */
   const int64_t key = ((int64_t)a << 32 | b) + 1;
@@ -37,7 +53,9 @@ static void connect(Mesh* m) {
     }
 }
 
-static int32_t before(const Mesh* m, int32_t v, int32_t a) { return opposite(m, a, v); } /* clockwise of a */
+static int32_t before(const Mesh* m, int32_t v, int32_t a) {
+  return opposite(m, a, v);
+} /* clockwise of a */
 
 /* The neighbours of v counter-clockwise, from the boundary if there is one, given one of them. */
 static int ring(const Mesh* m, int32_t v, int32_t a, int32_t** out, int* boundary) {
@@ -88,7 +106,9 @@ static int32_t* neighbours(const Mesh* m) { /* one of each vertex */
   return one;
 }
 
-static void drop(Mesh* m) { free(m->p), free(m->t), free(m->table); }
+static void drop(Mesh* m) {
+  free(m->p), free(m->t), free(m->table);
+}
 
 static Mesh refine(const Mesh* m) {
   Mesh fine = {NULL, NULL, m->vertices, 4 * m->triangles, NULL, 0};
@@ -142,7 +162,8 @@ static lc_status create(const lc_mesh* mesh, const char* options, void** instanc
   return LC_OK;
 }
 
-static lc_status tessellate(void* instance, const lc_request* request, lc_tessellation* out, const char** message) {
+static lc_status tessellate(void* instance, const lc_request* request, lc_tessellation* out,
+                            const char** message) {
   const lc_mesh* control = instance;
   Mesh m = {NULL, NULL, (int32_t)control->vertex_count, (int32_t)control->triangle_count, NULL, 0};
   m.p = malloc((size_t)m.vertices * sizeof(Vec));
@@ -187,11 +208,16 @@ static lc_status tessellate(void* instance, const lc_request* request, lc_tessel
   return LC_OK;
 }
 
-static void release(void* instance, lc_tessellation* out) { (void)instance, (void)out; }
-static void destroy(void* instance) { free(instance); }
+static void release(void* instance, lc_tessellation* out) {
+  (void)instance, (void)out;
+}
+static void destroy(void* instance) {
+  free(instance);
+}
 
 const lc_subject* lc_subject_get(uint32_t abi) {
-  static const lc_subject subject = {LC_SUBJECT_ABI, "loop-in-c", "Loop subdivision step by step, in C", NULL,
-                                     capabilities,   create,      tessellate,                            release, destroy};
+  static const lc_subject subject = {LC_SUBJECT_ABI, "loop-in-c",  "Loop subdivision step by step, in C",
+                                     NULL,           capabilities, create,
+                                     tessellate,     release,      destroy};
   return abi == LC_SUBJECT_ABI ? &subject : NULL;
 }

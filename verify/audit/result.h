@@ -15,10 +15,12 @@ enum class Status {
   kFinding,       // looked at, something wrong: `bad` > 0
   kNotSupported,  // the subject does not offer what this check looks at; not a fault
   kNotRun,        // could not be looked at, because something before it failed; never a confirmation
-  kError          // subject or check broke down
+  kCrash,         // the subject's process was killed, ended, or took too much memory
+  kTimeout,       // the subject did not answer in time
+  kError          // subject or check broke down otherwise
 };
 
-/// "held", "finding", "not-supported", "not-run", "error": stable.
+/// "held", "finding", "not-supported", "not-run", "crash", "timeout", "error": stable.
 std::string_view word(Status status);
 
 /// Where to look. Whatever does not apply is -1 or empty.
@@ -48,7 +50,8 @@ struct Result {
 
 /// A finding, or a breakdown.
 inline bool is_bad(const Result& r) {
-  return r.status == Status::kFinding || r.status == Status::kError;
+  return r.status == Status::kFinding || r.status == Status::kCrash || r.status == Status::kTimeout ||
+         r.status == Status::kError;
 }
 
 /// What the audit was run on and with: the header of table and JSON.

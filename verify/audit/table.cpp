@@ -24,6 +24,8 @@ struct Line {
 bool worse(const Result& a, const Result& b) {
   const auto rank = [](const Result& r) {
     switch (r.status) {
+      case Status::kCrash:
+      case Status::kTimeout:
       case Status::kError:
         return 4;
       case Status::kFinding:
@@ -74,10 +76,18 @@ const char* verdict(Status status) {
       return "not supported";
     case Status::kNotRun:
       return "not run";
+    case Status::kCrash:
+      return "CRASH";
+    case Status::kTimeout:
+      return "TIMEOUT";
     case Status::kError:
       return "ERROR";
   }
   return "ERROR";
+}
+
+bool is_breakdown(Status status) {
+  return status == Status::kCrash || status == Status::kTimeout || status == Status::kError;
 }
 
 std::string painted(Status status, bool colour) {
@@ -85,7 +95,7 @@ std::string painted(Status status, bool colour) {
   if (!colour) return padded;
   const char* code = status == Status::kHeld      ? "32"
                      : status == Status::kFinding ? "31"
-                     : status == Status::kError   ? "1;31"
+                     : is_breakdown(status)       ? "1;31"
                                                   : "2";
   return fmt::format("\033[{}m{}\033[0m", code, padded);
 }
@@ -128,7 +138,7 @@ void add_line(std::string& out, const Result& r, const std::string& meshes, bool
 void add_finding(std::string& out, int number, const Line& line) {
   const Result& r = *line.shown;
   out += fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
-  if (r.status == Status::kError) {
+  if (is_breakdown(r.status)) {
     out += fmt::format("{}: {}\n", r.mesh, r.message);
     return;
   }

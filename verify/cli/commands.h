@@ -15,5 +15,6 @@ void add_audit(CLI::App& app, int& exit_code);
 void add_prove(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 void add_external(CLI::App& app, int& exit_code);
+void add_worker(CLI::App& app, int& exit_code);  // hidden: the process that isolated subjects run in
 
 }  // namespace limitcheck::cli

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   add_prove(app, exit_code);
   add_tessellate(app, exit_code);
   add_external(app, exit_code);
+  add_worker(app, exit_code);
 
   try {
     app.parse(argc, argv);

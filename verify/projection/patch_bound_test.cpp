@@ -11,11 +11,6 @@
 namespace limitcheck::verify {
 namespace {
 
-struct Sampled {
-  double excess = 0;       // largest of measured / bound
-  double regular = 1e300;  // smallest of measured / bound over the pieces with the largest regular bound
-};
-
 double measured(const Piece& piece, const reference::StamEvaluator<double>& surface, int n) {
   double worst = 0;
   for (int i = 0; i <= n; ++i)
@@ -33,7 +28,7 @@ double measured(const Piece& piece, const reference::StamEvaluator<double>& surf
 
 TEST(PatchBound, IsNowhereExceededOnTheStockShapesAndTheirSplitPieces) {
   std::vector<std::string> shapes = data::stock_shapes();
-  shapes.insert(shapes.end(), {"bumpy:200", "wheel:50", "fan:1", "fan:2", "fan:9"});
+  shapes.insert(shapes.end(), {"bumpy:20", "wheel:17", "fan:1", "fan:2", "fan:9"});
   double worst = 0;
   for (const std::string& name : shapes) {
     const data::ControlMesh mesh = data::named_mesh(name);
@@ -44,7 +39,7 @@ TEST(PatchBound, IsNowhereExceededOnTheStockShapesAndTheirSplitPieces) {
     for (std::size_t t = 0; t < lattice.size(); ++t) {
       Piece piece = lattice.piece(t);
       for (int level = 0; level < 3; ++level) {
-        const double is = measured(piece, surface, 8);
+        const double is = measured(piece, surface, 6);
         ASSERT_LE(is, piece.deviation + 1e-14 * size) << name << " piece " << t << " level " << level;
         if (piece.deviation > 1e-12 * size) worst = std::max(worst, is / piece.deviation);
         const auto split = lattice.split(piece, surface);

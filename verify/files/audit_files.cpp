@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "verify/files/diagnosis.h"
+#include "verify/files/hausdorff.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -81,6 +84,17 @@ FilesAudit audit_files(
   }
   append(audit.results, check_file_cover(e));
   append(audit.results, check_file_watertight(e));
+  step("Hausdorff distance", 0, 1);
+  append(audit.results, check_file_hausdorff(e, options.hausdorff.value_or(-1)));
+  if (!tessellation.triangles.empty()) audit.notes.push_back(audit.results.back().message);
+
+  Result& distance = audit.results[1];
+  if (distance.status == Status::kFinding) {
+    step("diagnosis", 0, 1);
+    for (const std::string& sentence : diagnose(e)) {
+      distance.message += (distance.message.empty() ? "" : "; ") + sentence;
+    }
+  }
   audit.per_vertex = per_vertex(e);
   return audit;
 }

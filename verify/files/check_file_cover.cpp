@@ -102,14 +102,14 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
     return {facing, cover};
   }
   const double faces = static_cast<double>(share.size());
-  cover.bound = kCrossingShare;
+  cover.bound = kCrossingShare + 2 * static_cast<double>(lost) / static_cast<double>(placed.size());
   cover.of = 1;
   cover.worst = cover.rms = std::abs(all / faces - 1);
   cover.message = fmt::format(
       "{} triangles cross the borders of control faces{}: the faces are judged together, {:.4f} of the "
       "surface is covered",
       crossing, lost > 0 ? fmt::format(" and {} more than one border", lost) : "", all / faces);
-  if (*cover.worst > kCrossingShare) {
+  if (*cover.worst > *cover.bound) {
     cover.bad = 1;
     cover.status = Status::kFinding;
   }

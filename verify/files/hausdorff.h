@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT
-// The two-sided Hausdorff distance between triangles and the limit surface, between proved bounds.
+// The two-sided Hausdorff distance between a tessellation and the limit surface, between proved bounds.
 #pragma once
 
-#include <functional>
-#include <span>
+#include <vector>
 
-#include "verify/projection/closest_point.h"
+#include "verify/files/file_evidence.h"
 
 namespace limitcheck::verify {
 
-/// A distance that lies between two numbers.
+/// A distance that lies between two numbers, in the mesh's unit.
 struct Bracket {
   double at_least = 0, at_most = 0;
-  Vector where{};           // a point at which the distance is at_least
-  std::int64_t index = -1;  // the triangle or the control face it lies on
+  FacePoint where;  // on the surface, where at_least was found
 };
 
 struct Hausdorff {
   Bracket from_triangles;  // max over the triangles of the distance to the surface
   Bracket from_surface;    // max over the surface of the distance to the triangles
-  bool bracketed = true;   // at_least >= (1 - tightness) at_most was reached in both
+  std::int64_t not_placed =
+      0;  // triangles that could not be laid over the domain: at_most knows nothing of them
+  double one_triangle_each = 0;  // at most so far is the surface from one triangle per control face
 };
 
-/// The distance between the triangles (finite corners, one at least) and the surface.
-///   lower bounds  exact distances at points: corners, middles of edges and pieces
-///   upper bounds  for a flat piece A and a flat piece B, max over A of the distance to B is taken at a
-///   corner of A, since
-///                 the distance to a convex set is convex; a piece of the surface deviates from its flat
-///                 triangle by no more than patch_bound.h proves. Pieces whose bound is above the largest
-///                 lower bound are split in four, until the bounds are within `tightness` of each other or 8
-///                 levels deep
-///   rounding      1e-15 of the mesh is not accounted for
-Hausdorff hausdorff(const ClosestPoint& surface, std::span<const std::array<Vector, 3>> triangles,
-                    double tightness = .05,
-                    const std::function<void(std::size_t, std::size_t)>& on_step = {});
+/// The triangles are laid over the domain by their placed corners and cut along the pieces of the surface
+/// lattice. On a part that lies in one triangle T and one flat piece P, the distance from the part of P to T
+/// is largest at one of its corners, because the distance to a convex set is a convex function; likewise from
+/// the part of T to P; and the surface deviates from P by no more than patch_bound.h proves. Parts of the
+/// surface that no triangle covers are bounded by the distance at their corners and their size. The lower
+/// bounds are exact distances at the most promising corners; pieces whose upper bound is beyond the largest
+/// of them by more than `tightness` are split, at most four times.
+///   error  rounding, 1e-15 of the mesh, is not accounted for
+Hausdorff hausdorff(const FileEvidence& evidence, double tightness = .02);
+
+/// The row `file-hausdorff`; `bound` in diagonals, negative: one triangle per control face.
+std::vector<Result> check_file_hausdorff(const FileEvidence& evidence, double bound);
 
 }  // namespace limitcheck::verify

@@ -126,13 +126,25 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
     const std::int32_t vertex = normals[k].vertex, point = e.point_of(vertex);
     if (point < 0) continue;
     const bool told = !e.claimed.empty() && e.claimed[vertex].face >= 0;
-    const Foot foot =
-        told ? e.surface.at(e.claimed[vertex], e.tessellation.positions[vertex]) : e.foot[point];
+    const Vector& at = e.tessellation.positions[vertex];
+    const Foot foot = told ? e.surface.at(e.claimed[vertex], at) : e.foot[point];
     expected[k] = foot.normal;
-    if (foot.has_normal)
-      angle[k] = angle_degrees(normals[k].direction, foot.normal);
-    else
+    if (!foot.has_normal) {
       ++undefined;
+      continue;
+    }
+    angle[k] = angle_degrees(normals[k].direction, foot.normal);
+    // At an extraordinary vertex the normal turns so fast that rounding of the position shows: the corner or
+    // edge that the foot may as well be on will do.
+    if (told || !(angle[k] > *r.bound)) continue;
+    const Foot place = e.surface.at(e.place[point], at);
+    if (!place.has_normal) {
+      angle[k] = -1;
+      ++undefined;
+    } else if (const double there = angle_degrees(normals[k].direction, place.normal); there < angle[k]) {
+      angle[k] = there;
+      expected[k] = place.normal;
+    }
   }
   const Statistics s = summarise(angle, *r.bound);
   take(r, s);

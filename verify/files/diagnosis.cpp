@@ -50,13 +50,15 @@ std::vector<std::string> diagnose(const FileEvidence& e) {
   std::vector<Vector> points;
   double from_surface = 0, worst_from_surface = 0;
   std::vector<std::size_t> used;
-  for (std::size_t k = 0; k < e.place.size(); ++k)
-    if (e.place[k].face >= 0) used.push_back(k);
+  for (std::size_t k = 0; k < e.place.size(); ++k) {
+    if (e.place[k].face < 0) continue;
+    used.push_back(k);
+    worst_from_surface = std::max(worst_from_surface, e.foot[k].distance);
+  }
   for (std::size_t k = 0; k < used.size(); k += std::max<std::size_t>(1, used.size() / kSample)) {
     points.push_back(e.position(static_cast<std::int32_t>(used[k])));
     const double d = norm(points.back() - e.foot[used[k]].position);
     from_surface += d * d;
-    worst_from_surface = std::max(worst_from_surface, d);
   }
   if (points.empty()) return {};
   const double size = e.surface.diagonal();

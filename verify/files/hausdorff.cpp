@@ -14,7 +14,8 @@ namespace limitcheck::verify {
 namespace {
 
 using Barycentric = std::array<double, 3>;
-constexpr int kSplits = 4;
+constexpr int kSplits = 5,
+              kCornerSplits = 14;    // towards an extraordinary vertex, where the bounds fall slowly
 constexpr std::size_t kExact = 400;  // places at which the distance is computed
 
 // A triangle of the tessellation over one face, its corners in the coordinates of that face, perhaps beyond
@@ -237,7 +238,7 @@ class Measurer {
                 int level) const {
     const Bound bound = look(piece, over);
     const double value = forwards ? bound.from_triangles : bound.from_surface;
-    if (value <= enough || level == kSplits) return value;
+    if (value <= enough || level == (piece.irregular >= 0 ? kCornerSplits : kSplits)) return value;
     double most = 0;
     for (const Piece& child : e_.surface.lattice().split(piece, e_.surface.surface()))
       most = std::max(most, refine(child, near(child, over), forwards, enough, level + 1));

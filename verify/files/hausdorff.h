@@ -28,7 +28,8 @@ struct Hausdorff {
 /// the part of T to P; and the surface deviates from P by no more than patch_bound.h proves. Parts of the
 /// surface that no triangle covers are bounded by the distance at their corners and their size. The lower
 /// bounds are exact distances at the most promising corners; pieces whose upper bound is beyond the largest
-/// of them by more than `tightness` are split, at most four times.
+/// of them by more than `tightness` are split, at most five times, or
+/// fourteen times towards an extraordinary vertex.
 ///   error  rounding, 1e-15 of the mesh, is not accounted for
 Hausdorff hausdorff(const FileEvidence& evidence, double tightness = .02);
 

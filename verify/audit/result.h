@@ -62,7 +62,7 @@ struct Report {
   };
   std::string version;
   int depth = 0;                      // the largest
-  std::string depths = "uniform";     // how the faces got theirs: uniform, random, view
+  std::string depths = "uniform";     // how the faces got theirs: uniform, random, view; file: unknown
   std::optional<std::uint64_t> seed;  // of random
   std::vector<Mesh> meshes;
   std::vector<std::string> subjects;

@@ -194,7 +194,10 @@ std::string to_table(const Report& report, bool colour, bool all) {
   std::int64_t faces = 0;
   for (const auto& m : report.meshes) faces += m.faces;
   std::string depth = fmt::format("depth {}", report.depth);
-  if (report.depths != "uniform") depth += fmt::format(" at most, {}", report.depths);
+  if (report.depths == "file")
+    depth = "a finished tessellation";
+  else if (report.depths != "uniform")
+    depth += fmt::format(" at most, {}", report.depths);
   if (report.seed) depth += fmt::format(" (seed {})", *report.seed);
   out += fmt::format(
       "limitcheck {}: {} on {} ({} faces)\n", report.version, depth,

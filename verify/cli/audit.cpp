@@ -19,6 +19,7 @@
 #include "verify/audit/audit.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
+#include "verify/cli/audit_files.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/doors.h"
 #include "verify/cli/progress.h"
@@ -121,6 +122,14 @@ std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlM
   return depth;
 }
 
+void check_json(const std::string& json) {
+  if (!json.empty() && json != "-" && !json.ends_with(".json"))
+    throw std::invalid_argument(
+        fmt::format("--json {0}: the file must end in .json, or be - for standard output (--json alone goes "
+                    "last: {0} --json)",
+                    json));
+}
+
 int audit(Arguments a) {
   const Depths depths = parse_depths(a.depths);
   if (depths.kind == "view" && a.depth > fast::kDeepest)
@@ -128,11 +137,6 @@ int audit(Arguments a) {
   take_program(a.door, a.subject, a.meshes);
   const bool main_job = a.subject.empty();
   if (main_job) a.subject = "all";
-  if (!a.json.empty() && a.json != "-" && !a.json.ends_with(".json"))
-    throw std::invalid_argument(
-        fmt::format("--json {0}: the file must end in .json, or be - for standard output (--json alone goes "
-                    "last: {0} --json)",
-                    a.json));
   if (a.meshes.empty()) {
     a.meshes = {"bumpy:800"};
     for (std::string& shape : data::stock_shapes()) a.meshes.push_back(std::move(shape));
@@ -219,8 +223,13 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->add_flag("--each-mesh", a->each_mesh,
                     "A line for every mesh in the table, not only for the worst");
   add_door_options(*command, a->door);
+  auto files = std::make_shared<FilesArguments>();
+  add_files_options(*command, *files);
   command->footer("Exit codes: 0 all held, 1 findings, 2 bad usage or input.");
-  command->callback([a, &exit_code] { exit_code = audit(*a); });
+  command->callback([a, files, &exit_code] {
+    check_json(a->json);
+    exit_code = files->given() ? audit_files(*files, a->json, a->threads) : audit(*a);
+  });
 }
 
 }  // namespace limitcheck::cli

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   int exit_code = kHeld;
   add_audit(app, exit_code);
   add_eval(app, exit_code);
+  add_claims(app, exit_code);
   add_generate(app, exit_code);
   add_tessellate(app, exit_code);
 

@@ -8,6 +8,7 @@
 
 #include "data/error.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/random_mesh.h"
 #include "data/io/read.h"
 #include "data/shapes.h"
 
@@ -59,6 +60,9 @@ const std::vector<Entry>& entries() {
       {"triangle", "triangle", "one triangle", 0, 0, [](Parameters) { return triangle(); }},
       {"triangle-pair", "triangle-pair", "two triangles sharing an edge", 0, 0,
        [](Parameters) { return triangle_pair(); }},
+      {"random", "random:SEED[:FACES]",
+       "any valid mesh: irregular, closed or open, valences 3 to 50; about 200 faces unless given", 1, 2,
+       [](Parameters p) { return random_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}); }},
       {"two-components", "two-components", "a tetrahedron and a wheel of valence 5", 0, 0,
        [](Parameters) { return two_components(); }},
   };

@@ -39,7 +39,7 @@ enum class Level {
   kStandard,  // also the relations (relations.h), on meshes of at most kRelationFaces faces
   kThorough   // the relations on every mesh
 };
-inline constexpr std::size_t kRelationFaces = 1000;
+inline constexpr std::size_t kRelationFaces = 200;
 
 /// Audits subjects on control meshes, no deeper than one depth; keeps the reference of the last mesh for the
 /// next subject.

@@ -13,6 +13,7 @@ void add_claims(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_audit(CLI::App& app, int& exit_code);
+void add_mutants(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 
 }  // namespace limitcheck::cli

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   add_eval(app, exit_code);
   add_claims(app, exit_code);
   add_generate(app, exit_code);
+  add_mutants(app, exit_code);
   add_tessellate(app, exit_code);
 
   try {

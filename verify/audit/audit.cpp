@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "verify/audit/checks.h"
+#include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
 #include "verify/subject/host.h"
 
@@ -36,8 +37,8 @@ Status status_of(const std::exception& error) {
 
 }  // namespace
 
-Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step)
-    : depth_(depth), threads_(threads), on_step_(std::move(on_step)) {}
+Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step, Level level)
+    : depth_(depth), threads_(threads), on_step_(std::move(on_step)), level_(level) {}
 
 Auditor::~Auditor() = default;
 
@@ -94,6 +95,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     results.back().of = 1;
     results.back().bad = is_bad(results.back());
     for (const Check& check : checks()) rows(check, Status::kNotRun, "there is no tessellation");
+    if (level_ != Level::kQuick)
+      for (const std::string_view r : relation_rows()) row(r, Status::kNotRun, "there is no tessellation");
     return results;
   }
 
@@ -146,6 +149,11 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     } catch (const std::exception& error) {
       rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
+  }
+  if (level_ == Level::kThorough ||
+      (level_ == Level::kStandard && mesh.mesh.triangles.size() <= kRelationFaces)) {
+    step(name, mesh.name, "relations");
+    for (Result& r : check_relations(audited, evidence, threads_)) results.push_back(std::move(r));
   }
   return results;
 }

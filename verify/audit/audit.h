@@ -33,12 +33,21 @@ struct AuditStep {
   std::size_t done, total;  // pairs of subject and mesh
 };
 
+/// How much is looked at.
+enum class Level {
+  kQuick,     // one tessellation of each mesh
+  kStandard,  // also the relations (relations.h), on meshes of at most kRelationFaces faces
+  kThorough   // the relations on every mesh
+};
+inline constexpr std::size_t kRelationFaces = 200;
+
 /// Audits subjects on control meshes, no deeper than one depth; keeps the reference of the last mesh for the
 /// next subject.
 class Auditor {
  public:
   /// depth >= 0; threads >= 1 are handed to the subjects (the checks use oneTBB's arena).
-  Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step = {});
+  Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step = {},
+          Level level = Level::kQuick);
   ~Auditor();
 
   /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`.
@@ -58,6 +67,7 @@ class Auditor {
 
   int depth_, threads_;
   std::function<void(const AuditStep&)> on_step_;
+  Level level_;
   std::size_t done_ = 0, total_ = 1;
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>> cache_;  // of one mesh: by precision and kind of points

@@ -21,6 +21,8 @@ std::vector<Result> check_positions(const Evidence&);
 /// `normals`: angle from the exact normal, where the surface has one; `normal-length`: distance from unit
 /// length.
 std::vector<Result> check_normals(const Evidence&);
+/// `normals-against-positions`: the normals fit the facets as well as the exact ones do.
+std::vector<Result> check_normals_against_positions(const Evidence&);
 /// `orientation`: triangles counter-clockwise on their control face, and facing as the exact facet does.
 std::vector<Result> check_orientation(const Evidence&);
 /// `coverage`: every control face tiled exactly once, at its depth.
@@ -28,6 +30,9 @@ std::vector<Result> check_coverage(const Evidence&);
 /// `shared-positions`, `shared-normals`: a point on a control edge or vertex that is delivered more than once
 /// has the same bits each time.
 std::vector<Result> check_shared(const Evidence&);
+/// `continuity`: what the faces at a control edge or vertex deliver there differs by no more than their
+/// errors may.
+std::vector<Result> check_continuity(const Evidence&);
 /// `watertight`: merging equal positions only, the triangles form a manifold with exactly the boundary of the
 /// control mesh; `t-vertices`: no vertex lies inside an edge of another triangle.
 std::vector<Result> check_watertight(const Evidence&);

@@ -9,6 +9,12 @@ std::string_view word(Status status) {
       return "held";
     case Status::kFinding:
       return "finding";
+    case Status::kQualityWarning:
+      return "quality-warning";
+    case Status::kWaived:
+      return "waived";
+    case Status::kUnexpectedPass:
+      return "unexpected-pass";
     case Status::kNotSupported:
       return "not-supported";
     case Status::kNotRun:

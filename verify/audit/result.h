@@ -21,6 +21,18 @@ enum class Status {
 };
 
 /// "held", "finding", "not-supported", "not-run", "crash", "timeout", "error": stable.
+  kHeld,            // looked at, nothing wrong
+  kFinding,         // looked at, something wrong: `bad` > 0
+  kQualityWarning,  // within its bound, but not as good as it could be: worth a look, no fault
+  kWaived,          // a finding that a waiver covers, within the waiver's own bound
+  kUnexpectedPass,  // a waiver covers it, but there is nothing to waive: time to remove the waiver
+  kNotSupported,    // the subject does not offer what this check looks at; not a fault
+  kNotRun,          // could not be looked at, because something before it failed; never a confirmation
+  kError            // subject or check broke down
+};
+
+/// "held", "finding", "quality-warning", "waived", "unexpected-pass", "not-supported", "not-run", "error":
+/// stable.
 std::string_view word(Status status);
 
 /// Where to look. Whatever does not apply is -1 or empty.

@@ -27,17 +27,21 @@ bool worse(const Result& a, const Result& b) {
       case Status::kCrash:
       case Status::kTimeout:
       case Status::kError:
-        return 4;
+        return 4.;
       case Status::kFinding:
-        return 3;
+        return 3.;
+      case Status::kUnexpectedPass:
+      case Status::kQualityWarning:
+      case Status::kWaived:
+        return 2.5;
       case Status::kHeld:
-        return 2;
+        return 2.;
       case Status::kNotSupported:
-        return 1;
+        return 1.;
       case Status::kNotRun:
-        return 0;
+        return 0.;
     }
-    return 0;
+    return 0.;
   };
   if (rank(a) != rank(b)) return rank(a) > rank(b);
   const auto excess = [](const Result& r) {
@@ -72,6 +76,12 @@ const char* verdict(Status status) {
       return "held";
     case Status::kFinding:
       return "FINDING";
+    case Status::kQualityWarning:
+      return "warning";
+    case Status::kWaived:
+      return "waived";
+    case Status::kUnexpectedPass:
+      return "STALE WAIVER";
     case Status::kNotSupported:
       return "not supported";
     case Status::kNotRun:

@@ -31,6 +31,11 @@ inline void refuse_too_many_triangles(const lc_mesh& mesh, int depth) {
   }
 }
 
+/// The depth of a request that has one for all faces; 0 where there are no faces.
+inline int uniform_depth(const lc_request& request, const lc_mesh& mesh) {
+  return mesh.triangle_count > 0 ? request.face_depth[0] : 0;
+}
+
 /// Allocates from the host and announces the arrays in `out`. Throws SubjectError if the host has no memory,
 /// or the vertices outnumber 32-bit indices.
 template <class Real>

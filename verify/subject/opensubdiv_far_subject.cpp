@@ -44,7 +44,7 @@ class FarSubject {
       : mesh_(mesh), wide_(capabilities(options).precision == LC_FLOAT64), refiner_(make_refiner(mesh)) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
-    const int depth = request.face_depth[0];
+    const int depth = uniform_depth(request, mesh_);
     refuse_too_many_triangles(mesh_, depth);
     const OpenSubdivErrors errors;
     refiner_->Unrefine();

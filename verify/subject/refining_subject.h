@@ -28,10 +28,11 @@ class RefiningSubject {
   RefiningSubject(const lc_mesh& mesh, Options&) : control_(mesh) { (void)T(mesh); }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
-    refuse_too_many_triangles(control_, request.face_depth[0]);
+    const int depth = uniform_depth(request, control_);
+    refuse_too_many_triangles(control_, depth);
     T mesh(control_);
     LatticeTracker tracker(control_);
-    for (int level = 0; level < request.face_depth[0]; ++level) {
+    for (int level = 0; level < depth; ++level) {
       mesh.refine();
       tracker.step(mesh.vertex_count(), mesh.triangles());
     }

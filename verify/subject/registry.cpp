@@ -11,7 +11,7 @@ std::vector<const lc_subject*> built_in_subjects() {
 
 const lc_subject* find_subject(std::string_view name) {
   std::vector<const lc_subject*> all = built_in_subjects();
-  all.insert(all.end(), {lc_subject_null(), lc_subject_faulty()});
+  all.insert(all.end(), {lc_subject_null(), lc_subject_faulty(), lc_subject_model()});
   for (const lc_subject* subject : all) {
     if (subject->name == name) return subject;
   }

@@ -16,6 +16,7 @@ const lc_subject* lc_subject_opensubdiv_bfr();
 const lc_subject* lc_subject_cgal();
 const lc_subject* lc_subject_openmesh();
 const lc_subject* lc_subject_null();
+const lc_subject* lc_subject_model();   // right, or wrong in one stated way: model_rules.h
 const lc_subject* lc_subject_faulty();  // options: verify/subject/faulty_subjects.h
 }
 
@@ -24,7 +25,7 @@ namespace limitcheck::verify {
 /// The tessellators, in the order in which they are listed and audited.
 std::vector<const lc_subject*> built_in_subjects();
 
-/// By name, `null` and `faulty` included; nullptr if there is none.
+/// By name, `null`, `faulty` and `model` included; nullptr if there is none.
 const lc_subject* find_subject(std::string_view name);
 
 }  // namespace limitcheck::verify

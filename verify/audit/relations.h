@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Checks that need more than one tessellation: what must stay the same when the same surface is asked for
+// otherwise. They need no exact surface, so they judge every family of weights.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "verify/audit/audit.h"
+#include "verify/audit/evidence.h"
+
+namespace limitcheck::verify {
+
+/// The names of the rows, in the order of the table:
+///   determinism          the same request again, and with other numbers of threads: the same bits
+///   face-order           faces in another order
+///   vertex-order         control vertices numbered otherwise
+///   corner-rotation      corners of the faces begun elsewhere
+///   mirror               the mirror image
+///   rotation             axes exchanged with signs: an exact rotation
+///   scaling              times 2^10 and 2^-10
+///   translation          moved by some diagonals (positions only: the rounding of the input turns normals)
+///   extreme-scale        times 2^40 and 2^-40
+///   degenerate-geometry  all control points on a line, or the same: finite, normals of unit length
+///   rejected-inputs      meshes that are no manifold, or have no faces: refused
+/// The rows from face-order to extreme-scale hold if positions and normals differ by at most twice what one
+/// result may be off; a difference in bits beneath that is a quality warning where the numbers handed in are
+/// the same ones.
+const std::vector<std::string_view>& relation_rows();
+
+/// One row for each. `e` is the evidence of the request as it was; never throws for what the subject does.
+std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Sections 1 to 3.1: growth, figures of the introduction, what the scheme accepts, and two misprints taken
+// literally.                                                       [C01-C04, C06, C07, C09, C13, C16]
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "data/generators/bumpy_sphere.h"
+#include "data/generators/named_mesh.h"
+#include "data/shapes.h"
+#include "data/validate.h"
+#include "reference/masks.h"
+#include "reference/number_exact.h"
+#include "reference/refine.h"
+#include "reference/stam.h"
+#include "verify/subject/host.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using V = reference::Vec3<double>;
+
+double distance(const V& a, const V& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+TEST(Sec1_Growth, IsFourfoldForTrianglesAndForPolygonsFromTheSecondStepOn) {
+  RecordProperty("claim", "C01");
+  for (const auto& mesh : {data::tetrahedron(), data::holes(), data::bumpy_sphere(60, 1)}) {
+    std::size_t faces = mesh.triangles.size();
+    for (int depth = 1; depth <= 3; ++depth) {
+      faces *= 4;
+      EXPECT_EQ(reference::refine<double>(mesh, depth).triangles().size(), faces);
+    }
+  }
+  // Catmull-Clark: a polygon of n corners becomes n quads, whatever it was.
+  std::vector<int> corners{3, 4, 5, 7};
+  std::size_t before = 0;
+  for (int step = 0; step < 3; ++step) {
+    std::vector<int> next;
+    for (const int n : corners) next.insert(next.end(), static_cast<std::size_t>(n), 4);
+    if (step == 0) {
+      EXPECT_EQ(next.size(), 3U + 4 + 5 + 7);
+    } else {
+      EXPECT_EQ(next.size(), 4 * before);
+    }
+    before = next.size();
+    corners = std::move(next);
+  }
+}
+
+TEST(Sec1_Triangles, PerControlTriangleAre64To1024AtDepthsThreeToFive) {
+  RecordProperty("claim", "C02");
+  for (const auto* subject : {lc_subject_naive(), lc_subject_sliding_window()}) {
+    Session session(*subject, data::tetrahedron());
+    EXPECT_EQ(session.tessellate(3).triangle_count(), 4 * 64);
+    EXPECT_EQ(session.tessellate(5).triangle_count(), 4 * 1024);
+  }
+}
+
+TEST(Sec1_ScreenSize, OfTwentyThousandTrianglesIsThirtyNinePixelsIfTheyFillTheScreen) {
+  RecordProperty("claim", "C03");
+  constexpr int kScreen = 1024 * 768;
+  RecordProperty("pixels_each", fmt::format("{:.1f}", kScreen / 20000.));
+  EXPECT_NEAR(kScreen / 20000., 40, 1) << "the lower end: the screen just covered";
+  EXPECT_GT(20000 * 65, kScreen) << "the upper end: more than the screen holds, unless they overlap";
+  EXPECT_NEAR(kScreen / 65., 12100, 10);
+}
+
+TEST(Sec1_ScreenSize, NineToElevenPixelsIsTheLegOfARightTriangleAndNoOtherDiameter) {
+  RecordProperty("claim", "C04");
+  const auto near = [](double low, double high) { return std::round(low) == 9 && std::round(high) == 11; };
+  const auto leg = [](double a) { return std::sqrt(2 * a); };
+  const auto side = [](double a) { return std::sqrt(4 * a / std::sqrt(3.)); };
+  const auto circle = [](double a) { return 2 * std::sqrt(a / std::numbers::pi); };
+  const auto hypotenuse = [&](double a) { return std::sqrt(2.) * leg(a); };
+  EXPECT_TRUE(near(leg(40), leg(65)));
+  EXPECT_FALSE(near(side(40), side(65)));
+  EXPECT_FALSE(near(circle(40), circle(65)));
+  EXPECT_FALSE(near(hypotenuse(40), hypotenuse(65)));
+}
+
+TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
+  RecordProperty("claim", "C06");
+  for (const std::string& shape : data::stock_shapes()) {
+    const auto mesh = data::named_mesh(shape);
+    EXPECT_TRUE(data::validate(mesh).empty()) << shape;
+    for (const auto* subject : {lc_subject_naive(), lc_subject_sliding_window()}) {
+      const auto t = Session(*subject, mesh).tessellate(2);
+      EXPECT_EQ(t.triangle_count(), static_cast<std::int64_t>(16 * mesh.triangles.size())) << shape;
+      EXPECT_TRUE(t.defects().empty());
+    }
+  }
+  data::ControlMesh fin = data::triangle_pair();  // a third face on the common edge
+  const auto& a = fin.triangles[0];
+  const auto& b = fin.triangles[1];
+  std::vector<std::int32_t> common;
+  for (const auto v : a)
+    if (std::find(b.begin(), b.end(), v) != b.end()) common.push_back(v);
+  fin.positions.push_back({0, 0, 5});
+  fin.triangles.push_back({common[0], common[1], static_cast<std::int32_t>(fin.positions.size()) - 1});
+  EXPECT_FALSE(data::validate(fin).empty());
+  EXPECT_THROW(reference::refine<double>(fin, 1), std::invalid_argument);
+}
+
+TEST(Sec3_SubFaces, ShareNoCornerPositionWithTheirParentUnlessAVertexIsTheMeanOfItsRing) {
+  RecordProperty("claim", "C07");
+  const auto mesh = data::bumpy_sphere(800, 1);
+  const auto finer = reference::refine<double>(mesh, 1);
+  double nearest = 1e300;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const auto& p = mesh.positions[v];
+    nearest = std::min(nearest, distance({p[0], p[1], p[2]}, finer.positions()[v]));
+  }
+  RecordProperty("shortest_move", fmt::format("{:.1e}", nearest));
+  EXPECT_GT(nearest, 1e-6);
+  // The counterexample: a flat regular sheet, where each vertex inside is the mean of its six neighbours.
+  data::ControlMesh flat = data::sheet(4, 4);
+  for (auto& p : flat.positions) p[2] = 0;
+  const auto refined = reference::refine<double>(flat, 1);
+  int stayed = 0;
+  for (std::size_t v = 0; v < flat.positions.size(); ++v) {
+    const auto& p = flat.positions[v];
+    stayed += distance({p[0], p[1], p[2]}, refined.positions()[v]) <= 1e-15;
+  }
+  EXPECT_GE(stayed, 9) << "all vertices inside";
+}
+
+TEST(Sec3_LimitSurface, DependsOnTheDiagonalsThatTriangulateTheQuads) {
+  RecordProperty("claim", "C09");
+  // A bumpy grid of 4 x 4 quads, every one cut along the one or the other diagonal.
+  const auto grid = [](int diagonal) {
+    data::ControlMesh mesh;
+    for (int y = 0; y <= 4; ++y)
+      for (int x = 0; x <= 4; ++x)
+        mesh.positions.push_back({static_cast<double>(x), static_cast<double>(y), (7 * x + 5 * y) % 4 / 4.});
+    for (std::int32_t y = 0; y < 4; ++y)
+      for (std::int32_t x = 0; x < 4; ++x) {
+        const std::int32_t a = 5 * y + x, b = a + 1, c = a + 6, d = a + 5;
+        if (diagonal == 0) {
+          mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+        } else {
+          mesh.triangles.insert(mesh.triangles.end(), {{b, c, d}, {b, d, a}});
+        }
+      }
+    return mesh;
+  };
+  const data::ControlMesh first = grid(0), second = grid(1);
+  const reference::StamEvaluator<double> one(first), other(second);
+  const auto corner = [](const data::ControlMesh& mesh, const auto& limit, std::int32_t v) {
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+      for (int k = 0; k < 3; ++k)
+        if (mesh.triangles[f][static_cast<std::size_t>(k)] == v)
+          return limit.evaluate(static_cast<int>(f), k == 1, k == 2, reference::Order::kFirst).position;
+    return V{};
+  };
+  double farthest = 0;
+  for (std::int32_t v = 0; v < 25; ++v)
+    farthest = std::max(farthest, distance(corner(first, one, v), corner(second, other, v)));
+  RecordProperty("largest_distance_of_a_limit_vertex_in_edge_lengths", fmt::format("{:.3f}", farthest));
+  EXPECT_GT(farthest, 0.05);
+}
+
+// Literal reading of "all indices modulo n" with the ring numbered 1..n and the centre 0: v_n becomes v_0.
+TEST(Sec31_Indices, ModuloNWouldMapTheLastNeighbourToTheCentre) {
+  RecordProperty("claim", "C13");
+  for (const int n : {3, 4, 5, 6, 7, 20}) {
+    const auto mesh = data::wheel(n, 3);
+    const reference::Topology topology(mesh.positions.size(), mesh.triangles);
+    const auto finer = reference::refine<double>(mesh, 1);
+    std::vector<V> v{{mesh.positions[0][0], mesh.positions[0][1], mesh.positions[0][2]}};  // v_0, v_1 .. v_n
+    for (const std::int32_t r : topology.ring(0)) {
+      const auto& p = mesh.positions[static_cast<std::size_t>(r)];
+      v.push_back({p[0], p[1], p[2]});
+    }
+    const auto edge_point = [&](int i, auto wrap) {  // equation (2) for the edge v_0 v_i
+      return reference::interior_edge_point(v[0], v[wrap(i)], v[wrap(i - 1)], v[wrap(i + 1)]);
+    };
+    const auto literal = [n](int i) { return static_cast<std::size_t>((i + n) % n); };
+    const auto meant = [n](int i) { return static_cast<std::size_t>((i - 1 + n) % n + 1); };
+    for (int i = 1; i <= n; ++i) {
+      const auto e = static_cast<std::size_t>(topology.spokes(0)[static_cast<std::size_t>(i) - 1]);
+      const V& truth = finer.positions()[mesh.positions.size() + e];
+      EXPECT_LE(distance(edge_point(i, meant), truth), 1e-15) << n << " " << i;
+      const double off = distance(edge_point(i, literal), truth);
+      if (i == n || i == 1 || i == n - 1) {
+        EXPECT_GT(off, 0.01) << "edge " << i << " of " << n << " uses v_n";
+      } else {
+        EXPECT_LE(off, 1e-15);
+      }
+    }
+  }
+}
+
+// The denominators of (4) and (5): exactly zero; in floating point whatever rounding leaves.
+TEST(Eq4And5_Denominators, AreZeroAndTheirRoundingFlipsTheNormalAtRegularVertices) {
+  RecordProperty("claim", "C16");
+  using Number = reference::Decimal50;
+  int exactly_zero = 0, opposite = 0;
+  for (long n = 3; n <= 50; ++n) {
+    Number sum1(0), sum2(0);
+    double d1 = 0, d2 = 0;
+    for (long i = 1; i <= n; ++i) {
+      sum1 = sum1 + reference::NumberTraits<Number>::cos_pi(2 * i, n);
+      sum2 = sum2 + reference::NumberTraits<Number>::cos_pi(2 * (i - 1), n);
+      d1 += std::cos(2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n));
+      d2 += std::cos(2 * std::numbers::pi * static_cast<double>(i - 1) / static_cast<double>(n));
+    }
+    EXPECT_LE(std::abs(reference::NumberTraits<Number>::approximate(sum1)), 1e-47) << n;
+    EXPECT_LE(std::abs(reference::NumberTraits<Number>::approximate(sum2)), 1e-47) << n;
+    EXPECT_LE(std::max(std::abs(d1), std::abs(d2)), 1e-13) << n;
+    exactly_zero += d1 == 0 || d2 == 0;
+    opposite += d1 * d2 < 0;
+    if (n == 6) {
+      EXPECT_LT(d1 * d2, 0) << "u1 x u2 divided by both: the normal points inside";
+    }
+  }
+  RecordProperty("valences_3_to_50_with_a_denominator_exactly_zero", exactly_zero);
+  RecordProperty("valences_3_to_50_with_flipped_normal", opposite);
+  EXPECT_GT(opposite, 0);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// `limitcheck claims` as a user meets it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+class ClaimsCommand : public CommandTest {};
+
+TEST_F(ClaimsCommand, WithoutItsTestProgramsNothingIsConfirmed) {
+  const Outcome o = run("claims --json --programs .");  // as where only the program is installed
+  EXPECT_EQ(o.code, 1);
+  const auto json = nlohmann::json::parse(o.out);
+  ASSERT_EQ(json["claims"].size(), 84U);
+  for (const auto& claim : json["claims"]) {
+    EXPECT_EQ(claim["held"], false) << claim;
+    EXPECT_EQ(claim["ran"], false) << claim;
+    EXPECT_EQ(claim["outcome"], claim["check"].is_null() ? "not checkable" : "not run") << claim;
+    EXPECT_FALSE(claim["message"].is_null()) << claim;
+  }
+  EXPECT_EQ(json["coverage"]["held"], 0);
+}
+
+TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {
+  const Outcome o = run("claims C85");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("C01 to C84"), std::string::npos) << o.err;
+}
+
+TEST_F(ClaimsCommand, WritesTheErrata) {
+  const Outcome o = run("claims --errata");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_NE(o.out.find("| C69 | Appendix A |"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Who checks the checks: faulty tessellators behind the door, each meant for one check, and the table of what
+// found them.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace limitcheck::verify {
+
+struct Mutant {
+  std::string name, description;
+  std::string subject, options;  // as `limitcheck audit SUBJECT:OPTIONS` takes them
+  std::string check;             // the row meant for it
+  std::string claim;             // of the paper, where the mutant is the paper taken literally; else empty
+};
+
+/// All of them: faults planted in what a right subject delivers, and a right subject with one rule changed.
+const std::vector<Mutant>& mutants();
+
+struct Kill {
+  const Mutant* mutant;
+  std::set<std::string> killed_by;  // rows that were red
+  bool by_its_check() const { return killed_by.contains(mutant->check); }
+};
+
+struct KillTable {
+  std::vector<Kill> kills;
+  std::vector<std::string> idle;  // rows of the audit that are the right ones for no mutant they kill
+  std::vector<std::string> red_on_correct;  // "subject / mesh / row": findings on subjects that are right
+  bool held() const;
+};
+
+/// Audits all mutants and the subjects they come from, on three small meshes. About a minute.
+///   on_step  called with what is being done, how much is done, of how much
+KillTable run_mutants(const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step = {});
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The kill table, held to what the project promises of it.
+#include "verify/mutants/mutants.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+namespace limitcheck::verify {
+namespace {
+
+TEST(Mutants, AreAtLeastSixtyEachWithAnotherNameAndACheckMeantForIt) {
+  std::set<std::string> names;
+  for (const Mutant& m : mutants()) {
+    EXPECT_TRUE(names.insert(m.name).second) << m.name;
+    EXPECT_FALSE(m.check.empty()) << m.name << " is meant for no check";
+  }
+  EXPECT_GE(names.size(), 60U);
+}
+
+TEST(Mutants, AreAllKilledByTheCheckMeantForThemAndNoCheckIsIdle) {
+  const KillTable table = run_mutants();
+  for (const Kill& k : table.kills)
+    EXPECT_TRUE(k.by_its_check()) << k.mutant->name << " (" << k.mutant->description << ") is meant for "
+                                  << k.mutant->check << ", killed by "
+                                  << fmt::format("{}", fmt::join(k.killed_by, ", "));
+  EXPECT_EQ(fmt::format("{}", fmt::join(table.idle, ", ")), "")
+      << "a check without a mutant it kills is none";
+  EXPECT_EQ(fmt::format("{}", fmt::join(table.red_on_correct, "\n")), "");
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

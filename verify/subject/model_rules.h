@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Loop's rules with one of them changed: what the subject `model` computes with.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "reference/topology.h"
+#include "reference/vec3.h"
+
+namespace limitcheck::verify {
+
+struct Mutation {
+  std::string_view name, description;
+  std::string_view check;       // the row of the audit meant for it
+  std::string_view claim = {};  // of the paper, where this is the paper taken literally
+};
+
+/// All mutations of the model; the first is "none".
+std::span<const Mutation> mutations();
+
+/// The rules under one mutation, in double. Points are those of a mesh at some level.
+class ModelRules {
+ public:
+  using V = reference::Vec3<double>;
+  explicit ModelRules(std::string_view mutation) : mutation_(mutation) {}
+
+  bool is(std::string_view name) const { return mutation_ == name; }
+
+  /// One step: vertex points in the order of the vertices, then edge points in the order of the edges.
+  std::vector<V> refine(const reference::Topology& topology, const std::vector<V>& points) const;
+  V limit(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
+  V normal(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
+
+ private:
+  double alpha(int n) const;
+  V vertex_point(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
+  V edge_point(const reference::Topology& topology, const std::vector<V>& points,
+               const reference::Edge& edge) const;
+
+  std::string_view mutation_;
+};
+
+}  // namespace limitcheck::verify

@@ -11,16 +11,6 @@
 namespace limitcheck::verify {
 
 enum class Status {
-  kHeld,          // looked at, nothing wrong
-  kFinding,       // looked at, something wrong: `bad` > 0
-  kNotSupported,  // the subject does not offer what this check looks at; not a fault
-  kNotRun,        // could not be looked at, because something before it failed; never a confirmation
-  kCrash,         // the subject's process was killed, ended, or took too much memory
-  kTimeout,       // the subject did not answer in time
-  kError          // subject or check broke down otherwise
-};
-
-/// "held", "finding", "not-supported", "not-run", "crash", "timeout", "error": stable.
   kHeld,            // looked at, nothing wrong
   kFinding,         // looked at, something wrong: `bad` > 0
   kQualityWarning,  // within its bound, but not as good as it could be: worth a look, no fault
@@ -28,11 +18,13 @@ enum class Status {
   kUnexpectedPass,  // a waiver covers it, but there is nothing to waive: time to remove the waiver
   kNotSupported,    // the subject does not offer what this check looks at; not a fault
   kNotRun,          // could not be looked at, because something before it failed; never a confirmation
-  kError            // subject or check broke down
+  kCrash,           // the subject's process was killed, ended, or took too much memory
+  kTimeout,         // the subject did not answer in time
+  kError            // subject or check broke down otherwise
 };
 
-/// "held", "finding", "quality-warning", "waived", "unexpected-pass", "not-supported", "not-run", "error":
-/// stable.
+/// "held", "finding", "quality-warning", "waived", "unexpected-pass", "not-supported", "not-run", "crash",
+/// "timeout", "error": stable.
 std::string_view word(Status status);
 
 /// Where to look. Whatever does not apply is -1 or empty.

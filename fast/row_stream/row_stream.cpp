@@ -109,9 +109,10 @@ void RowStream::whole(std::span<const Pair> pairs, int depth, Workspace& workspa
       rest, Order::kFromA);
 }
 
-void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
-                      Vertex* out) const {
-  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
+void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
+                      const Kernel* other) const {
+  const Kernel& kernel = other != nullptr ? *other : kernel_;
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
   const auto length = static_cast<std::size_t>(side(depth));
   workspace.input.grow(lanes * static_cast<std::size_t>(edge_input_size(checked(depth))));
   workspace.work.grow(lanes * static_cast<std::size_t>(edge_work_size(depth)));
@@ -119,9 +120,9 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
 
   for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
     const auto batch = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
-    gather_edges(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data());
-    kernel_.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
-                      workspace.row.data());
+    gather_edges(adjacency_, rings_, batch, depth, kernel.lanes, workspace.input.data());
+    kernel.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
+                     workspace.row.data());
     for (std::size_t e = 0; e < batch.size(); ++e) {
       float* to = out[(first + e) * length].position;
       for (std::size_t k = 0; k < 6 * length; ++k) to[k] = workspace.row.data()[k * lanes + e];

@@ -35,7 +35,7 @@ class AlignedFloats {
 };
 
 /// What one thread needs besides the mesh: a batch's control points, the kernel's rows and a row of output.
-/// WORKSPACE_BYTES, whatever the mesh.
+/// 155 712 bytes at depth 5 with 16 lanes, whatever the mesh.
 struct Workspace {
   AlignedFloats input, work, row;
   std::size_t bytes() const { return 4 * (input.size() + work.size() + row.size()); }
@@ -93,7 +93,8 @@ class RowStream {
 
   /// The points of control edges at a depth of their own: those of half_edges[e], from its origin to its
   /// target, from out[e * side]. The same bits as a pair of that depth gives them.
-  void edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out) const;
+  void edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
+             const Kernel* kernel = nullptr) const;
 
  private:
   void batches(const Kernel& kernel, std::span<const Pair> pairs, int depth, Workspace& workspace,

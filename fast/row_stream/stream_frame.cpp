@@ -130,7 +130,8 @@ struct StreamTessellator::State {
                             pairing.pairs,
                             patches,
                             control ? &*control : nullptr,
-                            options.cracks.centre};
+                            options.cracks.centre,
+                            largest_depth};
     tbb::enumerable_thread_specific<StreamWorker> workers;
     const std::size_t total = batches.list().size();
     std::atomic<std::size_t> done = 0;

@@ -42,8 +42,8 @@ class StreamTessellator {
   /// calls left out.
   void on_progress(std::function<void(std::size_t done, std::size_t total)> tell);
 
-  /// Largest memory of a thread in the last frame, output aside; at depth 5 at most WORKER_BYTES whatever the
-  /// mesh.
+  /// Largest memory of a thread in the last frame, output aside; at depth 5 at most 200 000 bytes, whatever
+  /// the mesh.
   std::size_t worker_bytes() const;
 
  private:

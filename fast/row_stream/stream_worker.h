@@ -2,6 +2,7 @@
 // One thread's part of a frame: evaluates a batch and hands its points to the patches' writers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -28,6 +29,7 @@ struct StreamFrame {
   std::span<const Patch> patches;
   const PreparedMesh<float>* control;  // for the centres of fans; null if there are none
   FanCentre centre;
+  int deepest;  // of pairs and edges
 };
 
 class StreamWorker {
@@ -63,7 +65,7 @@ class StreamWorker {
     std::size_t count = scratch_.inner.capacity() + strip_.capacity();
     for (const auto& points : border_) count += points.capacity();
     return workspace_.bytes() + sizeof(Point) * count +
-           sizeof(Vertex) * (before_.capacity() + whole_.capacity() + edge_.capacity());
+           sizeof(Vertex) * (before_.capacity() + edge_.capacity());
   }
 
  private:
@@ -122,15 +124,20 @@ class StreamWorker {
   void evaluate_whole(const StreamFrame& frame, const Batch& batch) {
     collect(frame, batch);
     const auto n = static_cast<std::size_t>(side(batch.depth));
-    whole_.resize(batch.patches.size() * n * n);
-    frame.stream.whole(pairs_, batch.depth, workspace_, whole_.data(), &frame.narrow);
+    // The pairs lie behind what narrow kernels need of the same memory, so that frames need no more than
+    // rows.
+    const auto kernels_own = static_cast<std::size_t>(
+        frame.narrow.lanes * std::max(work_size(batch.depth), edge_work_size(frame.deepest)));
+    workspace_.work.grow(kernels_own + 6 * batch.patches.size() * n * n);
+    whole_ = reinterpret_cast<Vertex*>(workspace_.work.data() + kernels_own);
+    frame.stream.whole(pairs_, batch.depth, workspace_, whole_, &frame.narrow);
   }
 
   // The strips of each half in its own frame: row r of face0's is our row k - r, of face1's our row r.
   template <class Writer>
   void whole(const Patch& patch, std::size_t lane, Writer& writer) {
     const int k = 1 << patch.depth;
-    const Vertex* points = whole_.data() + lane * static_cast<std::size_t>((k + 1) * (k + 1));
+    const Vertex* points = whole_ + lane * static_cast<std::size_t>((k + 1) * (k + 1));
     strip_.resize(2 * static_cast<std::size_t>(k + 1));
     for (int h = 0; h < 2; ++h) {
       if (!patch.half[h].uses_window()) continue;
@@ -171,7 +178,7 @@ class StreamWorker {
       const std::int32_t h = 3 * face + e;
       const int depth = edge_depth(frame.plan, face, e);
       edge_.resize(static_cast<std::size_t>(side(depth)));
-      frame.stream.edges({&h, 1}, depth, workspace_, edge_.data());
+      frame.stream.edges({&h, 1}, depth, workspace_, edge_.data(), &frame.narrow);
       auto& points = border_[static_cast<std::size_t>(e)];
       points.clear();
       for (const Vertex& v : edge_) points.push_back(as_point(v));
@@ -182,7 +189,8 @@ class StreamWorker {
 
   Workspace workspace_;
   std::vector<Pair> pairs_;
-  std::vector<Vertex> before_, whole_, edge_;
+  std::vector<Vertex> before_, edge_;
+  Vertex* whole_ = nullptr;  // in workspace_.work
   std::vector<Point> strip_;
   std::array<std::vector<Point>, 3> border_;
   DrawWriter<float>::Scratch scratch_;

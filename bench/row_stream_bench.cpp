@@ -16,6 +16,7 @@
 
 #include "bench/peer_bfr.h"
 #include "data/generators/bumpy_sphere.h"
+#include "fast/row_stream/compact_vertex.h"
 #include "fast/row_stream/row_stream.h"
 #include "fast/row_stream/stream_frame.h"
 #include "fast/sliding_window.h"
@@ -65,6 +66,15 @@ void whole_pairs(benchmark::State& state, int faces, int depth) {
   rs::Workspace workspace;
   std::vector<rs::Vertex> out(static_cast<std::size_t>(points(p.pairs.size(), depth)));
   for (auto _ : state) p.stream.whole(p.pairs, depth, workspace, out.data());
+  count(state, points(p.pairs.size(), depth));
+}
+
+template <class Out>
+void streamed(benchmark::State& state, int faces, int depth) {
+  const Prepared p(mesh_of(faces), depth, rs::kernels().front());
+  rs::Workspace workspace;
+  std::vector<Out> out(static_cast<std::size_t>(points(p.pairs.size(), depth)));
+  for (auto _ : state) p.stream.streamed(p.pairs, depth, workspace, out.data());
   count(state, points(p.pairs.size(), depth));
 }
 
@@ -201,6 +211,8 @@ class Ratios : public benchmark::ConsoleReporter {
     ratio("depth 5, row buffer / write-only 1 MB", buffer + place(4000, 5), "bound/cached", .45);
     ratio("depth 5, row buffer / write-only 16 KB", buffer + place(4000, 5), "bound/first-level", 0);
     ratio("depth 5, whole pairs / write-only to memory", "row-stream/whole" + place(4000, 5),
+          "bound/streaming", 0);
+    ratio("depth 5, streamed / write-only to memory", "row-stream/streamed" + place(4000, 5),
           "bound/streaming", .5);
     ratio("depth 3, from scratch / Bfr from scratch", "row-stream/from-scratch" + place(4000, 3),
           "bfr/from-scratch" + place(4000, 3), 15);
@@ -229,6 +241,9 @@ int main(int argc, char** argv) {
   }
   for (const int depth : {3, 5}) {
     add("row-stream/whole" + place(faces, depth), [=](auto& s) { whole_pairs(s, faces, depth); });
+    add("row-stream/streamed" + place(faces, depth), [=](auto& s) { streamed<rs::Vertex>(s, faces, depth); });
+    add("row-stream/streamed-compact" + place(faces, depth),
+        [=](auto& s) { streamed<rs::CompactVertex>(s, faces, depth); });
     add("row-stream/from-scratch" + place(faces, depth), [=](auto& s) { from_scratch(s, faces, depth); });
     add("bfr/streaming" + place(faces, depth), [=](auto& s) { bfr_warm(s, faces, depth); });
     add("bfr/from-scratch" + place(faces, depth), [=](auto& s) { bfr_from_scratch(s, faces, depth); });

@@ -15,6 +15,7 @@
 #include "fast/adjacency.h"
 #include "fast/depth.h"
 #include "fast/pairing.h"
+#include "fast/row_stream/rings.h"
 
 namespace {
 
@@ -63,6 +64,9 @@ void add(const std::string& name, const Stage& stage) {
 int main(int argc, char** argv) {
   add("adjacency/build",
       [](const Scene& s) { benchmark::DoNotOptimize(fast::Adjacency(s.mesh).max_valence()); });
+  add("rings/build", [](const Scene& s) {
+    benchmark::DoNotOptimize(fast::row_stream::Rings(s.mesh, s.adjacency).degenerate_normals());
+  });
   add("depth/per-mesh", [](const Scene& s) {
     benchmark::DoNotOptimize(fast::DepthHeuristics(s.mesh, s.adjacency).degenerate_normals());
   });

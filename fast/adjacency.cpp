@@ -42,7 +42,9 @@ void Adjacency::read_faces(const data::ControlMesh& mesh) {
       bad |= static_cast<std::uint32_t>(t[k]) >= vertices;
       origin_[3 * f + k] = t[k];
     }
-    bad |= (t[0] == t[1]) | (t[1] == t[2]) | (t[2] == t[0]);
+    bad |= t[0] == t[1];
+    bad |= t[1] == t[2];
+    bad |= t[2] == t[0];
   }
   for (std::size_t f = 0; bad && f < mesh.triangles.size(); ++f) {
     const auto& t = mesh.triangles[f];

@@ -50,6 +50,7 @@ void expect_consistent(const ControlMesh& mesh) {
     int h = adjacency.outgoing(v), last = -1, steps = 0;
     for (; h >= 0 && steps < faces[v]; ++steps) {
       ASSERT_EQ(adjacency.origin(h), v);
+      ASSERT_EQ(adjacency.fan(v)[static_cast<std::size_t>(steps)], h);
       met.insert(adjacency.target(h));
       if (last >= 0) {
         ASSERT_EQ(adjacency.origin(Adjacency::prev(last)), adjacency.target(h)) << "not counter-clockwise";
@@ -59,6 +60,7 @@ void expect_consistent(const ControlMesh& mesh) {
     }
     if (last >= 0) met.insert(adjacency.origin(Adjacency::prev(last)));
     ASSERT_EQ(steps, faces[v]);
+    ASSERT_EQ(static_cast<int>(adjacency.fan(v).size()), steps);
     ASSERT_EQ(h, adjacency.on_boundary(v) ? -1 : adjacency.outgoing(v)) << "vertex " << v;
     ASSERT_EQ(met, neighbours[v]) << "vertex " << v;
   }

@@ -45,15 +45,17 @@ class Pool {
 /// Adjacency, uniform pairing, rings and vertex limits; then rows or whole pairs.
 class RowStreaming : public Contender {
  public:
-  enum class Form { kRows, kWhole };
+  enum class Form { kRows, kWhole, kStreamed, kCompact };
 
   RowStreaming(const data::ControlMesh& mesh, int depth, int threads, const rs::Kernel& kernel, Form form)
       : depth_(depth),
         threads_(threads),
+        form_(form),
         adjacency_(mesh),
         pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs),
         stream_(mesh, adjacency_, kernel) {
-    if (form == Form::kWhole) out_.resize(static_cast<std::size_t>(evaluated()));
+    if (form == Form::kWhole || form == Form::kStreamed) out_.resize(static_cast<std::size_t>(evaluated()));
+    if (form == Form::kCompact) compact_.resize(static_cast<std::size_t>(evaluated()));
   }
 
   void run() override {
@@ -63,14 +65,24 @@ class RowStreaming : public Contender {
       first *= lanes, last = std::min(last * lanes, pairs_.size());
       const auto some = std::span(pairs_).subspan(first, last - first);
       auto workspace = pool_.take([] { return std::make_unique<rs::Workspace>(); });
-      if (out_.empty()) {
-        stream_.rows(some, depth_, *workspace, nullptr, nullptr);
-        if constexpr (PLANTED_SLOWDOWN > 0)
-          stream_.rows(some.first(some.size() * PLANTED_SLOWDOWN / 100), depth_, *workspace, nullptr,
-                       nullptr);
-      } else
-        stream_.whole(some, depth_, *workspace,
-                      out_.data() + first * static_cast<std::size_t>(per_pair(1, depth_)));
+      const std::size_t start = first * static_cast<std::size_t>(per_pair(1, depth_));
+      switch (form_) {
+        case Form::kRows:
+          stream_.rows(some, depth_, *workspace, nullptr, nullptr);
+          if constexpr (PLANTED_SLOWDOWN > 0)
+            stream_.rows(some.first(some.size() * PLANTED_SLOWDOWN / 100), depth_, *workspace, nullptr,
+                         nullptr);
+          break;
+        case Form::kWhole:
+          stream_.whole(some, depth_, *workspace, out_.data() + start);
+          break;
+        case Form::kStreamed:
+          stream_.streamed(some, depth_, *workspace, out_.data() + start);
+          break;
+        case Form::kCompact:
+          stream_.streamed(some, depth_, *workspace, compact_.data() + start);
+          break;
+      }
       pool_.give(std::move(workspace));
     });
     benchmark::ClobberMemory();
@@ -79,11 +91,13 @@ class RowStreaming : public Contender {
 
  private:
   int depth_, threads_;
+  Form form_;
   fast::Adjacency adjacency_;
   std::vector<fast::Pair> pairs_;
   rs::RowStream stream_;
   Pool<rs::Workspace> pool_;
   std::vector<rs::Vertex> out_;
+  std::vector<rs::CompactVertex> compact_;
 };
 
 /// The paper's scheme, one point after the other, strips looked at and forgotten.
@@ -151,8 +165,9 @@ std::vector<Route> our_routes() {
   std::vector<Route> routes;
   const auto add = [&](std::string name, std::string what, const rs::Kernel& kernel,
                        RowStreaming::Form form) {
-    const bool kept = form == RowStreaming::Form::kWhole;
-    routes.push_back({std::move(name), std::move(what), kernel.fused ? 5. : 100., kept ? 24. : 0., true,
+    using Form = RowStreaming::Form;
+    const double bytes = form == Form::kRows ? 0 : form == Form::kCompact ? 16 : 24;
+    routes.push_back({std::move(name), std::move(what), kernel.fused ? 5. : 100., bytes, true,
                       [&kernel, form](const auto& mesh, int depth, int threads) {
                         return std::make_unique<RowStreaming>(mesh, depth, threads, kernel, form);
                       }});
@@ -162,6 +177,10 @@ std::vector<Route> our_routes() {
         RowStreaming::Form::kRows);
   add("row-stream/whole-pairs", "row streaming, all vertices kept", rs::kernels().front(),
       RowStreaming::Form::kWhole);
+  add("row-stream/streamed", "row streaming, all vertices kept, written past the caches",
+      rs::kernels().front(), RowStreaming::Form::kStreamed);
+  add("row-stream/compact", "row streaming, 16 bytes a vertex, written past the caches",
+      rs::kernels().front(), RowStreaming::Form::kCompact);
   routes.push_back({"sliding-window", "the paper's scheme, scalar float, strips overwritten", 35, 0, true,
                     [](const auto& mesh, int depth, int threads) {
                       return std::make_unique<Window>(mesh, depth, threads);

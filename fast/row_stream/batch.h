@@ -13,12 +13,16 @@
 
 namespace limitcheck::fast::row_stream {
 
+/// Which corner of the pairs is the lattice's A: the layout's, or after half a turn its C. The points and
+/// their bits are the same, the other way round.
+enum class Order : std::uint8_t { kFromA = 0, kFromC = 2 };
+
 /// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to `lanes`
 /// pairs; the lanes that remain repeat the last pair. A singleton without neighbour gets ghosts for its dummy
 /// partner.
 template <class N>
 void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Pair> pairs, int depth,
-            int lanes, typename N::Scalar* input);
+            int lanes, typename N::Scalar* input, Order order = Order::kFromA);
 
 /// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) *
 /// lanes.
@@ -80,23 +84,25 @@ void put_ghost(const BasicRings<N>& rings, Place a, int corner, int depth, int l
 
 template <class N>
 void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Pair> pairs, int depth,
-            int lanes, typename N::Scalar* input) {
+            int lanes, typename N::Scalar* input, Order order) {
   using detail::Place;
   for (int lane = 0; lane < lanes; ++lane) {
     const Pair& pair = pairs[std::min(static_cast<std::size_t>(lane), pairs.size() - 1)];
     // A singleton without neighbour may be cut along any edge.
     const std::int32_t ac = 3 * pair.face0 + (pair.edge0 < 0 ? 0 : pair.edge0);
     const std::int32_t cd = Adjacency::next(ac), da = Adjacency::prev(ac), ca = adjacency.twin(ac);
+    const auto block = [&](int corner) {
+      return input + (corner ^ static_cast<int>(order)) * corner_block_size(depth) * lanes + lane;
+    };
     const auto put = [&](int corner, Place place) {
-      detail::put_corner(rings, place, window_width(corner, depth), depth, lanes,
-                         input + corner * corner_block_size(depth) * lanes + lane);
+      detail::put_corner(rings, place, window_width(corner, depth), depth, lanes, block(corner));
     };
     const Place a{adjacency.origin(ac), rings.slot(ac) - 1};
     put(kA, a);
     put(kC, {adjacency.origin(cd), rings.slot(cd)});
     put(kD, {adjacency.origin(da), rings.slot(da)});
     if (ca < 0) {
-      detail::put_ghost(rings, a, kB, depth, lanes, input + kB * corner_block_size(depth) * lanes + lane);
+      detail::put_ghost(rings, a, kB, depth, lanes, block(kB));
     } else {
       const std::int32_t bc = Adjacency::prev(ca);
       put(kB, {adjacency.origin(bc), rings.slot(bc)});

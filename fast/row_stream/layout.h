@@ -98,9 +98,11 @@ constexpr int strips_offset(int depth) {
   return border_offset(depth) + 4 * kBorderSize * (depth + 1);
 }
 constexpr int work_size(int depth) {
-  return strips_offset(depth) +
-         (has_local_origin(depth) ? edge_work_size(depth) + kPairEdges * edge_output_size(depth) : 0);
+  return strips_offset(depth) + (has_local_origin(depth) ? kPairEdges * edge_output_size(depth) : 0);
 }
+/// The strips are done before the rows begin, and work where those will be.
+static_assert(edge_work_size(kLocalFrom) <= rows_offset(kLocalFrom + 1) &&
+              edge_work_size(kMaxDepth) <= rows_offset(kMaxDepth + 1));
 
 /// From the kernel's coordinates to the caller's: position = centre + unit * x.
 template <class T>

@@ -41,20 +41,26 @@ HWY_ATTR HWY_INLINE V octahedral(D d, V x, V y, V z) {
   return hn::BitCast(d, hn::Or(hn::And(a, hn::Set(bits, 0xffff)), hn::ShiftLeft<16>(b)));
 }
 
-HWY_ATTR void compact_vectors(const Vertex* from, std::size_t count, CompactVertex* to) {
-  const hn::CappedTag<float, 16> d;
+template <class D>
+HWY_ATTR HWY_INLINE void compact_one_vector(D d, const float* in, float* out) {
   const std::size_t lanes = hn::Lanes(d);
-  const float* in = reinterpret_cast<const float*>(from);
-  float* out = reinterpret_cast<float*>(to);
+  hn::Vec<D> x0, y0, z0, x1, y1, z1;
+  hn::LoadInterleaved3(d, in, x0, y0, z0);
+  hn::LoadInterleaved3(d, in + 3 * lanes, x1, y1, z1);
+  const auto n0 = octahedral(d, x0, y0, z0), n1 = octahedral(d, x1, y1, z1);
+  hn::StoreInterleaved4(hn::ConcatEven(d, x1, x0), hn::ConcatEven(d, y1, y0), hn::ConcatEven(d, z1, z0),
+                        hn::ConcatOdd(d, n1, n0), d, out);
+}
+
+HWY_ATTR void compact_vectors(const Vertex* from, std::size_t count, CompactVertex* to) {
+  const hn::CappedTag<float, 16> wide;
+  const hn::CappedTag<float, 4> four;
+  const std::size_t lanes = hn::Lanes(wide), lanes_four = hn::Lanes(four);
+  const auto* in = reinterpret_cast<const float*>(from);
+  auto* out = reinterpret_cast<float*>(to);
   std::size_t k = 0;
-  for (; k + lanes <= count; k += lanes, in += 6 * lanes, out += 4 * lanes) {
-    hn::Vec<decltype(d)> x0, y0, z0, x1, y1, z1;
-    hn::LoadInterleaved3(d, in, x0, y0, z0);
-    hn::LoadInterleaved3(d, in + 3 * lanes, x1, y1, z1);
-    const auto n0 = octahedral(d, x0, y0, z0), n1 = octahedral(d, x1, y1, z1);
-    hn::StoreInterleaved4(hn::ConcatEven(d, x1, x0), hn::ConcatEven(d, y1, y0), hn::ConcatEven(d, z1, z0),
-                          hn::ConcatOdd(d, n1, n0), d, out);
-  }
+  for (; k + lanes <= count; k += lanes) compact_one_vector(wide, in + 6 * k, out + 4 * k);
+  for (; k + lanes_four <= count; k += lanes_four) compact_one_vector(four, in + 6 * k, out + 4 * k);
   for (; k < count; ++k) to[k] = compacted(from[k]);
 }
 

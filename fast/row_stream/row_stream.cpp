@@ -7,8 +7,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "fast/row_stream/batch.h"
-
 namespace limitcheck::fast::row_stream {
 
 namespace {
@@ -63,9 +61,14 @@ RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, 
     : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency) {}
 
 void RowStream::rows(std::span<const Pair> pairs, int depth, Workspace& workspace,
-                     void (*visit)(void*, const RowView&), void* context) const {
-  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
-  prepare(workspace, depth, kernel_.lanes);
+                     void (*visit)(void*, const RowView&), void* context, Order order) const {
+  batches(kernel_, pairs, depth, workspace, visit, context, order);
+}
+
+void RowStream::batches(const Kernel& kernel, std::span<const Pair> pairs, int depth, Workspace& workspace,
+                        void (*visit)(void*, const RowView&), void* context, Order order) const {
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
+  prepare(workspace, depth, kernel.lanes);
   workspace.row.grow(lanes * row_pitch(depth));
 
   const auto pitch = static_cast<std::ptrdiff_t>(row_pitch(depth));
@@ -73,35 +76,43 @@ void RowStream::rows(std::span<const Pair> pairs, int depth, Workspace& workspac
   Target<float> target{workspace.row.data(), pitch, 0, visit ? &visit_row : nullptr, &rows};
   for (std::size_t first = 0; first < pairs.size(); first += lanes) {
     rows.view.pairs = pairs.subspan(first, std::min(lanes, pairs.size() - first));
-    gather(adjacency_, rings_, rows.view.pairs, depth, kernel_.lanes, workspace.input.data());
-    kernel_.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
+    gather(adjacency_, rings_, rows.view.pairs, depth, kernel.lanes, workspace.input.data(), order);
+    kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
 }
 
-void RowStream::whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const {
-  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
+void RowStream::whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out,
+                      const Kernel* other) const {
+  const Kernel& kernel = other != nullptr ? *other : kernel_;
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
   const auto pair_size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
-  prepare(workspace, depth, kernel_.lanes);
+  prepare(workspace, depth, kernel.lanes);
 
-  for (std::size_t first = 0; first < pairs.size(); first += lanes) {
-    const auto batch = pairs.subspan(first, std::min(lanes, pairs.size() - first));
-    gather(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data());
-    Target<float> target{reinterpret_cast<float*>(out + first * pair_size),
-                         6 * static_cast<std::ptrdiff_t>(pair_size), 6 * side(depth), nullptr, nullptr};
-    // The lanes beyond the last pair write too, but not into the caller's memory.
-    if (batch.size() < lanes) {
-      workspace.row.grow(6 * lanes * pair_size);
-      target.base = workspace.row.data();
-    }
-    kernel_.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
-    if (batch.size() < lanes)
-      std::memcpy(out + first * pair_size, workspace.row.data(), batch.size() * pair_size * sizeof(Vertex));
+  const std::size_t full = pairs.size() / lanes * lanes;
+  for (std::size_t first = 0; first < full; first += lanes) {
+    gather(adjacency_, rings_, pairs.subspan(first, lanes), depth, kernel.lanes, workspace.input.data(),
+           Order::kFromA);
+    const Target<float> target{out[first * pair_size].position, 6 * static_cast<std::ptrdiff_t>(pair_size),
+                               6 * side(depth), nullptr, nullptr};
+    kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
+  // The lanes beyond the last pair write too, but not into the caller's memory.
+  Vertex* rest = out + full * pair_size;
+  batches(
+      kernel, pairs.subspan(full), depth, workspace,
+      [](void* context, const RowView& view) {
+        const auto n = static_cast<std::size_t>(side(view.depth));
+        for (std::size_t lane = 0; lane < view.pairs.size(); ++lane)
+          std::memcpy(static_cast<Vertex*>(context) + (lane * n + static_cast<std::size_t>(view.j)) * n,
+                      view.vertices(lane), n * sizeof(Vertex));
+      },
+      rest, Order::kFromA);
 }
 
-void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
-                      Vertex* out) const {
-  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
+void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
+                      const Kernel* other) const {
+  const Kernel& kernel = other != nullptr ? *other : kernel_;
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
   const auto length = static_cast<std::size_t>(side(depth));
   workspace.input.grow(lanes * static_cast<std::size_t>(edge_input_size(checked(depth))));
   workspace.work.grow(lanes * static_cast<std::size_t>(edge_work_size(depth)));
@@ -109,9 +120,9 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
 
   for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
     const auto batch = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
-    gather_edges(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data());
-    kernel_.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
-                      workspace.row.data());
+    gather_edges(adjacency_, rings_, batch, depth, kernel.lanes, workspace.input.data());
+    kernel.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
+                     workspace.row.data());
     for (std::size_t e = 0; e < batch.size(); ++e) {
       float* to = out[(first + e) * length].position;
       for (std::size_t k = 0; k < 6 * length; ++k) to[k] = workspace.row.data()[k * lanes + e];

@@ -10,6 +10,7 @@
 #include "data/control_mesh.h"
 #include "fast/adjacency.h"
 #include "fast/pairing.h"
+#include "fast/row_stream/batch.h"
 #include "fast/row_stream/rings.h"
 #include "fast/row_stream/targets.h"
 #include "fast/row_stream/vertex.h"
@@ -34,7 +35,7 @@ class AlignedFloats {
 };
 
 /// What one thread needs besides the mesh: a batch's control points, the kernel's rows and a row of output.
-/// 202 048 bytes at depth 5 with 16 lanes, 43 200 at depth 3, whatever the mesh.
+/// 155 712 bytes at depth 5 with 16 lanes, whatever the mesh.
 struct Workspace {
   AlignedFloats input, work, row;
   std::size_t bytes() const { return 4 * (input.size() + work.size() + row.size()); }
@@ -73,12 +74,15 @@ class RowStream {
   const Kernel& kernel() const { return kernel_; }
   const Rings& rings() const { return rings_; }
 
-  /// Calls visit(context, RowView) for each row of each batch of pairs, which all have this depth.
+  /// Calls visit(context, RowView) for each row of each batch of pairs, which all have this depth. From C,
+  /// rows and columns are counted from that corner.
   void rows(std::span<const Pair> pairs, int depth, Workspace& workspace,
-            void (*visit)(void*, const RowView&), void* context) const;
+            void (*visit)(void*, const RowView&), void* context, Order order = Order::kFromA) const;
 
-  /// All vertices: those of pairs[p] from out[p * side * side], row by row.
-  void whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const;
+  /// All vertices: those of pairs[p] from out[p * side * side], row by row. `kernel`: another one for this
+  /// call, with the same bits.
+  void whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out,
+             const Kernel* kernel = nullptr) const;
 
   /// The same bytes as whole() by non-temporal stores, row after row: for output much larger than the caches
   /// that nobody reads soon. `out` is aligned as any Vertex is; nothing beyond the pairs is touched. Visible
@@ -89,9 +93,13 @@ class RowStream {
 
   /// The points of control edges at a depth of their own: those of half_edges[e], from its origin to its
   /// target, from out[e * side]. The same bits as a pair of that depth gives them.
-  void edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out) const;
+  void edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
+             const Kernel* kernel = nullptr) const;
 
  private:
+  void batches(const Kernel& kernel, std::span<const Pair> pairs, int depth, Workspace& workspace,
+               void (*visit)(void*, const RowView&), void* context, Order order) const;
+
   const Adjacency& adjacency_;
   const Kernel& kernel_;
   Rings rings_;

@@ -17,8 +17,8 @@ class Stream {
                   const Target<Scalar>& target)
       : input_(input),
         border_(work + border_offset(depth) * L),
-        strip_work_(work + strips_offset(depth) * L),
-        strips_(strip_work_ + edge_work_size(depth) * L),
+        strip_work_(work),
+        strips_(work + strips_offset(depth) * L),
         depth_(depth),
         placement_(placement),
         unit_(scaled(placement, depth).unit),

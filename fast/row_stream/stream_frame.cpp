@@ -8,18 +8,22 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "fast/crack_centre.h"
 #include "fast/draw_writer.h"
+#include "fast/frame_worker.h"
 #include "fast/index_writer.h"
+#include "fast/row_stream/stream_batches.h"
+#include "fast/row_stream/stream_worker.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -33,10 +37,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Point as_point(const Vertex& v) {
-  return {{v.position[0], v.position[1], v.position[2]}, {v.normal[0], v.normal[1], v.normal[2]}};
-}
-
 const data::ControlMesh& checked(const data::ControlMesh& mesh) {
   if (mesh.triangles.empty()) throw std::invalid_argument("tessellator: a mesh without faces");
   for (const auto& p : mesh.positions) {
@@ -46,22 +46,21 @@ const data::ControlMesh& checked(const data::ControlMesh& mesh) {
   return mesh;
 }
 
-/// One thread's memory.
-struct Worker {
-  Workspace workspace;
-  std::vector<Vertex> pairs;  // a batch
-  std::vector<Vertex> edge;
-  std::vector<Point> strip;
-  std::array<std::vector<Point>, 3> border;
-  DrawWriter<float>::Scratch scratch;
-  std::optional<FanCentreEvaluator<float>> centre;
-};
+// The variant of four lanes of the same instructions, or the kernel itself.
+const Kernel& narrow_of(const Kernel& kernel) {
+  const Kernel* narrow = kernel.lanes > 4 ? find_kernel((std::string(kernel.name) + "/4").c_str()) : nullptr;
+  return narrow != nullptr ? *narrow : kernel;
+}
 
 }  // namespace
 
 struct StreamTessellator::State {
-  State(const data::ControlMesh& mesh, const TessellatorOptions& given, const Kernel& kernel)
-      : options(given), adjacency(checked(mesh)), stream(mesh, adjacency, kernel) {
+  State(const data::ControlMesh& given_mesh, const TessellatorOptions& given, const Kernel& kernel)
+      : mesh(given_mesh),
+        options(given),
+        adjacency(checked(mesh)),
+        stream(mesh, adjacency, kernel),
+        narrow(narrow_of(kernel)) {
     if (options.threads < 0) throw std::invalid_argument("tessellator: a negative number of threads");
     const auto most =
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
@@ -92,11 +91,13 @@ struct StreamTessellator::State {
       const DrawSize size = draw_size(patches.back(), plan);
       stats.triangles += size.triangles;
       stats.draws += size.draws;
+      stats.limit_points += limit_points_of(patches.back(), plan);
       deepest = std::max(deepest, pair.depth);
     }
     for (const std::int8_t d : plan.edge_depth) deepest = std::max<int>(deepest, d);
     largest_depth = deepest;
-    make_batches();
+    batches.make(patches, static_cast<std::size_t>(stream.kernel().lanes),
+                 static_cast<std::size_t>(narrow.lanes));
     if (plan.fans > 0 && !control) make_control();
     stats.faces = adjacency.face_count();
     stats.pairs = pairing.pair_count;
@@ -107,27 +108,6 @@ struct StreamTessellator::State {
     stats.zero_normals = stream.rings().degenerate_normals();
     stats.seconds_planning = seconds_since(start);
     return stats;
-  }
-
-  // Patches by depth, as many together as the kernel has lanes; those of fans alone have nothing for the
-  // kernel.
-  void make_batches() {
-    std::array<std::vector<std::size_t>, kMaxDepth + 1> by_depth;
-    batches.clear();
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      if (patches[i].half[0].uses_window() || patches[i].half[1].uses_window())
-        by_depth[static_cast<std::size_t>(patches[i].depth)].push_back(i);
-      else
-        batches.push_back({i});
-    }
-    const auto lanes = static_cast<std::size_t>(stream.kernel().lanes);
-    for (const auto& list : by_depth) {
-      for (std::size_t first = 0; first < list.size(); first += lanes) {
-        const auto from = list.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto count = static_cast<std::ptrdiff_t>(std::min(lanes, list.size() - first));
-        batches.emplace_back(from, from + count);
-      }
-    }
   }
 
   // The centres of fans are no lattice points; they come from the sliding window's own rules.
@@ -143,102 +123,50 @@ struct StreamTessellator::State {
   // make_writer(i, worker) for each patch, in parallel; a writer must not care about the order of patches.
   template <class MakeWriter>
   void run(MakeWriter&& make_writer) {
-    tbb::enumerable_thread_specific<Worker> workers;
+    const StreamFrame frame{adjacency,
+                            stream,
+                            narrow,
+                            plan,
+                            pairing.pairs,
+                            patches,
+                            control ? &*control : nullptr,
+                            options.cracks.centre,
+                            largest_depth};
+    tbb::enumerable_thread_specific<StreamWorker> workers;
+    const std::size_t total = batches.list().size();
+    std::atomic<std::size_t> done = 0;
+    std::mutex telling;
     arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, batches.size(), [&](std::size_t b) {
-        Worker& worker = workers.local();
-        if (worker.scratch.inner.empty()) worker.scratch.reserve(largest_depth);
-        batch(batches[b], worker, make_writer);
+      tbb::parallel_for(std::size_t{0}, total, [&](std::size_t b) {
+        StreamWorker& worker = workers.local();
+        if (worker.scratch().inner.empty()) worker.scratch().reserve(largest_depth);
+        worker.run(frame, batches.list()[b], make_writer);
+        const std::size_t finished = ++done;
+        if (progress && telling.try_lock()) {
+          progress(finished, total);
+          telling.unlock();
+        }
       });
     });
+    worker_bytes = 0;
+    for (const StreamWorker& worker : workers) worker_bytes = std::max(worker_bytes, worker.bytes());
   }
 
-  template <class MakeWriter>
-  void batch(const std::vector<std::size_t>& members, Worker& worker, MakeWriter&& make_writer) {
-    const Patch& first = patches[members.front()];
-    const auto n = static_cast<std::size_t>(side(first.depth));
-    const bool window = first.half[0].uses_window() || first.half[1].uses_window();
-    if (window) {
-      std::vector<Pair> pairs;
-      for (const std::size_t i : members) pairs.push_back(pairing.pairs[i]);
-      worker.pairs.resize(members.size() * n * n);
-      stream.whole(pairs, first.depth, worker.workspace, worker.pairs.data());
-    }
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      const Patch& patch = patches[members[m]];
-      auto writer = make_writer(members[m], worker);
-      if (window) strips(patch, worker.pairs.data() + m * n * n, worker, writer);
-      repairs(patch, worker, writer);
-    }
-  }
-
-  // Row r of the sliding window's frame is our row k - r.
-  template <class Writer>
-  void strips(const Patch& patch, const Vertex* points, Worker& worker, Writer& writer) {
-    const int k = 1 << patch.depth;
-    const auto at = [&](int row, int column) { return as_point(points[(k - row) * (k + 1) + column]); };
-    worker.strip.resize(2 * static_cast<std::size_t>(k + 1));
-    for (int row = 0; row < k; ++row) {
-      for (int c = 0; c <= k; ++c) {
-        worker.strip[2 * static_cast<std::size_t>(c)] = at(row, c);
-        worker.strip[2 * static_cast<std::size_t>(c) + 1] = at(row + 1, c);
-      }
-      const Point* strip = worker.strip.data();
-      if (patch.full()) {
-        writer.whole_strip(row, strip);
-      } else if (patch.half[0].uses_window()) {
-        writer.half_strip(0, row, [&](int q) -> const Point& { return strip[q]; });
-      }
-    }
-    if (patch.full() || !patch.half[1].uses_window()) return;
-    for (int row = 0; row < k; ++row) {  // in the other half's frame
-      for (int c = 0; c <= k; ++c) {
-        worker.strip[2 * static_cast<std::size_t>(c)] = at(k - row, k - c);
-        worker.strip[2 * static_cast<std::size_t>(c) + 1] = at(k - row - 1, k - c);
-      }
-      const Point* strip = worker.strip.data();
-      writer.half_strip(1, row, [&](int q) -> const Point& { return strip[q]; });
-    }
-  }
-
-  template <class Writer>
-  void repairs(const Patch& patch, Worker& worker, Writer& writer) {
-    for (int s = 0; s < 2; ++s) {
-      const Half& half = patch.half[s];
-      if (half.show != Half::Show::kFan && half.show != Half::Show::kStitch) continue;
-      Border<float> border;
-      for (int e = 0; e < 3; ++e) {
-        const std::int32_t h = 3 * half.face + e;
-        const int depth = edge_depth(plan, half.face, e);
-        worker.edge.resize(static_cast<std::size_t>(side(depth)));
-        stream.edges({&h, 1}, depth, worker.workspace, worker.edge.data());
-        auto& points = worker.border[static_cast<std::size_t>(e)];
-        points.clear();
-        for (const Vertex& v : worker.edge) points.push_back(as_point(v));
-        border[static_cast<std::size_t>(e)] = points.data();
-      }
-      if (half.show == Half::Show::kFan) {
-        if (!worker.centre) worker.centre.emplace(adjacency.max_valence());
-        const auto placement = stream.rings().placement();
-        const fast::Placement<float> place{placement.unit,
-                                           {placement.centre[0], placement.centre[1], placement.centre[2]}};
-        writer.fan(s, place(worker.centre->evaluate(*control, half.face, options.cracks.centre)), border);
-      } else {
-        writer.ring(s, border);
-      }
-    }
-  }
-
+  const data::ControlMesh mesh;
   const TessellatorOptions options;
   Adjacency adjacency;
   RowStream stream;
+  const Kernel& narrow;
+  std::optional<DepthHeuristics> heuristics;
   std::optional<PreparedMesh<float>> control;
   tbb::task_arena arena;
   fast::Placement<float> as_they_are;  // the kernel has placed the points
   PairingResult pairing;
   CrackPlan plan;
   std::vector<Patch> patches;
-  std::vector<std::vector<std::size_t>> batches;
+  StreamBatches batches;
+  std::function<void(std::size_t, std::size_t)> progress;
+  std::size_t worker_bytes = 0;
   int largest_depth = 0;
 };
 
@@ -255,6 +183,15 @@ const Adjacency& StreamTessellator::adjacency() const {
 const RowStream& StreamTessellator::stream() const {
   return state_->stream;
 }
+const PairingResult& StreamTessellator::last_pairing() const {
+  return state_->pairing;
+}
+std::size_t StreamTessellator::worker_bytes() const {
+  return state_->worker_bytes;
+}
+void StreamTessellator::on_progress(std::function<void(std::size_t, std::size_t)> tell) {
+  state_->progress = std::move(tell);
+}
 
 FrameStats StreamTessellator::frame(std::span<const std::int32_t> depth, DrawList<float>& out) {
   const auto start = Clock::now();
@@ -269,11 +206,11 @@ FrameStats StreamTessellator::frame(std::span<const std::int32_t> depth, DrawLis
   out.vertices.resize(static_cast<std::size_t>(offsets.back().vertices));
   out.draws.resize(static_cast<std::size_t>(offsets.back().draws));
   out.provenance.resize(s.options.provenance ? out.vertices.size() : 0);
-  s.run([&](std::size_t i, Worker& worker) {
+  s.run([&](std::size_t i, StreamWorker& worker) {
     const DrawSize& at = offsets[i];
     return DrawWriter<float>(s.patches[i], s.plan, s.as_they_are, out.vertices.data() + at.vertices,
                              s.options.provenance ? out.provenance.data() + at.vertices : nullptr,
-                             out.draws.data() + at.draws, at.vertices, worker.scratch);
+                             out.draws.data() + at.draws, at.vertices, worker.scratch());
   });
   stats.vertices = static_cast<std::int64_t>(out.vertices.size());
   stats.seconds_evaluation = seconds_since(evaluation);
@@ -306,12 +243,28 @@ FrameStats StreamTessellator::frame(std::span<const std::int32_t> depth, Indexed
       if (s.options.provenance) out.provenance[at] = {f, k == 1 ? 1u : 0u, k == 2 ? 1u : 0u, 1};
     }
   }
-  s.run([&](std::size_t i, Worker&) {
+  s.run([&](std::size_t i, StreamWorker&) {
     return IndexWriter<float>(s.adjacency, s.patches[i], s.plan, layout, s.as_they_are, out);
   });
   stats.vertices = static_cast<std::int64_t>(out.vertices.size());
   stats.seconds_evaluation = seconds_since(evaluation);
   stats.seconds_total = seconds_since(start);
+  return stats;
+}
+
+FrameStats StreamTessellator::frame(const DepthOptions& strategy, const Camera& camera,
+                                    IndexedMesh<float>& out) {
+  const auto start = Clock::now();
+  State& s = *state_;
+  std::vector<std::int32_t> depth;
+  s.arena.execute([&] {
+    if (!s.heuristics) s.heuristics.emplace(s.mesh, s.adjacency, s.options.max_depth);
+    depth = s.heuristics->depths(strategy, camera);
+  });
+  const double heuristics = seconds_since(start);
+  FrameStats stats = frame(depth, out);
+  stats.seconds_heuristics = heuristics;
+  stats.seconds_total += heuristics;
   return stats;
 }
 

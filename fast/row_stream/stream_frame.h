@@ -2,7 +2,9 @@
 // Whole frames by row streaming: any depth per face, pairing, cracks closed, in parallel.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -30,6 +32,19 @@ class StreamTessellator {
 
   FrameStats frame(std::span<const std::int32_t> depth, DrawList<float>& out);
   FrameStats frame(std::span<const std::int32_t> depth, IndexedMesh<float>& out);
+  /// Depths by a strategy of section 4.1, at most options.max_depth.
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, IndexedMesh<float>& out);
+
+  /// The depths of the last frame after pairing, one per face, and its pairs.
+  const PairingResult& last_pairing() const;
+
+  /// Called with batches done and their number while a frame is evaluated: by any thread, one at a time, some
+  /// calls left out.
+  void on_progress(std::function<void(std::size_t done, std::size_t total)> tell);
+
+  /// Largest memory of a thread in the last frame, output aside; at depth 5 at most 200 000 bytes, whatever
+  /// the mesh.
+  std::size_t worker_bytes() const;
 
  private:
   struct State;

@@ -107,6 +107,27 @@ TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
   }
 }
 
+// What a thread needs does not grow with the mesh, and stays within a second-level cache.
+TEST(StreamFrame, NeedsTwoHundredKilobytesPerThreadAtDepthFive) {
+  std::size_t most = 0;
+  for (const int size : {5, 20}) {
+    const auto mesh = shaken(grid_torus(size, size), .1, 7);
+    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+      TessellatorOptions options;
+      options.cracks.repair = repair;
+      StreamTessellator tessellator(mesh, options);
+      IndexedMesh<float> out;
+      tessellator.frame(std::vector<std::int32_t>(mesh.triangles.size(), 5), out);
+      most = std::max(most, tessellator.worker_bytes());
+      auto depth = random_depths(mesh.triangles.size(), 5, 3);
+      tessellator.frame(depth, out);
+      most = std::max(most, tessellator.worker_bytes());
+    }
+  }
+  EXPECT_LE(most, 200'000u);
+  RecordProperty("bytes", std::to_string(most));
+}
+
 // A mesh times 2^k, k even far out: the same surface times 2^k, the same normals, to the last bit.
 TEST(StreamFrame, ScalesByPowersOfTwoExactly) {
   const auto mesh = shaken(bipyramid(7), .2, 9);

@@ -17,6 +17,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "fast/frame.h"
+#include "fast/row_stream/stream_frame.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
 #include "verify/mesh_output/mesh_output.h"
@@ -26,6 +27,7 @@ namespace {
 
 struct Arguments {
   std::string mesh, output, strategy, camera, viewport = "1024x768", centre = "limit", repair = "fan", colour;
+  std::string engine = "row-stream";
   std::vector<double> angles{30};
   int depth = 3, threads = 0;
   std::optional<int> max_depth;
@@ -101,6 +103,7 @@ nlohmann::ordered_json report(const Arguments& a, const fast::FrameStats& s,
                               const fast::DepthOptions& options, const Timings& t) {
   return {{"mesh", a.mesh},
           {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
+          {"engine", a.engine},
           {"strategy", std::string(fast::name(options.strategy))},
           {"seed", options.seed},
           {"faces", s.faces},
@@ -140,11 +143,53 @@ std::string summary(const Arguments& a, const fast::FrameStats& s, const Timings
   return text;
 }
 
-int tessellate(const Arguments& a) {
-  auto lap = [last = std::chrono::steady_clock::now()]() mutable {
+struct Outcome {
+  fast::FrameStats stats;
+  fast::IndexedMesh<float> mesh;
+  std::vector<std::int32_t> depth;  // per face, as shown
+};
+
+/// Seconds since it was last asked.
+class Lap {
+ public:
+  double operator()() {
     const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last, now)).count();
-  };
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+template <class Engine>
+Outcome run(Engine&& tessellator, const fast::DepthOptions& options, const fast::Camera& view, Lap& lap,
+            Timings& timings) {
+  timings.prepare = lap();
+  Outcome out;
+  out.stats = tessellator.frame(options, view, out.mesh);
+  out.depth = tessellator.last_pairing().depth;
+  lap();
+  return out;
+}
+
+Outcome run(const Arguments& a, const data::ControlMesh& mesh, const fast::DepthOptions& options,
+            const fast::Camera& view, Progress& progress, Lap& lap, Timings& timings) {
+  fast::TessellatorOptions engine;
+  engine.cracks.centre = a.centre == "flat" ? fast::FanCentre::kFlatControl : fast::FanCentre::kLimit;
+  engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
+  engine.threads = std::min(a.threads, tbb::info::default_concurrency());
+  engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
+  if (a.engine == "sliding-window")
+    return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
+  fast::row_stream::StreamTessellator stream(mesh, engine);
+  const std::string text = fmt::format("tessellating {} faces", mesh.triangles.size());
+  stream.on_progress(
+      [&](std::size_t done, std::size_t total) { progress.show(total + done, 3 * total, text); });
+  return run(stream, options, view, lap, timings);
+}
+
+int tessellate(const Arguments& a) {
+  Lap lap;
   const fast::DepthOptions options = depth_options(a);
   const fast::Camera view = camera(a);
   view.validate();
@@ -158,24 +203,16 @@ int tessellate(const Arguments& a) {
 
   progress.clear();
   progress.show(1, 3, fmt::format("tessellating {} faces", mesh.triangles.size()));
-  fast::TessellatorOptions engine;
-  engine.cracks.centre = a.centre == "flat" ? fast::FanCentre::kFlatControl : fast::FanCentre::kLimit;
-  engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
-  engine.threads = std::min(a.threads, tbb::info::default_concurrency());
-  engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
-  fast::Tessellator<float> tessellator(mesh, engine);
-  timings.prepare = lap();
-  fast::IndexedMesh<float> result;
-  const fast::FrameStats stats = tessellator.frame(options, view, result);
-  lap();
+  const Outcome outcome = run(a, mesh, options, view, progress, lap, timings);
+  const fast::FrameStats& stats = outcome.stats;
 
   if (!a.output.empty()) {
     progress.clear();
     progress.show(2, 3, fmt::format("writing {} triangles to {}", stats.triangles, a.output));
     verify::Colouring colouring;
-    if (a.colour == "depth") colouring = verify::colour_by_depth(result, tessellator.last_pairing().depth);
-    if (a.colour == "kind") colouring = verify::colour_by_kind(result);
-    verify::write_tessellation(a.output, result, colouring);
+    if (a.colour == "depth") colouring = verify::colour_by_depth(outcome.mesh, outcome.depth);
+    if (a.colour == "kind") colouring = verify::colour_by_kind(outcome.mesh);
+    verify::write_tessellation(a.output, outcome.mesh, colouring);
     timings.write = lap();
   }
   progress.clear();
@@ -213,6 +250,11 @@ void add_tessellate(CLI::App& app, int& exit_code) {
                    "uniform, random, project-sphere, curvature, combined; default uniform, or combined if a "
                    "view is given")
       ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
+  command
+      ->add_option("--engine", a->engine,
+                   "row-stream, or the paper's own form, one pair after the other: sliding-window")
+      ->check(CLI::IsMember({"row-stream", "sliding-window"}))
+      ->capture_default_str();
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
   auto* pixels =

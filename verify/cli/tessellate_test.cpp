@@ -2,6 +2,8 @@
 // `limitcheck tessellate` as a user meets it: what it prints, what it writes, what it refuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -100,6 +102,35 @@ TEST_F(TessellateCommand, WritesTheSameBytesWithAnyNumberOfThreadsAndOtherOnesWi
   EXPECT_NE(read("1.ply"), read("seed.ply"));
 }
 
+// Both engines triangulate alike, so the files differ in rounding alone: at most 2e-7 of the sphere's size,
+// and equal in all that counts.
+TEST_F(TessellateCommand, StreamsRowsByDefaultAndKeepsThePapersFormOnRequest) {
+  for (const char* what : {"bumpy:200 --depth 3", "bumpy:200 --strategy random --depth 4",
+                           "bumpy:200 --strategy random --depth 4 --repair stitch"}) {
+    const std::string name(what);
+    const auto rows = nlohmann::json::parse(run(name + " --json -o rows.ply").out);
+    const auto window =
+        nlohmann::json::parse(run(name + " --json -o window.ply --engine sliding-window").out);
+    EXPECT_EQ(rows["engine"], "row-stream");
+    EXPECT_EQ(window["engine"], "sliding-window");
+    for (const char* key :
+         {"pairs", "singletons", "fans", "stitched", "triangles", "vertices", "limit_points"})
+      EXPECT_EQ(rows[key], window[key]) << key;
+    const data::ControlMesh a = data::read_mesh(folder_ / "rows.ply"),
+                            b = data::read_mesh(folder_ / "window.ply");
+    EXPECT_EQ(a.triangles, b.triangles);
+    ASSERT_EQ(a.positions.size(), b.positions.size());
+    double worst = 0;
+    for (std::size_t v = 0; v < a.positions.size(); ++v) {
+      for (std::size_t c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(a.positions[v][c] - b.positions[v][c]));
+    }
+    EXPECT_LE(worst, 5e-7) << what;
+    EXPECT_GT(worst, 0) << "two engines";
+  }
+  EXPECT_EQ(run("octahedron --depth 10 --json").code, 0);
+}
+
 TEST_F(TessellateCommand, ObeysCullingCentreRepairAngleAndPixels) {
   const auto count = [&](const std::string& arguments, const char* key) {
     const Outcome o = run("bumpy:200 --json " + arguments);
@@ -141,6 +172,7 @@ TEST_F(TessellateCommand, RefusesBadArgumentsWithExitCodeTwoAndWritesNothing) {
                                 "octahedron --angle 0",
                                 "octahedron --angle 1,2,3,4",
                                 "octahedron --strategy best",
+                                "octahedron --engine fast",
                                 "octahedron --camera 1,2",
                                 "octahedron --camera 1,2,3:1,2,3",
                                 "octahedron --camera 1,2,x:0,0,0",

@@ -71,6 +71,22 @@ TEST(RowStreamAudit, HasNoFindingsAtAnyScaleNorFarFromTheOrigin) {
   RecordProperty("held", held);
 }
 
+// A part of a ten-millionth of the mesh's size keeps its normals. The kernel's remedy against zero normals
+// shows below that: at depth 1 they lean by 4e-3 degrees at 1e-8 of the size and by 0.4 at 1e-9 (measured),
+// at depth d by 16^(d-1) times less.
+TEST(RowStreamAudit, HasNoFindingsOnAPartOfATenMillionthOfTheMesh) {
+  data::ControlMesh mesh = data::named_mesh("tetrahedron");
+  const data::ControlMesh part = data::named_mesh("icosahedron");
+  const auto before = static_cast<std::int32_t>(mesh.positions.size());
+  for (const auto& p : placed(part, [](double x) { return 1e-7 * x; }).positions) mesh.positions.push_back(p);
+  for (const auto& t : part.triangles)
+    mesh.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+  for (const int depth : {1, 4}) {
+    Auditor auditor(depth, 1);
+    expect_no_findings(auditor, {lc_subject_row_stream(), ""}, {"part", mesh});
+  }
+}
+
 // No normal anywhere: every vertex in one point, or all on a line through it. The tangents are zero, or
 // parallel with exact products. [claim D12]
 std::vector<std::pair<std::string, data::ControlMesh>> collapsed() {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// `limitcheck prove` as a user meets it. That a fault is found is the business of
+// verify/proof/fault_test.cpp.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+class ProveCommand : public CommandTest {};
+
+TEST_F(ProveCommand, PrintsOneJsonDocumentWithARowForEveryTopologyAndKernel) {
+  const Outcome o = run("prove --depth 0 --valences 3,4 --kernel sliding-window --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  const auto json = nlohmann::json::parse(o.out);
+  EXPECT_TRUE(json["held"].get<bool>());
+  EXPECT_EQ(json["impossible"], nlohmann::json({"3 3 4"}));
+  bool bounds = false;
+  for (const auto& row : json["rows"]) {
+    EXPECT_EQ(row["map"], "equal") << row;
+    EXPECT_GT(row["points"].get<int>(), 0) << row;
+    if (row["arithmetic"] == "digits" && !row["digits"].is_null())
+      EXPECT_GE(row["digits"].get<double>(), 45) << row;
+    if (!row.contains("bound")) continue;
+    bounds = true;
+    EXPECT_LE(row["worst"].get<double>(), row["bound"].get<double>()) << row;
+  }
+  EXPECT_TRUE(bounds);
+}
+
+TEST_F(ProveCommand, RefusesBadUsageWithExitCodeTwo) {
+  for (const char* arguments : {"--valences 2:4", "--valences 6:3", "--valences 6,x", "--valences 21",
+                                "--depth 9", "--kernel naive", "--set all"}) {
+    const Outcome o = run(std::string("prove ") + arguments);
+    EXPECT_EQ(o.code, 2) << arguments;
+    EXPECT_EQ(o.out, "") << arguments;
+    EXPECT_NE(o.err, "") << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

@@ -32,8 +32,9 @@ std::int64_t Header::integer(const char* key, std::int64_t least, std::int64_t m
   const bool beyond = value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t{INT64_MAX};
   if (!value.is_number_integer() || beyond || value.get<std::int64_t>() < least ||
       value.get<std::int64_t>() > most) {
-    throw Error(fmt::format("\"{}\": {} is not an integer from {} to {}", key,
-                            printable(to_line(value).substr(0, 80), 79), least, most));
+    throw Error(fmt::format(
+        "\"{}\": {} is not an integer from {} to {}", key,
+        printable(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), 80), least, most));
   }
   return value.get<std::int64_t>();
 }

@@ -16,6 +16,7 @@ namespace {
 using Barycentric = std::array<double, 3>;
 constexpr int kSplits = 5,
               kCornerSplits = 14;  // towards an extraordinary vertex, where the bounds fall slowly
+constexpr Barycentric kMiddles[] = {{1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
 constexpr int kLooseSplits = 3;
 constexpr std::size_t kExact = 400;  // places at which the distance is computed
 
@@ -116,7 +117,7 @@ class Measurer {
       std::sort(order.begin(), order.end(),
                 [&](std::size_t x, std::size_t y) { return value(bounds_[x]) > value(bounds_[y]); });
       for (std::size_t k = 0; k < std::min(kExact, order.size()); ++k)
-        exact(bounds_[order[k]], forwards, bracket);
+        exact(bounds_[order[k]], lattice.piece(order[k]), forwards, bracket);
 
       if (forwards)
         for (const std::int32_t t : loose_) sample(corners_[t], bracket);
@@ -232,12 +233,10 @@ class Measurer {
     if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
       double most = 0, size = 0;
       for (int k = 0; k < 3; ++k) {
-        const double d = distance_to_triangles(piece.corner[k]);
+        most = std::max(most, distance_to_triangles(piece.corner[k]));
         size = std::max(size, norm(piece.corner[k] - piece.corner[(k + 1) % 3]));
-        if (d < most) continue;
-        most = d;
-        bound.at_surface = {piece.face, piece.at[k]};
       }
+      bound.at_surface = piece.parameter({1. / 3, 1. / 3, 1. / 3});
       bound.from_surface = std::max(bound.from_surface, most + size + piece.deviation);
     }
     return bound;
@@ -254,8 +253,19 @@ class Measurer {
     return std::min(value, most);
   }
 
-  // The distance itself at the place where the bound is taken.
-  void exact(const Bound& bound, bool forwards, Bracket& bracket) const {
+  // The distance itself at the place where the bound is taken, and in the middle of the triangle or the
+  // piece, where it tends to be largest.
+  void exact(const Bound& bound, const Piece& piece, bool forwards, Bracket& bracket) const {
+    if (forwards && bound.triangle >= 0) sample(corners_[bound.triangle], bracket);
+    for (const Barycentric& weight : kMiddles) {
+      if (forwards) break;
+      const FacePoint middle = piece.parameter(weight);
+      const double distance = distance_to_triangles(e_.surface.at(middle, {}).position);
+      if (distance > bracket.at_least) {
+        bracket.at_least = distance;
+        bracket.where = middle;
+      }
+    }
     const FacePoint& at = forwards ? bound.at_triangles : bound.at_surface;
     if (at.face < 0) return;
     double d = 0;
@@ -274,8 +284,7 @@ class Measurer {
 
   // A triangle that is not over one face: its middle and those of its sides.
   void sample(const std::array<Vector, 3>& t, Bracket& bracket) const {
-    for (const Barycentric& weight :
-         {Barycentric{1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}}) {
+    for (const Barycentric& weight : kMiddles) {
       const Foot foot = e_.surface.closest(mix(t, weight));
       if (foot.distance <= bracket.at_least && bracket.where.face >= 0) continue;
       bracket.at_least = foot.distance;

@@ -42,11 +42,14 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
   }
 
   std::vector<PlacedTriangle> placed(triangles.size());
-  std::vector<char> back(triangles.size(), 0);
+  std::vector<char> back(triangles.size(), 0), nowhere(triangles.size(), 0);
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
     std::array<std::int32_t, 3> p{};
     for (int c = 0; c < 3; ++c) p[c] = e.point_of(triangles[t][c]);
-    if (std::min({p[0], p[1], p[2]}) < 0 || p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return;
+    if (std::min({p[0], p[1], p[2]}) < 0 || p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) {
+      nowhere[t] = 1;  // covers nothing
+      return;
+    }
     placed[t] = place_triangle(e, p);
     back[t] = faces_back(e, p, placed[t]);
   });
@@ -68,7 +71,7 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
   double all = 0;
   for (std::size_t t = 0; t < placed.size(); ++t) {
     if (placed[t].face < 0) {
-      ++lost;
+      lost += nowhere[t] == 0;
       continue;
     }
     crossing += placed[t].crosses;

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// The audit of files on tessellations that are right, and on ones with a planted fault each.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "data/generators/named_mesh.h"
+#include "data/splitmix64.h"
+#include "reference/refine.h"
+#include "verify/files/audit_files.h"
+#include "verify/files/hausdorff.h"
+#include "verify/files/schemes.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// The limit surface at a depth, in float as engines deliver it.
+FileTessellation exact(const data::ControlMesh& mesh, int depth, bool limit = true) {
+  const auto refined = reference::refine<double>(mesh, depth);
+  const auto limits = refined.limits();
+  FileTessellation t;
+  t.name = "test.ply";
+  const auto& points = limit ? limits.positions : refined.positions();
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const auto& p = points[v];
+    const auto& n = limits.normals[v];
+    t.positions.push_back({float(p.x), float(p.y), float(p.z)});
+    t.normals.push_back({static_cast<std::int32_t>(v), {float(n.x), float(n.y), float(n.z)}});
+  }
+  t.triangles = refined.triangles();
+  t.polygons = static_cast<std::int64_t>(t.triangles.size());
+  t.polygon.resize(t.triangles.size());
+  std::iota(t.polygon.begin(), t.polygon.end(), 0);
+  t.used.assign(t.positions.size(), true);
+  return t;
+}
+
+// As shuffled.ply would be: other numbers for the vertices, other order of the triangles, corners turned.
+FileTessellation shuffled(const FileTessellation& from, std::uint64_t seed) {
+  data::SplitMix64 random(seed);
+  const auto permutation = [&](std::size_t n) {
+    std::vector<std::int32_t> p(n);
+    std::iota(p.begin(), p.end(), 0);
+    for (std::size_t k = n; k > 1; --k) std::swap(p[k - 1], p[random.next() % k]);
+    return p;
+  };
+  FileTessellation t = from;
+  const auto to = permutation(t.positions.size());
+  for (std::size_t v = 0; v < t.positions.size(); ++v) t.positions[to[v]] = from.positions[v];
+  for (auto& n : t.normals) n.vertex = to[n.vertex];
+  const auto order = permutation(t.triangles.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto& f = from.triangles[k];
+    const auto turn = random.next() % 3;
+    t.triangles[order[k]] = {to[f[turn]], to[f[(turn + 1) % 3]], to[f[(turn + 2) % 3]]};
+  }
+  return t;
+}
+
+FilesAudit audit(const data::ControlMesh& mesh, FileTessellation t, const FilesOptions& options = {},
+                 const std::vector<ProvenanceRow>& provenance = {}) {
+  return audit_files("mesh", mesh, std::move(t), provenance, options,
+                     [](const std::string&, std::size_t, std::size_t) {});
+}
+
+const Result& row(const FilesAudit& a, const std::string& check) {
+  for (const Result& r : a.results)
+    if (r.check == check) return r;
+  throw std::out_of_range(check);
+}
+
+std::string findings(const FilesAudit& a) {
+  std::string list;
+  for (const Result& r : a.results)
+    if (is_bad(r)) list += (list.empty() ? "" : " ") + r.check;
+  return list;
+}
+
+TEST(AuditFiles, AShuffledTessellationWithoutProvenanceHoldsWithinTheRoundingOfFloat) {
+  for (const std::string name :
+       {"bumpy:200", "icosahedron", "tetrahedron", "wheel:12", "holes", "sheet", "torus"}) {
+    const auto mesh = data::named_mesh(name);
+    const FilesAudit a = audit(mesh, shuffled(exact(mesh, 3), 7));
+    EXPECT_EQ(findings(a), "") << name << ": " << row(a, "file-coverage").message
+                               << row(a, "file-watertight").message;
+    EXPECT_LE(*row(a, "file-distance").worst, 1e-7) << name;
+    EXPECT_EQ(row(a, "file-coverage").of, static_cast<std::int64_t>(mesh.triangles.size())) << name;
+  }
+}
+
+TEST(AuditFiles, DuplicateVerticesDegenerateTrianglesAndMissingNormalsAreNoFaults) {
+  const auto mesh = data::named_mesh("bumpy:20");
+  FileTessellation t = exact(mesh, 2), soup;
+  soup.name = t.name;
+  for (const auto& f : t.triangles) {
+    const auto first = static_cast<std::int32_t>(soup.positions.size());
+    for (const std::int32_t v : f) soup.positions.push_back(t.positions[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+    soup.triangles.push_back({first, first, first + 2});
+  }
+  soup.used.assign(soup.positions.size(), true);
+  soup.polygons = static_cast<std::int64_t>(soup.triangles.size());
+  const FilesAudit a = audit(mesh, soup);
+  EXPECT_EQ(findings(a), "");
+  EXPECT_EQ(row(a, "file-normals").status, Status::kNotSupported);
+  FilesOptions strict;
+  strict.needs_normals = true;
+  EXPECT_EQ(findings(audit(mesh, soup, strict)), "file-normals");
+}
+
+// One fault each, and the checks that see it.
+TEST(AuditFiles, EveryCheckSeesTheFaultItIsThereFor) {
+  const auto mesh = data::named_mesh("bumpy:200");
+  const FileTessellation good = exact(mesh, 2);
+  ASSERT_EQ(findings(audit(mesh, good)), "");
+  const auto with = [&](auto&& fault) {
+    FileTessellation t = good;
+    fault(t);
+    return findings(audit(mesh, t));
+  };
+  EXPECT_EQ(with([](auto& t) { t.positions[500][1] = NAN; }),
+            "file-finite file-distance file-coverage file-watertight");
+  // 1e-5 of the diagonal outwards.
+  const ClosestPoint surface(mesh);
+  EXPECT_EQ(with([&](auto& t) {
+              const Foot foot = surface.closest(t.positions[700]);
+              t.positions[700] = t.positions[700] + 1e-5 * surface.diagonal() * foot.normal;
+            }),
+            "file-distance");
+  EXPECT_EQ(with([](auto& t) {  // turned by 0.3 degrees
+              auto& n = t.normals[321].direction;
+              const Vector aside = cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
+              n = n + (5e-3 / norm(aside)) * aside;
+            }),
+            "file-normals");
+  EXPECT_EQ(with([](auto& t) { std::swap(t.triangles[99][0], t.triangles[99][1]); }),
+            "file-orientation file-watertight");
+  EXPECT_EQ(with([](auto& t) { t.triangles.erase(t.triangles.begin() + 40); }),
+            "file-coverage file-watertight");
+  EXPECT_EQ(with([](auto& t) { t.triangles.push_back(t.triangles[40]); }), "file-coverage file-watertight");
+  EXPECT_EQ(with([](auto& t) {  // a crack of one ulp: a corner of one triangle only
+              t.positions.push_back(t.positions[t.triangles[40][0]]);
+              t.used.push_back(true);
+              t.positions.back()[0] = std::nextafterf(float(t.positions.back()[0]), 9);
+              t.triangles[40][0] = static_cast<std::int32_t>(t.positions.size()) - 1;
+            }),
+            "file-watertight");
+  const std::string across =
+      with([](auto& t) { t.triangles[40][0] = t.triangles[2000][0]; });  // to another place
+  EXPECT_NE(across.find("file-hausdorff"), std::string::npos) << across;
+  EXPECT_NE(across.find("file-watertight"), std::string::npos) << across;
+}
+
+TEST(AuditFiles, ATriangleLessOfAnOpenMeshIsNoBoundary) {
+  const auto mesh = data::named_mesh("sheet");
+  FileTessellation t = exact(mesh, 2);
+  ASSERT_EQ(findings(audit(mesh, t)), "");
+  t.triangles.erase(t.triangles.begin() + 20);
+  const std::string found = findings(audit(mesh, t));
+  EXPECT_TRUE(found.starts_with("file-coverage file-watertight")) << found;
+}
+
+TEST(AuditFiles, ProvenanceIsHeldAgainstTheExactEvaluationThere) {
+  const auto mesh = data::named_mesh("bumpy:20");
+  const auto refined = reference::refine<double>(mesh, 2);
+  std::vector<ProvenanceRow> rows(refined.positions().size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (int j = 0; j <= 4; ++j)
+      for (int i = 0; i + j <= 4; ++i) {
+        const auto v = refined.vertex(f, i, j);
+        rows[v] = {v, {static_cast<std::int32_t>(f), {(4 - i - j) / 4., i / 4., j / 4.}}};
+      }
+  const FileTessellation t = exact(mesh, 2);
+  const FilesAudit good = audit(mesh, t, {}, rows);
+  EXPECT_EQ(findings(good), "");
+  EXPECT_EQ(row(good, "file-positions").of, static_cast<std::int64_t>(rows.size()));
+  // On the surface still, but elsewhere: only the provenance can tell.
+  auto wrong = rows;
+  std::swap(wrong[60].at, wrong[61].at);
+  EXPECT_NE(findings(audit(mesh, t, {}, wrong)).find("file-positions"), std::string::npos);
+  rows.pop_back();
+  EXPECT_EQ(findings(audit(mesh, t, {}, rows)), "file-positions") << "a vertex without a row";
+}
+
+TEST(AuditFiles, SaysWhatItLooksLike) {
+  const auto mesh = data::named_mesh("bumpy:200");
+  const auto said = [&](const std::vector<Vector>& points) {
+    FileTessellation t;
+    t.name = "cloud";
+    t.positions = points;
+    t.used.assign(points.size(), true);
+    return row(audit(mesh, t), "file-distance").message;
+  };
+  FileTessellation refined = exact(mesh, 2, false);
+  const std::string message = row(audit(mesh, refined), "file-distance").message;
+  EXPECT_NE(message.find("refined by Loop's rule (2 steps)"), std::string::npos) << message;
+  EXPECT_NE(message.find("the limit mask"), std::string::npos) << message;
+  const std::string warren = said(scheme_points(mesh, Scheme::kWarren, 2, true));
+  EXPECT_NE(warren.find("limit points of Loop's rule with Warren's simplified weights (2 steps)"),
+            std::string::npos)
+      << warren;
+  const std::string flat = said(scheme_points(mesh, Scheme::kLinear, 2, false));
+  EXPECT_NE(flat.find("nothing was subdivided"), std::string::npos) << flat;
+  const std::string other = said(scheme_points(mesh, Scheme::kCatmullClark, 2, true));
+  EXPECT_NE(other.find("not Loop subdivision at all"), std::string::npos) << other;
+}
+
+TEST(AuditFiles, AScaleAnOffsetAndATurnAreFittedAway) {
+  const auto mesh = data::named_mesh("bumpy:20");
+  FileTessellation t = exact(mesh, 2);
+  for (Vector& p : t.positions)
+    p = {2.5 * p[0] + 1, 2.5 * p[2] - 3, -2.5 * p[1] + .25};  // y up instead of z up
+  for (auto& n : t.normals) n.direction = {n.direction[0], n.direction[2], -n.direction[1]};
+  EXPECT_NE(findings(audit(mesh, t)).find("file-distance"), std::string::npos);
+  FilesOptions options;
+  options.fit = Fit::kSimilarity;
+  const FilesAudit a = audit(mesh, t, options);
+  EXPECT_EQ(findings(a), "") << *row(a, "file-distance").worst;
+  EXPECT_LE(*row(a, "file-distance").worst, 1e-7);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

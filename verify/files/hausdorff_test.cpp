@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// The brackets against known distances and against dense samples.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "data/generators/named_mesh.h"
+#include "reference/refine.h"
+#include "verify/files/hausdorff.h"
+
+namespace limitcheck::verify {
+namespace {
+
+data::ControlMesh named(const std::string& name) {
+  if (name != "flat sheet") return data::named_mesh(name);
+  data::ControlMesh mesh = data::named_mesh("sheet");
+  for (auto& p : mesh.positions) p[2] = 0;
+  return mesh;
+}
+
+struct Case {
+  data::ControlMesh mesh;
+  ClosestPoint surface;
+  FileTessellation t;
+  FileEvidence e;
+
+  Case(const std::string& name, int depth, std::size_t pieces)
+      : mesh(named(name)), surface(mesh, pieces), e{name, mesh, surface, t, 1e-6} {
+    const auto refined = reference::refine<double>(mesh, depth);
+    for (const auto& p : refined.limits().positions) t.positions.push_back({p.x, p.y, p.z});
+    t.triangles = refined.triangles();
+    t.used.assign(t.positions.size(), true);
+  }
+  Hausdorff run() {
+    place_points(e, {}, [](std::size_t, std::size_t) {});
+    return hausdorff(e);
+  }
+};
+
+// A flat sheet lifted by 1/64 lies 1/64 from its limit surface, both ways, everywhere.
+TEST(Hausdorff, OfALiftedFlatSheetIsTheLift) {
+  Case c("flat sheet", 2, 4096);
+  for (Vector& p : c.t.positions) p[2] += 1. / 64;
+  const Hausdorff h = c.run();
+  EXPECT_NEAR(h.from_triangles.at_least, 1. / 64, 1e-12);
+  EXPECT_GE(h.from_surface.at_least,
+            1. / 64 - 1e-12);  // a little more at the round corners, which chords cut
+  for (const Bracket& b : {h.from_triangles, h.from_surface}) {
+    EXPECT_GE(b.at_most, b.at_least);
+    EXPECT_LE(b.at_most, 2. / 64) << "at the sheet's corners the parametrisation is no affine map";
+  }
+}
+
+// A triangle less in the plane: the farthest point of the hole is the centre of its inscribed circle. Legs of
+// 1/4 of a square's side s: the radius is s/4 (1 - 1/sqrt 2).
+TEST(Hausdorff, SeesAHoleFromTheSurfaceOnly) {
+  Case c("flat sheet", 2, 4096);
+  const auto hole = c.t.triangles[600];
+  c.t.triangles.erase(c.t.triangles.begin() + 600);
+  const Vector &p = c.t.positions[hole[0]], &q = c.t.positions[hole[1]], &r = c.t.positions[hole[2]];
+  const double a = norm(q - p), b = norm(r - q), d = norm(p - r);
+  const double radius = norm(cross(q - p, r - p)) / (a + b + d);
+  const Hausdorff h = c.run();
+  EXPECT_LE(h.from_triangles.at_least, 1e-12);
+  EXPECT_LE(h.from_surface.at_least, radius * (1 + 1e-12));
+  EXPECT_GE(h.from_surface.at_most, radius);
+  EXPECT_GE(h.from_surface.at_least, radius / 4);
+}
+
+TEST(Hausdorff, DenseSamplesOfBothSidesAreWithinTheBrackets) {
+  for (const std::string name : {"icosahedron", "bumpy:20", "holes", "wheel:7"}) {
+    Case c(name, 1, 1 << 12);
+    const Hausdorff h = c.run();
+    double there = 0, back = 0;
+    for (const auto& t : c.t.triangles)
+      for (int i = 0; i <= 6; ++i)
+        for (int j = 0; i + j <= 6; ++j) {
+          const Vector& o = c.t.positions[t[0]];
+          const Vector p = o + (i / 6.) * (c.t.positions[t[1]] - o) + (j / 6.) * (c.t.positions[t[2]] - o);
+          there = std::max(there, c.surface.closest(p).distance);
+        }
+    for (const auto& s : reference::refine<double>(c.mesh, 3).limits().positions) {
+      double least = 1e300;
+      for (const auto& t : c.t.triangles)
+        least = std::min(least,
+                         closest_on_triangle({s.x, s.y, s.z},
+                                             {c.t.positions[t[0]], c.t.positions[t[1]], c.t.positions[t[2]]})
+                             .distance);
+      back = std::max(back, least);
+    }
+    EXPECT_LE(there, h.from_triangles.at_most) << name;
+    EXPECT_LE(back, h.from_surface.at_most) << name;
+    EXPECT_GE(h.from_triangles.at_least, .9 * there) << name;
+    EXPECT_GE(h.from_surface.at_least, .9 * back) << name;
+    EXPECT_LE(h.from_triangles.at_most, 6 * h.from_triangles.at_least) << name;
+    EXPECT_EQ(h.loose, 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The other schemes against OpenSubdiv and the reference.
+#include <gtest/gtest.h>
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/far/topologyRefinerFactory.h>
+
+#include <memory>
+
+#include "data/generators/named_mesh.h"
+#include "reference/refine.h"
+#include "verify/files/schemes.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// As a set: each has one of the others within 1e-14.
+void expect_same_points(const std::vector<Vector>& a, const std::vector<Vector>& b, const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (const Vector& p : a) {
+    double least = 1e300;
+    for (const Vector& q : b) least = std::min(least, norm(p - q));
+    ASSERT_LE(least, 1e-14) << what;
+  }
+}
+
+struct Primvar {
+  Vector v{};
+  void Clear() { v = {}; }
+  void AddWithWeight(const Primvar& other, double w) {
+    for (int k = 0; k < 3; ++k) v[k] += w * other.v[k];
+  }
+};
+
+// OpenSubdiv's Catmull-Clark on the triangles: refined `steps` times, the last level moved to the limit if
+// asked.
+std::vector<Vector> opensubdiv(const data::ControlMesh& mesh, int steps, bool limit) {
+  using namespace OpenSubdiv;
+  const std::vector<int> counts(mesh.triangles.size(), 3);
+  Far::TopologyDescriptor descriptor;
+  descriptor.numVertices = static_cast<int>(mesh.positions.size());
+  descriptor.numFaces = static_cast<int>(mesh.triangles.size());
+  descriptor.numVertsPerFace = counts.data();
+  descriptor.vertIndicesPerFace = mesh.triangles.front().data();
+  Sdc::Options options;
+  options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  const std::unique_ptr<Far::TopologyRefiner> refiner(
+      Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK, options)));
+  Far::TopologyRefiner::UniformOptions uniform(steps);
+  uniform.fullTopologyInLastLevel = true;
+  refiner->RefineUniform(uniform);
+  std::vector<Primvar> level(mesh.positions.size());
+  for (std::size_t k = 0; k < level.size(); ++k) level[k].v = mesh.positions[k];
+  const Far::PrimvarRefinerReal<double> primvars(*refiner);
+  for (int step = 1; step <= steps; ++step) {
+    std::vector<Primvar> next(static_cast<std::size_t>(refiner->GetLevel(step).GetNumVertices()));
+    primvars.Interpolate(step, level, next);
+    level = std::move(next);
+  }
+  if (limit) {
+    std::vector<Primvar> moved(level.size());
+    primvars.Limit(level, moved);
+    level = std::move(moved);
+  }
+  std::vector<Vector> points;
+  for (const Primvar& p : level) points.push_back(p.v);
+  return points;
+}
+
+TEST(Schemes, CatmullClarkIsOpenSubdivs) {
+  for (const std::string name : {"bumpy:20", "tetrahedron", "holes", "wheel:7"})
+    for (const bool limit : {false, true}) {
+      const auto mesh = data::named_mesh(name);
+      expect_same_points(scheme_points(mesh, Scheme::kCatmullClark, 2, limit), opensubdiv(mesh, 2, limit),
+                         name);
+    }
+}
+
+TEST(Schemes, LoopIsTheReference) {
+  for (const std::string name : {"bumpy:20", "holes"}) {
+    const auto mesh = data::named_mesh(name);
+    const auto refined = reference::refine<double>(mesh, 2);
+    std::vector<Vector> points, limits;
+    for (const auto& p : refined.positions()) points.push_back({p.x, p.y, p.z});
+    for (const auto& p : refined.limits().positions) limits.push_back({p.x, p.y, p.z});
+    expect_same_points(scheme_points(mesh, Scheme::kLoop, 2, false), points, name);
+    expect_same_points(scheme_points(mesh, Scheme::kLoop, 2, true), limits, name);
+  }
+}
+
+// Warren's weight of each neighbour is 3/(8 n), and 3/16 at valence 3: an octahedron's vertex (1, 0, 0) goes
+// to 5/8, its limit is 3 / (3 + 3) = 1/2; a tetrahedron's and a regular mesh's are Loop's.
+TEST(Schemes, WarrensWeightsAreWarrens) {
+  const auto mesh = data::named_mesh("octahedron");
+  const auto size = norm(mesh.positions[0]);
+  EXPECT_NEAR(norm(scheme_points(mesh, Scheme::kWarren, 1, false)[0]), .625 * size, 1e-15);
+  EXPECT_NEAR(norm(scheme_points(mesh, Scheme::kWarren, 0, true)[0]), .5 * size, 1e-15);
+  for (const std::string name : {"tetrahedron", "torus"}) {
+    const auto same = data::named_mesh(name);
+    expect_same_points(scheme_points(same, Scheme::kWarren, 1, true),
+                       scheme_points(same, Scheme::kLoop, 1, true), name);
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

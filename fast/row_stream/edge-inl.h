@@ -108,20 +108,21 @@ class EdgeStrip {
 
   HWY_ATTR void limit(int i, Scalar* out) {
     const int from = depth_ % 2, step = 3 * L;
-    V slant[3], across[3], normal[3];
+    V slant[3], across[3];
+    Vertex<N> vertex;
     for (int c = 0; c < 3; ++c) {
       const int k = (3 * i + c) * L;
       const Hexagon<V> h{N::load(line_[from] + k + step), N::load(up_[from] + k),
                          N::load(up_[from] + k - step),   N::load(line_[from] + k - step),
                          N::load(down_[from] + k - step), N::load(down_[from] + k)};
       const Limit<V> point = limit_rule<N>(N::load(line_[from] + k), h);
-      N::store(N::fma(point.position, N::splat(unit_), centre_[c]), out + c * L);
+      vertex.position[c] = N::fma(point.position, N::splat(unit_), centre_[c]);
       slant[c] = point.slant;
       across[c] = point.across;
     }
-    normal_direction<N>(slant, across, normal);
-    normalise<N>(normal[0], normal[1], normal[2]);
-    for (int c = 0; c < 3; ++c) N::store(normal[c], out + (3 + c) * L);
+    normal_direction<N>(slant, across, vertex.normal);
+    vertex.finish();
+    vertex.store(out);
   }
 
   int depth_;

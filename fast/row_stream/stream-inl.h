@@ -123,21 +123,37 @@ class Stream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride, target_.lane_stride);
+    const LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride,
+                          target_.lane_stride);
     if (has_local_origin(depth_)) {
       if (j == 0 || j == size) {
-        row.outer(size, strip(j == 0 ? 0 : 2, 0));
+        // the points of an edge one after the other
+        given_row(strip(j == 0 ? 0 : 2, 0), target_.base + j * target_.row_stride);
       } else {
-        row.inner(size, j, strip(3, j), strip(4, j), strip(1, j));
+        row.run(size, strip(3, j), j, strip(4, j), strip(1, j));
       }
     } else if (j == 0) {
-      row.outer(size, corner_limit(kA), corner_limit(kB));
+      row.run(size, corner_limit(kA), 0, nullptr, corner_limit(kB));
     } else if (j == size) {
-      row.outer(size, corner_limit(kD), corner_limit(kC));
+      row.run(size, corner_limit(kD), size, corner_limit(kC), corner_limit(kC));
     } else {
-      row.inner(size, j);
+      alignas(64) Scalar special[3][6 * L];
+      row.template special<Axis::kColumn>(0, special[0]);
+      row.template special<Axis::kDiagonal>(j, special[1]);
+      row.template special<Axis::kColumn>(size, special[2]);
+      row.run(size, special[0], j, special[1], special[2]);
     }
     if (target_.row) target_.row(target_.context, j);
+  }
+
+  // Row 0 or `size` where a strip has evaluated it.
+  HWY_ATTR void given_row(const Scalar* from, Scalar* out) const {
+    Vertex<N> v[2];
+    for (int i = 0; i <= 1 << depth_; ++i, from += 6 * L) {
+      v[i & 1].load(from);
+      if (i & 1) N::scatter_couple(v[0], v[1], out + 6 * (i - 1), target_.lane_stride);
+    }
+    N::scatter_vertex(v[0], out + (6 << depth_), target_.lane_stride);
   }
 
   const Scalar* corner_limit(int corner) const {

@@ -91,14 +91,14 @@ constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);
 }
 
-/// The five edges of a pair that strips evaluate: A B, B C, D C, A D, A C.
-inline constexpr int kPairEdges = 5;
+/// Of the five edges of a pair, those whose points are kept: A D, B C and A C, which cross the rows.
+inline constexpr int kKeptEdges = 3;
 constexpr int strips_offset(int depth) {
   return border_offset(depth) + 4 * kBorderSize * (depth + 1);
 }
 constexpr int work_size(int depth) {
   return strips_offset(depth) +
-         (has_local_origin(depth) ? edge_work_size(depth) + kPairEdges * edge_output_size(depth) : 0);
+         (has_local_origin(depth) ? edge_work_size(depth) + kKeptEdges * edge_output_size(depth) : 0);
 }
 
 /// From the kernel's coordinates to the caller's: position = centre + unit * x.

@@ -159,6 +159,20 @@ class LimitRow {
     }
   }
 
+  /// Points from `first` to before `end`, six vectors each, that of point i to to[6 i].
+  HWY_ATTR void store(int first, int end, Scalar* to) const {
+    if (first >= end) return;
+    Vertex<N> a, b;
+    begin(s_ + 3 * first * L, m_ + 3 * first * L, n_ + 3 * first * L, centre_, unit_, a);
+    for (int i = first + 1; i < end; ++i) {
+      along(s_ + 3 * i * L, m_ + 3 * i * L, n_ + 3 * i * L, centre_, unit_, b, a);
+      a.store(to + 6 * (i - 1) * L);
+      a = b;
+    }
+    a.root_1(), a.root_2(), a.root_3(), a.root_4(), a.scale();
+    a.store(to + 6 * (end - 1) * L);
+  }
+
   /// Point i seen along an axis, six vectors.
   template <Axis axis>
   HWY_ATTR void special(int i, Scalar* to) const {

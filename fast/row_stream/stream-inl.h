@@ -22,7 +22,8 @@ class Stream {
         depth_(depth),
         placement_(placement),
         unit_(scaled(placement, depth).unit),
-        target_(target) {
+        target_(target),
+        edge_(depth, placement, strip_work_) {
     for (int level = 0; level <= depth; ++level) rows_[level] = work + (rows_offset(level) + 3) * L;
   }
 
@@ -34,24 +35,35 @@ class Stream {
   }
 
  private:
+  enum Edge { kAD, kBC, kAC, kAB, kDC };  // the first three have their points kept
+
   Scalar* corner_block(int corner) const { return input_ + corner * corner_block_size(depth_) * L; }
-  const Scalar* strip(int edge, int point) const {
+  const Scalar* strip(Edge edge, int point) const {
     return strips_ + (edge * edge_output_size(depth_) + 6 * point) * L;
   }
 
-  // The pair's edges first, each from its own origin; then the pair from one on its diagonal.
-  HWY_ATTR void move_origin() {
+  // A strip along an edge of the pair, from an origin of its own. first: where in a corner's window the edge's
+  // begins, among the core entries after the flap.
+  HWY_ATTR void refine_edge(Edge edge) {
     struct Ends {
-      int p, p_first, q,
-          q_first;  // corners, and the other end's number among the core entries after the flap
+      int p, p_first, q, q_first;
     };
-    constexpr Ends ends[kPairEdges] = {
-        {kA, 0, kB, 1}, {kB, 0, kC, 2}, {kD, 1, kC, 0}, {kA, 2, kD, 0}, {kA, 1, kC, 1}};
-    EdgeStrip<N> edge(depth_, placement_, strip_work_);
-    for (int e = 0; e < kPairEdges; ++e) {
-      edge.run(corner_block(ends[e].p), ends[e].p_first, corner_block(ends[e].q), ends[e].q_first,
-               strips_ + e * edge_output_size(depth_) * L);
+    constexpr Ends ends[] = {{kA, 2, kD, 0}, {kB, 0, kC, 2}, {kA, 1, kC, 1}, {kA, 0, kB, 1}, {kD, 1, kC, 0}};
+    const Ends& e = ends[edge];
+    edge_.refine(corner_block(e.p), e.p_first, corner_block(e.q), e.q_first);
+  }
+
+  // The pair's edges before its inside: A B is row 0, those that cross the rows are kept, D C waits in its
+  // strip to become the last row. Then the pair from an origin on its diagonal.
+  HWY_ATTR void move_origin() {
+    refine_edge(kAB);
+    edge_.scatter(target_.base, target_.lane_stride);
+    if (target_.row) target_.row(target_.context, 0);
+    for (const Edge edge : {kAD, kBC, kAC}) {
+      refine_edge(edge);
+      edge_.store(strips_ + edge * edge_output_size(depth_) * L);
     }
+    refine_edge(kDC);
     V origin[3];
     choose_origin<N>(corner_block(kA), corner_block(kC), origin);
     for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
@@ -126,11 +138,11 @@ class Stream {
     const LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride,
                           target_.lane_stride);
     if (has_local_origin(depth_)) {
-      if (j == 0 || j == size) {
-        // the points of an edge one after the other
-        given_row(strip(j == 0 ? 0 : 2, 0), target_.base + j * target_.row_stride);
+      if (j == 0) return;
+      if (j == size) {
+        edge_.scatter(target_.base + j * target_.row_stride, target_.lane_stride);
       } else {
-        row.run(size, strip(3, j), j, strip(4, j), strip(1, j));
+        row.run(size, strip(kAD, j), j, strip(kAC, j), strip(kBC, j));
       }
     } else if (j == 0) {
       row.run(size, corner_limit(kA), 0, nullptr, corner_limit(kB));
@@ -146,16 +158,6 @@ class Stream {
     if (target_.row) target_.row(target_.context, j);
   }
 
-  // Row 0 or `size` where a strip has evaluated it.
-  HWY_ATTR void given_row(const Scalar* from, Scalar* out) const {
-    Vertex<N> v[2];
-    for (int i = 0; i <= 1 << depth_; ++i, from += 6 * L) {
-      v[i & 1].load(from);
-      if (i & 1) N::scatter_couple(v[0], v[1], out + 6 * (i - 1), target_.lane_stride);
-    }
-    N::scatter_vertex(v[0], out + (6 << depth_), target_.lane_stride);
-  }
-
   const Scalar* corner_limit(int corner) const {
     return input_ + (corner * corner_block_size(depth_) + CornerBlock::kLimit) * L;
   }
@@ -168,4 +170,5 @@ class Stream {
   V centre_[3];
   Scalar unit_;
   Target<Scalar> target_;
+  EdgeStrip<N> edge_;
 };

@@ -62,6 +62,9 @@ struct LaneNumber {
                           {a.normal[1].v, a.normal[2].v, b.position[0].v, b.position[1].v},
                           {b.position[2].v, b.normal[0].v, b.normal[1].v, b.normal[2].v}};
     for (int t = 0; t < 3; ++t) transpose_blocks(v[t]);
+    if constexpr (lanes == 16) {  // where the rows leave no room for the output in the first-level cache
+      for (int lane = 0; lane < lanes; ++lane) __builtin_prefetch(aos + lane * lane_stride + 48, 1, 3);
+    }
     for (int r = 0; r < 4; ++r, aos += lane_stride) {
       const hn::Vec<D> lanes_r[3] = {v[0][r], v[1][r], v[2][r]};
       store_blocks<0>(lanes_r, aos, lane_stride);

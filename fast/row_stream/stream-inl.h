@@ -42,8 +42,8 @@ class Stream {
     return strips_ + (edge * edge_output_size(depth_) + 6 * point) * L;
   }
 
-  // A strip along an edge of the pair, from an origin of its own. first: where in a corner's window the edge's
-  // begins, among the core entries after the flap.
+  // A strip along an edge of the pair, from an origin of its own. first: where in a corner's window the
+  // edge's begins, among the core entries after the flap.
   HWY_ATTR void refine_edge(Edge edge) {
     struct Ends {
       int p, p_first, q, q_first;

@@ -10,6 +10,7 @@
 #include "fast/pairing.h"
 #include "fast/row_stream/layout.h"
 #include "fast/row_stream/rings.h"
+#include "fast/row_stream/transpose.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -38,29 +39,50 @@ struct Place {
   std::int32_t core;
 };
 
-template <class N>
-void put_corner(const BasicRings<N>& rings, Place place, int width, int depth, int lanes,
-                typename N::Scalar* out) {
+// Corner blocks of `group` lanes, whose rings are walked side by side. With an origin of its own a pair or
+// edge wants differences from the corner; they are exact or nearly so.
+template <int group, class N>
+void put_group(const BasicRings<N>& rings, const Place* places, int width, int depth, int lanes,
+               typename N::Scalar* out) {
   using T = typename N::Scalar;
-  const auto& head = rings.corner(place.vertex).head;
-  for (std::size_t k = 0; k < head.size(); ++k) out[static_cast<int>(k) * lanes] = head[k];
-
-  const auto ring = rings.ring(place.vertex);
-  const std::int32_t* entries = rings.entries().data() + ring.first;
-  std::int32_t at = place.core - 1 - depth;
-  if (ring.period != BasicRings<N>::kOpen) {
-    while (at < 0) at += ring.period;
+  const T *head[group], *centre[group], *column[group];
+  const std::int32_t* entries[group];
+  std::int32_t at[group], period[group];
+  const auto point = [points = rings.points().data()](std::int32_t k) { return points[k].data(); };
+  for (int lane = 0; lane < group; ++lane) {
+    const Place place = places[lane];
+    head[lane] = rings.corner(place.vertex).head.data();
+    centre[lane] = point(place.vertex);
+    const auto ring = rings.ring(place.vertex);
+    entries[lane] = rings.entries().data() + ring.first;
+    period[lane] = ring.period;
+    at[lane] = place.core - 1 - depth;
+    if (ring.period != BasicRings<N>::kOpen) {
+      at[lane] %= ring.period;
+      at[lane] += at[lane] < 0 ? ring.period : 0;
+    }
   }
-  // With an origin of its own a pair or edge wants differences from the corner; they are exact or nearly so.
-  const ControlPoint<T> nothing{};
-  const ControlPoint<T>& from =
-      has_local_origin(depth) ? rings.points()[static_cast<std::size_t>(place.vertex)] : nothing;
+  to_lanes<group, T>(head, nullptr, CornerBlock::kWindow, lanes, out);
   out += CornerBlock::kWindow * lanes;
-  for (int t = width; t > 0; --t, out += 3 * lanes) {
-    const ControlPoint<T>& p = rings.points()[static_cast<std::size_t>(entries[at])];
-    for (int c = 0; c < 3; ++c)
-      out[c * lanes] = p[static_cast<std::size_t>(c)] - from[static_cast<std::size_t>(c)];
-    if (++at == ring.period) at = 0;
+  for (int t = 0; t < width; ++t, out += 3 * lanes) {
+    for (int lane = 0; lane < group; ++lane) {
+      column[lane] = point(entries[lane][at[lane]]);
+      const std::int32_t next = at[lane] + 1;
+      at[lane] = next == period[lane] ? 0 : next;
+    }
+    to_lanes<group, T>(column, has_local_origin(depth) ? centre : nullptr, 3, lanes, out);
+  }
+}
+
+template <class N>
+void put_corners(const BasicRings<N>& rings, const Place* places, int width, int depth, int lanes,
+                 typename N::Scalar* out) {
+  if (lanes % 4 == 0) {
+    for (int lane = 0; lane < lanes; lane += 4)
+      put_group<4>(rings, places + lane, width, depth, lanes, out + lane);
+  } else {
+    for (int lane = 0; lane < lanes; ++lane)
+      put_group<1>(rings, places + lane, width, depth, lanes, out + lane);
   }
 }
 
@@ -85,43 +107,44 @@ void put_ghost(const BasicRings<N>& rings, Place a, int corner, int depth, int l
 template <class N>
 void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Pair> pairs, int depth,
             int lanes, typename N::Scalar* input, Order order) {
-  using detail::Place;
+  detail::Place places[4][kMaxLanes];
+  bool ghost[kMaxLanes];
   for (int lane = 0; lane < lanes; ++lane) {
     const Pair& pair = pairs[std::min(static_cast<std::size_t>(lane), pairs.size() - 1)];
     // A singleton without neighbour may be cut along any edge.
     const std::int32_t ac = 3 * pair.face0 + (pair.edge0 < 0 ? 0 : pair.edge0);
     const std::int32_t cd = Adjacency::next(ac), da = Adjacency::prev(ac), ca = adjacency.twin(ac);
-    const auto block = [&](int corner) {
-      return input + (corner ^ static_cast<int>(order)) * corner_block_size(depth) * lanes + lane;
-    };
-    const auto put = [&](int corner, Place place) {
-      detail::put_corner(rings, place, window_width(corner, depth), depth, lanes, block(corner));
-    };
-    const Place a{adjacency.origin(ac), rings.slot(ac) - 1};
-    put(kA, a);
-    put(kC, {adjacency.origin(cd), rings.slot(cd)});
-    put(kD, {adjacency.origin(da), rings.slot(da)});
-    if (ca < 0) {
-      detail::put_ghost(rings, a, kB, depth, lanes, block(kB));
-    } else {
-      const std::int32_t bc = Adjacency::prev(ca);
-      put(kB, {adjacency.origin(bc), rings.slot(bc)});
-    }
+    places[kA][lane] = {adjacency.origin(ac), rings.slot(ac) - 1};
+    places[kC][lane] = {adjacency.origin(cd), rings.slot(cd)};
+    places[kD][lane] = {adjacency.origin(da), rings.slot(da)};
+    ghost[lane] = ca < 0;
+    const std::int32_t bc = ca < 0 ? da : Adjacency::prev(ca);
+    places[kB][lane] = {adjacency.origin(bc), rings.slot(bc)};
+  }
+  const auto block = [&](int corner) {
+    return input + (corner ^ static_cast<int>(order)) * corner_block_size(depth) * lanes;
+  };
+  for (const int corner : {kA, kB, kC, kD})
+    detail::put_corners(rings, places[corner], window_width(corner, depth), depth, lanes, block(corner));
+  for (int lane = 0; lane < lanes; ++lane) {
+    if (ghost[lane]) detail::put_ghost(rings, places[kA][lane], kB, depth, lanes, block(kB) + lane);
   }
 }
 
 template <class N>
 void gather_edges(const Adjacency& adjacency, const BasicRings<N>& rings,
                   std::span<const std::int32_t> half_edges, int depth, int lanes, typename N::Scalar* input) {
-  const int width = edge_window_width(depth);
+  detail::Place p[kMaxLanes], q[kMaxLanes];
   for (int lane = 0; lane < lanes; ++lane) {
     const std::int32_t h = half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
     // From Q to the left neighbour, which comes before P in Q's ring.
     const std::int32_t after = Adjacency::next(h);
-    detail::put_corner(rings, {adjacency.origin(h), rings.slot(h)}, width, depth, lanes, input + lane);
-    detail::put_corner(rings, {adjacency.origin(after), rings.slot(after) + 1}, width, depth, lanes,
-                       input + edge_block_size(depth) * lanes + lane);
+    p[lane] = {adjacency.origin(h), rings.slot(h)};
+    q[lane] = {adjacency.origin(after), rings.slot(after) + 1};
   }
+  const int width = edge_window_width(depth);
+  detail::put_corners(rings, p, width, depth, lanes, input);
+  detail::put_corners(rings, q, width, depth, lanes, input + edge_block_size(depth) * lanes);
 }
 
 }  // namespace limitcheck::fast::row_stream

@@ -29,10 +29,9 @@ class EdgeStrip {
     }
   }
 
-  /// Position and normal of points 0 .. 2^depth to out[6 k .. 6 k + 5], `lanes` numbers each. p, q: corner
-  /// blocks of the ends; p_first, q_first: where in their windows those of the edge begin. The blocks are
-  /// left alone.
-  HWY_ATTR void run(const Scalar* p, int p_first, const Scalar* q, int q_first, Scalar* out) {
+  /// p, q: corner blocks of the ends; p_first, q_first: where in their windows those of the edge begin. The
+  /// blocks are left alone.
+  HWY_ATTR void refine(const Scalar* p, int p_first, const Scalar* q, int q_first) {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
     if (has_local_origin(depth_)) choose_origin<N>(p, q, origin);
     for (int c = 0; c < 3; ++c)
@@ -42,16 +41,32 @@ class EdgeStrip {
 
     take_ends(0);
     if (has_local_origin(depth_)) reconcile();
-    for (int level = 0; level < depth_; ++level) refine(level);
+    for (int level = 0; level < depth_; ++level) refine_level(level);
+  }
+
+  /// Then position and normal of points 0 .. 2^depth: to out[6 k .. 6 k + 5], `lanes` numbers each,
+  HWY_ATTR void store(Scalar* out) const {
     const int size = 1 << depth_;
     for (int k = 0; k < 6 * L; k += L) {
-      N::store(N::load(block_[0] + CornerBlock::kLimit * L + k), out + k);
-      N::store(N::load(block_[1] + CornerBlock::kLimit * L + k), out + 6 * size * L + k);
+      N::store(N::load(end_limit(0) + k), out + k);
+      N::store(N::load(end_limit(1) + k), out + 6 * size * L + k);
     }
-    for (int i = 1; i < size; ++i) limit(i, out + 6 * i * L);
+    row(nullptr, 0).store(1, size, out);
+  }
+  /// or to each lane's own memory.
+  HWY_ATTR void scatter(Scalar* out, std::ptrdiff_t lane_stride) const {
+    row(out, lane_stride).run(1 << depth_, end_limit(0), 0, nullptr, end_limit(1));
   }
 
  private:
+  const Scalar* end_limit(int end) const { return block_[end] + CornerBlock::kLimit * L; }
+
+  // Seen as rows of a pair: up begins half an edge further right there.
+  HWY_ATTR LimitRow<N> row(Scalar* out, std::ptrdiff_t lane_stride) const {
+    const int k = depth_ % 2;
+    return LimitRow<N>(down_[k], line_[k], up_[k] - 3 * L, centre_, unit_, out, lane_stride);
+  }
+
   // Window of an end at a level: three entries and `first` more on either side, the middle one along the
   // edge.
   Scalar* window(int end, int entry) { return block_[end] + (CornerBlock::kWindow + 3 * entry) * L; }
@@ -83,7 +98,7 @@ class EdgeStrip {
     }
   }
 
-  HWY_ATTR void refine(int level) {
+  HWY_ATTR void refine_level(int level) {
     const int size = 1 << level, from = level % 2, to = 1 - from;
     for (int i = 0; i < size; ++i) {
       for (int c = 0; c < 3; ++c) {
@@ -104,23 +119,6 @@ class EdgeStrip {
     for (int end = 0; end < 2; ++end)
       refine_ring<N>(block_[end], window(end, 0), edge_window_width(depth_ - level) - 2);
     take_ends(level + 1);
-  }
-
-  HWY_ATTR void limit(int i, Scalar* out) {
-    const int from = depth_ % 2, step = 3 * L;
-    V slant[3], across[3], normal[3];
-    for (int c = 0; c < 3; ++c) {
-      const int k = (3 * i + c) * L;
-      const Hexagon<V> h{N::load(line_[from] + k + step), N::load(up_[from] + k),
-                         N::load(up_[from] + k - step),   N::load(line_[from] + k - step),
-                         N::load(down_[from] + k - step), N::load(down_[from] + k)};
-      const Limit<V> point = limit_rule<N>(N::load(line_[from] + k), h);
-      N::store(N::fma(point.position, N::splat(unit_), centre_[c]), out + c * L);
-      slant[c] = point.slant;
-      across[c] = point.across;
-    }
-    normal_of<N>(slant, across, normal);
-    for (int c = 0; c < 3; ++c) N::store(normal[c], out + (3 + c) * L);
   }
 
   int depth_;

@@ -54,16 +54,30 @@ struct LaneNumber {
   }
 #endif
 
-  /// See ScalarNumber. What limits this is the number of stores, then the shuffles that only one port can do.
-  static constexpr int kBlock = lanes == 16 ? 8 : 4;
-  HWY_ATTR static HWY_INLINE void scatter(const Scalar* soa, int count, Scalar* aos,
-                                          std::ptrdiff_t lane_stride) {
-    static_assert(sizeof(Scalar) == 4);
-    int k = 0;
-    for (; k + lanes <= count; k += lanes, soa += lanes * lanes, aos += lanes) square(soa, aos, lane_stride);
-    for (; k + 4 <= count; k += 4, soa += 4 * lanes, aos += 4) four(soa, aos, lane_stride);
-    for (; k < count; ++k, soa += lanes, ++aos) {
-      for (int lane = 0; lane < lanes; ++lane) aos[lane * lane_stride] = soa[lane];
+  /// See ScalarNumber. Transposed within 128-bit blocks, which are stored as they are: that takes the fewest
+  /// shuffles, which only one port can do.
+  template <class Vertex>
+  HWY_ATTR static HWY_INLINE void scatter_couple(const Vertex& a, const Vertex& b, Scalar* aos,
+                                                 std::ptrdiff_t lane_stride) {
+    hn::Vec<D> v[3][4] = {{a.position[0].v, a.position[1].v, a.position[2].v, a.normal[0].v},
+                          {a.normal[1].v, a.normal[2].v, b.position[0].v, b.position[1].v},
+                          {b.position[2].v, b.normal[0].v, b.normal[1].v, b.normal[2].v}};
+    for (int t = 0; t < 3; ++t) transpose_blocks(v[t]);
+    if constexpr (lanes == 16) {  // where the rows leave no room for the output in the first-level cache
+      for (int lane = 0; lane < lanes; ++lane) __builtin_prefetch(aos + lane * lane_stride + 48, 1, 3);
+    }
+    for (int r = 0; r < 4; ++r, aos += lane_stride) {
+      const hn::Vec<D> lanes_r[3] = {v[0][r], v[1][r], v[2][r]};
+      store_blocks<0>(lanes_r, aos, lane_stride);
+    }
+  }
+
+  template <class Vertex>
+  HWY_ATTR static HWY_INLINE void scatter_vertex(const Vertex& a, Scalar* aos, std::ptrdiff_t lane_stride) {
+    alignas(64) Scalar soa[6 * lanes];
+    a.store(soa);
+    for (int lane = 0; lane < lanes; ++lane, aos += lane_stride) {
+      for (int k = 0; k < 6; ++k) aos[k] = soa[k * lanes + lane];
     }
   }
 
@@ -82,48 +96,27 @@ struct LaneNumber {
     v[3] = hn::BitCast(d, hn::InterleaveUpper(wide, ab1, ce1));
   }
 
-  // As many numbers as lanes: the blocks are put in place as they are loaded, so that each store fills a
-  // vector.
-  HWY_ATTR static HWY_INLINE void square(const Scalar* soa, Scalar* aos, std::ptrdiff_t lane_stride) {
-    for (int block = 0; block < lanes / 4; ++block) {
-      hn::Vec<D> v[4];
-      for (int r = 0; r < 4; ++r) v[r] = load_blocks(soa + 4 * block + r * lanes);
-      transpose_blocks(v);
-      for (int r = 0; r < 4; ++r) hn::StoreU(v[r], D(), aos + (4 * block + r) * lane_stride);
+  // Block b of three vectors to the twelve numbers at aos + 4 b lane_stride.
+  template <int b>
+  HWY_ATTR static HWY_INLINE void store_blocks(const hn::Vec<D> (&v)[3], Scalar* aos,
+                                               std::ptrdiff_t lane_stride) {
+    if constexpr (4 * b < lanes) {
+      const hn::CappedTag<Scalar, 4> quarter;
+      for (int t = 0; t < 3; ++t) hn::StoreU(block<b>(v[t]), quarter, aos + 4 * t);
+      store_blocks<b + 1>(v, aos + 4 * lane_stride, lane_stride);
     }
   }
 
-  // The 128-bit blocks at p, p + 4 lanes, p + 8 lanes ...
-  HWY_ATTR static HWY_INLINE hn::Vec<D> load_blocks(const Scalar* p) {
-    const D d;
-#if HWY_TARGET == HWY_AVX3
-    if constexpr (lanes == 16) {
-      __m512 v = _mm512_castps128_ps512(_mm_load_ps(p));
-      v = _mm512_insertf32x4(v, _mm_load_ps(p + 4 * lanes), 1);
-      v = _mm512_insertf32x4(v, _mm_load_ps(p + 8 * lanes), 2);
-      return hn::Vec<D>{_mm512_insertf32x4(v, _mm_load_ps(p + 12 * lanes), 3)};
-    }
-#endif
-    if constexpr (lanes == 8) {
-      const hn::Half<D> half;
-      return hn::Combine(d, hn::Load(half, p + 4 * lanes), hn::Load(half, p));
-    } else {
-      return hn::Load(d, p);
-    }
-  }
-
-  // The last few numbers.
-  HWY_ATTR static HWY_INLINE void four(const Scalar* soa, Scalar* aos, std::ptrdiff_t lane_stride) {
-    const D d;
-    hn::Vec<D> v[4];
-    for (int r = 0; r < 4; ++r) v[r] = hn::Load(d, soa + r * lanes);
-    transpose_blocks(v);
+  template <int b>
+  HWY_ATTR static HWY_INLINE auto block(hn::Vec<D> v) {
     const hn::CappedTag<Scalar, 4> quarter;
-    for (int r = 0; r < 4; ++r) {
-      alignas(64) Scalar lane[lanes];
-      hn::Store(v[r], d, lane);
-      for (int block = 0; block < lanes / 4; ++block)
-        hn::StoreU(hn::Load(quarter, lane + 4 * block), quarter, aos + (4 * block + r) * lane_stride);
-    }
+    using Quarter = hn::Vec<decltype(quarter)>;
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (lanes == 16) return Quarter{_mm512_extractf32x4_ps(v.raw, b)};
+#endif
+#if HWY_TARGET <= HWY_AVX2
+    if constexpr (lanes == 8) return Quarter{_mm256_extractf128_ps(v.raw, b)};
+#endif
+    if constexpr (lanes == 4) return v;
   }
 };

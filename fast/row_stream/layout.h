@@ -92,13 +92,14 @@ constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);
 }
 
-/// The five edges of a pair that strips evaluate: A B, B C, D C, A D, A C.
-inline constexpr int kPairEdges = 5;
+/// Of the five edges of a pair, those whose points are kept: A D, B C and A C, which cross the rows, and D C,
+/// the last row.
+inline constexpr int kKeptEdges = 4;
 constexpr int strips_offset(int depth) {
   return border_offset(depth) + 4 * kBorderSize * (depth + 1);
 }
 constexpr int work_size(int depth) {
-  return strips_offset(depth) + (has_local_origin(depth) ? kPairEdges * edge_output_size(depth) : 0);
+  return strips_offset(depth) + (has_local_origin(depth) ? kKeptEdges * edge_output_size(depth) : 0);
 }
 /// The strips are done before the rows begin, and work where those will be.
 static_assert(edge_work_size(kLocalFrom) <= rows_offset(kLocalFrom + 1) &&
@@ -113,8 +114,8 @@ struct Placement {
   static Placement identity() { return {{T(0), T(0), T(0)}, T(1)}; }
 };
 
-/// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where T
-/// divides exactly.
+/// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where
+/// T divides exactly.
 template <class T>
 Placement<T> scaled(Placement<T> placement, int depth) {
   if constexpr (std::is_floating_point_v<T>)

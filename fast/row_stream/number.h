@@ -10,8 +10,8 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// Minus half the bits of a float: its inverse square root to 3.5 %.
-inline constexpr std::int32_t kInverseRootMagic = 0x5f375a86;
+/// Minus half the bits of a float: 1.26 times its inverse square root, to 3 %.
+inline constexpr std::int32_t kInverseRootMagic = 0x5f5f2000;
 
 /// Any T with + - *, made from int and double (exactly: the rules' constants are 3, 5, .5 and powers of two),
 /// 0 by default; for normals also / and sqrt. The fma of a T that is no floating-point type is a * b + c.
@@ -48,11 +48,15 @@ struct ScalarNumber {
     return std::bit_cast<float>(kInverseRootMagic - (std::bit_cast<std::int32_t>(x) >> 1));
   }
 
-  /// Points that LimitRow collects before it calls scatter.
-  static constexpr int kBlock = 1;
-  /// `count` numbers of each lane, from soa[k * lanes + lane] to aos[lane * lane_stride + k].
-  static void scatter(const T* soa, int count, T* aos, std::ptrdiff_t /*lane_stride*/) {
-    for (int k = 0; k < count; ++k) aos[k] = soa[k];
+  /// Position and normal of a vertex to aos[lane * lane_stride + 0 .. 5] of each lane; two to 0 .. 11.
+  template <class Vertex>
+  static void scatter_vertex(const Vertex& a, T* aos, std::ptrdiff_t /*lane_stride*/) {
+    for (int c = 0; c < 3; ++c) aos[c] = a.position[c], aos[3 + c] = a.normal[c];
+  }
+  template <class Vertex>
+  static void scatter_couple(const Vertex& a, const Vertex& b, T* aos, std::ptrdiff_t lane_stride) {
+    scatter_vertex(a, aos, lane_stride);
+    scatter_vertex(b, aos + 6, lane_stride);
   }
 };
 

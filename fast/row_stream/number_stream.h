@@ -69,7 +69,8 @@ class NumberStream {
     generic::EdgeStrip<N> strip(depth, rings_.placement(), work.data());
     for (std::size_t e = 0; e < half_edges.size(); ++e, out += edge_output_size(depth)) {
       gather_edges(adjacency_, rings_, half_edges.subspan(e, 1), depth, 1, input.data());
-      strip.run(input.data(), 0, input.data() + edge_block_size(depth), 0, out);
+      strip.refine(input.data(), 0, input.data() + edge_block_size(depth), 0);
+      strip.store(out);
     }
   }
 

@@ -111,8 +111,39 @@ HWY_ATTR void refine_odd_row(const typename N::Scalar* m, const typename N::Scal
   }
 }
 
-/// One row of a level to its limit. The points gather in a block of registers or first-level cache until it
-/// pays to scatter them to the lanes' own memory.
+/// A vertex from its hexagon, a coordinate at a time.
+template <class N, Axis axis>
+struct Tangents {
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  V slant[3], across[3];
+
+  HWY_ATTR HWY_INLINE void coordinate(const Scalar* s, const Scalar* m, const Scalar* n, int c,
+                                      const V* centre, V unit, Vertex<N>& to) {
+    const int k = c * N::lanes;
+    const Limit<V> limit = limit_rule<N>(N::load(m + k), hexagon<N, axis>(s + k, m + k, n + k));
+    to.position[c] = N::fma(limit.position, unit, centre[c]);
+    slant[c] = limit.slant;
+    across[c] = limit.across;
+  }
+};
+
+/// Points 0 .. size, six vectors each, to each lane's own memory.
+template <class N>
+HWY_ATTR void scatter_kept(const typename N::Scalar* from, int size, typename N::Scalar* out,
+                           std::ptrdiff_t lane_stride) {
+  constexpr int L = N::lanes;
+  Vertex<N> a, b;
+  for (int i = 0; i < size; i += 2, from += 12 * L, out += 12) {
+    a.load(from), b.load(from + 6 * L);
+    N::scatter_couple(a, b, out, lane_stride);
+  }
+  a.load(from);
+  N::scatter_vertex(a, out, lane_stride);
+}
+
+/// One row of a level to its limit, two points at a time. centre: of each lane in the caller's coordinates;
+/// unit: from the scaled placement.
 template <class N>
 class LimitRow {
  public:
@@ -120,81 +151,133 @@ class LimitRow {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  /// centre: of each lane in the caller's coordinates; unit: from the scaled placement.
   HWY_ATTR LimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre, Scalar unit,
                     Scalar* out, std::ptrdiff_t lane_stride)
-      : s_(s), m_(m), n_(n), out_(out), lane_stride_(lane_stride), unit_(unit) {
+      : s_(s), m_(m), n_(n), out_(out), lane_stride_(lane_stride), unit_(N::splat(unit)) {
     for (int c = 0; c < 3; ++c) centre_[c] = centre[c];
   }
 
-  /// Row 0 or `size`: its ends are corners of the pair, whose limits the control vertices have.
-  HWY_ATTR void outer(int size, const Scalar* first, const Scalar* last) {
-    given(first);
-    for (int i = 1; i < size; ++i) point<Axis::kRow>(i);
-    given(last);
-    finish();
-  }
-  /// The same where a strip has evaluated the row.
-  HWY_ATTR void outer(int size, const Scalar* points) {
-    for (int i = 0; i <= size; ++i) given(points + 6 * i * L);
-    finish();
+  /// Points 0 .. size, of which three are given, six vectors each: the ends, and the one on the diagonal.
+  HWY_ATTR void run(int size, const Scalar* first, int diagonal_at, const Scalar* diagonal,
+                    const Scalar* last) const {
+    const Given given{size, first, diagonal_at, diagonal, last};
+    const int couple = diagonal_at & ~1;
+    mixed(0, given);
+    if (couple > 2) plain(2, couple);
+    if (couple >= 2 && couple < size) mixed(couple, given);
+    if (couple + 2 < size) plain(couple + 2, size);
+    if (size % 2 == 0) {
+      Vertex<N> v;
+      v.load(last);
+      N::scatter_vertex(v, out_ + 6 * size, lane_stride_);
+    }
   }
 
-  /// Row 0 < j < size: its ends lie on control edges, its point j on the diagonal.
-  HWY_ATTR void inner(int size, int j) {
-    point<Axis::kColumn>(0);
-    for (int i = 1; i < j; ++i) point<Axis::kRow>(i);
-    point<Axis::kDiagonal>(j);
-    for (int i = j + 1; i < size; ++i) point<Axis::kRow>(i);
-    point<Axis::kColumn>(size);
-    finish();
+  /// Points from `first` to before `end`, six vectors each, that of point i to to[6 i].
+  HWY_ATTR void store(int first, int end, Scalar* to) const {
+    if (first >= end) return;
+    Vertex<N> a, b;
+    begin(s_ + 3 * first * L, m_ + 3 * first * L, n_ + 3 * first * L, centre_, unit_, a);
+    for (int i = first + 1; i < end; ++i) {
+      along(s_ + 3 * i * L, m_ + 3 * i * L, n_ + 3 * i * L, centre_, unit_, b, a);
+      a.store(to + 6 * (i - 1) * L);
+      a = b;
+    }
+    a.root_1(), a.root_2(), a.root_3(), a.root_4(), a.scale();
+    a.store(to + 6 * (end - 1) * L);
   }
-  /// The same where strips have evaluated those three.
-  HWY_ATTR void inner(int size, int j, const Scalar* first, const Scalar* diagonal, const Scalar* last) {
-    given(first);
-    for (int i = 1; i < j; ++i) point<Axis::kRow>(i);
-    given(diagonal);
-    for (int i = j + 1; i < size; ++i) point<Axis::kRow>(i);
-    given(last);
-    finish();
+
+  /// Point i seen along an axis, six vectors.
+  template <Axis axis>
+  HWY_ATTR void special(int i, Scalar* to) const {
+    Vertex<N> v;
+    point<axis>(i, v);
+    v.store(to);
   }
 
  private:
-  template <Axis axis>
-  HWY_ATTR HWY_INLINE void point(int i) {
-    V slant[3], across[3], normal[3];
-    Scalar* to = block_ + 6 * filled_ * L;
-    for (int c = 0; c < 3; ++c) {
-      const int k = (3 * i + c) * L;
-      const Limit<V> limit = limit_rule<N>(N::load(m_ + k), hexagon<N, axis>(s_ + k, m_ + k, n_ + k));
-      N::store(N::fma(limit.position, N::splat(unit_), centre_[c]), to + c * L);
-      slant[c] = limit.slant;
-      across[c] = limit.across;
+  struct Given {
+    int size;
+    const Scalar* first;
+    int diagonal_at;
+    const Scalar *diagonal, *last;
+    const Scalar* at(int i) const {
+      return i == 0 ? first : i == diagonal_at ? diagonal : i == size ? last : nullptr;
     }
-    normal_of<N>(slant, across, normal);
-    for (int c = 0; c < 3; ++c) N::store(normal[c], to + (3 + c) * L);
-    keep();
+  };
+
+  template <Axis axis>
+  HWY_ATTR HWY_INLINE void point(int i, Vertex<N>& v) const {
+    const int k = 3 * i * L;
+    Tangents<N, axis> tangents;
+    for (int c = 0; c < 3; ++c) tangents.coordinate(s_ + k, m_ + k, n_ + k, c, centre_, unit_, v);
+    v.set_normal(tangents.slant, tangents.across);
+    v.finish();
   }
 
-  HWY_ATTR HWY_INLINE void given(const Scalar* point) {
-    for (int k = 0; k < 6; ++k) N::store(N::load(point + k * L), block_ + (6 * filled_ + k) * L);
-    keep();
+  HWY_ATTR void mixed(int i, const Given& given) const {
+    Vertex<N> v[2];
+    for (int k = 0; k < 2; ++k) {
+      if (const Scalar* from = given.at(i + k)) {
+        v[k].load(from);
+      } else {
+        point<Axis::kRow>(i + k, v[k]);
+      }
+    }
+    N::scatter_couple(v[0], v[1], out_ + 6 * i, lane_stride_);
   }
 
-  HWY_ATTR HWY_INLINE void keep() {
-    if (++filled_ < N::kBlock) return;
-    N::scatter(block_, 6 * N::kBlock, out_, lane_stride_);
-    out_ += 6 * N::kBlock;
-    filled_ = 0;
+  // Points from even `first` to before even `end`. The tangents of a point go with the normalisation of the
+  // point before, its own normalisation with the tangents of the next.
+  HWY_ATTR void plain(int first, int end) const {
+    const Scalar *s = s_ + 3 * first * L, *m = m_ + 3 * first * L, *n = n_ + 3 * first * L;
+    Scalar* out = out_ + 6 * first;
+    const std::ptrdiff_t lane_stride = lane_stride_;
+    const V unit = unit_, centre[3] = {centre_[0], centre_[1], centre_[2]};
+    constexpr int step = 3 * L;
+    Vertex<N> a, b;
+    begin(s, m, n, centre, unit, a);
+    for (int i = first;; i += 2) {
+      s += step, m += step, n += step;
+      along(s, m, n, centre, unit, b, a);
+      s += step, m += step, n += step;
+      if (i + 2 == end) break;
+      Vertex<N> next;
+      along(s, m, n, centre, unit, next, b);
+      N::scatter_couple(a, b, out, lane_stride);
+      a = next;
+      out += 12;
+    }
+    b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
+    N::scatter_couple(a, b, out, lane_stride);
   }
 
-  HWY_ATTR void finish() { N::scatter(block_, 6 * filled_, out_, lane_stride_); }
+  HWY_ATTR static HWY_INLINE void begin(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre,
+                                        V unit, Vertex<N>& v) {
+    Tangents<N, Axis::kRow> tangents;
+    for (int c = 0; c < 3; ++c) tangents.coordinate(s, m, n, c, centre, unit, v);
+    v.set_normal(tangents.slant, tangents.across);
+    v.set_square();
+  }
 
-  alignas(64) Scalar block_[6 * N::kBlock * L];
-  int filled_ = 0;
+  // `begin` of one vertex and the end of another.
+  HWY_ATTR static HWY_INLINE void along(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre,
+                                        V unit, Vertex<N>& v, Vertex<N>& other) {
+    Tangents<N, Axis::kRow> tangents;
+    other.root_1();
+    tangents.coordinate(s, m, n, 0, centre, unit, v);
+    other.root_2();
+    tangents.coordinate(s, m, n, 1, centre, unit, v);
+    other.root_3();
+    tangents.coordinate(s, m, n, 2, centre, unit, v);
+    other.root_4();
+    v.set_normal(tangents.slant, tangents.across);
+    other.scale();
+    v.set_square();
+  }
+
   const Scalar *s_, *m_, *n_;
   Scalar* out_;
   std::ptrdiff_t lane_stride_;
-  V centre_[3];
-  Scalar unit_;
+  V centre_[3], unit_;
 };

@@ -22,7 +22,8 @@ class Stream {
         depth_(depth),
         placement_(placement),
         unit_(scaled(placement, depth).unit),
-        target_(target) {
+        target_(target),
+        edge_(depth, placement, strip_work_) {
     for (int level = 0; level <= depth; ++level) rows_[level] = work + (rows_offset(level) + 3) * L;
   }
 
@@ -34,23 +35,33 @@ class Stream {
   }
 
  private:
+  enum Edge { kAD, kBC, kAC, kDC, kAB };  // the first four have their points kept
+
   Scalar* corner_block(int corner) const { return input_ + corner * corner_block_size(depth_) * L; }
-  const Scalar* strip(int edge, int point) const {
+  const Scalar* strip(Edge edge, int point) const {
     return strips_ + (edge * edge_output_size(depth_) + 6 * point) * L;
   }
 
-  // The pair's edges first, each from its own origin; then the pair from one on its diagonal.
-  HWY_ATTR void move_origin() {
+  // A strip along an edge of the pair, from an origin of its own. first: where in a corner's window the
+  // edge's begins, among the core entries after the flap.
+  HWY_ATTR void refine_edge(Edge edge) {
     struct Ends {
-      int p, p_first, q,
-          q_first;  // corners, and the other end's number among the core entries after the flap
+      int p, p_first, q, q_first;
     };
-    constexpr Ends ends[kPairEdges] = {
-        {kA, 0, kB, 1}, {kB, 0, kC, 2}, {kD, 1, kC, 0}, {kA, 2, kD, 0}, {kA, 1, kC, 1}};
-    EdgeStrip<N> edge(depth_, placement_, strip_work_);
-    for (int e = 0; e < kPairEdges; ++e) {
-      edge.run(corner_block(ends[e].p), ends[e].p_first, corner_block(ends[e].q), ends[e].q_first,
-               strips_ + e * edge_output_size(depth_) * L);
+    constexpr Ends ends[] = {{kA, 2, kD, 0}, {kB, 0, kC, 2}, {kA, 1, kC, 1}, {kD, 1, kC, 0}, {kA, 0, kB, 1}};
+    const Ends& e = ends[edge];
+    edge_.refine(corner_block(e.p), e.p_first, corner_block(e.q), e.q_first);
+  }
+
+  // The pair's edges before its inside: A B is row 0, the others are kept until their rows come. Then the
+  // pair from an origin on its diagonal.
+  HWY_ATTR void move_origin() {
+    refine_edge(kAB);
+    edge_.scatter(target_.base, target_.lane_stride);
+    if (target_.row) target_.row(target_.context, 0);
+    for (const Edge edge : {kAD, kBC, kAC, kDC}) {
+      refine_edge(edge);
+      edge_.store(strips_ + edge * edge_output_size(depth_) * L);
     }
     V origin[3];
     choose_origin<N>(corner_block(kA), corner_block(kC), origin);
@@ -123,19 +134,25 @@ class Stream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride, target_.lane_stride);
+    const LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride,
+                          target_.lane_stride);
     if (has_local_origin(depth_)) {
-      if (j == 0 || j == size) {
-        row.outer(size, strip(j == 0 ? 0 : 2, 0));
+      if (j == 0) return;
+      if (j == size) {
+        scatter_kept<N>(strip(kDC, 0), size, target_.base + j * target_.row_stride, target_.lane_stride);
       } else {
-        row.inner(size, j, strip(3, j), strip(4, j), strip(1, j));
+        row.run(size, strip(kAD, j), j, strip(kAC, j), strip(kBC, j));
       }
     } else if (j == 0) {
-      row.outer(size, corner_limit(kA), corner_limit(kB));
+      row.run(size, corner_limit(kA), 0, nullptr, corner_limit(kB));
     } else if (j == size) {
-      row.outer(size, corner_limit(kD), corner_limit(kC));
+      row.run(size, corner_limit(kD), size, corner_limit(kC), corner_limit(kC));
     } else {
-      row.inner(size, j);
+      alignas(64) Scalar special[3][6 * L];
+      row.template special<Axis::kColumn>(0, special[0]);
+      row.template special<Axis::kDiagonal>(j, special[1]);
+      row.template special<Axis::kColumn>(size, special[2]);
+      row.run(size, special[0], j, special[1], special[2]);
     }
     if (target_.row) target_.row(target_.context, j);
   }
@@ -152,4 +169,5 @@ class Stream {
   V centre_[3];
   Scalar unit_;
   Target<Scalar> target_;
+  EdgeStrip<N> edge_;
 };

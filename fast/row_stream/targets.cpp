@@ -50,8 +50,9 @@ HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& 
 template <int lanes>
 HWY_ATTR void run_edge_lanes(const float* input, int depth, const Placement<float>& placement, float* work,
                              float* out) {
-  EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>>(depth, placement, work)
-      .run(input, 0, input + edge_block_size(depth) * lanes, 0, out);
+  EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>> strip(depth, placement, work);
+  strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
+  strip.store(out);
 }
 
 template <int lanes>
@@ -91,8 +92,9 @@ const char* run_scalar(float* input, int depth, const Placement<float>& placemen
 
 void run_edge_scalar(const float* input, int depth, const Placement<float>& placement, float* work,
                      float* out) {
-  generic::EdgeStrip<ScalarNumber<float>>(depth, placement, work)
-      .run(input, 0, input + edge_block_size(depth), 0, out);
+  generic::EdgeStrip<ScalarNumber<float>> strip(depth, placement, work);
+  strip.refine(input, 0, input + edge_block_size(depth), 0);
+  strip.store(out);
 }
 
 std::vector<Kernel> find_kernels() {

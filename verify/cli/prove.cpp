@@ -66,7 +66,11 @@ bool run(const Request& request) {
                   set.tasks[done - 1].group + " " + set.tasks[done - 1].neighbourhood.name);
   });
   progress.clear();
-  const verify::ProofReport report(set, rows);
+  std::vector<verify::FloatKernel> kernels;
+  if (what.sliding_window) kernels.push_back(verify::FloatKernel::kSlidingWindow);
+  if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
+  const verify::ProofReport report(set, rows,
+                                   verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12));
   if (request.json) {
     fmt::print("{}\n", report.json());
   } else {

@@ -111,6 +111,7 @@ BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood,
     const KernelBounds bounds = bound_kernel(kernel, neighbourhood, depth);
     proof.position_bound = std::max(proof.position_bound, bounds.position());
     proof.tangent_bound = std::max(proof.tangent_bound, bounds.tangent());
+    proof.normal_bound = std::max(proof.normal_bound, bounds.normal());
     const WorstObserved worst =
         search_worst(neighbourhood, bounds, meshes, static_cast<std::uint64_t>(depth) + 1);
     proof.position_worst = std::max(proof.position_worst, worst.position);

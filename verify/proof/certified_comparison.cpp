@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verify/proof/certified_comparison.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "data/generators/named_mesh.h"
 #include "fast/frame.h"
 #include "fast/row_stream/stream_frame.h"
 #include "reference/certified.h"
@@ -102,6 +105,20 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
     errors.normal = std::max(errors.normal, angle);
   }
   return errors;
+}
+
+std::vector<CertifiedLine> certify_stock_shapes(const std::vector<FloatKernel>& kernels, int depth,
+                                                int points) {
+  std::vector<CertifiedLine> lines;
+  for (const std::string& name : data::stock_shapes())
+    for (const FloatKernel kernel : kernels)
+      lines.push_back(
+          {name, kernel == FloatKernel::kSlidingWindow ? "sliding-window" : "row-stream", depth, {}});
+  tbb::parallel_for(std::size_t{0}, lines.size(), [&](std::size_t k) {
+    lines[k].errors =
+        compare_certified(kernels[k % kernels.size()], data::named_mesh(lines[k].mesh), depth, points);
+  });
+  return lines;
 }
 
 }  // namespace limitcheck::verify

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "data/control_mesh.h"
 
@@ -30,5 +31,16 @@ enum class FloatKernel : std::uint8_t { kSlidingWindow, kRowStream };
 ///   throws   std::invalid_argument: a coordinate that is no float
 CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& mesh, int depth, int points,
                                   int digits = 20);
+
+/// One mesh, one kernel.
+struct CertifiedLine {
+  std::string mesh, kernel;
+  int depth = 0;
+  CertifiedErrors errors;
+};
+
+/// The stock shapes of the audit, on all cores.
+std::vector<CertifiedLine> certify_stock_shapes(const std::vector<FloatKernel>& kernels, int depth,
+                                                int points);
 
 }  // namespace limitcheck::verify

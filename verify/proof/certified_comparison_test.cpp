@@ -20,7 +20,7 @@ TEST(Certified, PositionsOfBothKernelsLieWithin3e7OfTheTrueSurface) {
     for (const std::string& name : data::stock_shapes()) {
       const auto mesh = data::named_mesh(name);
       for (const int depth : {1, 4}) {
-        const CertifiedErrors errors = compare_certified(kernel, mesh, depth, 40);
+        const CertifiedErrors errors = compare_certified(kernel, mesh, depth, 12);
         EXPECT_GT(errors.points, 2) << name;
         EXPECT_LT(errors.position, 3e-7)
             << name << " face " << errors.face << ' ' << errors.l1 << ' ' << errors.l2;

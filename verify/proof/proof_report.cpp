@@ -19,6 +19,7 @@ struct Line {
   int first_depth = std::numeric_limits<int>::max(), last_depth = 0;
   double digits = std::numeric_limits<double>::infinity();
   std::optional<BoundProof> bound;
+  std::optional<CostProof> cost;
 
   void add(const ProofRow& row) {
     ++topologies;
@@ -27,12 +28,14 @@ struct Line {
     first_depth = std::min(first_depth, row.first_depth);
     last_depth = std::max(last_depth, row.last_depth);
     digits = std::min(digits, row.map.digits);
+    if (row.cost && (!cost || row.cost->flops > cost->flops)) cost = row.cost;
     if (!row.bound) return;
     if (!bound) bound.emplace();
     bound->position_bound = std::max(bound->position_bound, row.bound->position_bound);
     bound->position_worst = std::max(bound->position_worst, row.bound->position_worst);
     bound->tangent_bound = std::max(bound->tangent_bound, row.bound->tangent_bound);
     bound->tangent_worst = std::max(bound->tangent_worst, row.bound->tangent_worst);
+    bound->normal_bound = std::max(bound->normal_bound, row.bound->normal_bound);
     bound->share = std::max(bound->share, row.bound->share);
     bound->last_depth = std::max(bound->last_depth, row.bound->last_depth);
   }
@@ -66,6 +69,7 @@ std::string ProofReport::table(bool each) const {
   std::map<std::string, std::size_t> index;
   std::string failures;
   std::int64_t points = 0;
+  Line overall;
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     const std::string& group = set_.tasks[t].group;
     for (const ProofRow& row : rows_[t]) {
@@ -80,6 +84,10 @@ std::string ProofReport::table(bool each) const {
       }
       lines[at->second].add(row);
       points += row.points;
+      if (row.bound) overall.add(row);
+      if (row.bound && row.bound->share > 1)
+        failures += fmt::format("EXCEEDED {} {} {}: an error of {:.3f} times its bound\n", group,
+                                row.topology, row.kernel, row.bound->share);
       if (row.map.witness)
         failures += fmt::format("DIFFERS  {} {} {}\n         {}\n", group, row.topology, row.kernel,
                                 describe(*row.map.witness));
@@ -87,9 +95,9 @@ std::string ProofReport::table(bool each) const {
   }
   std::size_t width = 10;
   for (const Line& line : lines) width = std::max(width, line.group.size());
-  std::string text = fmt::format("{:<{}}  {:<15}  {:>10}  {:>6}  {:>9}  {:<13}  {:>9}  {:>9}  {:>6}\n",
+  std::string text = fmt::format("{:<{}}  {:<15}  {:>10}  {:>6}  {:>9}  {:<13}  {:>9}  {:>9}  {:>6}  {:>6}\n",
                                  each ? "A B C D" : "topologies", width, "kernel", "topologies", "depths",
-                                 "points", "map", "bound", "worst", "slack");
+                                 "points", "map", "bound", "worst", "slack", "flops");
   for (const Line& line : lines) {
     text += fmt::format(
         "{:<{}}  {:<15}  {:>10}  {:>6}  {:>9}  {:<13}", line.group, width, line.kernel, line.topologies,
@@ -100,14 +108,36 @@ std::string ProofReport::table(bool each) const {
       text +=
           fmt::format("  {:>9.2e}  {:>9.2e}  {:>6.1f}", line.bound->position_bound,
                       line.bound->position_worst, line.bound->position_bound / line.bound->position_worst);
+    if (line.cost) text += fmt::format("{:{}}  {:>6.1f}", "", line.bound ? 0 : 30, line.cost->flops);
     text += '\n';
   }
   text += failures;
   if (!set_.impossible.empty())
     text +=
         fmt::format("No face of a manifold mesh has the valences {}.\n", fmt::join(set_.impossible, ", "));
-  text += fmt::format("{}: {} limit points.\n", held() ? "Every map is the reference's" : "Some maps DIFFER",
-                      points);
+  text += fmt::format("{}: {} limit points.\n",
+                      held() ? "Every map is the reference's" : "Some proofs FAILED", points);
+  if (overall.bound)
+    text += fmt::format(
+        "For no control mesh in the unit box is a float coordinate off by more than {:.2e} (depths 0-{}); "
+        "worst "
+        "found {:.2e}.\n",
+        overall.bound->position_bound, overall.bound->last_depth, overall.bound->position_worst);
+  for (const char* kernel : {"sliding-window", "row-stream"}) {
+    const CertifiedLine* worst = nullptr;
+    std::int64_t looked_at = 0;
+    for (const CertifiedLine& line : certified_) {
+      if (line.kernel != kernel) continue;
+      looked_at += line.errors.points;
+      if (worst == nullptr || line.errors.position > worst->errors.position) worst = &line;
+    }
+    if (worst != nullptr)
+      text += fmt::format(
+          "Certified: at {} points of the stock shapes {} is within {:.2e} of the diagonal of the true "
+          "surface "
+          "({}, depth {}).\n",
+          looked_at, kernel, worst->errors.position, worst->mesh, worst->depth);
+  }
   return text;
 }
 
@@ -137,13 +167,27 @@ std::string ProofReport::json() const {
         j["worst"] = row.bound->position_worst;
         j["tangent_bound"] = row.bound->tangent_bound;
         j["tangent_worst"] = row.bound->tangent_worst;
+        j["normal_bound"] = row.bound->normal_bound;
         j["bound_depth"] = row.bound->last_depth;
         j["worst_share"] = row.bound->share;
+      }
+      if (row.cost) {
+        j["flops_per_point"] = row.cost->flops;
+        j["vectors_per_point"] = row.cost->vectors;
       }
       rows.push_back(std::move(j));
     }
   }
-  const nlohmann::ordered_json document = {{"held", held()}, {"rows", rows}, {"impossible", set_.impossible}};
+  nlohmann::ordered_json certified = nlohmann::ordered_json::array();
+  for (const CertifiedLine& line : certified_)
+    certified.push_back({{"mesh", line.mesh},
+                         {"kernel", line.kernel},
+                         {"depth", line.depth},
+                         {"points", line.errors.points},
+                         {"position", line.errors.position},
+                         {"normal", line.errors.normal}});
+  const nlohmann::ordered_json document = {
+      {"held", held()}, {"rows", rows}, {"impossible", set_.impossible}, {"certified", certified}};
   return document.dump(2);
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "verify/proof/certified_comparison.h"
 #include "verify/proof/proof_set.h"
 
 namespace limitcheck::verify {
@@ -12,19 +14,23 @@ namespace limitcheck::verify {
 class ProofReport {
  public:
   /// Both must outlive this; rows as `prove` returns them.
-  ProofReport(const ProofSet& set, const std::vector<std::vector<ProofRow>>& rows) : set_(set), rows_(rows) {}
+  ProofReport(const ProofSet& set, const std::vector<std::vector<ProofRow>>& rows,
+              std::vector<CertifiedLine> certified = {})
+      : set_(set), rows_(rows), certified_(std::move(certified)) {}
 
   /// Whether every map is equal.
   bool held() const;
   /// A line per group and kernel, or with `each` per topology and kernel; then what failed, with its witness.
   std::string table(bool each) const;
   /// {"held": .., "rows": [{"group", "topology", "kernel", "depths", "points", "map", "arithmetic", "digits",
-  /// "witness", "bound", "worst", ..}], "impossible": [..]}
+  /// "witness", "bound", "worst", ..}], "impossible": [..], "certified": [{"mesh", "kernel",
+  /// "depth", "points", "position", "normal"}]}
   std::string json() const;
 
  private:
   const ProofSet& set_;
   const std::vector<std::vector<ProofRow>>& rows_;
+  const std::vector<CertifiedLine> certified_;
 };
 
 }  // namespace limitcheck::verify

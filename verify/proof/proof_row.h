@@ -29,9 +29,17 @@ struct BoundProof {
   int last_depth = 0;
   double position_bound = 0;  ///< of a coordinate
   double position_worst = 0;  ///< observed
-  double tangent_bound = 0;
+  double tangent_bound = 0;   ///< of a coordinate, relative to the largest it can be
   double tangent_worst = 0;
+  /// A unit normal is right to asin(normal_bound / q) + 2^-23, q the share that |du x dv| has of its largest.
+  double normal_bound = 0;
   double share = 0;  ///< largest share of its own point's bound that an error had: at most 1
+};
+
+/// Counted at the last depth, per distinct limit point of the pair (operation_count.h).
+struct CostProof {
+  double flops = 0;    ///< position and unit normal, fma as two
+  double vectors = 0;  ///< written during subdivision
 };
 
 struct ProofRow {
@@ -41,6 +49,7 @@ struct ProofRow {
   std::int64_t points = 0;  ///< limit points compared
   MapProof map;
   std::optional<BoundProof> bound;
+  std::optional<CostProof> cost;  ///< of sliding-window and row-stream
 };
 
 }  // namespace limitcheck::verify

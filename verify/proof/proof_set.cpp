@@ -12,6 +12,7 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "verify/proof/bounds.h"
+#include "verify/proof/operation_count.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -80,6 +81,14 @@ BoundProof bound_of(const std::string& kernel, const ProofTask& task) {
     return prove_bound(k, task.neighbourhood, 0, depth, task.bound_meshes);
   }
   throw std::logic_error("no bounds for " + kernel);
+}
+
+std::optional<CostProof> cost_of(const std::string& kernel, const ProofTask& task) {
+  const bool window = kernel == name_of(BoundedKernel::kSlidingWindow);
+  if (!window && kernel != name_of(BoundedKernel::kRowStream)) return std::nullopt;
+  const KernelCost cost = count_operations(window ? CountedKernel::kSlidingWindow : CountedKernel::kRowStream,
+                                           task.neighbourhood.mesh, task.options.last_depth);
+  return CostProof{cost.flops_per_point(), cost.vectors_per_point()};
 }
 
 }  // namespace
@@ -154,8 +163,10 @@ std::vector<std::vector<ProofRow>> prove(const std::vector<ProofTask>& tasks,
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t t) {
     const ProofTask& task = tasks[t];
     result[t] = prove_map(task.neighbourhood, task.options);
-    for (ProofRow& row : result[t])
+    for (ProofRow& row : result[t]) {
       if (task.bound_depth >= 0) row.bound = bound_of(row.kernel, task);
+      row.cost = cost_of(row.kernel, task);
+    }
     const std::scoped_lock lock(mutex);
     ++done;
     if (progress) progress(done);

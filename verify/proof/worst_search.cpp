@@ -97,7 +97,8 @@ class Search {
         const auto error = [&](const Row& row, const fast::Vec3<float>& found) {
           return std::abs(static_cast<double>(found.*coordinate) - exact(row, mesh, coordinate));
         };
-        const double position = error(positions_[k], f.position);
+        // less what the reference itself may err by in double
+        const double position = std::max(0., error(positions_[k], f.position) - 0x1p-49 * reach_);
         WorstObserved& worst = errors.worst;
         worst.position = std::max(worst.position, position);
         worst.position_share = std::max(worst.position_share, position / bound.position);

@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Plants the faults of source_faults.txt in the kernels' own sources, one at a time, in a copy, and asks the proof.
 # usage: verify/proof/source_faults.sh BUILD_DIRECTORY     (a built tree; some 10 s a fault)

@@ -2,8 +2,7 @@
 // limitcheck prove: the kernels are the right linear maps, for every geometry of a topology.
 #include <fmt/core.h>
 
-#include <cmath>
-#include <map>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -49,7 +48,7 @@ std::vector<int> valences(const std::string& text) {
     from = comma + 1;
   }
   std::ranges::sort(result);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 

@@ -24,8 +24,9 @@ TEST_F(ProveCommand, PrintsOneJsonDocumentWithARowForEveryTopologyAndKernel) {
   for (const auto& row : json["rows"]) {
     EXPECT_EQ(row["map"], "equal") << row;
     EXPECT_GT(row["points"].get<int>(), 0) << row;
-    if (row["arithmetic"] == "digits" && !row["digits"].is_null())
+    if (row["arithmetic"] == "digits" && !row["digits"].is_null()) {
       EXPECT_GE(row["digits"].get<double>(), 45) << row;
+    }
     if (!row.contains("bound")) continue;
     bounds = true;
     EXPECT_LE(row["worst"].get<double>(), row["bound"].get<double>()) << row;

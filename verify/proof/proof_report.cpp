@@ -119,10 +119,8 @@ std::string ProofReport::table(bool each) const {
                       held() ? "Every map is the reference's" : "Some proofs FAILED", points);
   if (overall.bound)
     text += fmt::format(
-        "In the unit box no control mesh of these topologies has a float coordinate off by more than {:.2e} "
-        "(depths 0-{}); "
-        "worst "
-        "found {:.2e}.\n",
+        "For no control mesh of these topologies in the unit box is a float coordinate off by more than "
+        "{:.2e} (depths 0-{}); worst found {:.2e}.\n",
         overall.bound->position_bound, overall.bound->last_depth, overall.bound->position_worst);
   for (const char* kernel : {"sliding-window", "row-stream"}) {
     const CertifiedLine* worst = nullptr;

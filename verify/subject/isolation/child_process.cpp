@@ -249,7 +249,7 @@ void ChildProcess::refuse_more_output() {
 void ChildProcess::read(std::span<std::byte> to) {
   check_alive();
   const std::size_t buffered = std::min(to.size(), buffer_.size() - taken_);
-  std::memcpy(to.data(), buffer_.data() + taken_, buffered);
+  if (buffered > 0) std::memcpy(to.data(), buffer_.data() + taken_, buffered);
   taken_ += buffered;
   to = to.subspan(buffered);
   while (!to.empty()) {

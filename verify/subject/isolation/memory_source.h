@@ -16,7 +16,7 @@ class MemorySource final : public Source {
   explicit MemorySource(std::string_view bytes) : left_(bytes) {}
   void read(std::span<std::byte> to) override {
     if (left_.size() < to.size()) throw Error("ends too early");
-    std::memcpy(to.data(), left_.data(), to.size());
+    if (!to.empty()) std::memcpy(to.data(), left_.data(), to.size());
     left_.remove_prefix(to.size());
   }
   std::string line(std::size_t longest) override {

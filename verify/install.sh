@@ -14,6 +14,7 @@ packages=(
   libhwy-dev                                                # SIMD with dispatch at run time
   libtinygltf-dev libassimp-dev                             # glTF output; the reader that checks it
   libgtest-dev libbenchmark-dev                             # tests, benchmarks
+  python3-jsonschema                                        # tests: the reports against their schema
 )
 if [[ ${1:-} == --dev ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy ccache)

@@ -19,6 +19,7 @@
 #include "verify/audit/audit.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
+#include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
 #include "verify/subject/host.h"
@@ -37,6 +38,7 @@ struct Arguments {
   int threads = 0;
   std::string json;
   bool each_mesh = false;
+  OutputArguments output;
 };
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: as they
@@ -123,6 +125,7 @@ std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlM
 }
 
 int audit(Arguments a) {
+  if (explained(a.output)) return kHeld;
   const Depths depths = parse_depths(a.depths);
   if (depths.kind == "view" && a.depth > fast::kDeepest)
     throw std::invalid_argument(fmt::format("--depths view: --depth {} at most", fast::kDeepest));
@@ -162,12 +165,17 @@ int audit(Arguments a) {
                                                 : fmt::format("{}:{}", s.subject->name, s.options));
 
   const auto start = std::chrono::steady_clock::now();
-  verify::Auditor auditor(a.depth, a.threads, [&](const verify::AuditStep& s) {
-    progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
-  });
+  verify::Auditor auditor(
+      a.depth, a.threads,
+      [&](const verify::AuditStep& s) {
+        progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
+      },
+      level(a.output));
   report.results = auditor.run(audited, meshes);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
+  waive(a.output, audited, report);
+  write_junit(a.output, report);
 
   if (a.json == "-") {
     fmt::print("{}", verify::to_json(report));
@@ -217,6 +225,7 @@ void add_audit(CLI::App& app, int& exit_code) {
       ->default_str("-");
   command->add_flag("--each-mesh", a->each_mesh,
                     "A line for every mesh in the table, not only for the worst");
+  add_output_options(*command, a->output);
   command->footer("Exit codes: 0 all held, 1 findings, 2 bad usage or input.");
   command->callback([a, &exit_code] { exit_code = audit(*a); });
 }

@@ -75,7 +75,7 @@ const std::vector<Explanation>& explanations() {
        "All control points on a line, or all the same: positions finite, normals finite and of unit length.",
        kNone, "the surface has no normal there, a renderer needs one all the same"},
       {"rejected-inputs",
-       "An edge with three faces, faces of opposite orientation, fans that meet in a vertex, no faces: "
+       "An edge with three faces, faces of opposite orientation, fans that meet in a vertex: "
        "refused with "
        "a message.",
        "None accepted.", "the scheme is defined on oriented manifolds only"},

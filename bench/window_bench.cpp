@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The sliding window: cost per limit point and stage, against the naive subdivider and OpenSubdiv's streaming
-// use. [mueller2000, 4.3; claims C18, C51, C55]
+// The sliding window: cost per limit point and stage. [mueller2000, 4.3; claims C51, C55]
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,9 +13,6 @@
 #include "fast/crack_edge.h"
 #include "fast/frame.h"
 #include "fast/sliding_window.h"
-#include "reference/naive.h"
-#include "verify/subject/host.h"
-#include "verify/subject/registry.h"
 
 namespace {
 
@@ -78,36 +73,6 @@ void frame(benchmark::State& state, int faces, int depth, int threads) {
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// The paper's recursive subdivider in double, every face by itself; compare with window-double. [C18]
-void naive(benchmark::State& state, int faces, int depth) {
-  const auto& mesh = mesh_of(faces);
-  const reference::NaiveSubdivider<double> subdivider(mesh);
-  std::int64_t leaves = 0;
-  for (auto _ : state) {
-    for (std::size_t f = 0; f < subdivider.face_count(); f += 16)
-      subdivider.tessellate(f, depth, [&](const auto&) { ++leaves; });
-  }
-  benchmark::DoNotOptimize(leaves);
-  const double side = (1 << depth) + 1;
-  state.counters["points/s"] =
-      benchmark::Counter(static_cast<double>((mesh.triangles.size() + 15) / 16) / 2 * side * side,
-                         benchmark::Counter::kIsIterationInvariantRate);
-}
-
-/// A subject through the door, its points counted as the window's: distinct per face pair.
-void subject(benchmark::State& state, int faces, int depth, const lc_subject* which) {
-  const auto& mesh = mesh_of(faces);
-  verify::Session session(*which, mesh, "");
-  for (auto _ : state) {
-    auto tessellation = session.tessellate(depth, 1);
-    benchmark::DoNotOptimize(tessellation.vertex_count());
-  }
-  const double side = (1 << depth) + 1;
-  state.counters["points/s"] =
-      benchmark::Counter(static_cast<double>(mesh.triangles.size()) / 2 * side * side,
-                         benchmark::Counter::kIsIterationInvariantRate);
-}
-
 void edges(benchmark::State& state, int faces, int depth) {
   const auto& mesh = mesh_of(faces);
   const fast::Adjacency adjacency(mesh);
@@ -141,39 +106,11 @@ void add(const char* name, const std::function<void(benchmark::State&, int, int)
   }
 }
 
-/// The usual table, and then how many times as long a rival takes for a point, in this run.
-class Reporter : public benchmark::ConsoleReporter {
- public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs)
-      if (const auto it = run.counters.find("points/s"); !run.error_occurred && it != run.counters.end())
-        rate_[run.benchmark_name()] = it->second.value;
-  }
-  void Finalize() override {
-    const std::pair<const char*, const char*> rivals[] = {
-        {"naive-double", "window-double"}, {"subject-opensubdiv-bfr", "subject-sliding-window"}};
-    for (const auto& [slow, fast] : rivals) {
-      for (int depth = 0; depth <= 7; ++depth) {
-        const auto a = rate_.find(full_name(slow, depth)), b = rate_.find(full_name(fast, depth));
-        if (a == rate_.end() || b == rate_.end()) continue;
-        GetOutputStream() << slow << " / " << fast << ", time per point, depth " << depth << ": "
-                          << b->second / a->second << "\n";
-      }
-    }
-    ConsoleReporter::Finalize();
-  }
-
- private:
-  std::map<std::string, double> rate_;
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
   add("window-carry", window<float, true>, 0, 7);
   add("window-double", window<double, true>, 3, 5);
-  add("naive-double", naive, 3, 5);
   add("window-as-printed", window<float, false>, 3, 7);
   add(
       "frame-strips", [](auto& s, int faces, int depth) { frame<fast::DrawList<float>>(s, faces, depth, 1); },
@@ -185,15 +122,8 @@ int main(int argc, char** argv) {
       "frame-indexed",
       [](auto& s, int faces, int depth) { frame<fast::IndexedMesh<float>>(s, faces, depth, 1); }, 3, 6);
   add("crack-edges", edges, 3, 6);
-  add(
-      "subject-sliding-window",
-      [](auto& s, int faces, int depth) { subject(s, faces, depth, lc_subject_sliding_window()); }, 3, 5);
-  add(
-      "subject-opensubdiv-bfr",
-      [](auto& s, int faces, int depth) { subject(s, faces, depth, lc_subject_opensubdiv_bfr()); }, 3, 5);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  Reporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

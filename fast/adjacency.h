@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -21,9 +22,8 @@ namespace limitcheck::fast {
 ///          edge
 ///              h0                  v -> r0 is the first boundary edge), every face is met, then comes -1.
 ///
-/// Time O(faces + vertices) for any input: 30, 56, 80, 115 ns/face at 800, 4 000, 100 000 and a million faces
-/// of a bumpy sphere whose vertices lie in random order (one core of a busy Zen 5; bench/setup_bench). GHz
-/// class). Space: 6 ints per face and 2 per vertex.
+/// Time and space O(faces + vertices) for any input and valence (bench/setup_bench). Space: 9 ints per face
+/// and 2 per vertex.
 class Adjacency {
  public:
   /// Throws std::invalid_argument and names the element: index out of range, vertex repeated in a face, edge
@@ -58,20 +58,28 @@ class Adjacency {
   /// The next outgoing half-edge counter-clockwise; -1 after the last face of a boundary vertex, whose last
   /// ring point r_K is origin(prev(h)).
   std::int32_t rotate(std::int32_t h) const { return twin(prev(h)); }
+  /// All outgoing half-edges of a vertex counter-clockwise, the canonical one first.
+  std::span<const std::int32_t> fan(std::int32_t v) const {
+    const auto i = static_cast<std::size_t>(v);
+    return {fan_.data() + first_[i], static_cast<std::size_t>(first_[i + 1] - first_[i])};
+  }
   /// Number of neighbouring vertices (faces on the inside, faces + 1 on the boundary; 0 without faces).
-  int valence(std::int32_t v) const { return valence_[static_cast<std::size_t>(v)]; }
+  int valence(std::int32_t v) const { return static_cast<int>(fan(v).size()) + (on_boundary(v) ? 1 : 0); }
   bool on_boundary(std::int32_t v) const { return outgoing(v) >= 0 && twin(outgoing(v)) < 0; }
   /// Largest valence of the mesh, 0 without faces.
   int max_valence() const { return max_valence_; }
 
  private:
-  void match_twins();
-  void choose_outgoing();
+  void read_faces(const data::ControlMesh& mesh);
+  void sort_by_origin();
+  void link();
+  [[noreturn]] void diagnose(std::int32_t v, bool closed) const;
 
   std::vector<std::int32_t> origin_;    // per half-edge
   std::vector<std::int32_t> twin_;      // per half-edge
+  std::vector<std::int32_t> fan_;       // half-edges by origin, counter-clockwise
+  std::vector<std::int32_t> first_;     // per vertex and one more: into fan_
   std::vector<std::int32_t> outgoing_;  // per vertex
-  std::vector<std::int32_t> valence_;   // per vertex
   int max_valence_ = 0;
 };
 

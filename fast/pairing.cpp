@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <tuple>
+#include <memory>
 
 #include "fast/depth.h"
 
@@ -12,26 +12,34 @@ namespace limitcheck::fast {
 
 namespace {
 
-constexpr int kTaken = 4;  // paired, singleton or culled: in none of S0 .. S3
+constexpr std::int8_t kTaken = 4;  // paired, singleton or culled: in none of S0 .. S3
 
 // The state of the greedy algorithm. A face only ever moves towards S0 and enters each set at most once, so
 // the queues need no deletion: what has moved on since it was appended is skipped when it comes up.
+//
+// Which neighbours are free and what becomes of them follows no pattern that a processor could foresee, so
+// the corrected rule's steps do not branch on it. The neighbour -1 is a face that is always taken.
 class Greedy {
  public:
   Greedy(const Adjacency& adjacency, const PairingOptions& options, PairingResult& result)
-      : adjacency_(adjacency), options_(options), result_(result), nodes_(result.depth.size()) {
-    const auto faces = static_cast<std::int32_t>(nodes_.size());
+      : adjacency_(adjacency), options_(options), result_(result) {
+    const auto faces = static_cast<std::int32_t>(result_.depth.size());
+    neighbours_.reset(new Neighbours[result_.depth.size() + 1]);
+    nodes_.reset(new Node[result_.depth.size() + 1]);
+    neighbour_ = neighbours_.get() + 1;
+    node_ = nodes_.get() + 1;
+    for (Queue& queue : queues_) queue.faces.reset(new std::int32_t[result_.depth.size() + 1]);
     for (std::int32_t f = 0; f < faces; ++f) {
-      if (result_.depth[f] < 0) {
-        nodes_[f].set = kTaken;
-        ++result_.culled;
-      }
+      for (int k = 0; k < 3; ++k) neighbour_[f].face[k] = adjacency.neighbour(f, k);
+      const bool culled = result_.depth[f] < 0;
+      node_[f].set = culled ? kTaken : std::int8_t{3};
+      result_.culled += culled;
     }
     for (std::int32_t f = 0; f < faces; ++f) {
-      if (nodes_[f].set != kTaken) nodes_[f].free = count_free(f);
+      for (const std::int32_t g : neighbour_[f].face) node_[f].free += is_free(g);
     }
     for (std::int32_t f = 0; f < faces; ++f) {
-      if (nodes_[f].set != kTaken) move(f, set_by_definition(f));
+      if (is_free(f)) move(f, set_by_definition(f));
     }
   }
 
@@ -39,56 +47,59 @@ class Greedy {
     for (std::int32_t f = highest(); f >= 0; f = highest()) {
       const int k = choose_partner(f);
       take(f);
-      if (k >= 0) take(adjacency_.neighbour(f, k));
+      if (k >= 0) take(neighbour_[f].face[k]);
       emit(f, k);
       raise_neighbours(f, k);
     }
   }
 
  private:
+  struct Neighbours {
+    std::int32_t face[3] = {-1, -1, -1};
+  };
   struct Node {
-    std::int8_t set = -1;
+    std::int8_t set = kTaken;
     std::int8_t free = 0;  // free neighbours
   };
 
   struct Queue {
-    std::vector<std::int32_t> faces;
-    std::size_t head = 0;
+    std::unique_ptr<std::int32_t[]> faces;
+    std::size_t head = 0, tail = 0;
+
+    void push_if(bool condition, std::int32_t f) {
+      faces[tail] = f;
+      tail += condition;
+    }
   };
 
-  bool is_free(std::int32_t f) const { return f >= 0 && nodes_[f].set != kTaken; }
+  bool is_free(std::int32_t f) const { return node_[f].set != kTaken; }
 
-  std::int8_t count_free(std::int32_t f) const {
-    std::int8_t count = 0;
-    for (int k = 0; k < 3; ++k)
-      count = static_cast<std::int8_t>(count + (is_free(adjacency_.neighbour(f, k)) ? 1 : 0));
-    return count;
+  bool has_neighbour_below_three(std::int32_t f) const {
+    bool any = false;
+    for (const std::int32_t g : neighbour_[f].face) any |= is_free(g) & (node_[g].free < 3);
+    return any;
   }
 
   // S1 is "two free neighbours, at least one of which has fewer than three".                   [C36]
   int set_by_definition(std::int32_t f) const {
-    if (nodes_[f].free <= 1) return 0;
-    if (nodes_[f].free == 3) return 3;
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t g = adjacency_.neighbour(f, k);
-      if (is_free(g) && nodes_[g].free < 3) return 1;
-    }
-    return 2;
+    if (node_[f].free <= 1) return 0;
+    if (node_[f].free == 3) return 3;
+    return has_neighbour_below_three(f) ? 1 : 2;
   }
 
   void move(std::int32_t f, int set) {
-    nodes_[f].set = static_cast<std::int8_t>(set);
-    queues_[set].faces.push_back(f);
+    node_[f].set = static_cast<std::int8_t>(set);
+    queues_[static_cast<std::size_t>(set)].push_if(true, f);
   }
 
-  void take(std::int32_t f) { nodes_[f].set = kTaken; }
+  void take(std::int32_t f) { node_[f].set = kTaken; }
 
   /// The first face of the highest set that is not empty; -1 when all are.
   std::int32_t highest() {
     for (int set = 0; set < 4; ++set) {
-      Queue& queue = queues_[set];
-      for (; queue.head < queue.faces.size(); ++queue.head) {
-        if (nodes_[queue.faces[queue.head]].set == set) return queue.faces[queue.head];
+      Queue& queue = queues_[static_cast<std::size_t>(set)];
+      for (; queue.head < queue.tail; ++queue.head) {
+        if (node_[queue.faces[queue.head]].set == set) return queue.faces[queue.head];
       }
     }
     return -1;
@@ -98,21 +109,17 @@ class Greedy {
   /// nothing as long as the sets are right: a face with a choice is taken only when S0 is empty. With the
   /// printed step 3 they are not.
   int choose_partner(std::int32_t f) const {
-    int chosen = -1;
-    std::tuple<bool, bool, int, std::int32_t> best{true, true, kTaken,
-                                                   std::numeric_limits<std::int32_t>::max()};
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t g = adjacency_.neighbour(f, k);
-      if (!is_free(g)) continue;
-      const int set = nodes_[g].set;
-      const bool other_depth = options_.prefer_equal_depth && result_.depth[g] != result_.depth[f];
-      const std::tuple<bool, bool, int, std::int32_t> rank{set != 0, other_depth, set, g};
-      if (rank < best) {
-        best = rank;
-        chosen = k;
-      }
+    constexpr std::uint64_t kNone = ~std::uint64_t{0};
+    std::uint64_t best = kNone;  // not in S0, other depth, set, face, edge: the smallest wins
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::int32_t g = neighbour_[f].face[k];
+      const auto set = static_cast<std::uint64_t>(node_[g].set);
+      const bool other_depth = g >= 0 && options_.prefer_equal_depth && result_.depth[g] != result_.depth[f];
+      const std::uint64_t rank = std::uint64_t{set != 0} << 40 | std::uint64_t{other_depth} << 39 |
+                                 set << 36 | std::uint64_t{static_cast<std::uint32_t>(g)} << 2 | k;
+      best = std::min(best, set == kTaken ? kNone : rank);
     }
-    return chosen;
+    return best == kNone ? -1 : static_cast<int>(best & 3);
   }
 
   void emit(std::int32_t f, int k) {
@@ -120,10 +127,9 @@ class Greedy {
     pair.face0 = f;
     pair.depth = result_.depth[f];
     if (k >= 0) {
-      const std::int32_t h = adjacency_.twin(3 * f + k);
-      pair.face1 = h / 3;
+      pair.face1 = neighbour_[f].face[k];
       pair.edge0 = k;
-      pair.edge1 = h % 3;
+      pair.edge1 = adjacency_.twin(3 * f + k) - 3 * pair.face1;
       pair.depth = std::max(pair.depth, result_.depth[pair.face1]);
       result_.depth[f] = result_.depth[pair.face1] = pair.depth;
       ++result_.pair_count;
@@ -142,20 +148,20 @@ class Greedy {
   // Step 3. The free neighbours of f and g, at most four, in the order of their edges; a face that touches
   // both is there once and loses two. [C40]
   void raise_neighbours(std::int32_t f, int k) {
-    std::array<std::int32_t, 6> touched{};
+    std::array<std::int32_t, 7> touched;
+    touched[0] = touched[1] = -1;
     std::size_t count = 0;
     const auto visit = [&](std::int32_t face) {
-      for (int e = 0; e < 3; ++e) {
-        const std::int32_t h = adjacency_.neighbour(face, e);
-        if (!is_free(h)) continue;
-        --nodes_[h].free;
-        if (std::find(touched.begin(), touched.begin() + count, h) == touched.begin() + count)
-          touched[count++] = h;
+      for (const std::int32_t h : neighbour_[face].face) {
+        const bool free = is_free(h);
+        node_[h].free = static_cast<std::int8_t>(node_[h].free - free);
+        const bool known = (touched[0] == h) | (touched[1] == h);  // f has two neighbours besides g
+        touched[count] = h;
+        count += free & !known;
       }
     };
-    visit(f);
-    if (k >= 0) visit(adjacency_.neighbour(f, k));
-
+    if (node_[f].free > (k >= 0)) visit(f);
+    if (k >= 0 && node_[neighbour_[f].face[k]].free > 1) visit(neighbour_[f].face[k]);
     const std::span<const std::int32_t> faces(touched.data(), count);
     if (options_.rule == PairingRule::kCorrected) {
       raise_corrected(faces);
@@ -166,16 +172,22 @@ class Greedy {
 
   void raise_corrected(std::span<const std::int32_t> touched) {
     for (const std::int32_t h : touched) {
-      if (nodes_[h].free <= 1 && nodes_[h].set != 0) move(h, 0);
+      Node& node = node_[h];
+      const bool raised = (node.free <= 1) & (node.set != 0);
+      queues_[0].push_if(raised, h);
+      node.set = raised ? std::int8_t{0} : node.set;
     }
-    for (const std::int32_t h : touched) {
-      if (nodes_[h].set == 3) move(h, set_by_definition(h));
+    for (const std::int32_t h : touched) {  // one of three free neighbours gone: two are left
+      Node& node = node_[h];
+      if (node.set != 3) continue;
+      const int set = has_neighbour_below_three(h) ? 1 : 2;
+      node.set = static_cast<std::int8_t>(set);
+      queues_[static_cast<std::size_t>(set)].push_if(true, h);
     }
     // A face of S2 reaches S1 when one of its neighbours has left S3; only those of the touched ones have.
     for (const std::int32_t h : touched) {
-      for (int e = 0; e < 3; ++e) {
-        const std::int32_t neighbour = adjacency_.neighbour(h, e);
-        if (is_free(neighbour) && nodes_[neighbour].set == 2) move(neighbour, 1);
+      for (const std::int32_t g : neighbour_[h].face) {
+        if (node_[g].set == 2) move(g, 1);
       }
     }
   }
@@ -185,19 +197,19 @@ class Greedy {
     std::array<std::int32_t, 6> moved{};
     std::size_t count = 0;
     for (const std::int32_t h : touched) {
-      if (nodes_[h].set != 3) continue;
+      if (node_[h].set != 3) continue;
       move(h, 2);
       moved[count++] = h;
     }
     for (const std::int32_t h : touched) {
-      if (nodes_[h].set == 2 || nodes_[h].set == 1) move(h, 0);
+      if (node_[h].set == 2 || node_[h].set == 1) move(h, 0);
     }
     // "All triangles from S2 with neighbours in S0, S1 or S2": such a neighbour is new only beside one that
     // moved.
     for (std::size_t i = 0; i < count; ++i) {
       for (int e = 0; e < 3; ++e) {
-        const std::int32_t neighbour = adjacency_.neighbour(moved[i], e);
-        if (is_free(neighbour) && nodes_[neighbour].set == 2) move(neighbour, 1);
+        const std::int32_t neighbour = neighbour_[moved[i]].face[e];
+        if (is_free(neighbour) && node_[neighbour].set == 2) move(neighbour, 1);
       }
     }
   }
@@ -205,7 +217,10 @@ class Greedy {
   const Adjacency& adjacency_;
   const PairingOptions& options_;
   PairingResult& result_;
-  std::vector<Node> nodes_;
+  std::unique_ptr<Neighbours[]> neighbours_;
+  std::unique_ptr<Node[]> nodes_;
+  Neighbours* neighbour_;  // [-1] is the neighbour that is not there
+  Node* node_;
   std::array<Queue, 4> queues_;
 };
 

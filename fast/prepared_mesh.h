@@ -63,7 +63,8 @@ class PreparedMesh {
 
   Vertex limit_of(std::int32_t v, const std::vector<Vec3<N>>& ring, bool open) {
     auto wide = vertex_limit<N>(position(v), ring, open);
-    drop_noise(v, ring, wide);
+    // Linear numbers have no sizes, and no rounding either.
+    if constexpr (!requires { requires Surface::kLinear; }) drop_noise(v, ring, wide);
     const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
     return Surface::vertex(
         frame,

@@ -15,6 +15,8 @@ packages=(
   libtinygltf-dev libassimp-dev                             # glTF output; the reader that checks it
   libgtest-dev libbenchmark-dev                             # tests, benchmarks
   python3-jsonschema                                        # tests: the reports against their schema
+  libepoxy-dev libegl1 libgl1-mesa-dri libpng-dev pkgconf   # OpenGL without a display, pictures
+  valgrind python3-scipy                                    # exact instruction counts; statistics of timings
 )
 if [[ ${1:-} == --dev ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy ccache)

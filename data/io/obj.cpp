@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "data/error.h"
 #include "data/io/polygon_soup.h"
@@ -12,7 +13,7 @@
 namespace limitcheck::data::io {
 namespace {
 
-constexpr std::string_view kReadOver[] = {"vt",         "vn",        "g",      "o",        "s",        "mg",
+constexpr std::string_view kReadOver[] = {"vt",         "g",      "o",        "s",        "mg",
                                           "usemtl",     "mtllib",    "usemap", "maplib",   "bevel",    "lod",
                                           "shadow_obj", "trace_obj", "p",      "c_interp", "d_interp", "l"};
 constexpr std::string_view kFreeForm[] = {"vp",   "cstype", "deg",   "bmat", "step", "curv", "curv2",
@@ -33,6 +34,8 @@ class ObjReader {
       const std::string_view keyword = scanner_.word();
       if (keyword == "v") {
         read_vertex();
+      } else if (keyword == "vn") {
+        read_normal();
       } else if (keyword == "f") {
         read_face();
       } else if (contains(kFreeForm, keyword)) {
@@ -57,6 +60,15 @@ class ObjReader {
     soup_.position_lines.push_back(scanner_.line());
   }
 
+  // For those who ask; whatever is no number is no reason to refuse the file.
+  void read_normal() {
+    std::array<double, 3> normal{};
+    for (double& x : normal) {
+      x = to_double(scanner_.word()).value_or(std::numeric_limits<double>::quiet_NaN());
+    }
+    soup_.normals.push_back(normal);
+  }
+
   // Three or more of v, v/vt, v//vn, v/vt/vn; indices from 1, or from the latest backwards if negative.
   void read_face() {
     for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) {
@@ -67,7 +79,7 @@ class ObjReader {
 
   std::int64_t vertex_of(std::string_view word) {
     std::string_view parts = word;
-    std::int64_t index = 0;
+    std::int64_t index = 0, normal = -1;
     for (int part = 0;; ++part) {
       const std::size_t slash = parts.find('/');
       const std::string_view text = parts.substr(0, slash);
@@ -77,9 +89,11 @@ class ObjReader {
         scanner_.syntax_error(fmt::format("a corner is v, v/vt, v//vn or v/vt/vn, not {}", quoted(word)));
       }
       if (part == 0) index = *value;
+      if (part == 2) normal = *value > 0 ? *value - 1 : static_cast<std::int64_t>(soup_.normals.size()) + *value;
       if (slash == std::string_view::npos) break;
       parts.remove_prefix(slash + 1);
     }
+    soup_.corner_normals.push_back(normal);
     const auto latest = static_cast<std::int64_t>(soup_.positions.size());
     if (index == 0 || index < -latest) {
       scanner_.fail(std::string(code(MeshFault::kIndexOutOfRange)),

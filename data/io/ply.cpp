@@ -280,20 +280,35 @@ class PlyReader {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       place[axis] = property_named(element, {std::string(1, "xyz"[axis])}, false);
     }
+    std::array<std::size_t, 3> normal_place{};
+    bool has_normals = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& all = element.properties;
+      const auto it = std::find_if(all.begin(), all.end(), [&](const Property& p) {
+        return p.name == std::string("n") + "xyz"[axis] && !p.is_list;
+      });
+      has_normals = has_normals && it != all.end();
+      normal_place[axis] = static_cast<std::size_t>(it - all.begin());
+    }
     for (std::int64_t i = 0; i < element.count; ++i) {
       body.begin(element, i);
-      std::array<double, 3> position{};
+      std::array<double, 3> position{}, normal{};
       for (std::size_t k = 0; k < element.properties.size(); ++k) {
         const Property& property = element.properties[k];
         const auto axis = std::find(place.begin(), place.end(), k) - place.begin();
+        const auto normal_axis =
+            std::find(normal_place.begin(), normal_place.end(), k) - normal_place.begin();
         if (axis < 3) {
           position[axis] = body.real(property, property.type);
+        } else if (has_normals && normal_axis < 3) {
+          normal[normal_axis] = body.real(property, property.type);
         } else {
           body.skip(property);
         }
       }
       body.end();
       soup_.positions.push_back(position);
+      if (has_normals) soup_.normals.push_back(normal);
       if (body.line() > 0) soup_.position_lines.push_back(body.line());
     }
   }

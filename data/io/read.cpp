@@ -37,7 +37,26 @@ std::string whole_content(const std::filesystem::path& file) {
   return content;
 }
 
+io::PolygonSoup parse(std::string_view content, FileFormat format, const std::string& name) {
+  switch (format) {
+    case FileFormat::kObj:
+      return io::read_obj(content, name);
+    case FileFormat::kOff:
+      return io::read_off(content, name);
+    case FileFormat::kPly:
+      return io::read_ply(content, name);
+    case FileFormat::kStl:
+      return io::read_stl(content, name);
+  }
+  return {};
+}
+
 }  // namespace
+
+io::PolygonSoup io::read_soup(const std::filesystem::path& file) {
+  const FileFormat format = format_of(file);
+  return parse(whole_content(file), format, file.string());
+}
 
 ControlMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options) {
   const FileFormat format = io::format_of(file);
@@ -46,20 +65,7 @@ ControlMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opti
 
 ControlMesh read_mesh(std::string_view content, FileFormat format, const std::string& name,
                       const ReadOptions& options) {
-  const auto soup = [&] {
-    switch (format) {
-      case FileFormat::kObj:
-        return io::read_obj(content, name);
-      case FileFormat::kOff:
-        return io::read_off(content, name);
-      case FileFormat::kPly:
-        return io::read_ply(content, name);
-      case FileFormat::kStl:
-        return io::read_stl(content, name);
-    }
-    return io::PolygonSoup();
-  };
-  return io::control_mesh(soup(), name, options);
+  return io::control_mesh(parse(content, format, name), name, options);
 }
 
 }  // namespace limitcheck::data

@@ -119,8 +119,7 @@ class EdgeStrip {
       slant[c] = point.slant;
       across[c] = point.across;
     }
-    normal_direction<N>(slant, across, normal);
-    normalise<N>(normal[0], normal[1], normal[2]);
+    normal_of<N>(slant, across, normal);
     for (int c = 0; c < 3; ++c) N::store(normal[c], out + (3 + c) * L);
   }
 

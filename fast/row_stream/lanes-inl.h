@@ -21,6 +21,7 @@ struct LaneNumber {
   HWY_ATTR static HWY_INLINE void store(V v, Scalar* p) { hn::Store(v.v, D(), p); }
   HWY_ATTR static HWY_INLINE V splat(double x) { return {hn::Set(D(), static_cast<Scalar>(x))}; }
 
+  static constexpr bool kLinear = false;
   static constexpr bool kHasSeed = true;
   HWY_ATTR static HWY_INLINE V inverse_root_seed(V x) {
     const hn::RebindToSigned<D> bits;

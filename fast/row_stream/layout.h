@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 namespace limitcheck::fast::row_stream {
 
@@ -106,12 +107,18 @@ template <class T>
 struct Placement {
   T centre[3];
   T unit;
+
+  static Placement identity() { return {{T(0), T(0), T(0)}, T(1)}; }
 };
 
-/// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large.
+/// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where T
+/// divides exactly.
 template <class T>
 Placement<T> scaled(Placement<T> placement, int depth) {
-  placement.unit = static_cast<T>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
+  if constexpr (std::is_floating_point_v<T>)
+    placement.unit = static_cast<T>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
+  else
+    placement.unit = placement.unit / static_cast<T>(std::ldexp(12., 3 * depth));
   return placement;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernel asks of a number type, and the plain scalar ones: one lane, fma spelled out.
+// What the kernel asks of a number type, and the scalar ones: one lane, fma spelled out.
 #pragma once
 
 #include <bit>
@@ -13,6 +13,8 @@ namespace limitcheck::fast::row_stream {
 /// Minus half the bits of a float: its inverse square root to 3.5 %.
 inline constexpr std::int32_t kInverseRootMagic = 0x5f375a86;
 
+/// Any T with + - *, made from int and double (exactly: the rules' constants are 3, 5, .5 and powers of two),
+/// 0 by default; for normals also / and sqrt. The fma of a T that is no floating-point type is a * b + c.
 /// `Scalar` is what memory holds, `V` what the rules compute with: `lanes` scalars.
 template <class T>
 struct ScalarNumber {
@@ -21,13 +23,27 @@ struct ScalarNumber {
   static constexpr int lanes = 1;
   static V load(const T* p) { return *p; }
   static void store(V v, T* p) { *p = v; }
-  static V splat(double x) { return static_cast<T>(x); }
-  static V fma(V a, V b, V c) { return std::fma(a, b, c); }
-  static V fms(V a, V b, V c) { return std::fma(a, b, -c); }
-  static V fnma(V a, V b, V c) { return std::fma(-a, b, c); }
+  template <class X>
+  static V splat(const X& x) {
+    return static_cast<T>(x);
+  }
+  static V fma(const V& a, const V& b, const V& c) {
+    if constexpr (std::is_floating_point_v<T>)
+      return std::fma(a, b, c);
+    else
+      return a * b + c;
+  }
+  static V fms(const V& a, const V& b, const V& c) { return fma(a, b, -c); }
+  static V fnma(const V& a, const V& b, const V& c) { return fma(-a, b, c); }
+
+  /// Whether a point keeps a linear image of its tangents in place of its unit normal, see LinearNumber.
+  static constexpr bool kLinear = false;
 
   static constexpr bool kHasSeed = std::is_same_v<T, float>;
-  static V inverse_root(V x) { return T(1) / std::sqrt(x); }
+  static V inverse_root(const V& x) {
+    using std::sqrt;
+    return T(1) / sqrt(x);
+  }
   static V inverse_root_seed(V x) {
     return std::bit_cast<float>(kInverseRootMagic - (std::bit_cast<std::int32_t>(x) >> 1));
   }
@@ -37,6 +53,21 @@ struct ScalarNumber {
   /// `count` numbers of each lane, from soa[k * lanes + lane] to aos[lane * lane_stride + k].
   static void scatter(const T* soa, int count, T* aos, std::ptrdiff_t /*lane_stride*/) {
     for (int k = 0; k < count; ++k) aos[k] = soa[k];
+  }
+};
+
+/// For numbers that know linear maps alone: every point has one of its two limit tangents where others have
+/// the unit normal, so that all six numbers of a point are linear in the control points.
+///   tangent  0: the kernel's slant, the prepass' along; 1: the kernel's and the prepass' across
+template <class T, int tangent_number>
+struct LinearNumber : ScalarNumber<T> {
+  static constexpr bool kLinear = true;
+  template <class X>  // T, or the number a ring is summed in
+  static const X& tangent(const X& first, const X& second) {
+    if constexpr (tangent_number == 0)
+      return first;
+    else
+      return second;
   }
 };
 

@@ -12,14 +12,11 @@
 #include "fast/pairing.h"
 #include "fast/row_stream/rings.h"
 #include "fast/row_stream/targets.h"
+#include "fast/row_stream/vertex.h"
 
 namespace limitcheck::fast::row_stream {
 
-/// Position and unit normal, 24 bytes.
-struct Vertex {
-  float position[3];
-  float normal[3];
-};
+struct CompactVertex;
 
 /// Memory that the kernels can load vectors from.
 class AlignedFloats {
@@ -62,8 +59,11 @@ struct RowView {
   }
 };
 
-/// A control mesh made ready: rings and limits per vertex. Read only afterwards, so threads may share
-/// it.
+/// A control mesh made ready: rings and limits per vertex. Read only afterwards, so threads may share it.
+///
+/// Output forms, all of the same points: row buffers that the next row overwrites (rows), whole pairs in
+/// memory (whole; streamed: past the caches, or compact), to which pair_indices.h has the index buffers that
+/// all pairs of a depth share, and, by StreamTessellator, an indexed mesh in which shared points appear once.
 class RowStream {
  public:
   /// Both must outlive this.
@@ -79,6 +79,13 @@ class RowStream {
 
   /// All vertices: those of pairs[p] from out[p * side * side], row by row.
   void whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const;
+
+  /// The same bytes as whole() by non-temporal stores, row after row: for output much larger than the caches
+  /// that nobody reads soon. `out` is aligned as any Vertex is; nothing beyond the pairs is touched. Visible
+  /// to other threads as whatever this thread writes afterwards.
+  void streamed(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const;
+  /// The same in 16 bytes per vertex, see compact_vertex.h.
+  void streamed(std::span<const Pair> pairs, int depth, Workspace& workspace, CompactVertex* out) const;
 
   /// The points of control edges at a depth of their own: those of half_edges[e], from its origin to its
   /// target, from out[e * side]. The same bits as a pair of that depth gives them.

@@ -2,10 +2,10 @@
 // One row of a level to the two rows of the next that it begins, and to its limit. Included like rules-inl.h.
 
 /// An origin near an edge, the same from either end, with few enough digits that moving there and back costs
-/// none.
+/// none. Numbers without rounding have no digits to save.
 template <class N, class V>
 HWY_ATTR HWY_INLINE void choose_origin(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
-  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12
+  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12, a double at 2^-41
   for (int c = 0; c < 3; ++c) {
     const int k = (CornerBlock::kCentre + c) * N::lanes;
     origin[c] = (N::splat(.5) * (N::load(p + k) + N::load(q + k)) + magic) - magic;
@@ -171,8 +171,7 @@ class LimitRow {
       slant[c] = limit.slant;
       across[c] = limit.across;
     }
-    normal_direction<N>(slant, across, normal);
-    normalise<N>(normal[0], normal[1], normal[2]);
+    normal_of<N>(slant, across, normal);
     for (int c = 0; c < 3; ++c) N::store(normal[c], to + (3 + c) * L);
     keep();
   }

@@ -74,13 +74,14 @@ HWY_ATTR HWY_INLINE V inverse_root(V x) {
   }
 }
 
-/// a x b to out[0..2]. The bias keeps a zero product from becoming NaN: it then yields
-/// (0, 0, 1); elsewhere it is below the rounding of any product a mesh scaled to size 1 can have.
+/// a x b to out[0..2]. The bias makes a zero product (0, 0, 1); elsewhere it is below the rounding of any
+/// product a mesh scaled to size 1 can have. It comes last: parallel tangents may have exact products, in
+/// which it would drown. [claim D12]
 template <class N, class V>
 HWY_ATTR HWY_INLINE void normal_direction(const V (&a)[3], const V (&b)[3], V* out) {
   out[0] = N::fms(a[1], b[2], a[2] * b[1]);
   out[1] = N::fms(a[2], b[0], a[0] * b[2]);
-  out[2] = N::fms(a[0], b[1], N::fms(a[1], b[0], N::splat(0x1p-60)));
+  out[2] = N::fms(a[0], b[1], a[1] * b[0]) + N::splat(0x1p-60);
 }
 
 /// To unit length. Adding 0 turns -0 into +0.
@@ -90,4 +91,15 @@ HWY_ATTR HWY_INLINE void normalise(V& x, V& y, V& z) {
   x = N::fma(x, inverse, N::splat(0));
   y = N::fma(y, inverse, N::splat(0));
   z = N::fma(z, inverse, N::splat(0));
+}
+
+/// What a point keeps of its tangents a and b: the unit normal, or a linear image of them.
+template <class N, class V>
+HWY_ATTR HWY_INLINE void normal_of(const V (&a)[3], const V (&b)[3], V (&normal)[3]) {
+  if constexpr (N::kLinear) {
+    for (int c = 0; c < 3; ++c) normal[c] = N::tangent(a[c], b[c]);
+  } else {
+    normal_direction<N>(a, b, normal);
+    normalise<N>(normal[0], normal[1], normal[2]);
+  }
 }

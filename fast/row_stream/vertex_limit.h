@@ -1,50 +1,169 @@
 // SPDX-License-Identifier: MIT
-// Limit position, limit normal and ring recursion of one control vertex, in double and in the order of its
-// ring.
+// Limit position, limit tangents and ring recursion of one control vertex, in the order of its ring, for any
+// number type.
 #pragma once
 
-#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <type_traits>
 #include <vector>
+
+#include "fast/adjacency.h"
+#include "fast/masks.h"
+#include "fast/vec3.h"
 
 namespace limitcheck::fast::row_stream {
 
-struct Vec {
-  double x = 0, y = 0, z = 0;
-  friend Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-};
-
+/// All of it linear in v and its ring. W is the number the ring is summed in.
+template <class W>
 struct VertexLimit {
-  std::array<double, 2> recursion;  // c' = 8 c + k0 d, d' = k1 d: both 8 times the subdivided ones
-  Vec difference;                   // d: sum of r_i - c over the ring; over its two ends on the boundary
-  Vec position;
-  Vec normal;               // unit, outward for a counter-clockwise ring
-  bool degenerate = false;  // the tangents did not span a plane [claim D12]
+  Vec3<W> difference;  // d: sum of r_i - v over the ring; over its two ends on the boundary
+  Vec3<W> position;
+  Vec3<W> along, across;  // tangents, along x across outward for a counter-clockwise ring
 };
 
-/// cos and sin of 2 pi k / n, made once per valence.
-class ValenceTables {
- public:
-  struct Angle {
-    double cos, sin;
-  };
-  const std::vector<Angle>& angles(int n);
-  /// Loop's a(n).                                                                                      [claim
-  /// C11]
-  double weight(int n) { return (angles(n), weights_[static_cast<std::size_t>(n)]); }
+/// The weights of a ring, made once per valence. S is what weights are made of: a field, with the cosines of
+/// 2 pi / n at hand. Closed: n = valence >= 3. Open: n points, n >= 2, so n - 1 faces.
+///
+/// In floating point `sine` holds sines; elsewhere they are in units of sine[1], so that all weights lie in
+/// the field of the cosine: rational for n = 3, 4, 6 and for 1 to 3 faces at an open ring.
+template <class S>
+struct RingWeights {
+  S k0{}, k1{};                 // c' = 8 c + k0 d, d' = k1 d: both 8 times the subdivided ones
+  S limit{};                    // position = v + limit * d
+  S end{};                      // open: weight of both ends across the boundary, for `differences`
+  std::vector<S> cosine, sine;  // per ring entry; open: sine alone
+
+  static RingWeights closed(int n);
+  static RingWeights open(int n);
 
  private:
-  std::vector<std::vector<Angle>> tables_;
-  std::vector<double> weights_;
+  void make_angles(int count, int steps_per_turn);
 };
 
-/// Closed ring, counter-clockwise, n >= 3. Limit weight 3 n / (8 a(n)) : 1; tangents sum cos, sum sin.  [C10,
-/// C14, C17]
-VertexLimit interior_limit(const Vec& v, const std::vector<Vec>& ring, ValenceTables& tables);
+/// cos and sin of 2 pi k / steps for k < count.
+template <class S>
+void RingWeights<S>::make_angles(int count, int steps) {
+  cosine.resize(static_cast<std::size_t>(count));
+  sine.resize(cosine.size());
+  if constexpr (std::is_floating_point_v<S>) {
+    for (int k = 0; k < count; ++k) {
+      const S t = 2 * std::numbers::pi_v<S> * static_cast<S>(k) / static_cast<S>(steps);
+      cosine[static_cast<std::size_t>(k)] = std::cos(t);
+      sine[static_cast<std::size_t>(k)] = std::sin(t);
+    }
+  } else {  // Chebyshev's recurrences
+    cosine[0] = S(1);
+    if (count > 1) cosine[1] = NumberTraits<S>::cosine(1, steps), sine[1] = S(1);
+    for (std::size_t k = 2; k < cosine.size(); ++k) {
+      cosine[k] = S(2) * cosine[1] * cosine[k - 1] - cosine[k - 2];
+      sine[k] = S(2) * cosine[1] * sine[k - 1] - sine[k - 2];
+    }
+  }
+}
 
-/// Open ring r_0 .. r_K, K >= 1. Limit (4 v + r_0 + r_K) / 6, along r_0 - r_K, across by the eigenvector of
-/// the ordinary interior rules. For K >= 6 the surface has no unique tangent plane there. [claims D1, D2, D5]
-VertexLimit boundary_limit(const Vec& v, const std::vector<Vec>& ring);
+/// Limit weight 3 n / (8 a(n)) : 1, a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64; tangents sum cos, sum sin.
+/// [C10, C11, C14, C17]
+template <class S>
+RingWeights<S> RingWeights<S>::closed(int n) {
+  RingWeights w;
+  w.make_angles(n, n);
+  const S b = S(3) + S(2) * w.cosine[1];
+  const S a = S(5) / S(8) - b * b / S(64);
+  w.k0 = S(8) * a / S(n);
+  w.k1 = S(5) - S(8) * a;
+  w.limit = S(1) / (S(3) * S(n) / (S(8) * a) + S(n));
+  return w;
+}
+
+/// Limit (4 v + r_0 + r_K) / 6, along r_0 - r_K, across by the eigenvector of the ordinary interior rules:
+/// with theta = pi / K, sin(k theta) inside and -c (1 + c) / ((1 + 2 c) s) at the ends. For K >= 6 the
+/// surface has no unique tangent plane there. [claims D1, D2, D5]
+template <class S>
+RingWeights<S> RingWeights<S>::open(int n) {
+  RingWeights w;
+  const int faces = n - 1;
+  w.k0 = S(1);
+  w.k1 = S(2);
+  w.limit = S(1) / S(6);
+  w.end = S(faces == 1 ? 1 : 0);  // one face: the sum of both ends; two: the middle alone
+  if (faces == 1) return w;
+  w.make_angles(faces, 2 * faces);
+  if constexpr (std::is_floating_point_v<S>) {  // k (pi / K), the rounding that callers know
+    const S theta = std::numbers::pi_v<S> / static_cast<S>(faces);
+    for (int k = 0; k < faces; ++k) w.sine[static_cast<std::size_t>(k)] = std::sin(static_cast<S>(k) * theta);
+  }
+  if (faces > 2) {
+    const S c = w.cosine[1];
+    S s = (S(1) - c) * (S(1) + c);  // s^2, the end's weight being in units of s too
+    if constexpr (std::is_floating_point_v<S>) s = w.sine[1];
+    w.end = -c * (S(1) + c) / ((S(1) + S(2) * c) * s);
+  }
+  return w;
+}
+
+/// Closed ring, counter-clockwise, n >= 3.
+template <class W, class S>
+VertexLimit<W> closed_limit(const Vec3<W>& v, std::span<const Vec3<W>> ring, const RingWeights<S>& weights) {
+  Vec3<W> difference, along, across;
+  const S *cosine = weights.cosine.data(), *sine = weights.sine.data();
+  for (const Vec3<W>& r : ring) {
+    const Vec3<W> d = r - v;
+    difference = difference + d;
+    along = along + *cosine++ * d;
+    across = across + *sine++ * d;
+  }
+  return {difference, v + weights.limit * difference, along, across};
+}
+
+/// Open ring r_0 .. r_K, K >= 1.
+template <class W, class S>
+VertexLimit<W> open_limit(const Vec3<W>& v, std::span<const Vec3<W>> ring, const RingWeights<S>& weights) {
+  VertexLimit<W> limit;
+  const Vec3<W>&first = ring.front(), &last = ring.back();
+  limit.difference = (first - v) + (last - v);
+  limit.position = v + weights.limit * limit.difference;
+  limit.along = first - last;
+  // The centre's weight is minus the sum of the others, so offsets from v do without it.
+  limit.across = weights.end * limit.difference;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+    limit.across = limit.across + weights.sine[k] * (ring[k] - v);
+  return limit;
+}
+
+/// The unit normal along x across; where they are parallel or vanish, |product| <= 1e-12 |along| |across|, or
+/// one of them is but the rounding error of its sum, the area-weighted normal of the faces round v, or (0, 0,
+/// 1). The mesh has size 1. [claim D12]
+template <class W>
+Vec3<W> unit_normal(const VertexLimit<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring, bool closed,
+                    bool& degenerate) {
+  using std::sqrt;
+  const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
+  Vec3<W> n = cross(limit.along, limit.across);
+  W size = length(n);
+  const W a = length(limit.along), b = length(limit.across);
+  degenerate = !(size > W(1e-12) * a * b);
+  if (a < W(1e-8) || b < W(1e-8)) [[unlikely]] {
+    W reach(0);
+    for (const Vec3<W>& r : ring) reach = reach + length(r - v);
+    degenerate = degenerate || !(a > W(1e-14) * reach) || !(b > W(1e-14) * reach);
+  }
+  if (degenerate) [[unlikely]] {
+    n = {};
+    W scale(0);
+    for (std::size_t k = 0; k + (closed ? 0 : 1) < ring.size(); ++k)
+      n = n + cross(ring[k] - v, ring[k + 1 < ring.size() ? k + 1 : 0] - v);
+    for (const Vec3<W>& r : ring) {
+      const W reach = length(r - v);
+      if (reach > scale) scale = reach;
+    }
+    size = length(n);
+    if (!(size > W(1e-12) * scale * scale)) n = {W(0), W(0), W(1)}, size = W(1);
+  }
+  return (W(1) / size) * n;
+}
 
 }  // namespace limitcheck::fast::row_stream

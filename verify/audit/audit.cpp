@@ -27,6 +27,15 @@ Status status_of(lc_status status) {
   return status == LC_INVALID_INPUT ? Status::kFinding : Status::kError;
 }
 
+Status status_of(const std::exception& error) {
+  if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) {
+    if (died->kind() == SubjectDied::Kind::kTimeout) return Status::kTimeout;
+    return died->kind() == SubjectDied::Kind::kProtocol ? Status::kFinding : Status::kCrash;
+  }
+  const auto* refusal = dynamic_cast<const SubjectError*>(&error);
+  return refusal ? status_of(refusal->status()) : Status::kError;
+}
+
 }  // namespace
 
 Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step, Level level)
@@ -83,9 +92,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     row("tessellates", Status::kHeld, "");
     results.back().of = 1;
   } catch (const std::exception& error) {
-    const auto* refusal = dynamic_cast<const SubjectError*>(&error);
-    const Status status = refusal ? status_of(refusal->status()) : Status::kError;
-    row("tessellates", status, error.what());
+    row("tessellates", status_of(error), error.what());
     results.back().of = 1;
     results.back().bad = is_bad(results.back());
     for (const Check& check : checks()) rows(check, Status::kNotRun, "there is no tessellation");
@@ -122,6 +129,16 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   const Evidence evidence{name,          mesh.name,       capabilities, session->mesh(),   face_depth,
                           *tessellation, truth.lattice(), truth,        std::move(points), norm(high - low),
                           magnitude};
+  // The subject is done, and may still break down while it cleans up.
+  try {
+    session->close();
+  } catch (const std::exception& error) {
+    Result& tessellates = results.front();
+    tessellates.status = status_of(error);
+    tessellates.bad = 1;
+    tessellates.message = fmt::format("at the end: {}", error.what());
+  }
+
   for (const Check& check : checks()) {
     step(name, mesh.name, check.name);
     if (check.needs_reference && !no_reference.empty()) {

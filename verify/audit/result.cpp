@@ -19,6 +19,10 @@ std::string_view word(Status status) {
       return "not-supported";
     case Status::kNotRun:
       return "not-run";
+    case Status::kCrash:
+      return "crash";
+    case Status::kTimeout:
+      return "timeout";
     case Status::kError:
       return "error";
   }

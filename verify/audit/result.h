@@ -18,11 +18,13 @@ enum class Status {
   kUnexpectedPass,  // a waiver covers it, but there is nothing to waive: time to remove the waiver
   kNotSupported,    // the subject does not offer what this check looks at; not a fault
   kNotRun,          // could not be looked at, because something before it failed; never a confirmation
-  kError            // subject or check broke down
+  kCrash,           // the subject's process was killed, ended, or took too much memory
+  kTimeout,         // the subject did not answer in time
+  kError            // subject or check broke down otherwise
 };
 
-/// "held", "finding", "quality-warning", "waived", "unexpected-pass", "not-supported", "not-run", "error":
-/// stable.
+/// "held", "finding", "quality-warning", "waived", "unexpected-pass", "not-supported", "not-run", "crash",
+/// "timeout", "error": stable.
 std::string_view word(Status status);
 
 /// Where to look. Whatever does not apply is -1 or empty.
@@ -53,7 +55,8 @@ struct Result {
 
 /// A finding, or a breakdown.
 inline bool is_bad(const Result& r) {
-  return r.status == Status::kFinding || r.status == Status::kError;
+  return r.status == Status::kFinding || r.status == Status::kCrash || r.status == Status::kTimeout ||
+         r.status == Status::kError;
 }
 
 /// What the audit was run on and with: the header of table and JSON.
@@ -64,7 +67,7 @@ struct Report {
   };
   std::string version;
   int depth = 0;                      // the largest
-  std::string depths = "uniform";     // how the faces got theirs: uniform, random, view
+  std::string depths = "uniform";     // how the faces got theirs: uniform, random, view; file: unknown
   std::optional<std::uint64_t> seed;  // of random
   std::vector<Mesh> meshes;
   std::vector<std::string> subjects;

@@ -24,6 +24,8 @@ struct Line {
 bool worse(const Result& a, const Result& b) {
   const auto rank = [](const Result& r) {
     switch (r.status) {
+      case Status::kCrash:
+      case Status::kTimeout:
       case Status::kError:
         return 4.;
       case Status::kFinding:
@@ -84,10 +86,18 @@ const char* verdict(Status status) {
       return "not supported";
     case Status::kNotRun:
       return "not run";
+    case Status::kCrash:
+      return "CRASH";
+    case Status::kTimeout:
+      return "TIMEOUT";
     case Status::kError:
       return "ERROR";
   }
   return "ERROR";
+}
+
+bool is_breakdown(Status status) {
+  return status == Status::kCrash || status == Status::kTimeout || status == Status::kError;
 }
 
 std::string painted(Status status, bool colour) {
@@ -95,7 +105,7 @@ std::string painted(Status status, bool colour) {
   if (!colour) return padded;
   const char* code = status == Status::kHeld      ? "32"
                      : status == Status::kFinding ? "31"
-                     : status == Status::kError   ? "1;31"
+                     : is_breakdown(status)       ? "1;31"
                                                   : "2";
   return fmt::format("\033[{}m{}\033[0m", code, padded);
 }
@@ -138,7 +148,7 @@ void add_line(std::string& out, const Result& r, const std::string& meshes, bool
 void add_finding(std::string& out, int number, const Line& line) {
   const Result& r = *line.shown;
   out += fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
-  if (r.status == Status::kError) {
+  if (is_breakdown(r.status)) {
     out += fmt::format("{}: {}\n", r.mesh, r.message);
     return;
   }
@@ -194,7 +204,10 @@ std::string to_table(const Report& report, bool colour, bool all) {
   std::int64_t faces = 0;
   for (const auto& m : report.meshes) faces += m.faces;
   std::string depth = fmt::format("depth {}", report.depth);
-  if (report.depths != "uniform") depth += fmt::format(" at most, {}", report.depths);
+  if (report.depths == "file")
+    depth = "a finished tessellation";
+  else if (report.depths != "uniform")
+    depth += fmt::format(" at most, {}", report.depths);
   if (report.seed) depth += fmt::format(" (seed {})", *report.seed);
   out += fmt::format(
       "limitcheck {}: {} on {} ({} faces)\n", report.version, depth,
@@ -225,10 +238,14 @@ std::string to_table(const Report& report, bool colour, bool all) {
         "control mesh rounded to the subject's precision.)\n";
   for (std::size_t k = 0; k < findings.size(); ++k) add_finding(out, static_cast<int>(k) + 1, findings[k]);
 
-  std::int64_t held = 0, bad = 0, other = 0;
-  for (const Result& r : report.results) (r.status == Status::kHeld ? held : is_bad(r) ? bad : other) += 1;
-  out += fmt::format("\n{} held, {} findings, {} not supported or not run; {:.1f} s\n", held, bad, other,
-                     report.seconds);
+  std::int64_t held = 0, bad = 0, noted = 0, other = 0;
+  for (const Result& r : report.results) {
+    const bool note = r.status == Status::kQualityWarning || r.status == Status::kWaived ||
+                      r.status == Status::kUnexpectedPass;
+    (r.status == Status::kHeld ? held : is_bad(r) ? bad : note ? noted : other) += 1;
+  }
+  out += fmt::format("\n{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
+                     noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
   return out;
 }
 

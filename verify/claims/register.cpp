@@ -64,7 +64,7 @@ std::string errata() {
                {"refuted", "Not true as a guarantee", "what is true"},
                {"ambiguous", "Left open by the text", "what is missing, and our reading"}};
   const auto cell = [](std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
     return text;
   };
   for (const auto& section : sections) {
@@ -73,8 +73,8 @@ std::string errata() {
     for (const Claim& c : claim_register()) {
       if (c.verdict != section.verdict) continue;
       const std::string note = c.note.empty() ? c.detail : c.note;
-      out += fmt::format("| {} | {} | {} | {}{} |\n", c.id, cell(c.place), cell(c.statement), cell(note),
-                         c.measured.empty() ? "" : " " + cell(c.measured));
+      out += fmt::format("| {} | {} | {} | {}{}{} |\n", c.id, cell(c.place), cell(c.statement), cell(note),
+                         c.measured.empty() ? "" : " ", cell(c.measured));
     }
   }
   return out;

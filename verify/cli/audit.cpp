@@ -19,8 +19,10 @@
 #include "verify/audit/audit.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
+#include "verify/cli/audit_files.h"
 #include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/doors.h"
 #include "verify/cli/progress.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
@@ -39,35 +41,30 @@ struct Arguments {
   std::string json;
   bool each_mesh = false;
   OutputArguments output;
+  DoorArguments door;
 };
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: as they
 // come, and isolated as deep as they are sampled.
-std::vector<verify::AuditSubject> subjects(const Arguments& a) {
+std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
   std::string options;
   for (const std::string& o : a.options) options += (options.empty() ? "" : ",") + o;
   std::vector<verify::AuditSubject> list;
   if (a.subject == "all") {
     if (!options.empty()) throw std::invalid_argument("--option needs one subject, not all");
     for (const lc_subject* s : verify::built_in_subjects()) {
-      list.push_back({s, ""});
+      const lc_subject* behind = doors.built_in(*s);
+      list.push_back({behind, ""});
       if (std::string_view(s->name) == "opensubdiv-bfr")
-        list.push_back({s, fmt::format("approx-level={}", std::max(a.depth, 1))});
+        list.push_back({behind, fmt::format("approx-level={}", std::max(a.depth, 1))});
     }
     return list;
   }
-  const std::size_t colon = a.subject.find(':');
-  const std::string name = a.subject.substr(0, colon);
-  if (colon != std::string::npos)
-    options = a.subject.substr(colon + 1) + (options.empty() ? "" : ",") + options;
-  const lc_subject* subject = verify::find_subject(name);
-  if (subject == nullptr) {
-    std::string known = "all";
-    for (const lc_subject* s : verify::built_in_subjects()) known += fmt::format(", {}", s->name);
-    throw std::invalid_argument(fmt::format("there is no subject '{}'; there are: {}", name, known));
-  }
+  const auto [subject, given] = doors.open(a.subject);
+  if (!given.empty()) options = given + (options.empty() ? "" : ",") + options;
   try {
     (void)verify::capabilities(*subject, options);
+  } catch (const verify::SubjectDied&) {  // the audit reports it
   } catch (
       const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
     throw std::invalid_argument(fmt::format("{}{}{}", error.what(), subject->options ? "; options: " : "",
@@ -76,7 +73,7 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a) {
   return {{subject, options}};
 }
 
-// --depths: "uniform", "random", "random:SEED", "view".
+// --depths: "uniform", "random", "random:SEED", "view", "file:FILE".
 struct Depths {
   std::string kind;
   std::optional<std::uint64_t> seed;
@@ -91,7 +88,9 @@ Depths parse_depths(const std::string& text) {
     const auto [end, error] = std::from_chars(text.data() + 7, last, seed);
     if (error == std::errc() && end == last) return {"random", seed};
   }
-  throw std::invalid_argument(fmt::format("--depths {}: uniform, random, random:SEED or view", text));
+  if (text.starts_with("file:")) return {text, std::nullopt};
+  throw std::invalid_argument(
+      fmt::format("--depths {}: uniform, random, random:SEED, view or file:FILE", text));
 }
 
 // A view of the whole mesh from twice its size away, slanting: half of a closed mesh is culled, a flat one
@@ -117,6 +116,7 @@ std::vector<std::int32_t> view_depths(const data::ControlMesh& mesh, int deepest
 std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {
   if (depths.kind == "uniform") return {};
   if (depths.kind == "view") return view_depths(mesh, deepest);
+  if (depths.kind.starts_with("file:")) return read_depths(depths.kind.substr(5), mesh, deepest);
   data::SplitMix64 random(*depths.seed);
   std::vector<std::int32_t> depth(mesh.triangles.size());
   for (std::int32_t& d : depth)
@@ -124,18 +124,22 @@ std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlM
   return depth;
 }
 
+void check_json(const std::string& json) {
+  if (!json.empty() && json != "-" && !json.ends_with(".json"))
+    throw std::invalid_argument(
+        fmt::format("--json {0}: the file must end in .json, or be - for standard output (--json alone goes "
+                    "last: {0} --json)",
+                    json));
+}
+
 int audit(Arguments a) {
   if (explained(a.output)) return kHeld;
   const Depths depths = parse_depths(a.depths);
   if (depths.kind == "view" && a.depth > fast::kDeepest)
     throw std::invalid_argument(fmt::format("--depths view: --depth {} at most", fast::kDeepest));
+  take_program(a.door, a.subject, a.meshes);
   const bool main_job = a.subject.empty();
   if (main_job) a.subject = "all";
-  if (!a.json.empty() && a.json != "-" && !a.json.ends_with(".json"))
-    throw std::invalid_argument(
-        fmt::format("--json {0}: the file must end in .json, or be - for standard output (--json alone goes "
-                    "last: {0} --json)",
-                    a.json));
   if (a.meshes.empty()) {
     a.meshes = {"bumpy:800"};
     for (std::string& shape : data::stock_shapes()) a.meshes.push_back(std::move(shape));
@@ -144,7 +148,8 @@ int audit(Arguments a) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(a.threads));
 
-  const std::vector<verify::AuditSubject> audited = subjects(a);
+  Doors doors(a.door);
+  const std::vector<verify::AuditSubject> audited = subjects(a, doors);
   Progress progress;
   std::vector<verify::AuditMesh> meshes;
   verify::Report report;
@@ -198,8 +203,8 @@ void add_audit(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("audit", "Judge a tessellator against the exact surface");
   command->add_option(
       "SUBJECT", a->subject,
-      "Built-in subject, NAME or NAME:key=value,..., or all. Without it: all on the default meshes, and "
-      "the report in " +
+      "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), or "
+      "program:COMMAND. Without it: all on the default meshes, and the report in " +
           std::string(kReportFile));
   command->add_option("MESH", a->meshes,
                       "Control meshes: files or generator names (default: bumpy:800 and the stock shapes)");
@@ -210,10 +215,10 @@ void add_audit(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--depths", a->depths,
-                   "uniform, random[:SEED] (0 .. depth) or view (by size on the screen and curvature, back "
-                   "faces culled)")
+                   "uniform, random[:SEED] (0 .. depth), view (by size on the screen and curvature, back "
+                   "faces culled) or file:FILE (one per face, -1 is culled)")
       ->capture_default_str();
-  command->add_option("--option", a->options, "key=value for the subject; may be repeated")
+  command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
       ->take_all()
       ->expected(1);
   command->add_option("--threads", a->threads, "At most so many (default: all)")->check(CLI::Range(1, 4096));
@@ -226,8 +231,14 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->add_flag("--each-mesh", a->each_mesh,
                     "A line for every mesh in the table, not only for the worst");
   add_output_options(*command, a->output);
+  add_door_options(*command, a->door);
+  auto files = std::make_shared<FilesArguments>();
+  add_files_options(*command, *files);
   command->footer("Exit codes: 0 all held, 1 findings, 2 bad usage or input.");
-  command->callback([a, &exit_code] { exit_code = audit(*a); });
+  command->callback([a, files, &exit_code] {
+    check_json(a->json);
+    exit_code = files->given() ? audit_files(*files, a->json, a->threads) : audit(*a);
+  });
 }
 
 }  // namespace limitcheck::cli

@@ -13,7 +13,10 @@ void add_claims(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_audit(CLI::App& app, int& exit_code);
+void add_prove(CLI::App& app, int& exit_code);
 void add_mutants(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
+void add_external(CLI::App& app, int& exit_code);
+void add_worker(CLI::App& app, int& exit_code);  // hidden: the process that isolated subjects run in
 
 }  // namespace limitcheck::cli

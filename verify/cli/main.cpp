@@ -18,8 +18,11 @@ int main(int argc, char** argv) {
   add_eval(app, exit_code);
   add_claims(app, exit_code);
   add_generate(app, exit_code);
+  add_prove(app, exit_code);
   add_mutants(app, exit_code);
   add_tessellate(app, exit_code);
+  add_external(app, exit_code);
+  add_worker(app, exit_code);
 
   try {
     app.parse(argc, argv);

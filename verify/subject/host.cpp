@@ -8,31 +8,13 @@
 #include <utility>
 
 #include "verify/subject/host_memory.h"
+#include "verify/subject/subject_call.h"
 
 namespace limitcheck::verify {
 namespace {
 
 const char* text(const std::string& options) {
   return options.empty() ? nullptr : options.c_str();
-}
-
-// Calls a function of the subject and turns every way of failing into a SubjectError. C++ subjects may throw
-// although the interface is C: that is a failure of theirs, not the end of the run.
-template <class Call>
-void call(const lc_subject& subject, const char* function, Call&& function_call) {
-  const char* message = nullptr;
-  lc_status status = LC_FAILED;
-  try {
-    status = function_call(&message);
-  } catch (const std::exception& error) {
-    throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw: {}", subject.name, function, error.what()));
-  } catch (...) {
-    throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw", subject.name, function));
-  }
-  if (status == LC_OK) return;
-  if (status != LC_NOT_SUPPORTED && status != LC_INVALID_INPUT) status = LC_FAILED;
-  throw SubjectError(
-      status, fmt::format("{}: {}", subject.name, message != nullptr ? message : "no reason was given"));
 }
 
 }  // namespace
@@ -44,8 +26,8 @@ lc_capabilities capabilities(const lc_subject& subject, const std::string& optio
                                    LC_SUBJECT_ABI));
   }
   lc_capabilities result{};
-  call(subject, "capabilities",
-       [&](const char** message) { return subject.capabilities(text(options), &result, message); });
+  detail::call(subject, "capabilities",
+               [&](const char** message) { return subject.capabilities(text(options), &result, message); });
   if (result.precision != LC_FLOAT32 && result.precision != LC_FLOAT64) {
     throw SubjectError(LC_FAILED,
                        fmt::format("{}: unknown precision {}", subject.name, int{result.precision}));
@@ -75,15 +57,25 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
 
   const lc_mesh view{positions_.data(), static_cast<std::int64_t>(mesh_.positions.size()), triangles_.data(),
                      static_cast<std::int64_t>(mesh_.triangles.size())};
-  call(subject_, "create",
-       [&](const char** message) { return subject_.create(&view, text(options_), &instance_, message); });
+  detail::call(subject_, "create", [&](const char** message) {
+    return subject_.create(&view, text(options_), &instance_, message);
+  });
 }
 
 Session::~Session() {
   try {
-    subject_.destroy(instance_);
+    close();
   } catch (...) {  // nothing left to report to
   }
+}
+
+void Session::close() {
+  if (closed_) return;
+  closed_ = true;
+  detail::call(subject_, "destroy", [this](const char**) {
+    subject_.destroy(instance_);
+    return LC_OK;
+  });
 }
 
 std::string Session::label() const {
@@ -119,8 +111,8 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   result.faces_ = static_cast<std::int64_t>(mesh_.triangles.size());
   const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate};
   lc_tessellation out{};
-  call(subject_, "tessellate",
-       [&](const char** message) { return subject_.tessellate(instance_, &request, &out, message); });
+  detail::call(subject_, "tessellate",
+               [&](const char** message) { return subject_.tessellate(instance_, &request, &out, message); });
 
   // The arrays are the host's, so the subject can let go at once; a copy, because it may clear its own.
   const lc_tessellation delivered = out;

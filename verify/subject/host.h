@@ -136,6 +136,8 @@ class Session {
   /// Throws SubjectError: the subject refuses, or a coordinate is not finite after rounding.
   Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {});
   ~Session();
+  /// destroy(), once. Throws SubjectError: the subject breaks down while it cleans up.
+  void close();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -165,6 +167,7 @@ class Session {
   std::vector<double> positions_;
   std::vector<std::int32_t> triangles_;
   void* instance_ = nullptr;
+  bool closed_ = false;
 };
 
 }  // namespace limitcheck::verify

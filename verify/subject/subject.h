@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The door: the one interface through which limitcheck reaches a tessellator, its own included. Plain C99.
+ * Installed as <limitcheck/subject.h>; CMake: find_package(limitcheck), target limitcheck::subject.
  *
  * A subject is a table of functions. For each control mesh the host calls capabilities(), then create() once
  * with the same options, and tessellate() any number of times, each success followed by release(), then
@@ -120,6 +121,21 @@ typedef struct lc_subject {
   void (*release)(void* instance, lc_tessellation* out);
   void (*destroy)(void* instance);
 } lc_subject;
+
+/*
+ * A shared library exports one function. `abi` is the interface the host speaks, LC_SUBJECT_ABI of its own
+ * copy of this header; NULL if the subject cannot serve it. The table stays valid while the library is
+ * loaded. LC_EXPORT makes the function visible whatever the default visibility is.
+ *
+ *   const lc_subject* lc_subject_get(uint32_t abi) { return abi == LC_SUBJECT_ABI ? &my_table : NULL; }
+ */
+#if defined(__GNUC__)
+#define LC_EXPORT __attribute__((visibility("default")))
+#else
+#define LC_EXPORT
+#endif
+#define LC_SUBJECT_ENTRY "lc_subject_get"
+LC_EXPORT const lc_subject* lc_subject_get(uint32_t abi);
 
 #ifdef __cplusplus
 }

@@ -21,4 +21,21 @@ class SubjectError : public std::runtime_error {
   lc_status status_;
 };
 
+/// A subject that runs in a process of its own (verify/subject/isolation/) has broken down there. what()
+/// tells how, what it last wrote on standard error, and the command that repeats it.
+class SubjectDied : public SubjectError {
+ public:
+  enum class Kind {
+    kCrash,     // killed by a signal, or ended without an answer
+    kTimeout,   // no answer in time
+    kMemory,    // took more memory than allowed
+    kProtocol,  // answered something that is no answer
+  };
+  SubjectDied(Kind kind, const std::string& message) : SubjectError(LC_FAILED, message), kind_(kind) {}
+  Kind kind() const { return kind_; }
+
+ private:
+  Kind kind_;
+};
+
 }  // namespace limitcheck::verify

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// How far the float engines are from the limit surface, by depth: median, 99.9 % and worst, as a table.
+//   accuracy [MESH [DEEPEST [SUBJECT...]]]     bumpy:4000 8 row-stream:output=indexed
+//   sliding-window:output=indexed
+// Every lattice point of all faces up to two million of them; beyond, of faces evenly spread over the mesh.
+// The reference is Stam's evaluator in double on the control mesh rounded to float.
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "data/generators/named_mesh.h"
+#include "reference/stam.h"
+#include "verify/subject/host.h"
+#include "verify/subject/registry.h"
+
+namespace {
+
+using namespace limitcheck;
+using Vector = std::array<double, 3>;
+
+constexpr std::int64_t kMostPoints = 2'000'000;
+
+struct Spread {
+  double median = 0, most = 0, worst = 0;  // `most`: 99.9 % are not beyond
+};
+
+Spread spread(std::vector<double> errors) {
+  if (errors.empty()) return {};
+  const auto at = [&](double share) {
+    const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(errors.size() - 1));
+    std::nth_element(errors.begin(), errors.begin() + k, errors.end());
+    return errors[static_cast<std::size_t>(k)];
+  };
+  return {at(.5), at(.999), *std::max_element(errors.begin(), errors.end())};
+}
+
+double angle(const Vector& a, const reference::Vec3<double>& b) {
+  const double x = a[1] * b.z - a[2] * b.y, y = a[2] * b.x - a[0] * b.z, z = a[0] * b.y - a[1] * b.x;
+  return std::atan2(std::hypot(x, y, z), a[0] * b.x + a[1] * b.y + a[2] * b.z);
+}
+
+double diagonal(const data::ControlMesh& mesh) {
+  Vector low = mesh.positions.at(0), high = low;
+  for (const auto& p : mesh.positions) {
+    for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+void print_line(verify::Session& session, const reference::StamEvaluator<double>& limit, int depth) {
+  const auto faces = static_cast<std::int64_t>(session.mesh().triangles.size());
+  const std::int64_t n = std::int64_t{1} << depth, each = (n + 1) * (n + 2) / 2;
+  const std::int64_t sampled = std::clamp<std::int64_t>(kMostPoints / each, 1, faces);
+  std::vector<std::int32_t> depths(static_cast<std::size_t>(faces), -1);
+  for (std::int64_t s = 0; s < sampled; ++s) depths[static_cast<std::size_t>(s * faces / sampled)] = depth;
+
+  const verify::Tessellation t = session.tessellate(depths);
+  const auto count = static_cast<std::size_t>(t.vertex_count());
+  const double scale = diagonal(session.mesh());
+  std::vector<double> position(count), normal(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
+    const auto at = static_cast<std::int64_t>(v);
+    const lc_provenance& p = t.provenance()[v];
+    const auto exact = limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
+                                      static_cast<double>(p.j) / p.denominator, reference::Order::kFirst);
+    const Vector got = t.position(at);
+    position[v] =
+        std::hypot(got[0] - exact.position.x, got[1] - exact.position.y, got[2] - exact.position.z) / scale;
+    normal[v] = exact.normal_kind == reference::NormalKind::kRegular ? angle(t.normal(at), exact.normal) : -1;
+  });
+  std::erase_if(normal, [](double x) { return x < 0; });
+  const Spread p = spread(std::move(position)), a = spread(std::move(normal));
+  fmt::print("| {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} |\n", session.label(),
+             depth, count, p.median, p.most, p.worst, a.median, a.most, a.worst);
+  std::fflush(stdout);
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const std::string name = arguments.empty() ? "bumpy:4000" : arguments[0];
+  const int deepest = arguments.size() < 2 ? 8 : std::atoi(arguments[1].c_str());
+  std::vector<std::string> subjects(arguments.begin() + std::min<std::ptrdiff_t>(2, std::ssize(arguments)),
+                                    arguments.end());
+  if (subjects.empty()) subjects = {"row-stream:output=indexed", "sliding-window:output=indexed"};
+  const data::ControlMesh mesh = data::open_mesh(name);
+  fmt::print(
+      "{}\n\n| subject | depth | points | position, diagonals: median | 99.9 % | worst "
+      "| normal, rad: median | 99.9 % | worst |\n|---|---|---|---|---|---|---|---|---|\n",
+      name);
+  for (const std::string& text : subjects) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const lc_subject* subject = verify::find_subject(text.substr(0, colon));
+    if (subject == nullptr) throw std::invalid_argument("there is no subject " + text);
+    verify::Session session(*subject, mesh, text.substr(std::min(colon + 1, text.size())));
+    const reference::StamEvaluator<double> limit(session.mesh());
+    for (int depth = 1; depth <= std::min(deepest, session.capabilities().max_depth); ++depth)
+      print_line(session, limit, depth);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return run({arguments + 1, arguments + count});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "accuracy: {}\n", error.what());
+    return 2;
+  }
+}

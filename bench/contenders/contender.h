@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The routes from a control mesh to limit points that the throughput bench compares, all behind one class.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+
+namespace limitcheck::bench {
+
+/// One mesh at one depth made ready by the constructor: what can be prepared once is prepared there.
+class Contender {
+ public:
+  virtual ~Contender() = default;
+  /// Every point of the mesh: position and unit normal.
+  virtual void run() = 0;
+  /// Points that run() evaluates. Routes that work face by face or pair by pair evaluate those on borders
+  /// more than once.
+  virtual double evaluated() const = 0;
+};
+
+struct Route {
+  std::string name;
+  std::string what;  // one line for the reader
+  /// At depth 5, roughly: to leave out cases that would take minutes or more memory than there is.
+  double nanoseconds_per_point;
+  double bytes_per_point;
+  bool threads;  // can use more than one
+  std::function<std::unique_ptr<Contender>(const data::ControlMesh&, int depth, int threads)> make;
+};
+
+/// Ours: row streaming on every target of this machine and in every output form, the sliding window, the
+/// naive subdivider.
+std::vector<Route> our_routes();
+
+/// Each as fast as the library's own interface lets it be, in float where it can be: no door, no provenance.
+Route bfr_streaming();
+Route bfr_cached_stencils();
+Route far_uniform();
+Route far_limit_stencils();
+Route cgal_refinement();
+Route openmesh_refinement();
+
+/// Distinct points of a closed mesh, vertices of the control mesh included.
+double distinct_points(const data::ControlMesh& mesh, int depth);
+
+/// run(first, last) for pieces of 0 .. count on that many threads; on one thread without any library.
+void in_parallel(std::size_t count, int threads,
+                 const std::function<void(std::size_t first, std::size_t last)>& run);
+
+}  // namespace limitcheck::bench

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What the OpenSubdiv contenders share. Private to them.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/subject/opensubdiv_mesh.h"
+
+namespace limitcheck::bench {
+
+struct LimitPoint {
+  float position[3], normal[3];
+};
+
+inline void set_normal(const float* du, const float* dv, LimitPoint& point) {
+  const float n[3] = {du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2],
+                      du[0] * dv[1] - du[1] * dv[0]};
+  const float scale = 1 / std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (int c = 0; c < 3; ++c) point.normal[c] = n[c] * scale;
+}
+
+/// The control mesh as OpenSubdiv takes it.
+class OpenSubdivMesh {
+ public:
+  explicit OpenSubdivMesh(const data::ControlMesh& mesh) {
+    std::vector<std::int32_t> corners;
+    for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
+    for (const auto& p : mesh.positions)
+      for (const double x : p) control_.push_back(static_cast<float>(x));
+    refiner_ = verify::make_refiner({nullptr, static_cast<std::int64_t>(mesh.positions.size()),
+                                     corners.data(), static_cast<std::int64_t>(mesh.triangles.size())});
+  }
+  OpenSubdiv::Far::TopologyRefiner& refiner() const { return *refiner_; }
+  std::size_t faces() const { return static_cast<std::size_t>(refiner_->GetLevel(0).GetNumFaces()); }
+  const float* control() const { return control_.data(); }
+  std::size_t vertices() const { return control_.size() / 3; }
+
+ private:
+  std::vector<float> control_;  // x y z of each vertex
+  std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> refiner_;
+};
+
+}  // namespace limitcheck::bench

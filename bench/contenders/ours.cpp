@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "bench/contenders/contender.h"
+#include "fast/row_stream/row_stream.h"
+#include "fast/sliding_window.h"
+#include "reference/naive.h"
+
+namespace limitcheck::bench {
+
+namespace {
+
+namespace rs = fast::row_stream;
+
+double per_pair(std::size_t pairs, int depth) {
+  return static_cast<double>(pairs) * rs::side(depth) * rs::side(depth);
+}
+
+/// A workspace for each thread that runs, kept from run to run.
+template <class T>
+class Pool {
+ public:
+  template <class Make>
+  std::unique_ptr<T> take(const Make& make) {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return make();
+    auto last = std::move(free_.back());
+    free_.pop_back();
+    return last;
+  }
+  void give(std::unique_ptr<T> item) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(item));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<T>> free_;
+};
+
+/// Adjacency, uniform pairing, rings and vertex limits; then rows or whole pairs.
+class RowStreaming : public Contender {
+ public:
+  enum class Form { kRows, kWhole };
+
+  RowStreaming(const data::ControlMesh& mesh, int depth, int threads, const rs::Kernel& kernel, Form form)
+      : depth_(depth),
+        threads_(threads),
+        adjacency_(mesh),
+        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs),
+        stream_(mesh, adjacency_, kernel) {
+    if (form == Form::kWhole) out_.resize(static_cast<std::size_t>(evaluated()));
+  }
+
+  void run() override {
+    // A batch is as many pairs as the kernel has lanes: pieces are whole batches.
+    const auto lanes = static_cast<std::size_t>(stream_.kernel().lanes);
+    in_parallel((pairs_.size() + lanes - 1) / lanes, threads_, [&](std::size_t first, std::size_t last) {
+      first *= lanes, last = std::min(last * lanes, pairs_.size());
+      const auto some = std::span(pairs_).subspan(first, last - first);
+      auto workspace = pool_.take([] { return std::make_unique<rs::Workspace>(); });
+      if (out_.empty()) {
+        stream_.rows(some, depth_, *workspace, nullptr, nullptr);
+        if constexpr (PLANTED_SLOWDOWN > 0)
+          stream_.rows(some.first(some.size() * PLANTED_SLOWDOWN / 100), depth_, *workspace, nullptr,
+                       nullptr);
+      } else
+        stream_.whole(some, depth_, *workspace,
+                      out_.data() + first * static_cast<std::size_t>(per_pair(1, depth_)));
+      pool_.give(std::move(workspace));
+    });
+    benchmark::ClobberMemory();
+  }
+  double evaluated() const override { return per_pair(pairs_.size(), depth_); }
+
+ private:
+  int depth_, threads_;
+  fast::Adjacency adjacency_;
+  std::vector<fast::Pair> pairs_;
+  rs::RowStream stream_;
+  Pool<rs::Workspace> pool_;
+  std::vector<rs::Vertex> out_;
+};
+
+/// The paper's scheme, one point after the other, strips looked at and forgotten.
+class Window : public Contender {
+ public:
+  Window(const data::ControlMesh& mesh, int depth, int threads)
+      : depth_(depth),
+        threads_(threads),
+        adjacency_(mesh),
+        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs),
+        prepared_(adjacency_, rounded(mesh)) {}
+
+  void run() override {
+    in_parallel(pairs_.size(), threads_, [&](std::size_t first, std::size_t last) {
+      auto window = pool_.take([&] { return std::make_unique<Sliding>(depth_, adjacency_.max_valence()); });
+      for (std::size_t k = first; k < last; ++k) {
+        window->run(prepared_, 3 * pairs_[k].face0 + pairs_[k].edge0, depth_,
+                    [](int, const fast::SurfaceVertex<float>* strip) { benchmark::DoNotOptimize(strip); });
+      }
+      pool_.give(std::move(window));
+    });
+  }
+  double evaluated() const override { return per_pair(pairs_.size(), depth_); }
+
+ private:
+  using Sliding = fast::SlidingWindow<float, fast::LimitSurface<float>, fast::NoCount, true>;
+  static std::vector<fast::Vec3<float>> rounded(const data::ControlMesh& mesh) {
+    std::vector<fast::Vec3<float>> positions;
+    for (const auto& p : mesh.positions)
+      positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+    return positions;
+  }
+
+  int depth_, threads_;
+  fast::Adjacency adjacency_;
+  std::vector<fast::Pair> pairs_;
+  fast::PreparedMesh<float> prepared_;
+  Pool<Sliding> pool_;
+};
+
+/// The paper's recursive subdivider, every face by itself, in double.
+class Naive : public Contender {
+ public:
+  Naive(const data::ControlMesh& mesh, int depth, int threads)
+      : depth_(depth), threads_(threads), subdivider_(mesh) {}
+  void run() override {
+    in_parallel(subdivider_.face_count(), threads_, [&](std::size_t first, std::size_t last) {
+      for (std::size_t f = first; f < last; ++f)
+        subdivider_.tessellate(f, depth_, [](const auto& leaf) { benchmark::DoNotOptimize(&leaf); });
+    });
+  }
+  double evaluated() const override {
+    return 3 * static_cast<double>(subdivider_.face_count()) *
+           static_cast<double>(std::size_t{1} << 2 * depth_);
+  }
+
+ private:
+  int depth_, threads_;
+  reference::NaiveSubdivider<double> subdivider_;
+};
+
+}  // namespace
+
+std::vector<Route> our_routes() {
+  std::vector<Route> routes;
+  const auto add = [&](std::string name, std::string what, const rs::Kernel& kernel,
+                       RowStreaming::Form form) {
+    const bool kept = form == RowStreaming::Form::kWhole;
+    routes.push_back({std::move(name), std::move(what), kernel.fused ? 5. : 100., kept ? 24. : 0., true,
+                      [&kernel, form](const auto& mesh, int depth, int threads) {
+                        return std::make_unique<RowStreaming>(mesh, depth, threads, kernel, form);
+                      }});
+  };
+  for (const rs::Kernel& kernel : rs::kernels())
+    add(std::string("row-stream/") + kernel.name, "row streaming, rows of a batch overwritten", kernel,
+        RowStreaming::Form::kRows);
+  add("row-stream/whole-pairs", "row streaming, all vertices kept", rs::kernels().front(),
+      RowStreaming::Form::kWhole);
+  routes.push_back({"sliding-window", "the paper's scheme, scalar float, strips overwritten", 35, 0, true,
+                    [](const auto& mesh, int depth, int threads) {
+                      return std::make_unique<Window>(mesh, depth, threads);
+                    }});
+  routes.push_back({"naive", "the paper's recursive subdivider, double, triangles forgotten", 1200, 0, true,
+                    [](const auto& mesh, int depth, int threads) {
+                      return std::make_unique<Naive>(mesh, depth, threads);
+                    }});
+  return routes;
+}
+
+}  // namespace limitcheck::bench

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// One small piece of work, once, for callgrind to count the instructions of; nothing before or after it is
+// counted.
+//   valgrind --tool=callgrind --collect-atstart=no instruction_case CASE
+// Without an argument: the names of the cases. Callgrind knows no AVX-512, so AVX2 is the widest target.
+#include <valgrind/callgrind.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/contenders/contender.h"
+#include "data/generators/bumpy_sphere.h"
+#include "fast/frame.h"
+#include "fast/row_stream/stream_frame.h"
+#include "fast/row_stream/targets.h"
+
+namespace {
+
+using namespace limitcheck;
+
+/// What is made ready beforehand, and what is counted.
+struct Case {
+  std::function<void()> counted;
+};
+
+std::map<std::string, std::function<Case()>> cases() {
+  static const data::ControlMesh mesh = data::bumpy_sphere(200, 1);
+  std::map<std::string, std::function<Case()>> list;
+  for (const bench::Route& route : bench::our_routes()) {
+    if (route.name.find("avx512") != std::string::npos) continue;
+    list["set-up/" + route.name] = [route] { return Case{[route] { route.make(mesh, 3, 1); }}; };
+    for (const int depth : {3, 5}) {
+      if (route.nanoseconds_per_point > 50 && depth > 3) continue;
+      list[route.name + "/depth:" + std::to_string(depth)] = [route, depth] {
+        std::shared_ptr<bench::Contender> contender = route.make(mesh, depth, 1);
+        contender->run();  // first-touch allocations
+        return Case{[contender] { contender->run(); }};
+      };
+    }
+  }
+  list["frame/row-stream/random-depths"] = [] {
+    fast::TessellatorOptions options;
+    options.threads = 1;
+    const auto engine = std::make_shared<fast::row_stream::StreamTessellator>(
+        mesh, options, *fast::row_stream::find_kernel("avx2"));
+    std::vector<std::int32_t> depth;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+      depth.push_back(static_cast<std::int32_t>(f * 7 % 5));
+    const auto out = std::make_shared<fast::DrawList<float>>();
+    engine->frame(depth, *out);
+    return Case{[=] { engine->frame(depth, *out); }};
+  };
+  return list;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto list = cases();
+  if (argc < 2) {
+    for (const auto& [name, make] : list) std::puts(name.c_str());
+    return 0;
+  }
+  const auto found = list.find(argv[1]);
+  if (found == list.end()) {
+    std::fprintf(stderr, "instruction_case: there is no case '%s'\n", argv[1]);
+    return 2;
+  }
+  const Case work = found->second();
+  CALLGRIND_TOGGLE_COLLECT;
+  work.counted();
+  CALLGRIND_TOGGLE_COLLECT;
+  return 0;
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "bench/render/renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace limitcheck::bench {
+
+namespace {
+
+// Lit at the vertices; the fragment only interpolates.
+constexpr const char* kVertexShader = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 colour;
+uniform mat4 projection;
+uniform vec3 light;
+uniform bool lit;
+out vec3 front;
+void main() {
+  gl_Position = projection * vec4(position, 1);
+  front = lit ? colour * (0.22 + 0.78 * max(dot(normal, light), 0)) : colour;
+})";
+constexpr const char* kFragmentShader = R"(#version 330 core
+in vec3 front;
+uniform bool both;
+out vec4 pixel;
+void main() {
+  pixel = vec4(both && !gl_FrontFacing ? vec3(0.75, 0.2, 0.15) : front, 1);
+})";
+
+constexpr Colour kSurface{.72f, .76f, .82f}, kEdge{.08f, .1f, .14f};
+
+unsigned compile(GLenum kind, const char* text) {
+  const GLuint shader = glCreateShader(kind);
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint done = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+  if (done == GL_FALSE) {
+    char log[512] = "";
+    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+    throw std::runtime_error(std::string("a shader does not compile: ") + log);
+  }
+  return shader;
+}
+
+Eigen::Vector3d eigen(const fast::Point3& p) {
+  return {p.x, p.y, p.z};
+}
+
+Eigen::Matrix4f view_projection(const fast::Camera& camera, double aspect, double far) {
+  const Eigen::Vector3d back = (eigen(camera.eye) - eigen(camera.target)).normalized();
+  const Eigen::Vector3d right = eigen(camera.up).cross(back).normalized(), up = back.cross(right);
+  Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
+  view.block<1, 3>(0, 0) = right.transpose();
+  view.block<1, 3>(1, 0) = up.transpose();
+  view.block<1, 3>(2, 0) = back.transpose();
+  view.block<3, 1>(0, 3) = -view.block<3, 3>(0, 0) * eigen(camera.eye);
+
+  const double near = std::max(camera.near, far / 1e4);
+  const double scale = 2 * camera.focal_pixels() / camera.height;
+  Eigen::Matrix4d projection = Eigen::Matrix4d::Zero();
+  projection(0, 0) = scale / aspect;
+  projection(1, 1) = scale;
+  projection(2, 2) = -(far + near) / (far - near);
+  projection(2, 3) = -2 * far * near / (far - near);
+  projection(3, 2) = -1;
+  return (projection * view).cast<float>();
+}
+
+}  // namespace
+
+Renderer::Renderer(int width, int height, int samples) : width_(width), height_(height), samples_(samples) {
+  program_ = glCreateProgram();
+  for (const auto& [kind, text] :
+       {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {
+    const GLuint shader = compile(static_cast<GLenum>(kind), text);
+    glAttachShader(program_, shader);
+    glDeleteShader(shader);
+  }
+  glLinkProgram(program_);
+  glUseProgram(program_);
+  glGenVertexArrays(1, &array_);
+  glBindVertexArray(array_);
+  glGenBuffers(1, &buffer_);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+
+  glGenFramebuffers(1, &resolved_);
+  glGenFramebuffers(1, &frame_);
+  glGenRenderbuffers(4, attachments_.data());
+  const auto attach = [&](unsigned frame, unsigned colour, unsigned depth, int count) {
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    for (const auto& [buffer, format, place] : {std::tuple{colour, GL_RGB8, GL_COLOR_ATTACHMENT0},
+                                                {depth, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT}}) {
+      glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+      glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, static_cast<GLenum>(format), width_, height_);
+      glFramebufferRenderbuffer(GL_FRAMEBUFFER, static_cast<GLenum>(place), GL_RENDERBUFFER, buffer);
+    }
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      throw std::runtime_error("no picture of that size to draw to");
+  };
+  attach(resolved_, attachments_[0], attachments_[1], 0);
+  attach(frame_, attachments_[2], attachments_[3], samples_ > 1 ? samples_ : 0);
+  glViewport(0, 0, width_, height_);
+  glEnable(GL_DEPTH_TEST);
+}
+
+Renderer::~Renderer() = default;  // everything goes with the context
+
+void Renderer::begin(const fast::Camera& camera, double depth_range) {
+  glBindFramebuffer(GL_FRAMEBUFFER, frame_);
+  glClearColor(1, 1, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  const Eigen::Matrix4f matrix = view_projection(camera, static_cast<double>(width_) / height_, depth_range);
+  glUniformMatrix4fv(glGetUniformLocation(program_, "projection"), 1, GL_FALSE, matrix.data());
+  const Eigen::Vector3d back = (eigen(camera.eye) - eigen(camera.target)).normalized();
+  const Eigen::Vector3d right = eigen(camera.up).cross(back).normalized();
+  const Eigen::Vector3f light = (back + .45 * back.cross(right) - .35 * right).normalized().cast<float>();
+  glUniform3fv(glGetUniformLocation(program_, "light"), 1, light.data());
+}
+
+void Renderer::draw(const fast::DrawList<float>& frame, const Appearance& appearance) {
+  using Vertex = fast::SurfaceVertex<float>;
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(frame.vertices.size() * sizeof(Vertex)),
+               frame.vertices.data(), GL_STREAM_DRAW);
+  glEnableVertexAttribArray(0);
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                        reinterpret_cast<const void*>(offsetof(Vertex, normal)));
+  if (appearance.backfaces)
+    glDisable(GL_CULL_FACE);
+  else
+    glEnable(GL_CULL_FACE);
+  glUniform1i(glGetUniformLocation(program_, "both"), appearance.backfaces ? 1 : 0);
+
+  const auto draws = [&](bool coloured) {
+    for (const fast::Draw& draw : frame.draws) {
+      if (coloured && appearance.colour) {
+        const Colour c = appearance.colour(draw);
+        glVertexAttrib3fv(2, c.data());
+      }
+      const GLenum mode = draw.mode == fast::DrawMode::kStrip ? GL_TRIANGLE_STRIP
+                          : draw.mode == fast::DrawMode::kFan ? GL_TRIANGLE_FAN
+                                                              : GL_TRIANGLES;
+      glDrawArrays(mode, static_cast<GLint>(draw.first), draw.count);
+    }
+  };
+  glVertexAttrib3fv(2, kSurface.data());
+  glUniform1i(glGetUniformLocation(program_, "lit"), 1);
+  if (appearance.wireframe) {  // push the surface back, so that its edges lie before it
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1, 1);
+  }
+  draws(true);
+  if (!appearance.wireframe) return;
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glUniform1i(glGetUniformLocation(program_, "lit"), 0);
+  glUniform1i(glGetUniformLocation(program_, "both"), 0);
+  glVertexAttrib3fv(2, kEdge.data());
+  draws(false);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void Renderer::draw(std::span<const Segment> segments, const Colour& colour) {
+  std::vector<float> points;
+  for (const Segment& s : segments) {
+    for (const fast::Point3& p : {s.from, s.to})
+      for (const double x : {p.x, p.y, p.z}) points.push_back(static_cast<float>(x));
+  }
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(float)), points.data(),
+               GL_STREAM_DRAW);
+  glEnableVertexAttribArray(0);
+  glDisableVertexAttribArray(1);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glUniform1i(glGetUniformLocation(program_, "lit"), 0);
+  glUniform1i(glGetUniformLocation(program_, "both"), 0);
+  glVertexAttrib3fv(2, colour.data());
+  glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(2 * segments.size()));
+}
+
+void Renderer::finish() {
+  glFinish();
+}
+
+Image Renderer::image() {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  Image image{width_, height_, {}};
+  const auto row = static_cast<std::ptrdiff_t>(3 * width_);
+  image.rgb.resize(static_cast<std::size_t>(row * height_));
+  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  for (int y = 0; y < height_ / 2; ++y)  // OpenGL's first row is the lowest
+    std::swap_ranges(image.rgb.begin() + row * y, image.rgb.begin() + row * (y + 1),
+                     image.rgb.begin() + row * (height_ - 1 - y));
+  return image;
+}
+
+}  // namespace limitcheck::bench

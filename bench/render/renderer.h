@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Draws tessellations as the paper does: strips and fans from interleaved vertex and normal arrays, Gouraud
+// shading, one light.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "bench/render/gl_context.h"
+#include "bench/render/image.h"
+#include "fast/camera.h"
+#include "fast/sink.h"
+
+namespace limitcheck::bench {
+
+using Colour = std::array<float, 3>;
+
+struct Appearance {
+  /// Of a strip or fan; without it all are of one colour.
+  std::function<Colour(const fast::Draw&)> colour;
+  bool wireframe = false;  // edges of the triangles over the surface
+  bool backfaces = false;  // seen from behind in red instead of not at all
+};
+
+struct Segment {
+  fast::Point3 from, to;
+};
+
+/// One picture after the other in memory of its own. Throws std::runtime_error if the graphics library
+/// refuses.
+class Renderer {
+ public:
+  /// samples: per pixel, 1 for speed.
+  Renderer(int width, int height, int samples);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  std::string name() const { return context_.renderer(); }
+
+  /// Clears to white. The light stands above the viewer's left shoulder; the viewport is the renderer's.
+  void begin(const fast::Camera& camera, double depth_range);
+  void draw(const fast::DrawList<float>& frame, const Appearance& appearance = {});
+  void draw(std::span<const Segment> segments, const Colour& colour);
+  /// Waits until everything is drawn.
+  void finish();
+  Image image();
+
+ private:
+  GlContext context_;
+  int width_, height_, samples_;
+  unsigned program_ = 0, array_ = 0, buffer_ = 0;
+  unsigned frame_ = 0, resolved_ = 0;
+  std::array<unsigned, 4> attachments_{};
+};
+
+}  // namespace limitcheck::bench

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace limitcheck::bench {
+
+/// Memory to do nothing with but write: what any route that delivers as many bytes must take at least.
+class WriteOnly {
+ public:
+  explicit WriteOnly(std::size_t bytes);  // a multiple of 64
+  ~WriteOnly();
+  WriteOnly(const WriteOnly&) = delete;
+  WriteOnly& operator=(const WriteOnly&) = delete;
+
+  /// All of it once, with the widest vectors of this machine. streaming: past the caches.
+  void run(bool streaming);
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  float* memory_;
+  std::size_t bytes_;
+};
+
+}  // namespace limitcheck::bench

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Writing to memory past the caches: for output larger than they are, whose reader comes later or elsewhere.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace limitcheck::fast::row_stream {
+
+/// `lines` times 64 bytes by non-temporal stores. to: aligned to 64 bytes; from: to 4.
+void stream_lines(const std::byte* from, std::size_t lines, std::byte* to);
+
+/// Makes the non-temporal stores of this thread visible before anything that it writes afterwards.
+void fence_streams();
+
+/// One contiguous run of output that arrives in pieces. Whole cache lines are streamed; the piece of a line
+/// at either end of the run, and nothing else, is written by ordinary stores. Pieces: multiples of 4 bytes.
+class LineStream {
+ public:
+  static constexpr std::size_t kLine = 64;
+
+  /// The run begins at `to`, aligned to 4 bytes.
+  void start(std::byte* to) {
+    const std::size_t before = reinterpret_cast<std::uintptr_t>(to) % kLine;
+    line_ = to - before;
+    filled_ = first_ = before;
+  }
+
+  void append(const std::byte* from, std::size_t size) {
+    if (filled_ > 0) {
+      const std::size_t take = size < kLine - filled_ ? size : kLine - filled_;
+      std::memcpy(rest_.data() + filled_, from, take);
+      filled_ += take, from += take, size -= take;
+      if (filled_ < kLine) return;
+      if (first_ > 0) {
+        std::memcpy(line_ + first_, rest_.data() + first_, kLine - first_);
+      } else {
+        stream_lines(rest_.data(), 1, line_);
+      }
+      line_ += kLine;
+      filled_ = first_ = 0;
+    }
+    const std::size_t lines = size / kLine;
+    stream_lines(from, lines, line_);
+    line_ += lines * kLine;
+    filled_ = size - lines * kLine;
+    std::memcpy(rest_.data(), from + lines * kLine, filled_);
+  }
+
+  void finish() {
+    if (filled_ > first_) std::memcpy(line_ + first_, rest_.data() + first_, filled_ - first_);
+    filled_ = first_ = 0;
+  }
+
+ private:
+  alignas(64) std::array<std::byte, kLine> rest_;
+  std::byte* line_ = nullptr;  // where rest_ goes
+  std::size_t filled_ = 0;     // bytes of the line that are known, from first_ on
+  std::size_t first_ = 0;
+};
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/audit_files.h"
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+
+#include "data/generators/named_mesh.h"
+#include "verify/audit/json.h"
+#include "verify/audit/table.h"
+#include "verify/cli/commands.h"
+#include "verify/cli/progress.h"
+#include "verify/files/audit_files.h"
+
+namespace limitcheck::cli {
+
+void add_files_options(CLI::App& audit, FilesArguments& files) {
+  const char* group = "A finished tessellation (instead of SUBJECT)";
+  auto* control = audit.add_option("--control", files.control, "Control mesh: a file or a generator's name")
+                      ->group(group);
+  auto* tessellation =
+      audit
+          .add_option("--tessellation", files.tessellation,
+                      "What some program made of it: PLY, OBJ, OFF or STL; triangles or larger polygons")
+          ->group(group);
+  control->needs(tessellation);
+  tessellation->needs(control);
+  const auto option = [&](CLI::Option* o) { return o->group(group)->needs(tessellation); };
+  option(audit.add_flag("--normals", files.normals,
+                        "The file must have normals (if it has, they are judged anyway)"));
+  option(
+      audit.add_option("--provenance", files.provenance,
+                       "CSV that says where each vertex lies: vertex,face,l1,l2 or "
+                       "vertex,face,i,j,denominator; without it the closest point of the surface is found"));
+  option(audit.add_option("--fit", files.fit,
+                          "Undo a scale and an offset first (scale), or also a rotation (similarity)"))
+      ->check(CLI::IsMember({"scale", "similarity"}))
+      ->expected(0, 1)
+      ->default_str("similarity");
+  option(audit.add_option("--tolerance", files.tolerance,
+                          "Of positions, in diagonals of the control mesh's bounding box"))
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  option(audit.add_option("--max-deviation", files.hausdorff,
+                          "Of the triangles from the surface and back, in diagonals (default: what one "
+                          "triangle per control face would have)"))
+      ->check(CLI::PositiveNumber);
+  option(audit.add_option("--per-vertex", files.per_vertex,
+                          "Write distance, normal angle and parameter of every vertex to this CSV file"));
+}
+
+int audit_files(const FilesArguments& files, const std::string& json, int threads) {
+  const tbb::global_control limit(
+      tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()));
+  const auto start = std::chrono::steady_clock::now();
+  const data::ControlMesh control = data::open_mesh(files.control);
+  verify::FileTessellation tessellation = verify::read_tessellation(files.tessellation);
+  std::vector<verify::ProvenanceRow> provenance;
+  if (!files.provenance.empty())
+    provenance =
+        verify::read_provenance(files.provenance, static_cast<std::int64_t>(tessellation.positions.size()),
+                                static_cast<std::int64_t>(control.triangles.size()));
+  verify::FilesOptions options;
+  options.tolerance = files.tolerance;
+  if (files.hausdorff > 0) options.hausdorff = files.hausdorff;
+  options.needs_normals = files.normals;
+  options.fit = files.fit.empty()      ? verify::Fit::kNone
+                : files.fit == "scale" ? verify::Fit::kScale
+                                       : verify::Fit::kSimilarity;
+
+  Progress progress;
+  const auto audit = verify::audit_files(files.control, control, std::move(tessellation), provenance, options,
+                                         [&](const std::string& what, std::size_t done, std::size_t total) {
+                                           progress.show(done, total, what);
+                                         });
+  progress.clear();
+
+  verify::Report report;
+  report.version = LIMITCHECK_VERSION;
+  report.depths = "file";
+  report.meshes.push_back({files.control, static_cast<std::int64_t>(control.positions.size()),
+                           static_cast<std::int64_t>(control.triangles.size())});
+  report.subjects.push_back(files.tessellation);
+  report.results = audit.results;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!files.per_vertex.empty()) verify::write_text(files.per_vertex, audit.per_vertex);
+  if (json == "-") {
+    fmt::print("{}", verify::to_json(report));
+  } else {
+    const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+    for (const std::string& note : audit.notes) fmt::print("{}\n", note);
+    fmt::print("{}{}", audit.notes.empty() ? "" : "\n", verify::to_table(report, colour, false));
+    if (!json.empty()) verify::write_text(json, verify::to_json(report));
+  }
+  return report.held() ? kHeld : kFindings;
+}
+
+}  // namespace limitcheck::cli

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/doors.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+
+#include "verify/subject/isolation/witness.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = verify::RemoteSubject::Kind;
+
+bool is_file(const std::string& name) {
+  std::error_code ignored;
+  return fs::is_regular_file(name, ignored);
+}
+
+bool names_a_library(const std::string& name) {
+  const std::string file = fs::path(name).filename();
+  return file.ends_with(".so") || file.find(".so.") != std::string::npos;
+}
+
+// For /bin/sh, which would look for a bare name where programs are installed.
+std::string as_command(const std::string& file) {
+  return verify::shell_word(file.find('/') == std::string::npos ? "./" + file : file);
+}
+
+}  // namespace
+
+void add_door_options(CLI::App& command, DoorArguments& a) {
+  const std::string group = "Subjects of your own (libraries and programs run in a process of their own)";
+  command
+      .add_option(
+          "--program", a.program,
+          "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
+          "of verify/subject/isolation/PROTOCOL.md")
+      ->type_name("COMMAND")
+      ->group(group);
+  command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too")
+      ->group(group);
+  command.add_option("--timeout", a.limits.seconds, "Seconds a process may take for one answer")
+      ->check(CLI::Range(0.001, 86400.0))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--memory", a.limits.memory_mib, "MiB of memory a process may take, and its answer")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24))
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--witness-folder", a.witness_folder,
+                  "Where control mesh and depths are saved when a process breaks down; '' for nowhere")
+      ->type_name("DIR")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void take_program(const DoorArguments& a, std::string& subject, std::vector<std::string>& meshes) {
+  if (a.program.empty()) return;
+  if (!subject.empty()) meshes.insert(meshes.begin(), subject);
+  subject = "program:" + a.program;
+}
+
+const lc_subject* Doors::remote(Kind kind, const std::string& what) {
+  remote_.push_back(std::make_unique<verify::RemoteSubject>(
+      kind, what, verify::IsolationSettings{arguments_.limits, "/proc/self/exe", arguments_.witness_folder}));
+  return &remote_.back()->subject();
+}
+
+const lc_subject* Doors::built_in(const lc_subject& subject) {
+  return arguments_.isolate ? remote(Kind::kBuiltIn, subject.name) : &subject;
+}
+
+std::pair<const lc_subject*, std::string> Doors::open(const std::string& text) {
+  if (text.starts_with("program:")) return {remote(Kind::kProgram, text.substr(8)), ""};
+
+  // A file name may contain a colon: the longest that exists wins.
+  std::size_t colon = is_file(text) ? std::string::npos : text.find(':');
+  const std::string name = text.substr(0, colon);
+  const std::string options = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (const lc_subject* subject = verify::find_subject(name)) return {built_in(*subject), options};
+  if (is_file(name) && !names_a_library(name) && ::access(name.c_str(), X_OK) == 0)
+    return {remote(Kind::kProgram, as_command(name)), options};
+  if (is_file(name) || name.find('/') != std::string::npos || names_a_library(name))
+    return {remote(Kind::kLibrary, name), options};
+
+  std::string known = "all";
+  for (const lc_subject* s : verify::built_in_subjects()) known += fmt::format(", {}", s->name);
+  throw std::invalid_argument(fmt::format(
+      "there is no subject '{}'; there are: {}, shared libraries (./lib{}.so) and programs (program:COMMAND)",
+      name, known, name));
+}
+
+std::vector<std::int32_t> read_depths(const std::string& file, const data::ControlMesh& mesh, int deepest) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::invalid_argument(fmt::format("--depths: cannot read {}", file));
+  std::vector<std::int32_t> depths;
+  for (std::string word; in >> word;) {
+    std::int32_t depth = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), depth);
+    if (error != std::errc{} || end != word.data() + word.size() || depth < -1 || depth > deepest)
+      throw std::invalid_argument(
+          fmt::format("--depths: {}: '{}' is no depth from -1 to {} (--depth)", file, word, deepest));
+    depths.push_back(depth);
+  }
+  if (depths.size() != mesh.triangles.size())
+    throw std::invalid_argument(
+        fmt::format("--depths: {}: {} depths for {} faces", file, depths.size(), mesh.triangles.size()));
+  return depths;
+}
+
+}  // namespace limitcheck::cli

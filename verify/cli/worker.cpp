@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+#include <string>
+
+#include "verify/cli/commands.h"
+#include "verify/subject/isolation/worker.h"
+#include "verify/subject/registry.h"
+#include "verify/subject/subject_error.h"
+
+namespace limitcheck::cli {
+
+void add_worker(CLI::App& app, int& exit_code) {
+  struct Arguments {
+    std::string kind, what;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("worker", "Serve one subject to an audit, on standard input and output");
+  command->group("");
+  command->add_option("KIND", a->kind)->required()->check(CLI::IsMember({"library", "built-in"}));
+  command->add_option("WHAT", a->what, "A shared library, or the name of a built-in subject")->required();
+  command->callback([a, &exit_code] {
+    exit_code = verify::serve([&]() -> const lc_subject& {
+      if (a->kind == "library") return verify::load_subject(a->what);
+      const lc_subject* subject = verify::find_subject(a->what);
+      if (subject == nullptr)
+        throw verify::SubjectError(LC_INVALID_INPUT, "there is no such built-in subject");
+      return *subject;
+    });
+  });
+}
+
+}  // namespace limitcheck::cli

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "verify/files/audit_files.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "verify/files/diagnosis.h"
+#include "verify/files/hausdorff.h"
+
+namespace limitcheck::verify {
+namespace {
+
+void append(std::vector<Result>& all, std::vector<Result> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+std::string what_it_is(const FileTessellation& t) {
+  std::string text = fmt::format("{}: {} vertices, {} faces", t.name, t.positions.size(), t.polygons);
+  if (t.quads > 0) text += fmt::format(", of which {} quads", t.quads);
+  if (t.larger > 0) text += fmt::format(", {} with more than four corners", t.larger);
+  if (t.quads + t.larger > 0) text += ", cut as fans from their first corner";
+  const auto unused = std::count(t.used.begin(), t.used.end(), false);
+  if (unused > 0) text += fmt::format("; {} vertices belong to no face and are left out", unused);
+  return text;
+}
+
+std::string per_vertex(const FileEvidence& e) {
+  const FileTessellation& t = e.tessellation;
+  std::vector<double> angle(t.positions.size(), -1);
+  for (const auto& n : t.normals) {
+    const std::int32_t point = e.point_of(n.vertex);
+    if (point < 0 || !e.foot[point].has_normal) continue;
+    const double a = angle_degrees(n.direction, e.foot[point].normal);
+    if (!(a <= angle[n.vertex])) angle[n.vertex] = a;
+  }
+  std::string out = "vertex,distance,normal_angle,face,l1,l2\n";
+  for (std::size_t v = 0; v < t.positions.size(); ++v) {
+    const std::int32_t point = e.merged.point_of[v];
+    if (!t.used[v] || point < 0) continue;
+    const Foot& foot = e.foot[point];
+    out += fmt::format("{},{},{},{},{},{}\n", v, foot.distance / e.surface.diagonal(),
+                       angle[v] < 0 ? std::string() : fmt::format("{}", angle[v]), foot.at.face, foot.at.l[1],
+                       foot.at.l[2]);
+  }
+  return out;
+}
+
+}  // namespace
+
+FilesAudit audit_files(
+    const std::string& control_name, const data::ControlMesh& control, FileTessellation tessellation,
+    const std::vector<ProvenanceRow>& provenance, const FilesOptions& options,
+    const std::function<void(const std::string& what, std::size_t done, std::size_t total)>& step) {
+  FilesAudit audit;
+  audit.notes.push_back(what_it_is(tessellation));
+  step("search structure", 0, 1);
+  const ClosestPoint surface(control);
+
+  if (options.fit != Fit::kNone) {
+    step("fit", 0, 1);
+    std::vector<Vector> points;
+    for (std::size_t v = 0; v < tessellation.positions.size(); ++v)
+      if (tessellation.used[v] && is_finite(tessellation.positions[v]))
+        points.push_back(tessellation.positions[v]);
+    const Similarity map = fit(surface, points, options.fit);
+    for (Vector& p : tessellation.positions) p = map(p);
+    for (auto& n : tessellation.normals) n.direction = map.turned(n.direction);
+    audit.notes.push_back(fmt::format("fitted: {}; rms distance then {:.3g} diagonals", to_string(map),
+                                      map.residual / surface.diagonal()));
+  }
+
+  FileEvidence e{control_name, control, surface, tessellation, options.tolerance};
+  place_points(e, provenance,
+               [&](std::size_t done, std::size_t total) { step("closest points", done, total); });
+  append(audit.results, check_file_finite(e));
+  append(audit.results, check_file_distance(e));
+  append(audit.results, check_file_normals(e));
+  if (tessellation.normals.empty() && options.needs_normals) {
+    audit.results.back().status = Status::kFinding;
+    audit.results.back().bad = audit.results.back().of =
+        static_cast<std::int64_t>(tessellation.positions.size());
+  }
+  append(audit.results, check_file_cover(e));
+  append(audit.results, check_file_watertight(e));
+  step("Hausdorff distance", 0, 1);
+  append(audit.results, check_file_hausdorff(e, options.hausdorff.value_or(-1)));
+  if (!tessellation.triangles.empty()) audit.notes.push_back(audit.results.back().message);
+
+  Result& distance = audit.results[1];
+  if (distance.status == Status::kFinding) {
+    step("diagnosis", 0, 1);
+    for (const std::string& sentence : diagnose(e)) {
+      distance.message += (distance.message.empty() ? "" : "; ") + sentence;
+    }
+  }
+  audit.per_vertex = per_vertex(e);
+  return audit;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Auditing a finished tessellation: a control mesh, a file of triangles, and no program.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/audit/result.h"
+#include "verify/files/file_evidence.h"
+#include "verify/files/fit.h"
+
+namespace limitcheck::verify {
+
+struct FilesOptions {
+  double tolerance = 1e-6;  // of positions, in diagonals of the control mesh's bounding box
+  std::optional<double>
+      hausdorff;               // likewise, of the two-sided distance; without: what one triangle per face has
+  bool needs_normals = false;  // a file without normals is a finding
+  Fit fit = Fit::kNone;
+};
+
+/// What an audit of files found.
+struct FilesAudit {
+  std::vector<Result> results;
+  std::vector<std::string> notes;  // sentences for people: what the file is, what it looks like
+  std::string per_vertex;  // CSV: vertex, distance in diagonals, normal angle in degrees, face, l1, l2
+};
+
+/// Rows: file-finite, file-distance (or file-positions, with a provenance), file-normals, file-orientation,
+/// file-coverage, file-watertight, file-hausdorff. `control` is valid (data/validate.h); the tessellation is
+/// fitted first if asked.
+///   time  some 20 microseconds a vertex and core; 100 000 vertices on 4000 faces in 4 s on two cores
+FilesAudit audit_files(
+    const std::string& control_name, const data::ControlMesh& control, FileTessellation tessellation,
+    const std::vector<ProvenanceRow>& provenance, const FilesOptions& options,
+    const std::function<void(const std::string& what, std::size_t done, std::size_t total)>& step);
+
+}  // namespace limitcheck::verify

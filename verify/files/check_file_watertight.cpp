@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "verify/files/file_evidence.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// Both ends lie on one boundary edge of the control mesh.
+bool on_boundary(const FileEvidence& e, std::int32_t a, std::int32_t b) {
+  const Domain& domain = e.surface.domain();
+  for (const std::int32_t p : {a, b}) {
+    const FacePoint& at = e.place[p];
+    std::vector<std::int32_t> faces{at.face};
+    for (int k = 0; k < 3; ++k)
+      if (at.l[k] == 1)
+        for (const std::int32_t f : domain.faces_at(domain.triangles()[at.face][k])) faces.push_back(f);
+    for (const std::int32_t face : faces) {
+      FacePoint x, y;
+      if (!domain.express(e.place[a], face, x) || !domain.express(e.place[b], face, y)) continue;
+      for (int k = 0; k < 3; ++k)
+        if (x.l[k] == 0 && y.l[k] == 0 && domain.across(face, k) < 0) return true;
+    }
+  }
+  return false;
+}
+
+// How far the points of the cracks are from the nearest other one, at most: what welding would have to
+// bridge.
+double widest(const FileEvidence& e, const std::vector<std::int32_t>& points) {
+  std::vector<BoxTree::Box> boxes;
+  for (const std::int32_t p : points) boxes.push_back(BoxTree::around({e.position(p)}));
+  const BoxTree tree(boxes);
+  double most = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    double least = std::numeric_limits<double>::infinity();
+    tree.near(e.position(points[k]), [&](std::size_t other) {
+      if (other != k) least = std::min(least, norm(e.position(points[k]) - e.position(points[other])));
+      return least;
+    });
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<Result> check_file_watertight(const FileEvidence& e) {
+  Result r = e.result("file-watertight");
+  r.unit = "edges";
+  r.bound = 0;
+  const auto& t = e.tessellation;
+  if (t.triangles.empty()) {
+    r.status = Status::kNotSupported;
+    r.message = "the file has no faces";
+    return {r};
+  }
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int64_t> number;
+  std::int64_t degenerate = 0;
+  for (std::size_t k = 0; k < t.triangles.size(); ++k) {
+    const auto& v = t.triangles[k];
+    const std::array<std::int32_t, 3> p{e.point_of(v[0]), e.point_of(v[1]), e.point_of(v[2])};
+    // Strips of graphics hardware are joined by triangles without area: harmless.
+    if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) {
+      ++degenerate;
+      continue;
+    }
+    triangles.push_back(p);
+    number.push_back(static_cast<std::int64_t>(k));
+  }
+  const SurfaceReport report =
+      inspect_surface(static_cast<std::int64_t>(e.merged.vertex_of.size()), triangles);
+
+  std::vector<SurfaceReport::Edge> cracks;
+  std::vector<std::int32_t> points;
+  for (const auto& edge : report.open_edges)
+    if (!on_boundary(e, edge.from, edge.to)) {
+      cracks.push_back(edge);
+      points.push_back(edge.from);
+      points.push_back(edge.to);
+    }
+  r.of = report.edges;
+  const auto part = [&](std::int64_t count, const char* what, bool bad = true) {
+    if (count == 0) return;
+    if (bad) r.bad += count;
+    r.message += fmt::format("{}{} {}", r.message.empty() ? "" : ", ", count, what);
+  };
+  part(static_cast<std::int64_t>(cracks.size()), "open edges that are no boundary");
+  part(report.degenerate_triangles, "triangles with a corner that is not finite");
+  part(report.duplicate_triangles, "duplicate triangles");
+  part(report.crowded_edges, "edges of three or more triangles");
+  part(report.clashing_edges, "edges of two triangles that run the same way");
+  part(report.bow_tie_points, "points with more than one fan of triangles");
+  part(t.left_out, "faces of fewer than three corners, or of vertices that do not exist");
+  if (r.bad > 0) r.status = Status::kFinding;
+  part(degenerate, "triangles with two corners in one place left out", false);
+  if (!cracks.empty()) {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const double width = widest(e, points) / e.surface.diagonal();
+    if (width < 1e-3)
+      r.message += fmt::format("; every point of the cracks has another within {:.2g} diagonals", width);
+    r.witness = e.at_vertex(e.merged.vertex_of[cracks.front().from]);
+    r.witness->triangle = number[cracks.front().triangle];
+  } else if (r.bad > 0) {
+    std::int32_t triangle = -1;
+    for (const auto* list : {&report.degenerate_witness, &report.duplicate_witness})
+      if (triangle < 0 && !list->empty()) triangle = list->front();
+    for (const auto* list : {&report.crowded_witness, &report.clashing_witness})
+      if (triangle < 0 && !list->empty()) triangle = list->front().triangle;
+    if (triangle >= 0) {
+      r.witness = e.at_vertex(t.triangles[number[triangle]][0]);
+      r.witness->triangle = number[triangle];
+    } else if (!report.bow_tie_witness.empty()) {
+      r.witness = e.at_vertex(e.merged.vertex_of[report.bow_tie_witness.front()]);
+    }
+  }
+  return {r};
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "verify/files/file_evidence.h"
+
+#include <fmt/core.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+namespace limitcheck::verify {
+
+Result FileEvidence::result(std::string check) const {
+  Result r;
+  r.subject = tessellation.name;
+  r.mesh = control_name;
+  r.check = std::move(check);
+  r.status = Status::kHeld;
+  return r;
+}
+
+Witness FileEvidence::at_vertex(std::int32_t vertex) const {
+  Witness w;
+  w.vertex = vertex;
+  const std::int32_t point = point_of(vertex);
+  const bool told = !claimed.empty() && claimed[vertex].face >= 0;
+  if (!told && (point < 0 || place[point].face < 0)) return w;
+  const FacePoint& at = told ? claimed[vertex] : foot[point].at;
+  w.face = at.face;
+  w.l1 = fmt::format("{}", at.l[1]);
+  w.l2 = fmt::format("{}", std::min(at.l[2], 1 - at.l[1]));
+  return w;
+}
+
+namespace {
+
+// On a corner or an edge, if the surface there is no farther from the foot than `slack`.
+FacePoint snapped(const FileEvidence& e, const Foot& foot, double slack) {
+  FacePoint best = foot.at;
+  const auto better = [&](const FacePoint& there) {
+    if (norm(e.surface.at(there, foot.position).position - foot.position) > slack) return false;
+    best = there;
+    return true;
+  };
+  for (int k = 0; k < 3; ++k) {
+    if (foot.at.l[k] < .9) continue;
+    FacePoint corner{foot.at.face, {0, 0, 0}};
+    corner.l[k] = 1;
+    if (better(corner)) return best;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (foot.at.l[k] == 0 || foot.at.l[k] > .05) continue;
+    FacePoint edge = foot.at;
+    edge.l[k] = 0;
+    edge.l[(k + 1) % 3] += foot.at.l[k] / 2;
+    edge.l[(k + 2) % 3] += foot.at.l[k] / 2;
+    edge.l = clamped(edge.l);
+    if (better(edge)) return best;
+  }
+  return best;
+}
+
+}  // namespace
+
+void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
+                  const std::function<void(std::size_t, std::size_t)>& on_step) {
+  const FileTessellation& t = e.tessellation;
+  std::vector<double> flat;
+  flat.reserve(3 * t.positions.size());
+  for (const Vector& p : t.positions) flat.insert(flat.end(), p.begin(), p.end());
+  e.merged = merge_identical(std::span<const double>(flat));
+
+  const std::size_t points = e.merged.vertex_of.size();
+  e.foot.assign(points, {});
+  e.place.assign(points, {});
+  std::vector<FacePoint> claim(points);
+  if (!provenance.empty()) {
+    e.claimed.assign(t.positions.size(), {});
+    for (const ProvenanceRow& row : provenance) {
+      e.claimed[row.vertex] = row.at;
+      const std::int32_t point = e.point_of(static_cast<std::int32_t>(row.vertex));
+      if (point >= 0 && claim[point].face < 0) claim[point] = row.at;
+    }
+  }
+  std::vector<char> used(points, 0);
+  for (std::size_t v = 0; v < t.positions.size(); ++v)
+    if (t.used[v] && e.merged.point_of[v] >= 0) used[e.merged.point_of[v]] = 1;
+
+  std::size_t done = 0;
+  std::mutex mutex;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points, 256), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      if (used[k] == 0) continue;
+      const Vector& p = e.position(static_cast<std::int32_t>(k));
+      e.foot[k] = claim[k].face >= 0 ? e.surface.at(claim[k], p) : e.surface.closest(p);
+      e.place[k] = snapped(e, e.foot[k], e.tolerance * e.surface.diagonal());
+    }
+    const std::lock_guard lock(mutex);
+    on_step(done += range.size(), points);
+  });
+}
+
+PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points) {
+  PlacedTriangle placed;
+  for (const std::int32_t p : points)
+    if (p < 0 || e.place[p].face < 0) return placed;
+  const Domain& domain = e.surface.domain();
+  const auto& faces = domain.triangles();
+
+  // Candidates: the faces of all three corners, and those next to them that corners on an edge share.
+  std::vector<std::int32_t> candidates;
+  for (const std::int32_t p : points) {
+    const FacePoint& at = e.place[p];
+    candidates.push_back(at.face);
+    for (int k = 0; k < 3; ++k) {
+      if (at.l[k] == 0 && domain.across(at.face, k) >= 0) candidates.push_back(domain.across(at.face, k));
+      if (at.l[k] == 1)
+        for (const std::int32_t f : domain.faces_at(faces[at.face][k])) candidates.push_back(f);
+    }
+  }
+  // Three points of one edge, or of its ends, lie in both of its faces, and in the wrong one have no area.
+  const auto area_of = [](const auto& l) {
+    return l[0][0] * (l[1][1] * l[2][2] - l[1][2] * l[2][1]) -
+           l[0][1] * (l[1][0] * l[2][2] - l[1][2] * l[2][0]) +
+           l[0][2] * (l[1][0] * l[2][1] - l[1][1] * l[2][0]);
+  };
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  for (const bool unfold : {false, true}) {
+    for (const std::int32_t face : candidates) {
+      std::array<std::array<double, 3>, 3> l{};
+      bool all = true;
+      for (int c = 0; c < 3 && all; ++c) {
+        const FacePoint& at = e.place[points[c]];
+        FacePoint here;
+        if (domain.express(at, face, here)) {
+          l[c] = here.l;
+          continue;
+        }
+        all = false;
+        for (int k = 0; unfold && k < 3 && !all; ++k) {
+          const std::int32_t next = domain.across(face, k);
+          FacePoint there;
+          if (next < 0 || !domain.express(at, next, there)) continue;
+          // (a, b, c) with c opposite and d beyond: l_d d = l_d (a + b - c).
+          double beyond = 0;
+          for (int i = 0; i < 3; ++i) {
+            const auto place = std::find(faces[face].begin(), faces[face].end(), faces[next][i]);
+            if (place == faces[face].end() || place - faces[face].begin() == k)
+              beyond = there.l[i];
+            else
+              l[c][place - faces[face].begin()] = there.l[i];
+          }
+          l[c][k] = -beyond;
+          l[c][(k + 1) % 3] += beyond;
+          l[c][(k + 2) % 3] += beyond;
+          all = true;
+        }
+      }
+      if (!all) continue;
+      const double area = area_of(l);
+      if (placed.face >= 0 && std::abs(area) <= std::abs(placed.area)) continue;
+      placed = {face, unfold, l, area};
+    }
+    if (placed.face >= 0) break;
+  }
+  return placed;
+}
+
+}  // namespace limitcheck::verify

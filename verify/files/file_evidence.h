@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What the checks of a tessellation file look at.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/audit/result.h"
+#include "verify/files/provenance.h"
+#include "verify/files/tessellation_file.h"
+#include "verify/projection/closest_point.h"
+#include "verify/watertight/watertight.h"
+
+namespace limitcheck::verify {
+
+/// A tessellation on the limit surface of its control mesh. Vertices at one place are one point.
+struct FileEvidence {
+  std::string control_name;
+  const data::ControlMesh& control;
+  const ClosestPoint& surface;
+  const FileTessellation& tessellation;
+  double tolerance;  // of positions, in diagonals
+
+  MergedPoints merged{};
+  std::vector<Foot> foot{};  // of each point: the closest, or where the provenance has it
+  /// Of each point: the foot as a point of the domain, put on an edge or a corner if it lies there within the
+  /// tolerance. Face -1: the point is not used.
+  std::vector<FacePoint> place{};
+  std::vector<FacePoint> claimed{};  // of each vertex, by its provenance (face -1: none); empty without
+
+  std::int32_t point_of(std::int32_t vertex) const { return merged.point_of[vertex]; }
+  const Vector& position(std::int32_t point) const { return tessellation.positions[merged.vertex_of[point]]; }
+
+  Result result(std::string check) const;
+  Witness at_vertex(std::int32_t vertex) const;
+};
+
+/// Merges, projects and places all used vertices, in parallel. `on_step`: points done, of how many; from any
+/// thread, one at a time.
+void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance,
+                  const std::function<void(std::size_t, std::size_t)>& on_step);
+
+/// The three corners of a triangle in one face, unfolded across an edge if need be.
+struct PlacedTriangle {
+  std::int32_t face = -1;  // -1: not to be placed
+  bool crosses = false;    // some corner lies beyond an edge of the face
+  std::array<std::array<double, 3>, 3> l{};
+  double area = 0;  // signed; 1 is the whole face
+};
+PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points);
+
+/// The checks; each returns its rows.
+std::vector<Result> check_file_finite(const FileEvidence& e);
+std::vector<Result> check_file_distance(const FileEvidence& e);
+std::vector<Result> check_file_positions(const FileEvidence& e);  // at the provenance claimed
+std::vector<Result> check_file_normals(const FileEvidence& e);
+std::vector<Result> check_file_cover(const FileEvidence& e);  // file-orientation, file-coverage
+std::vector<Result> check_file_watertight(const FileEvidence& e);
+
+}  // namespace limitcheck::verify

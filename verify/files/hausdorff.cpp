@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include "verify/files/hausdorff.h"
+
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/stam.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Barycentric = std::array<double, 3>;
+constexpr int kSplits = 5,
+              kCornerSplits = 14;    // towards an extraordinary vertex, where the bounds fall slowly
+constexpr std::size_t kExact = 400;  // places at which the distance is computed
+
+// A triangle of the tessellation over one face, its corners in the coordinates of that face, perhaps beyond
+// its edges.
+struct Over {
+  std::int32_t triangle;
+  std::array<Barycentric, 3> l;
+};
+
+double determinant(const Barycentric& a, const Barycentric& b, const Barycentric& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+// Coordinates of u with respect to a triangle of the domain.
+Barycentric within(const std::array<Barycentric, 3>& t, double area, const Barycentric& u) {
+  return {determinant(u, t[1], t[2]) / area, determinant(t[0], u, t[2]) / area,
+          determinant(t[0], t[1], u) / area};
+}
+
+// The common part of two triangles of the domain: Sutherland and Hodgman's clipping of `a` along the sides of
+// `b`.
+void clip(const std::array<Barycentric, 3>& a, const std::array<Barycentric, 3>& b,
+          std::vector<Barycentric>& part) {
+  const double area = determinant(b[0], b[1], b[2]);
+  part.assign(a.begin(), a.end());
+  std::vector<Barycentric> before;
+  for (int k = 0; k < 3 && !part.empty(); ++k) {
+    before.swap(part);
+    part.clear();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const Barycentric &p = before[i], &q = before[(i + 1) % before.size()];
+      const double x = within(b, area, p)[k], y = within(b, area, q)[k];
+      if (x >= 0) part.push_back(p);
+      if ((x > 0 && y < 0) || (x < 0 && y > 0)) {
+        const double s = x / (x - y);
+        part.push_back({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]), p[2] + s * (q[2] - p[2])});
+      }
+    }
+  }
+}
+
+double area_of(const std::vector<Barycentric>& part) {
+  double sum = 0;
+  for (std::size_t k = 1; k + 1 < part.size(); ++k) sum += determinant(part[0], part[k], part[k + 1]);
+  return std::abs(sum);
+}
+
+Vector mix(const std::array<Vector, 3>& corner, const Barycentric& weight) {
+  return weight[0] * corner[0] + weight[1] * corner[1] + weight[2] * corner[2];
+}
+
+class Measurer {
+ public:
+  explicit Measurer(const FileEvidence& e) : e_(e), over_(e.control.triangles.size()) {
+    const auto& list = e.tessellation.triangles;
+    corners_.resize(list.size());
+    std::vector<BoxTree::Box> boxes;
+    for (std::size_t t = 0; t < list.size(); ++t) {
+      std::array<std::int32_t, 3> p{};
+      for (int c = 0; c < 3; ++c) p[c] = e.point_of(list[t][c]);
+      if (std::min({p[0], p[1], p[2]}) < 0) continue;
+      corners_[t] = {e.position(p[0]), e.position(p[1]), e.position(p[2])};
+      boxes.push_back(BoxTree::around({corners_[t][0], corners_[t][1], corners_[t][2]}));
+      boxed_.push_back(static_cast<std::int32_t>(t));
+      if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
+      lay(static_cast<std::int32_t>(t), place_triangle(e, p));
+    }
+    tree_ = std::make_unique<BoxTree>(boxes);
+  }
+
+  Hausdorff run(double tightness) {
+    Hausdorff result;
+    result.not_placed = not_placed_;
+    const SurfaceLattice& lattice = e_.surface.lattice();
+    const auto per_face = std::size_t{1} << (2 * lattice.depth());
+    bounds_.assign(lattice.size(), {});
+    std::vector<double> apart(over_.size(), 0);
+    tbb::parallel_for(std::size_t{0}, over_.size(), [&](std::size_t f) {
+      const auto face = lattice_face(f);
+      for (std::size_t k = 0; k < per_face; ++k) {
+        const std::size_t index = f * per_face + k;
+        const Piece piece = lattice.piece(index);
+        bounds_[index] = look(piece, near(piece, over_[f]));
+        for (const Vector& c : piece.corner)
+          apart[f] = std::max(apart[f], closest_on_triangle(c, face).distance + piece.deviation);
+      }
+    });
+    result.one_triangle_each = *std::max_element(apart.begin(), apart.end());
+
+    // Exact distances where the bounds are largest, then bounds where they are still too far above.
+    for (const bool forwards : {true, false}) {
+      Bracket& bracket = forwards ? result.from_triangles : result.from_surface;
+      const auto value = [&](const Bound& b) { return forwards ? b.from_triangles : b.from_surface; };
+      std::vector<std::size_t> order(bounds_.size());
+      for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+      const std::size_t some = std::min(kExact, order.size());
+      std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(some), order.end(),
+                        [&](std::size_t a, std::size_t b) { return value(bounds_[a]) > value(bounds_[b]); });
+      for (std::size_t k = 0; k < some; ++k) exact(bounds_[order[k]], forwards, bracket);
+
+      const double enough = bracket.at_least * (1 + tightness) + 1e-15 * e_.surface.diagonal();
+      std::vector<double> refined(bounds_.size());
+      tbb::parallel_for(std::size_t{0}, bounds_.size(), [&](std::size_t k) {
+        refined[k] = value(bounds_[k]);
+        if (refined[k] > enough) {
+          const Piece piece = lattice.piece(k);
+          refined[k] =
+              refine(piece, near(piece, over_[static_cast<std::size_t>(piece.face)]), forwards, enough, 0);
+        }
+      });
+      bracket.at_most = std::max(bracket.at_least, *std::max_element(refined.begin(), refined.end()));
+    }
+    return result;
+  }
+
+ private:
+  struct Bound {
+    double from_triangles = 0, from_surface = 0;
+    FacePoint at_triangles, at_surface;  // where they are taken
+    std::int32_t triangle = -1;          // from which, at at_triangles ...
+    Barycentric weight{};                // ... with these coordinates
+  };
+
+  std::array<Vector, 3> lattice_face(std::size_t f) const {
+    std::array<Vector, 3> corner;
+    for (int k = 0; k < 3; ++k) {
+      FacePoint at{static_cast<std::int32_t>(f), {0, 0, 0}};
+      at.l[k] = 1;
+      corner[k] = e_.surface.at(at, {}).position;
+    }
+    return corner;
+  }
+
+  // Over its face, and over the faces beyond the edges it crosses.
+  void lay(std::int32_t triangle, const PlacedTriangle& placed) {
+    if (placed.face < 0) {
+      ++not_placed_;
+      return;
+    }
+    over_[placed.face].push_back({triangle, placed.l});
+    if (!placed.crosses) return;
+    const Domain& domain = e_.surface.domain();
+    for (int k = 0; k < 3; ++k) {
+      if (std::min({placed.l[0][k], placed.l[1][k], placed.l[2][k]}) >= 0) continue;
+      const std::int32_t next = domain.across(placed.face, k);
+      if (next < 0) continue;
+      Over there{triangle, {}};
+      const auto& from = domain.triangles()[placed.face];
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 3; ++i) {
+          const std::int32_t v = domain.triangles()[next][i];
+          const Barycentric& l = placed.l[c];
+          there.l[c][i] = v == from[a] ? l[a] + l[k] : v == from[b] ? l[b] + l[k] : -l[k];
+        }
+      over_[next].push_back(there);
+    }
+  }
+
+  // Those over the piece, judged by their extents.
+  static std::vector<Over> near(const Piece& piece, const std::vector<Over>& all) {
+    std::vector<Over> some;
+    for (const Over& o : all) {
+      bool apart = false;
+      for (int k = 0; k < 3; ++k) {
+        const auto [o_low, o_high] = std::minmax({o.l[0][k], o.l[1][k], o.l[2][k]});
+        const auto [p_low, p_high] = std::minmax({piece.at[0][k], piece.at[1][k], piece.at[2][k]});
+        apart = apart || o_low >= p_high || o_high <= p_low;
+      }
+      if (!apart) some.push_back(o);
+    }
+    return some;
+  }
+
+  Bound look(const Piece& piece, const std::vector<Over>& over) const {
+    Bound bound;
+    const double area = determinant(piece.at[0], piece.at[1], piece.at[2]);
+    double left = area;
+    std::vector<Barycentric> part;
+    for (const Over& o : over) {
+      const double o_area = determinant(o.l[0], o.l[1], o.l[2]);
+      if (std::abs(o_area) < 1e-14) continue;
+      clip(o.l, piece.at, part);
+      if (part.size() < 3) continue;
+      left -= area_of(part);
+      const auto& triangle = corners_[o.triangle];
+      for (const Barycentric& u : part) {
+        const Barycentric on_piece = within(piece.at, area, u), on_triangle = within(o.l, o_area, u);
+        const Vector p = piece.flat(on_piece), t = mix(triangle, on_triangle);
+        const double from_surface = closest_on_triangle(p, triangle).distance + piece.deviation;
+        const double from_triangles = closest_on_triangle(t, piece.corner).distance + piece.deviation;
+        if (from_surface > bound.from_surface) {
+          bound.from_surface = from_surface;
+          bound.at_surface = {piece.face, clamped(u)};
+        }
+        if (from_triangles > bound.from_triangles) {
+          bound.from_triangles = from_triangles;
+          bound.at_triangles = {piece.face, clamped(u)};
+          bound.triangle = o.triangle;
+          bound.weight = on_triangle;
+        }
+      }
+    }
+    if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
+      double most = 0, size = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double d = distance_to_triangles(piece.corner[k]);
+        size = std::max(size, norm(piece.corner[k] - piece.corner[(k + 1) % 3]));
+        if (d < most) continue;
+        most = d;
+        bound.at_surface = {piece.face, piece.at[k]};
+      }
+      bound.from_surface = std::max(bound.from_surface, most + size + piece.deviation);
+    }
+    return bound;
+  }
+
+  double refine(const Piece& piece, const std::vector<Over>& over, bool forwards, double enough,
+                int level) const {
+    const Bound bound = look(piece, over);
+    const double value = forwards ? bound.from_triangles : bound.from_surface;
+    if (value <= enough || level == (piece.irregular >= 0 ? kCornerSplits : kSplits)) return value;
+    double most = 0;
+    for (const Piece& child : e_.surface.lattice().split(piece, e_.surface.surface()))
+      most = std::max(most, refine(child, near(child, over), forwards, enough, level + 1));
+    return std::min(value, most);
+  }
+
+  // The distance itself at the place where the bound is taken.
+  void exact(const Bound& bound, bool forwards, Bracket& bracket) const {
+    const FacePoint& at = forwards ? bound.at_triangles : bound.at_surface;
+    if (at.face < 0) return;
+    double d = 0;
+    FacePoint where = at;
+    if (forwards) {
+      const Foot foot = e_.surface.closest(mix(corners_[bound.triangle], bound.weight));
+      d = foot.distance;
+      where = foot.at;
+    } else {
+      d = distance_to_triangles(e_.surface.at(at, {}).position);
+    }
+    if (d <= bracket.at_least && bracket.where.face >= 0) return;
+    bracket.at_least = d;
+    bracket.where = where;
+  }
+
+  double distance_to_triangles(const Vector& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    tree_->near(p, [&](std::size_t k) {
+      return least = std::min(least, closest_on_triangle(p, corners_[boxed_[k]]).distance);
+    });
+    return least;
+  }
+
+  const FileEvidence& e_;
+  std::vector<std::vector<Over>> over_;         // of each face
+  std::vector<std::array<Vector, 3>> corners_;  // of each triangle
+  std::vector<std::int32_t> boxed_;             // triangles with finite corners
+  std::unique_ptr<BoxTree> tree_;
+  std::vector<Bound> bounds_;
+  std::int64_t not_placed_ = 0;
+};
+
+}  // namespace
+
+Hausdorff hausdorff(const FileEvidence& evidence, double tightness) {
+  return Measurer(evidence).run(tightness);
+}
+
+std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound) {
+  Result r = e.result("file-hausdorff");
+  r.unit = "diagonal";
+  if (e.tessellation.triangles.empty()) {
+    r.status = Status::kNotSupported;
+    r.message = "the file has no faces";
+    return {r};
+  }
+  const Hausdorff h = hausdorff(e);
+  const double size = e.surface.diagonal();
+  const bool forwards = h.from_triangles.at_least >= h.from_surface.at_least;
+  const Bracket& larger = forwards ? h.from_triangles : h.from_surface;
+  r.of = 1;
+  r.worst = r.rms = larger.at_least / size;
+  r.worst_absolute = larger.at_least;
+  r.bound = bound >= 0 ? bound : h.one_triangle_each / size;
+  const double most = std::max(h.from_triangles.at_most, h.from_surface.at_most) / size;
+  r.message = fmt::format(
+      "Hausdorff distance between {:.3e} and {:.3e} diagonals (triangles to surface {:.3e} to {:.3e}, "
+      "surface to "
+      "triangles {:.3e} to {:.3e})",
+      *r.worst, most, h.from_triangles.at_least / size, h.from_triangles.at_most / size,
+      h.from_surface.at_least / size, h.from_surface.at_most / size);
+  if (bound < 0) r.message += "; the bound is that of one triangle per control face";
+  if (h.not_placed > 0)
+    r.message +=
+        fmt::format("; {} triangles span several control faces, the upper ends leave them out", h.not_placed);
+  if (*r.worst > *r.bound) {
+    r.status = Status::kFinding;
+    r.bad = 1;
+  } else if (most > *r.bound) {
+    r.message += "; the bound lies in between: not decided, taken as held";
+  }
+  r.witness = Witness{};
+  r.witness->face = larger.where.face;
+  r.witness->l1 = fmt::format("{}", larger.where.l[1]);
+  r.witness->l2 = fmt::format("{}", std::min(larger.where.l[2], 1 - larger.where.l[1]));
+  return {r};
+}
+
+}  // namespace limitcheck::verify

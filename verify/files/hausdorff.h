@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The two-sided Hausdorff distance between a tessellation and the limit surface, between proved bounds.
+#pragma once
+
+#include <vector>
+
+#include "verify/files/file_evidence.h"
+
+namespace limitcheck::verify {
+
+/// A distance that lies between two numbers, in the mesh's unit.
+struct Bracket {
+  double at_least = 0, at_most = 0;
+  FacePoint where;  // on the surface, where at_least was found
+};
+
+struct Hausdorff {
+  Bracket from_triangles;  // max over the triangles of the distance to the surface
+  Bracket from_surface;    // max over the surface of the distance to the triangles
+  std::int64_t not_placed =
+      0;  // triangles that could not be laid over the domain: at_most knows nothing of them
+  double one_triangle_each = 0;  // at most so far is the surface from one triangle per control face
+};
+
+/// The triangles are laid over the domain by their placed corners and cut along the pieces of the surface
+/// lattice. On a part that lies in one triangle T and one flat piece P, the distance from the part of P to T
+/// is largest at one of its corners, because the distance to a convex set is a convex function; likewise from
+/// the part of T to P; and the surface deviates from P by no more than patch_bound.h proves. Parts of the
+/// surface that no triangle covers are bounded by the distance at their corners and their size. The lower
+/// bounds are exact distances at the most promising corners; pieces whose upper bound is beyond the largest
+/// of them by more than `tightness` are split, at most five times, or
+/// fourteen times towards an extraordinary vertex.
+///   error  rounding, 1e-15 of the mesh, is not accounted for
+Hausdorff hausdorff(const FileEvidence& evidence, double tightness = .02);
+
+/// The row `file-hausdorff`; `bound` in diagonals, negative: one triangle per control face.
+std::vector<Result> check_file_hausdorff(const FileEvidence& evidence, double bound);
+
+}  // namespace limitcheck::verify

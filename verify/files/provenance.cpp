@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "verify/files/provenance.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "data/error.h"
+#include "data/io/text_scanner.h"
+#include "reference/parameter.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using data::InputError;
+using Words = std::vector<std::string_view>;
+
+Words split(std::string_view line) {
+  Words words;
+  for (;;) {
+    const std::size_t comma = line.find_first_of(",;\t");
+    std::string_view word = line.substr(0, comma);
+    while (!word.empty() && std::isspace(static_cast<unsigned char>(word.front())) != 0)
+      word.remove_prefix(1);
+    while (!word.empty() && std::isspace(static_cast<unsigned char>(word.back())) != 0) word.remove_suffix(1);
+    words.push_back(word);
+    if (comma == std::string_view::npos) return words;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+// Where each column of the longer form stands.
+constexpr std::string_view kColumns[] = {"vertex", "face", "l1", "l2", "i", "j", "denominator"};
+enum Column { kVertex, kFace, kL1, kL2, kI, kJ, kDenominator };
+
+}  // namespace
+
+std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
+                                            std::int64_t vertices, std::int64_t faces) {
+  std::vector<ProvenanceRow> rows;
+  std::vector<bool> named(static_cast<std::size_t>(vertices), false);
+  std::array<int, 7> place{};
+  place.fill(-1);
+  std::size_t width = 0;
+  std::int64_t line = 0;
+  const auto fail = [&](const char* code, const std::string& message) {
+    throw InputError(code, name, line, message);
+  };
+  for (std::size_t at = 0; at < content.size();) {
+    const std::size_t end = std::min(content.find('\n', at), content.size());
+    const std::string_view text = content.substr(at, end - at);
+    at = end + 1;
+    ++line;
+    const Words words = split(text);
+    if (text.starts_with('#') || (words.size() == 1 && words[0].empty())) continue;
+
+    if (width == 0) {
+      width = words.size();
+      if (!words[0].empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0) {
+        for (std::size_t k = 0; k < width; ++k)
+          for (int c = 0; c < 7; ++c)
+            if (words[k] == kColumns[c]) place[c] = static_cast<int>(k);
+      } else if (width == 4) {
+        place = {0, 1, 2, 3, -1, -1, -1};
+      } else if (width == 5) {
+        place = {0, 1, -1, -1, 2, 3, 4};
+      }
+      const bool real = place[kL1] >= 0 && place[kL2] >= 0;
+      const bool lattice = place[kI] >= 0 && place[kJ] >= 0 && place[kDenominator] >= 0;
+      if (place[kVertex] < 0 || place[kFace] < 0 || !(real || lattice))
+        fail("FILE_SYNTAX", "the columns are vertex,face,l1,l2 or vertex,face,i,j,denominator");
+      if (std::isalpha(static_cast<unsigned char>(words[0].empty() ? '0' : words[0][0])) != 0) continue;
+    }
+    if (words.size() != width) fail("FILE_SYNTAX", fmt::format("{} columns, not {}", words.size(), width));
+    const auto integer = [&](Column column) {
+      const auto value = data::io::to_integer(words[place[column]]);
+      if (!value)
+        fail("FILE_SYNTAX", fmt::format("{} is not an integer: {}", kColumns[column],
+                                        data::io::quoted(words[place[column]])));
+      return *value;
+    };
+    ProvenanceRow row;
+    row.vertex = integer(kVertex);
+    const std::int64_t face = integer(kFace);
+    if (row.vertex < 0 || row.vertex >= vertices)
+      fail("FILE_PROVENANCE", fmt::format("vertex {}, the tessellation has {}", row.vertex, vertices));
+    if (face < 0 || face >= faces)
+      fail("FILE_PROVENANCE", fmt::format("face {}, the control mesh has {}", face, faces));
+    if (named[row.vertex]) fail("FILE_PROVENANCE", fmt::format("vertex {} for the second time", row.vertex));
+    named[row.vertex] = true;
+    reference::Parameter l1(0.0), l2(0.0);
+    try {
+      if (place[kL1] >= 0) {
+        l1 = reference::Parameter::parse(words[place[kL1]]);
+        l2 = reference::Parameter::parse(words[place[kL2]]);
+      } else {
+        l1 = reference::Parameter::fraction(integer(kI), integer(kDenominator));
+        l2 = reference::Parameter::fraction(integer(kJ), integer(kDenominator));
+      }
+    } catch (const std::invalid_argument& error) {
+      fail("FILE_SYNTAX", error.what());
+    }
+    // Decimals of l1 and l2 may sum to a little more than 1.
+    const double a = l1.as_double(), b = l2.as_double();
+    if (!(a >= 0 && b >= 0 && a + b <= 1 + 1e-9))
+      fail("FILE_PROVENANCE", fmt::format("({}, {}) is outside the face", a, b));
+    row.at = {static_cast<std::int32_t>(face),
+              clamped({reference::Parameter::complement(l1, l2).as_double(), a, b})};
+    rows.push_back(row);
+  }
+  if (rows.empty()) throw InputError("FILE_TRUNCATED", name, 0, "no rows");
+  return rows;
+}
+
+std::vector<ProvenanceRow> read_provenance(const std::filesystem::path& file, std::int64_t vertices,
+                                           std::int64_t faces) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, std::strerror(errno));
+  const std::string content{std::istreambuf_iterator<char>(in), {}};
+  return parse_provenance(content, file.string(), vertices, faces);
+}
+
+}  // namespace limitcheck::verify

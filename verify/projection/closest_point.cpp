@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "verify/projection/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/stam.h"
+#include "verify/projection/newton.h"
+
+namespace limitcheck::verify {
+namespace {
+
+double diagonal_of(const data::ControlMesh& mesh) {
+  Vector low = mesh.positions.at(0), high = low;
+  for (const Vector& p : mesh.positions)
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  return norm(high - low);
+}
+
+// Of the pieces of the surface, not of the flat triangles.
+std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
+  std::vector<BoxTree::Box> list(lattice.size());
+  for (std::size_t t = 0; t < list.size(); ++t) {
+    const auto c = lattice.corners(t);
+    list[t] = BoxTree::around({c[0], c[1], c[2]}, lattice.deviation(t));
+  }
+  return list;
+}
+
+}  // namespace
+
+ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces)
+    : domain_(mesh.triangles),
+      lattice_(mesh, SurfaceLattice::depth_for(mesh.triangles.size(), pieces)),
+      surface_(std::make_unique<const reference::StamEvaluator<double>>(mesh)),
+      tree_(boxes(lattice_)),
+      diagonal_(diagonal_of(mesh)) {}
+
+ClosestPoint::~ClosestPoint() = default;
+
+Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
+  double l1 = where.l[1], l2 = where.l[2];
+  if (l1 + l2 > 1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);
+  const auto s = surface_->evaluate(where.face, l1, l2, reference::Order::kFirst);
+  Foot foot;
+  foot.at = where;
+  foot.position = {s.position.x, s.position.y, s.position.z};
+  foot.normal = {s.normal.x, s.normal.y, s.normal.z};
+  foot.has_normal = s.normal_kind == reference::NormalKind::kRegular;
+  foot.distance = norm(p - foot.position);
+  return foot;
+}
+
+Foot ClosestPoint::closest(const Vector& p) const {
+  // A nearer point that could only be nearer by rounding is not worth looking for.
+  const double rounding = 1e-16 * diagonal_;
+  Minimum best;
+  best.distance = std::numeric_limits<double>::infinity();
+  double at_least = best.distance;
+  int descents = 0;
+  tree_.near(p, [&](std::size_t index) {
+    const auto corners = lattice_.corners(index);
+    const OnTriangle flat = closest_on_triangle(p, corners);
+    const double bound = flat.distance - lattice_.deviation(index);
+    at_least = std::min(at_least, bound);
+    if (bound >= best.distance - rounding) return best.distance - rounding;
+
+    const Piece piece = lattice_.piece(index);
+    for (int k = 0; k < 3; ++k) {  // where Newton's iteration may be slow: at extraordinary vertices
+      const double d = norm(p - corners[k]);
+      if (d >= best.distance) continue;
+      FacePoint corner{piece.face, piece.at[k]};
+      best = {corner, corners[k], d, false};
+    }
+    if (best.distance <= rounding) return 0.0;
+    if (descents++ < 256) {
+      const Minimum found = descend(*surface_, domain_, p, piece.parameter(flat.weight), diagonal_);
+      if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
+        best = found;
+    }
+    return best.distance - rounding;
+  });
+  Foot foot = at(best.at, p);
+  foot.at_least = foot.distance <= rounding ? 0 : std::clamp(at_least, 0.0, foot.distance);
+  const bool at_corner = best.at.l[0] == 1 || best.at.l[1] == 1 || best.at.l[2] == 1;
+  foot.stationary = best.stationary || foot.distance <= rounding ||
+                    (at_corner && norm(cross(p - foot.position, foot.normal)) <= 1e-12 * diagonal_);
+  return foot;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "verify/projection/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limitcheck::verify {
+namespace {
+
+Vector vector(const reference::Vec3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+
+class Descent {
+ public:
+  Descent(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
+          const FacePoint& start, double scale)
+      : surface_(surface), domain_(domain), p_(p), at_(start), scale_(scale) {
+    evaluate(at_);
+  }
+
+  Minimum run() {
+    if (newton()) return {at_, position_, distance_, true};
+    pattern_search();
+    return {at_, position_, distance_, newton() || pattern_is_minimal_};
+  }
+
+ private:
+  reference::SurfacePoint<double> point(const FacePoint& at, reference::Order order) const {
+    double l1 = at.l[1], l2 = at.l[2];
+    if (l1 + l2 > 1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);
+    return surface_.evaluate(at.face, l1, l2, order);
+  }
+  double distance_at(const FacePoint& at) const {
+    return norm(vector(point(at, reference::Order::kPosition).position) - p_);
+  }
+  void evaluate(const FacePoint& at) {
+    at_ = at;
+    s_ = point(at, reference::Order::kSecond);
+    position_ = vector(s_.position);
+    distance_ = norm(position_ - p_);
+  }
+
+  // A step within the boundary edge opposite corner k.
+  struct Step {
+    std::array<double, 3> l;
+    double length;  // in space
+    double slope;   // of |s - p|^2 / 2 along it
+  };
+
+  // Newton's step, or Gauss and Newton's where the second derivatives do not make for a minimum; kept on the
+  // boundary where it would leave the surface.
+  bool step(Step& out) const {
+    if (!s_.first_exist) return false;
+    const Vector r = position_ - p_, d1 = vector(s_.d1), d2 = vector(s_.d2);
+    const double g1 = dot(r, d1), g2 = dot(r, d2);
+    const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);
+    double ha = a, hb = b, hc = c;
+    if (s_.second_exist) {
+      ha += dot(r, vector(s_.d11));
+      hb += dot(r, vector(s_.d12));
+      hc += dot(r, vector(s_.d22));
+    }
+    const auto solve = [&](double A, double B, double C) -> std::array<double, 3> {
+      const double det = A * C - B * B;
+      if (!(A > 0 && C > 0 && det > 1e-14 * A * C) || !std::isfinite(det)) return {NAN, NAN, NAN};
+      const double u = (B * g2 - C * g1) / det, v = (B * g1 - A * g2) / det;
+      return {-u - v, u, v};
+    };
+    out.l = solve(ha, hb, hc);
+    if (std::isnan(out.l[0])) out.l = solve(a, b, c);
+    if (std::isnan(out.l[0])) {  // parallel tangents: steepest descent
+      const double size = a + c;
+      if (!(size > 0)) return false;
+      out.l = {(g1 + g2) / size, -g1 / size, -g2 / size};
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (at_.l[k] != 0 || out.l[k] >= 0 || domain_.across(at_.face, k) >= 0) continue;
+      // One dimension is left: along the edge.
+      std::array<double, 3> e{};
+      e[(k + 1) % 3] = -1;
+      e[(k + 2) % 3] = 1;
+      const double g = e[1] * g1 + e[2] * g2;
+      double h = e[1] * e[1] * ha + 2 * e[1] * e[2] * hb + e[2] * e[2] * hc;
+      if (!(h > 0)) h = e[1] * e[1] * a + 2 * e[1] * e[2] * b + e[2] * e[2] * c;
+      if (!(h > 0)) return false;
+      for (int i = 0; i < 3; ++i) out.l[i] = -g / h * e[i];
+      break;
+    }
+    out.length = norm(out.l[1] * d1 + out.l[2] * d2);
+    out.slope = out.l[1] * g1 + out.l[2] * g2;
+    return std::isfinite(out.length);
+  }
+
+  // True at a minimum, to rounding.
+  bool newton() {
+    const double tiny = 2e-16 * scale_;
+    for (int round = 0; round < 60; ++round) {
+      if (distance_ <= tiny) return true;
+      Step way{};
+      if (!step(way)) return false;
+      if (way.length <= tiny) return true;
+      double t = 1;
+      FacePoint next;
+      double there = 0;
+      for (int halving = 0;; ++halving, t /= 2) {
+        if (halving == 40) return way.length <= 1e-14 * scale_;
+        next = domain_.walk(at_, {t * way.l[0], t * way.l[1], t * way.l[2]});
+        there = distance_at(next);
+        // Near the minimum the distance itself no longer tells: as good as equal will do for a whole step.
+        if (there * there <= distance_ * distance_ + 2e-4 * t * std::min(way.slope, 0.0)) break;
+        if (t == 1 && there <= distance_ * (1 + 4e-16) + tiny && way.length < 1e-7 * scale_) break;
+      }
+      const bool stuck = next.face == at_.face && next.l == at_.l;
+      evaluate(next);
+      if (stuck) return false;
+    }
+    return false;
+  }
+
+  // Six directions, the step halved when none of them descends: slow, and needs no derivatives.
+  void pattern_search() {
+    pattern_is_minimal_ = false;
+    for (double h = 1. / 8; h > 1e-17; h /= 2) {
+      for (int round = 0; round < 64; ++round) {
+        FacePoint best = at_;
+        double least = distance_;
+        for (int k = 0; k < 6; ++k) {
+          std::array<double, 3> way{};
+          way[k % 3] = h;
+          way[(k % 3 + (k < 3 ? 1 : 2)) % 3] = -h;
+          const FacePoint there = domain_.walk(at_, way);
+          const double d = distance_at(there);
+          if (d < least) {
+            least = d;
+            best = there;
+          }
+        }
+        if (!(least < distance_)) break;
+        evaluate(best);
+      }
+    }
+    pattern_is_minimal_ = true;
+  }
+
+  const reference::StamEvaluator<double>& surface_;
+  const Domain& domain_;
+  Vector p_;
+  FacePoint at_;
+  double scale_;
+  reference::SurfacePoint<double> s_;
+  Vector position_{};
+  double distance_ = 0;
+  bool pattern_is_minimal_ = false;
+};
+
+}  // namespace
+
+Minimum descend(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
+                const FacePoint& start, double scale) {
+  return Descent(surface, domain, p, start, scale).run();
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Local minima of the distance from a point to the limit surface.
+#pragma once
+
+#include "reference/stam.h"
+#include "verify/projection/domain.h"
+#include "verify/projection/triangle.h"
+
+namespace limitcheck::verify {
+
+struct Minimum {
+  FacePoint at;
+  Vector position{};
+  double distance = 0;
+  bool stationary = false;
+};
+
+/// Descends from `start` to a local minimum of |s - p|. `scale`: the size of the mesh, for what counts as
+/// rounding.
+Minimum descend(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
+                const FacePoint& start, double scale);
+
+}  // namespace limitcheck::verify

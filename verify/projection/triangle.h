@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The closest point of a triangle.
+#pragma once
+
+#include <array>
+
+#include "verify/audit/vector.h"
+
+namespace limitcheck::verify {
+
+inline Vector operator*(double s, const Vector& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+
+struct OnTriangle {
+  std::array<double, 3> weight;  // >= 0, sum 1
+  Vector point;
+  double distance;
+};
+
+/// The point of the triangle closest to p, by the Voronoi region of the triangle that p lies in (Ericson,
+/// Real-Time Collision Detection, 5.1.5). Degenerate triangles are segments or points. Error: a few ulp of
+/// the coordinates.
+inline OnTriangle closest_on_triangle(const Vector& p, const std::array<Vector, 3>& t) {
+  const auto at = [&](double u, double v, double w) {
+    const Vector q = t[0] + v * (t[1] - t[0]) + w * (t[2] - t[0]);
+    return OnTriangle{{u, v, w}, q, norm(p - q)};
+  };
+  const Vector ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return at(1, 0, 0);
+  const Vector bp = p - t[1];
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return at(0, 1, 0);
+  const Vector cp = p - t[2];
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return at(0, 0, 1);
+  const double c = d1 * d4 - d3 * d2;
+  if (c <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return at(1 - d1 / (d1 - d3), d1 / (d1 - d3), 0);
+  const double b = d5 * d2 - d1 * d6;
+  if (b <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return at(1 - d2 / (d2 - d6), 0, d2 / (d2 - d6));
+  const double a = d3 * d6 - d5 * d4, e = d4 - d3, f = d5 - d6;
+  if (a <= 0 && e >= 0 && f >= 0 && e + f > 0) return at(0, 1 - e / (e + f), e / (e + f));
+  const double sum = a + b + c;
+  if (!(sum > 0)) {  // no area: the best of the corners, its segments having been ruled out by rounding
+    OnTriangle best = at(1, 0, 0);
+    for (const OnTriangle& corner : {at(0, 1, 0), at(0, 0, 1)})
+      if (corner.distance < best.distance) best = corner;
+    return best;
+  }
+  return at(1 - b / sum - c / sum, b / sum, c / sum);
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "verify/proof/certified_comparison.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "fast/frame.h"
+#include "fast/row_stream/stream_frame.h"
+#include "reference/certified.h"
+
+namespace limitcheck::verify {
+
+namespace {
+
+// A few roundings of the sums below, upward.
+constexpr double kUpward = 1 + 0x1p-48;
+
+fast::IndexedMesh<float> tessellate(FloatKernel kernel, const data::ControlMesh& mesh, int depth) {
+  fast::TessellatorOptions options;
+  options.provenance = true;
+  const std::vector<std::int32_t> depths(mesh.triangles.size(), depth);
+  fast::IndexedMesh<float> out;
+  if (kernel == FloatKernel::kSlidingWindow)
+    fast::Tessellator<float>(mesh, options).frame(depths, out);
+  else
+    fast::row_stream::StreamTessellator(mesh, options).frame(depths, out);
+  return out;
+}
+
+double diagonal(const data::ControlMesh& mesh) {
+  double square = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double low = mesh.positions.at(0)[c], high = low;
+    for (const auto& p : mesh.positions) {
+      if (static_cast<double>(static_cast<float>(p[c])) != p[c])
+        throw std::invalid_argument("certified comparison: a coordinate is not a float");
+      low = std::min(low, p[c]), high = std::max(high, p[c]);
+    }
+    square += (high - low) * (high - low);
+  }
+  return std::sqrt(square) / kUpward;
+}
+
+struct Read {
+  double value, radius;  // |true value - value| <= radius
+};
+Read read(const reference::Enclosure& e) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(e.value.data(), e.value.data() + e.value.size(), value);
+  if (error != std::errc() || end != e.value.data() + e.value.size())
+    throw std::runtime_error("certified comparison: not a number: " + e.value);
+  return {value, (e.radius + 0x1p-53 * std::abs(value)) * kUpward};
+}
+
+// Upper bound of the distance of a float vector from an enclosure.
+double distance(const reference::Enclosure3& exact, const fast::Vec3<float>& found, double& radius) {
+  const std::array<float, 3> x{found.x, found.y, found.z};
+  double square = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Read e = read(exact[c]);
+    const double difference = std::abs(static_cast<double>(x[c]) - e.value) * kUpward + e.radius;
+    square += difference * difference;
+    radius = std::max(radius, e.radius);
+  }
+  return std::sqrt(square) * kUpward;
+}
+
+}  // namespace
+
+CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& mesh, int depth, int points,
+                                  int digits) {
+  const double box = diagonal(mesh);
+  const auto tessellation = tessellate(kernel, mesh, depth);
+  const reference::CertifiedEvaluator evaluator(mesh);
+  CertifiedErrors errors;
+  const std::size_t count = tessellation.vertices.size();
+  const std::size_t step = std::max<std::size_t>(1, count / static_cast<std::size_t>(std::max(points, 1)));
+  for (std::size_t k = 0; k < count; k += step) {
+    const fast::LatticePoint& at = tessellation.provenance[k];
+    const auto l1 = reference::Parameter::fraction(at.i, at.denominator);
+    const auto l2 = reference::Parameter::fraction(at.j, at.denominator);
+    const reference::CertifiedPoint exact = evaluator.evaluate(at.face, l1, l2, digits);
+    double radius = 0;
+    const double position =
+        distance(exact.position, tessellation.vertices[k].position, radius) / box * kUpward;
+    errors.radius = std::max(errors.radius, radius / box);
+    ++errors.points;
+    if (position > errors.position) {
+      errors.position = position;
+      errors.face = at.face, errors.l1 = l1.to_string(), errors.l2 = l2.to_string();
+    }
+    if (exact.normal_kind != reference::NormalKind::kRegular) continue;
+    // The unit vector is at least as near to the found one, of whatever length, as to the line along it.
+    double ignored = 0;
+    const double sine = distance(exact.normal, tessellation.vertices[k].normal, ignored);
+    const double angle = sine < 1 ? std::asin(sine) * 180 / std::numbers::pi * kUpward : 180;
+    errors.normal = std::max(errors.normal, angle);
+  }
+  return errors;
+}
+
+}  // namespace limitcheck::verify

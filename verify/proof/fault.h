@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// One wrong operation in the run of a kernel: the proof has to notice.
+#pragma once
+
+#include <cstdint>
+
+namespace limitcheck::verify {
+
+/// While one of these lives, stencils of its thread compute one operation wrongly: the `at`-th of its sort.
+class PlantedFault {
+ public:
+  enum class Kind : std::uint8_t {
+    kFactor,    ///< a wrong coefficient: a product with a factor that is 2^-20 too large
+    kDropped,   ///< a wrong index: a sum without its second term
+    kDoubled,   ///< a wrong coefficient: a sum with its second term twice
+    kNeighbour  ///< a wrong index: a sum with the second term of the sum before in place of its own
+  };
+
+  PlantedFault(Kind kind, std::int64_t at) : kind_(kind), left_(at) { active_ = this; }
+  ~PlantedFault() { active_ = nullptr; }
+  PlantedFault(const PlantedFault&) = delete;
+  PlantedFault& operator=(const PlantedFault&) = delete;
+
+  static PlantedFault* active() { return active_; }
+  Kind kind() const { return kind_; }
+  bool is_product() const { return kind_ == Kind::kFactor; }
+  /// Counts one operation of the fault's sort; true for the one to spoil.
+  bool strikes() { return left_-- == 0; }
+  bool has_struck() const { return left_ < 0; }
+  /// Operations of its sort until it strikes.
+  std::int64_t left() const { return left_; }
+
+ private:
+  static inline thread_local PlantedFault* active_ = nullptr;
+  Kind kind_;
+  std::int64_t left_;
+};
+
+}  // namespace limitcheck::verify

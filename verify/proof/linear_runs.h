@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Every float kernel on any number type, down to the linear part of a limit point: position and two tangents.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "verify/proof/bounds.h"
+#include "verify/proof/kernel_runs.h"
+#include "verify/proof/stream_runs.h"
+
+namespace limitcheck::verify {
+
+/// The kernels on one pair.
+///   T      the number
+///   Lane   Lane<0>, Lane<1>: the row streaming kernel's number over T, see LinearNumber
+/// visit(LatticePoint, const LimitFrame<T>&) for every point, always in the same order.
+template <class T, template <int> class Lane>
+class LinearRuns {
+ public:
+  using Points = std::vector<fast::Vec3<T>>;
+
+  LinearRuns(const data::ControlMesh& mesh, const Points& points) : mesh_(mesh), points_(points) {}
+
+  template <class Visit>
+  void run(BoundedKernel kernel, int depth, Visit&& visit) {
+    switch (kernel) {
+      case BoundedKernel::kSlidingWindow:
+        return window().pair(depth, visit);
+      case BoundedKernel::kCrackEdge:
+        for (std::int32_t h = 0; h < 6; ++h) window().edge(h, depth, visit);
+        return;
+      case BoundedKernel::kCrackCentre:
+        for (std::int32_t face = 0; face < 2; ++face) window().centre(face, visit);
+        return;
+      case BoundedKernel::kRowStream:
+        return stream().pair(depth, visit);
+      case BoundedKernel::kRowStreamEdge:
+        for (std::int32_t h = 0; h < 6; ++h) stream().edge(h, depth, visit);
+        return;
+    }
+  }
+
+ private:
+  using Window = WindowRuns<T, LinearSurface<T>>;
+  using Stream = StreamRuns<T, Lane>;
+  const Window& window() {
+    if (!window_) window_.emplace(mesh_, points_);
+    return *window_;
+  }
+  const Stream& stream() {
+    if (!stream_) stream_.emplace(mesh_, points_);
+    return *stream_;
+  }
+
+  const data::ControlMesh& mesh_;
+  Points points_;
+  std::optional<Window> window_;
+  std::optional<Stream> stream_;
+};
+
+}  // namespace limitcheck::verify

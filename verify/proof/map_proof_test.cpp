@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The shipped kernels are the reference's linear maps: samples of what `limitcheck prove` proves.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "verify/proof/proof_set.h"
+
+namespace limitcheck::verify {
+namespace {
+
+/// Digits of the worst weight.
+double expect_equal(const Neighbourhood& pair, const MapOptions& options) {
+  double digits = 1e9;
+  for (const ProofRow& row : prove_map(pair, options)) {
+    digits = std::min(digits, row.map.digits);
+    EXPECT_TRUE(row.map.equal) << row.topology << ' ' << row.kernel;
+    EXPECT_GT(row.points, 0);
+    if (!row.map.witness) continue;
+    const Witness& w = *row.map.witness;
+    ADD_FAILURE() << w.point << ": " << w.quantity << " of control point " << w.control_point << " is "
+                  << w.found << ", not " << w.expected;
+  }
+  return digits;
+}
+
+TEST(Proof_Map, OfPairsWithRationalWeightsIsExact) {
+  for (const auto& valences : {std::array{6, 6, 6, 6}, std::array{3, 6, 4, 6}, std::array{4, 3, 6, 4}})
+    expect_equal(*interior_pair(valences), {Arithmetic::kExact, 0, 3});
+}
+
+TEST(Proof_Map, OfOtherPairsIsEqualModuloTwoPrimesToDepthSix) {
+  expect_equal(*interior_pair({5, 7, 9, 12}), {Arithmetic::kResidues, 0, 6});
+}
+
+TEST(Proof_Map, EqualsTheRecursionAndStamToFortyFiveDigits) {
+  const double digits = expect_equal(*interior_pair({5, 7, 9, 12}), {Arithmetic::kDigits, 0, 3});
+  RecordProperty("digits", fmt::format("{:.1f}", digits));
+  EXPECT_GE(digits, 45);
+}
+
+TEST(Proof_Map, OfSmallAndLargeValencesIsEqual) {
+  for (const auto& valences : {std::array{3, 3, 3, 3}, std::array{3, 4, 12, 4}, std::array{4, 3, 5, 3},
+                               std::array{50, 3, 6, 20}, std::array{6, 100, 4, 6}})
+    if (const auto pair = interior_pair(valences)) expect_equal(*pair, {Arithmetic::kResidues, 0, 3});
+}
+
+TEST(Proof_Map, AtBoundariesIsEqual) {
+  const auto pairs = boundary_pairs({6, 6, 6, 6});
+  EXPECT_GT(pairs.size(), 100U);
+  for (const Neighbourhood& pair : pairs) expect_equal(pair, {Arithmetic::kResidues, 0, 2});
+  for (const Neighbourhood& pair : pairs)
+    if (pair.name.find_first_of("45") == std::string::npos) expect_equal(pair, {Arithmetic::kDigits, 1, 1});
+}
+
+TEST(Proof_Map, OfAValenceThatResiduesDoNotHaveIsRefused) {
+  EXPECT_THROW(prove_map(*interior_pair({23, 6, 6, 6}), {}), std::domain_error);
+}
+
+TEST(Proof_Set, HoldsEveryTripleOfItsValencesOrSaysThatThereIsNone) {
+  ProofRequest request;
+  const ProofSet set = proof_set(request);
+  const auto triples = [&](const std::string& group) {
+    std::set<std::array<int, 3>> found;
+    for (const ProofTask& task : set.tasks) {
+      if (task.group != group) continue;
+      std::array<int, 4> v{};
+      std::istringstream(task.neighbourhood.name) >> v[0] >> v[1] >> v[2] >> v[3];
+      for (std::array<int, 3> t : {std::array{v[0], v[2], v[3]}, std::array{v[0], v[1], v[2]}}) {
+        std::ranges::sort(t);
+        found.insert(t);
+      }
+    }
+    return found.size();
+  };
+  constexpr std::size_t kTriples = 220;  // of 10 valences, in any order, repeated or not
+  EXPECT_EQ(set.impossible.size(), 9U);  // 3 3 n with n > 3
+  for (const char* group : {"triples", "deep", "digits"}) EXPECT_EQ(triples(group) + 9, kTriples) << group;
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

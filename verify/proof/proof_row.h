@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What was proved about a kernel for one topology: a line of the table.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace limitcheck::verify {
+
+/// The weight that is wrong, and where.
+struct Witness {
+  std::string point;       ///< "depth 3, face 0 at (1/8, 5/8)"
+  std::string quantity;    ///< position, tangents, sum, negative, centre, ..
+  int control_point = -1;  ///< vertex of the neighbourhood's mesh; 0 1 2 3 are the corners A B C D
+  double found = 0, expected = 0;
+};
+
+/// Equality of two linear maps, the kernel's and the reference's, over all limit points of the depths.
+struct MapProof {
+  bool equal = false;
+  std::string arithmetic;  ///< "exact": rationals and sqrt(3); "residues": modulo two primes; "digits"
+  double digits = 0;       ///< of the largest difference; infinite if there is none
+  std::optional<Witness> witness;
+};
+
+/// Rounding of a float32 kernel over all control meshes in the unit box.
+struct BoundProof {
+  int last_depth = 0;
+  double position_bound = 0;  ///< of a coordinate
+  double position_worst = 0;  ///< observed
+  double tangent_bound = 0;
+  double tangent_worst = 0;
+  double share = 0;  ///< largest share of its own point's bound that an error had: at most 1
+};
+
+struct ProofRow {
+  std::string topology;  ///< signature of the pair (neighbourhood.h)
+  std::string kernel;    ///< sliding-window, crack-edge, crack-centre, row-stream, row-stream-edge
+  int first_depth = 0, last_depth = 0;
+  std::int64_t points = 0;  ///< limit points compared
+  MapProof map;
+  std::optional<BoundProof> bound;
+};
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The linear map of the shipped kernels, extracted and compared with the reference's, one topology at a time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verify/proof/neighbourhood.h"
+#include "verify/proof/proof_row.h"
+
+namespace limitcheck::verify {
+
+enum class Arithmetic : std::uint8_t {
+  kExact,     ///< a + b sqrt(3), a and b rational: valences 3, 4, 6, boundary vertices of 1, 2, 3 faces
+  kResidues,  ///< modulo two primes (residue.h): any valence that divides Residue::kOrder
+  kDigits     ///< 50 decimal digits, equal to 45: any valence; the reference both by recursion and by Stam
+};
+
+struct MapOptions {
+  Arithmetic arithmetic = Arithmetic::kResidues;
+  int first_depth = 0, last_depth = 6;
+  bool sliding_window = true;  ///< with the crack fans' edges and centres
+  bool row_stream = true;
+};
+
+/// Runs the kernels on stencils and compares every limit point of the depths. One row per kernel; a row that
+/// is not equal names the first weight that is wrong.
+///   throws   std::domain_error: kResidues, a valence that they do not have
+std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options = {});
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "verify/proof/prove_map_impl.h"
+#include "verify/proof/prove_map_instances.h"
+
+namespace limitcheck::verify::detail {
+
+std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options) {
+  using Recursion = ReferenceMap<Surd, reference::SubdivisionEvaluator<Surd>>;
+  return prove_map<Surd>(neighbourhood, options, std::tuple<Recursion>(neighbourhood.mesh));
+}
+
+}  // namespace limitcheck::verify::detail

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// prove_map in each arithmetic: one .cpp file each.
+#pragma once
+
+#include <vector>
+
+#include "verify/proof/prove_map.h"
+
+namespace limitcheck::verify::detail {
+
+std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options);
+std::vector<ProofRow> prove_in_residues(const Neighbourhood& neighbourhood, const MapOptions& options);
+std::vector<ProofRow> prove_in_digits(const Neighbourhood& neighbourhood, const MapOptions& options);
+
+}  // namespace limitcheck::verify::detail

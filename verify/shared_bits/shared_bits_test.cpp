@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// Claim D14 for row streaming, in numbers: how many shared points were compared, and how many bits differ.
+#include "verify/shared_bits/shared_bits.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/generators/named_mesh.h"
+#include "data/generators/random_mesh.h"
+#include "fast/row_stream/targets.h"
+#include "verify/shared_bits/evaluate.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using fast::row_stream::Kernel;
+using fast::row_stream::kernels;
+
+// What a test compared, printed and recorded at its end.
+class Tally {
+ public:
+  ~Tally() {
+    fmt::print("{} shared points, {} comparisons, {} points and {} bits differ\n", points_, compared_,
+               different_, bits_);
+    testing::Test::RecordProperty("shared_points", std::to_string(points_));
+    testing::Test::RecordProperty("comparisons", std::to_string(compared_));
+    testing::Test::RecordProperty("different_bits", std::to_string(bits_));
+  }
+  void add(const SharedBits& bits, const std::string& name) {
+    EXPECT_EQ(bits.different_bits(), 0) << name << ": " << bits.witness();
+    points_ += bits.points();
+    compared_ += bits.compared();
+    different_ += bits.different();
+    bits_ += bits.different_bits();
+  }
+  std::int64_t points() const { return points_; }
+
+ private:
+  std::int64_t points_ = 0, compared_ = 0, different_ = 0, bits_ = 0;
+};
+
+data::ControlMesh rounded(data::ControlMesh mesh) {
+  for (auto& p : mesh.positions)
+    for (double& x : p) x = static_cast<double>(static_cast<float>(x));
+  return mesh;
+}
+
+// Flat in the plane across an axis, on a grid, symmetric: tangents with components that are exactly zero.
+data::ControlMesh flat_sheet(std::size_t across, int size) {
+  data::ControlMesh mesh = data::named_mesh(fmt::format("sheet:{0}:{0}", size));
+  for (auto& p : mesh.positions) {
+    const std::array<double, 3> grid{std::round(p[0] * size) / size, std::round(p[1] * size) / size, 0};
+    for (std::size_t c = 0; c < 3; ++c) p[(c + across + 1) % 3] = grid[c];
+  }
+  return mesh;
+}
+
+// Those with hardware fused multiply-add, or the only ones there are.
+std::vector<const Kernel*> quick_kernels() {
+  std::vector<const Kernel*> list;
+  for (const Kernel& kernel : kernels())
+    if (kernel.fused) list.push_back(&kernel);
+  if (list.empty()) list.push_back(&kernels().front());
+  return list;
+}
+
+// The volume: each of ten million points from every face that touches it, twice over, on two targets, in two
+// numberings, in two pairings, and along its edge in both directions.
+TEST(SharedBits, AreEqualAtTenMillionPoints) {
+  struct Case {
+    const char* mesh;
+    int depth;
+  };
+  Tally tally;
+  const auto quick = quick_kernels();
+  std::size_t turn = 0;
+  for (const Case& c :
+       {Case{"bumpy:100000", 4}, Case{"bumpy:20000", 6}, Case{"bumpy:20000:2", 5}, Case{"bumpy:4000", 7},
+        Case{"bumpy:4000:3", 8}, Case{"bumpy:2000", 9}, Case{"bumpy:800", 10}}) {
+    const auto mesh = data::named_mesh(c.mesh);
+    SharedBits bits(mesh, c.depth);
+    const Kernel& first = *quick[turn++ % quick.size()];
+    const Kernel& second = *quick[turn % quick.size()];
+    add_pairs(rewrite(mesh, 0), c.depth, first, Form::kRows, turn, bits);
+    const Rewritten other = rewrite(mesh, turn);
+    add_pairs(other, c.depth, second, Form::kRows, turn + 100, bits);
+    add_edges(other, c.depth, first, turn, bits);
+    tally.add(bits, fmt::format("{} depth {}", c.mesh, c.depth));
+  }
+  EXPECT_GE(tally.points(), 10'000'000);
+}
+
+// Every stock shape at every depth on every target, in both output forms, each with a numbering and a pairing
+// of its own.
+void expect_equal_bits(const std::vector<std::pair<std::string, data::ControlMesh>>& meshes, int deepest) {
+  Tally tally;
+  for (const auto& [name, mesh] : meshes) {
+    SharedBits bits(mesh, deepest);
+    std::uint64_t seed = 0;
+    for (int depth = 0; depth <= deepest; ++depth) {
+      for (const Kernel& kernel : kernels()) {
+        if (!kernel.fused && depth > 4 && mesh.triangles.size() > 200) continue;
+        const Rewritten other = rewrite(mesh, seed);
+        add_pairs(other, depth, kernel, Form::kRows, ++seed, bits);
+        if (depth <= 4) add_pairs(other, depth, kernel, Form::kWhole, ++seed, bits);
+        add_edges(other, depth, kernel, ++seed, bits);
+      }
+    }
+    tally.add(bits, name);
+  }
+}
+
+TEST(SharedBits, AreEqualOnEveryStockShape) {
+  std::vector<std::pair<std::string, data::ControlMesh>> meshes;
+  for (const std::string& name : data::stock_shapes())
+    meshes.emplace_back(name, rounded(data::named_mesh(name)));
+  expect_equal_bits(meshes, 5);
+}
+
+// Signed zeros: where the tangents of one face are those of the other with the sign turned, a zero component
+// is +0 for both, and the products of the two differ in the sign of a zero.
+TEST(SharedBits, AreEqualOnFlatMeshesInEveryPlane) {
+  std::vector<std::pair<std::string, data::ControlMesh>> meshes;
+  for (std::size_t across = 0; across < 3; ++across) {
+    data::ControlMesh mesh = flat_sheet(across, 4);
+    meshes.emplace_back(fmt::format("flat {}", across), mesh);
+    for (auto& p : mesh.positions)
+      for (double& x : p) x = -x;
+    meshes.emplace_back(fmt::format("flat, negative zeros {}", across), mesh);
+  }
+  expect_equal_bits(meshes, 5);
+}
+
+// Frames through the door: unequal depths, culled faces, fans, stitched rings, indexed meshes, threads and
+// targets. The points of an edge must be those that the edge has by itself at its own depth.
+TEST(SharedBits, AreEqualAcrossEdgesOfUnequalDepthsForAnyNumberOfThreads) {
+  Tally tally;
+  for (const char* name :
+       {"bumpy:200", "torus", "wheel:12", "holes", "ragged-disc", "random:5", "random:14"}) {
+    const auto mesh = rounded(data::named_mesh(name));
+    SharedBits bits(mesh, 6);
+    for (int depth = 0; depth <= 6; ++depth) add_edges(rewrite(mesh, 0), depth, kernels().front(), 1, bits);
+    std::uint64_t seed = 0;
+    for (const Kernel& kernel : kernels()) {
+      for (const int threads : {1, 2, 5}) {
+        if (!kernel.fused && threads == 5) continue;
+        for (const char* form :
+             {"output=strips,repair=fan", "output=strips,repair=stitch", "output=indexed"}) {
+          const auto depth = random_depths(mesh.triangles.size(), -1, kernel.fused ? 6 : 4, ++seed);
+          add_frame(rewrite(mesh, seed), depth, fmt::format("{},target={}", form, kernel.name), threads,
+                    bits);
+        }
+      }
+    }
+    tally.add(bits, name);
+  }
+}
+
+// The same bits from every compiler: g++ 12 (-O3) and clang 14 (-O1) gave these. Positions, normals,
+// boundaries, all depths. Whoever changes the rules on purpose puts the new number here once both agree.
+TEST(SharedBits, AreTheSameWithEveryCompiler) {
+  std::uint64_t all = 0;
+  std::int64_t points = 0;
+  const auto add = [&](const std::string& name, int deepest) {
+    const auto mesh = rounded(data::named_mesh(name));
+    SharedBits bits(mesh, deepest);
+    for (int depth = 0; depth <= deepest; ++depth)
+      add_pairs(rewrite(mesh, 0), depth, kernels().front(), Form::kRows, 1, bits);
+    all = all * 31 + bits.hash();
+    points += bits.points();
+  };
+  for (const std::string& name : data::stock_shapes()) add(name, 5);
+  for (const char* name : {"bumpy:800", "random:1", "random:2", "random:3"}) add(name, 6);
+  for (const char* name : {"tetrahedron", "fan:5:1"}) add(name, 10);
+  EXPECT_EQ(all, 5504155251892084746u) << points << " points";
+}
+
+// Planted faults: the table sees one bit in any of the six numbers, at any place and depth, and the sign of a
+// zero.
+TEST(SharedBits, OneBitIsSeenWhereverItIs) {
+  const auto mesh = data::named_mesh("ragged-disc");
+  std::int64_t planted = 0;
+  for (const std::uint32_t flip : {1u, 1u << 31}) {
+    for (int number = 0; number < 6; ++number) {
+      for (const auto& at : {std::array<int, 3>{8, 0, 0}, {0, 8, 0}, {3, 5, 0}, {0, 1, 7}, {4, 0, 4}}) {
+        SharedBits bits(mesh, 3);
+        std::array<float, 6> vertex{};
+        bits.add(3, 4, at, vertex.data());
+        bits.add(3, 4, at, vertex.data());
+        EXPECT_EQ(bits.different(), 0);
+        std::uint32_t word = std::bit_cast<std::uint32_t>(vertex[static_cast<std::size_t>(number)]) ^ flip;
+        vertex[static_cast<std::size_t>(number)] = std::bit_cast<float>(word);
+        bits.add(3, 4, at, vertex.data());
+        EXPECT_EQ(bits.different(), 1);
+        EXPECT_EQ(bits.different_bits(), 1);
+        EXPECT_EQ(bits.points(), 1);
+        ++planted;
+      }
+    }
+  }
+  EXPECT_EQ(planted, 60);
+}
+
+// And knows a point from both of its faces: the last place of a coordinate of the mesh is changed for one of
+// two evaluations.
+TEST(SharedBits, AMovedVertexIsSeenByItsNeighbourhoodOnly) {
+  const auto mesh = rounded(data::named_mesh("torus"));
+  auto moved = mesh;
+  moved.positions[7][1] = static_cast<double>(std::nextafter(static_cast<float>(moved.positions[7][1]), 9.f));
+  SharedBits bits(mesh, 4);
+  const Kernel& kernel = kernels().front();
+  add_pairs(rewrite(mesh, 0), 4, kernel, Form::kRows, 1, bits);
+  const std::int64_t compared = bits.compared();
+  EXPECT_EQ(bits.different(), 0);
+  add_pairs(rewrite(moved, 3), 4, kernel, Form::kRows, 2, bits);
+  EXPECT_GT(bits.different(), 0);
+  EXPECT_LT(bits.different(), (bits.compared() - compared) / 2);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

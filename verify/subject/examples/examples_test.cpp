@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// The way of a new user: install to a prefix, build the examples outside the tree against it, audit them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kExamples = fs::path(LIMITCHECK_SOURCE_DIR) / "verify/subject/examples";
+
+// Every valence class inside, and boundary vertices with 1 to 5 faces.
+constexpr const char* kMeshes = "icosahedron octahedron torus holes fan:5 wheel:3 wheel:13:2 two-components";
+
+class Examples : public CommandTest {
+ protected:
+  /// A command of the shell, in the test's own folder.
+  Outcome shell(const std::string& command) const {
+    const std::string all =
+        "cd '" + folder_.string() + "' && { " + command + " ; } > .stdout 2> .stderr < /dev/null";
+    const int status = std::system(all.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
+  }
+  void install() const {
+    const Outcome o = shell("'" LIMITCHECK_CMAKE "' --install '" LIMITCHECK_BINARY_DIR "' --prefix prefix");
+    ASSERT_EQ(o.code, 0) << o.out << o.err;
+  }
+  /// Builds the project in `source` against the prefix.
+  void build(const fs::path& source, const std::string& to) const {
+    const std::string cmake = "'" LIMITCHECK_CMAKE "' ";
+    const Outcome o =
+        shell(cmake + "-S '" + source.string() + "' -B " + to + " -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" " +
+              LIMITCHECK_COMPILERS " && " + cmake + "--build " + to);
+    ASSERT_EQ(o.code, 0) << o.out << o.err;
+  }
+  /// Every check holds on every mesh.
+  static void expect_all_held(const Outcome& o) {
+    ASSERT_EQ(o.code, 0) << o.out << o.err;
+    const json results = json::parse(o.out)["results"];
+    EXPECT_GE(results.size(), 12U * 8U);
+    for (const json& row : results) EXPECT_EQ(row["status"], "held") << row;
+  }
+};
+
+TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
+  install();
+  for (const char* file : {"prefix/bin/limitcheck", "prefix/include/limitcheck/subject.h"})
+    EXPECT_TRUE(fs::exists(folder_ / file)) << file;
+  EXPECT_EQ(shell("prefix/bin/limitcheck --version").out, "limitcheck 0.1.0\n");
+  for (const std::string language : {"c", "cpp"}) {
+    build(kExamples / language, language);
+    expect_all_held(
+        shell("prefix/bin/limitcheck audit " + language + "/libloop.so --depth 2 --json - " + kMeshes));
+  }
+}
+
+// 5/8 in a(n) becomes 0.626. On the octahedron, +-unit vectors of valence 4, the limit of a vertex v is
+// 3 v / (3 + 8 a(4)), a(4) = 5/8 - 9/64 = 31/64: 24/55 v. At depth 0 nothing else enters.
+TEST_F(Examples, InCWithOneWeightChangedIsCaughtWithTheRightWitness) {
+  install();
+  fs::create_directories(folder_ / "wrong");
+  fs::copy(kExamples / "c/CMakeLists.txt", folder_ / "wrong");
+  std::ifstream in(kExamples / "c/loop.c");
+  std::string code{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t place = code.find("5.0 / 8");
+  ASSERT_NE(place, std::string::npos);
+  write("wrong/loop.c", code.replace(place, 7, "0.626"));
+  build(folder_ / "wrong", "wrong/build");
+
+  const Outcome o = shell("prefix/bin/limitcheck audit wrong/build/libloop.so octahedron --depth 0 --json -");
+  ASSERT_EQ(o.code, 1) << o.out << o.err;
+  const json report = json::parse(o.out);
+  const double right = 24.0 / 55, wrong = 3 / (3 + 8 * (0.626 - 9.0 / 64));
+  for (const json& row : report["results"]) {
+    EXPECT_EQ(row["status"], row["check"] == "positions" ? "finding" : "held") << row;
+    if (row["check"] != "positions") continue;
+    EXPECT_EQ(row["count"], 6);
+    EXPECT_NEAR(row["worst_absolute"].get<double>(), right - wrong, 1e-15);
+    const json& w = row["witness"];
+    double expected = 0, got = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      expected += std::abs(w["expected"][axis].get<double>());
+      got += std::abs(w["got"][axis].get<double>());
+    }
+    EXPECT_NEAR(expected, right, 1e-15) << w;
+    EXPECT_NEAR(got, wrong, 1e-15) << w;
+    // The same from the calculator.
+    const Outcome e = shell("prefix/bin/limitcheck eval octahedron " + std::to_string(w["face"].get<int>()) +
+                            " " + w["l1"].get<std::string>() + " " + w["l2"].get<std::string>() + " --json");
+    ASSERT_EQ(e.code, 0) << e.err;
+    const json position = json::parse(e.out)["position"];
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(std::stod(position[axis].get<std::string>()), w["expected"][axis].get<double>(), 1e-15);
+    }
+  }
+}
+
+TEST_F(Examples, InPythonPassesTheAudit) {
+  expect_all_held(run("audit --program \"python3 '" + (kExamples / "python/loop.py").string() +
+                      "'\" --depth 2 --timeout 300 --json - " + kMeshes));
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

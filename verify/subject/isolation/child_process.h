@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// A process that answers on its standard output, held to a time and a memory limit.
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "verify/subject/isolation/protocol.h"
+#include "verify/subject/subject_error.h"
+
+namespace limitcheck::verify {
+
+struct ProcessLimits {
+  double seconds = 60;             // for each answer; the child's own time and its waiting count alike
+  std::int64_t memory_mib = 4096;  // resident, of the child and its children together
+  std::uint64_t memory_bytes() const { return static_cast<std::uint64_t>(memory_mib) << 20; }
+};
+
+/// A child process in a process group of its own; its standard input, output and error are pipes. Any
+/// failure, of whatever kind, kills the whole group and leaves no zombie; then every further call throws the
+/// same SubjectDied again. If this process ends, the kernel ends the child (so the thread that made it must
+/// not end before). Needs Linux: prctl, /proc.
+class ChildProcess : public protocol::Source {
+ public:
+  /// Throws SubjectError(LC_FAILED) if the system cannot start another process. A program that does not exist
+  /// is found out with the first answer.
+  ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits);
+  ~ChildProcess() override;
+
+  /// Begins an exchange: sends a request; from now on the answer has `limits.seconds`.
+  void ask(std::string_view request);
+  void read(std::span<std::byte> to) override;
+  std::string line(std::size_t longest) override;
+
+  /// Nothing more is asked: closes the pipes and waits for an orderly end. Throws SubjectDied if it ends by a
+  /// signal or not in time.
+  void finish();
+
+  /// Kills the group and throws SubjectDied: `what`, then the tail of what the child wrote on standard error.
+  [[noreturn]] void fail(SubjectDied::Kind kind, const std::string& what);
+
+  bool alive() const { return pid_ > 0; }
+  /// It could not be started: the shell's exit status 126 or 127.
+  bool not_started() const { return not_started_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum Pipe : std::size_t { kIn, kOut, kErr };
+
+  /// Waits until the pipe is ready, at most `kTick`; keeps reading standard error; checks the limits.
+  void wait_for(Pipe pipe, short events);
+  void watch_limits();
+  void start_clock();
+  void fill_buffer();
+  void refuse_more_output();
+  void drain_errors();
+  void close_pipe(Pipe pipe);
+  void kill_and_reap();
+  [[noreturn]] void ended();
+  void check_alive() const;
+
+  ProcessLimits limits_;
+  pid_t pid_ = -1;
+  std::array<int, 3> pipe_{-1, -1, -1};
+  int status_ = 0;  // of waitpid, once pid_ is -1
+  Clock::time_point deadline_, next_look_;
+  std::string buffer_;  // read from standard output and not yet taken
+  std::size_t taken_ = 0;
+  std::string errors_;  // the tail of standard error
+  bool errors_cut_ = false;
+  std::string epitaph_;
+  SubjectDied::Kind kind_ = SubjectDied::Kind::kCrash;
+  bool not_started_ = false;
+};
+
+}  // namespace limitcheck::verify

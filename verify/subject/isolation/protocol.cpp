@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "verify/subject/isolation/protocol.h"
+
+#include <fmt/core.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "verify/subject/isolation/header.h"
+
+static_assert(std::endian::native == std::endian::little, "payloads are little-endian and sent as they lie");
+
+namespace limitcheck::verify::protocol {
+namespace {
+
+void append(std::string& text, const void* data, std::size_t bytes) {
+  text.append(static_cast<const char*>(data), bytes);
+}
+
+template <class T>
+void append_rows(std::string& text, const T* data, std::int64_t rows, int columns) {
+  for (std::int64_t row = 0; row < rows; ++row)
+    for (int c = 0; c < columns; ++c) text += fmt::format("{}{}", *data++, c + 1 < columns ? ' ' : '\n');
+}
+
+// One line of a text payload: numbers separated by blanks, exactly as many as are taken.
+class Row {
+ public:
+  Row(Source& source, const char* what, std::int64_t index)
+      : text_(source.line(kLongestLine)), left_(text_), what_(what), index_(index) {}
+
+  template <class T>
+  T next() {
+    skip_blanks();
+    T value{};
+    const auto [end, error] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
+    if (error != std::errc{} || (end != left_.data() + left_.size() && *end != ' ' && *end != '\t')) refuse();
+    left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
+    return value;
+  }
+  void finish() {
+    skip_blanks();
+    if (!left_.empty()) refuse();
+  }
+
+ private:
+  void skip_blanks() {
+    const std::size_t begin = left_.find_first_not_of(" \t\r");
+    left_.remove_prefix(begin == std::string_view::npos ? left_.size() : begin);
+  }
+  [[noreturn]] void refuse() const {
+    throw Error(fmt::format("{} {} is \"{}\"", what_, index_, printable(text_, 80)));
+  }
+
+  const std::string text_;
+  std::string_view left_;
+  const char* what_;
+  std::int64_t index_;
+};
+
+template <class Real>
+void read_rows(Source& source, const lc_tessellation& out) {
+  auto* position = static_cast<Real*>(out.positions);
+  auto* normal = static_cast<Real*>(out.normals);
+  for (std::int64_t v = 0; v < out.vertex_count; ++v) {
+    Row row(source, "vertex", v);
+    for (int c = 0; c < 3; ++c) *position++ = row.next<Real>();
+    for (int c = 0; normal != nullptr && c < 3; ++c) *normal++ = row.next<Real>();
+    lc_provenance& p = out.provenance[v];
+    p.face = row.next<std::int32_t>();
+    p.i = row.next<std::uint32_t>();
+    p.j = row.next<std::uint32_t>();
+    p.denominator = row.next<std::uint32_t>();
+    row.finish();
+  }
+  for (std::int64_t t = 0; t < out.triangle_count; ++t) {
+    Row row(source, "triangle", t);
+    for (int c = 0; c < 3; ++c) out.triangles[3 * t + c] = row.next<std::uint32_t>();
+    out.triangle_face[t] = row.next<std::int32_t>();
+    row.finish();
+  }
+}
+
+std::size_t real_size(const Capabilities& capabilities) {
+  return capabilities.values.precision == LC_FLOAT32 ? sizeof(float) : sizeof(double);
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t longest) {
+  std::string out;
+  for (const char c : text.substr(0, longest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7F) {
+      out += c;
+    } else {
+      out += fmt::format("\\x{:02x}", byte);
+    }
+  }
+  return text.size() > longest ? out + "..." : out;
+}
+
+std::string ask_capabilities(const std::string& options) {
+  return to_line({{"limitcheck", kVersion}, {"request", "capabilities"}, {"options", options}});
+}
+
+std::string ask_create(const lc_mesh& mesh, const std::string& options, Payload payload) {
+  std::string text = to_line({{"request", "create"},
+                              {"options", options},
+                              {"vertices", mesh.vertex_count},
+                              {"triangles", mesh.triangle_count}});
+  if (payload == Payload::kText) {
+    append_rows(text, mesh.positions, mesh.vertex_count, 3);
+    append_rows(text, mesh.triangles, mesh.triangle_count, 3);
+  } else {
+    append(text, mesh.positions, 3 * sizeof(double) * static_cast<std::size_t>(mesh.vertex_count));
+    append(text, mesh.triangles, 3 * sizeof(std::int32_t) * static_cast<std::size_t>(mesh.triangle_count));
+  }
+  return text;
+}
+
+std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads, Payload payload) {
+  std::string text =
+      to_line({{"request", "tessellate"}, {"threads", threads}, {"triangles", face_depth.size()}});
+  if (payload == Payload::kText) {
+    append_rows(text, face_depth.data(), static_cast<std::int64_t>(face_depth.size()), 1);
+  } else {
+    append(text, face_depth.data(), face_depth.size_bytes());
+  }
+  return text;
+}
+
+Capabilities read_capabilities(Source& source) {
+  const Header header = read_header(source);
+  if (!header.has("limitcheck")) throw Error(R"(the first answer does not say "limitcheck": 1)");
+  const std::int64_t version = header.integer("limitcheck", INT64_MIN, INT64_MAX);
+  if (version != kVersion)
+    throw Error(
+        fmt::format("it speaks version {} of the protocol, this program speaks {}", version, kVersion));
+  header.refuse_unless_ok();
+
+  Capabilities result;
+  lc_capabilities& c = result.values;
+  c.precision = header.choice("precision", {"float32", "float64"}) == 0 ? LC_FLOAT32 : LC_FLOAT64;
+  c.weights = header.choice("weights", {"loop", "warren"}) == 0 ? LC_WEIGHTS_LOOP : LC_WEIGHTS_WARREN;
+  c.boundary = header.choice("boundary", {"spline", "none"}) == 0 ? LC_BOUNDARY_SPLINE : LC_BOUNDARY_NONE;
+  c.points = header.choice("points", {"limit", "refined"}) == 0 ? LC_POINTS_LIMIT : LC_POINTS_REFINED;
+  c.max_depth = static_cast<std::int32_t>(header.integer("max_depth", 0, INT32_MAX));
+  c.normals = header.flag("normals");
+  c.per_face_depth = header.flag("per_face_depth");
+  c.exact_lattice = header.flag("exact_lattice");
+  if (header.has("payload"))
+    result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
+  return result;
+}
+
+void read_created(Source& source) {
+  read_header(source).refuse_unless_ok();
+}
+
+void read_tessellation(Source& source, const Capabilities& capabilities, std::uint64_t most_bytes,
+                       const lc_request& request, lc_tessellation& out) {
+  const Header header = read_header(source);
+  header.refuse_unless_ok();
+  const std::int64_t vertices = header.integer("vertices", 0, INT64_MAX);
+  const std::int64_t triangles = header.integer("triangles", 0, INT64_MAX);
+
+  // Nothing is allocated for a count before it is known to be bearable.
+  const std::size_t point = 3 * real_size(capabilities);
+  const bool normals = capabilities.values.normals != 0;
+  const double bytes =
+      static_cast<double>(vertices) * static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance)) +
+      static_cast<double>(triangles) * 16.0;
+  if (bytes > static_cast<double>(most_bytes))
+    throw Error(fmt::format("it announces {} vertices and {} triangles, {:.3g} MiB; {} MiB are allowed",
+                            vertices, triangles, bytes / 1048576, most_bytes >> 20));
+  const auto get = [&](std::int64_t count, std::size_t size) {
+    void* memory = request.allocate(request.host, static_cast<std::size_t>(count) * size);
+    if (memory == nullptr) throw Error("there is no memory for the answer it announces");
+    return memory;
+  };
+  out.vertex_count = vertices;
+  out.triangle_count = triangles;
+  out.positions = get(vertices, point);
+  out.normals = normals ? get(vertices, point) : nullptr;
+  out.provenance = static_cast<lc_provenance*>(get(vertices, sizeof(lc_provenance)));
+  out.triangles = static_cast<std::uint32_t*>(get(triangles, 3 * sizeof(std::uint32_t)));
+  out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
+
+  if (capabilities.payload == Payload::kText) {
+    if (capabilities.values.precision == LC_FLOAT32) {
+      read_rows<float>(source, out);
+    } else {
+      read_rows<double>(source, out);
+    }
+    return;
+  }
+  const auto fill = [&](void* array, std::int64_t count, std::size_t size) {
+    if (array != nullptr)
+      source.read({static_cast<std::byte*>(array), static_cast<std::size_t>(count) * size});
+  };
+  fill(out.positions, vertices, point);
+  fill(out.normals, vertices, point);
+  fill(out.provenance, vertices, sizeof(lc_provenance));
+  fill(out.triangles, triangles, 3 * sizeof(std::uint32_t));
+  fill(out.triangle_face, triangles, sizeof(std::int32_t));
+}
+
+}  // namespace limitcheck::verify::protocol

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The line protocol between the host and a subject in a process of its own: what PROTOCOL.md beside this file
+// says, as functions. No processes here: answers are read from any source of bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "verify/subject/subject.h"
+
+namespace limitcheck::verify::protocol {
+
+inline constexpr int kVersion = 1;
+inline constexpr std::size_t kLongestHeader = std::size_t{64} << 10;
+inline constexpr std::size_t kLongestLine = 1024;  // of a text payload
+
+/// The answer is none. what() says what came instead.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Where the bytes of an answer come from. Both throw if they end too early.
+class Source {
+ public:
+  Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  virtual ~Source() = default;
+  /// Exactly so many bytes.
+  virtual void read(std::span<std::byte> to) = 0;
+  /// Up to the line end, which is taken and not returned. Throws Error if there is none within `longest`
+  /// bytes.
+  virtual std::string line(std::size_t longest) = 0;
+};
+
+enum class Payload { kBinary, kText };
+
+/// What a subject says about itself.
+struct Capabilities {
+  lc_capabilities values{};
+  Payload payload = Payload::kBinary;  // of everything after this answer, both ways
+};
+
+/// Requests, ready to be sent.
+std::string ask_capabilities(const std::string& options);
+std::string ask_create(const lc_mesh& mesh, const std::string& options, Payload payload);
+std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads, Payload payload);
+
+/// Answers. All throw Error, or SubjectError if the subject refuses.
+Capabilities read_capabilities(Source& source);
+void read_created(Source& source);
+
+/// The worker (worker.h) tells more than a program: what the subject did to the memory it was handed.
+struct Aftermath {
+  bool release_threw = false;
+};
+
+/// Allocates the arrays from `request`, reads them and announces them in `out`.
+///   most_bytes   an answer that announces more is refused before anything is allocated
+void read_tessellation(Source& source, const Capabilities& capabilities, std::uint64_t most_bytes,
+                       const lc_request& request, lc_tessellation& out);
+
+/// The same from the worker: repeats in the memory of `request` all that the subject did in the worker's:
+/// every block with its contents, writes into the guard zones, where each array points, and in `mesh` what
+/// the subject wrote to it. So the host judges what it would have seen without the process in between.
+Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh,
+                      const lc_request& request, lc_tessellation& out);
+
+/// A text for a message: at most `longest` bytes, nothing a terminal would act on.
+std::string printable(std::string_view text, std::size_t longest);
+
+}  // namespace limitcheck::verify::protocol

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The other end of the protocol: the process that a shared library, or a built-in subject, is run in.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "verify/subject/subject.h"
+
+namespace limitcheck::verify {
+
+/// Loads a shared library and asks its entry symbol for the subject; the library stays loaded. Throws
+/// SubjectError(LC_INVALID_INPUT): no such file, not a library, a library it needs is missing, no entry
+/// symbol, another interface, an incomplete table. Runs the library's initialisers: for a process that may
+/// crash.
+const lc_subject& load_subject(const std::string& file);
+
+/// Serves one host on standard input and output until the input ends; returns the exit status. `load` is
+/// called at the first request. From the start, what the subject prints goes to standard error. Crashes with
+/// the subject: that is its purpose.
+int serve(const std::function<const lc_subject&()>& load);
+
+}  // namespace limitcheck::verify

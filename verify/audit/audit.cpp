@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "verify/audit/checks.h"
+#include "verify/audit/digits.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
 #include "verify/subject/host.h"
@@ -155,6 +156,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     step(name, mesh.name, "relations");
     for (Result& r : check_relations(audited, evidence, threads_)) results.push_back(std::move(r));
   }
+  if (capabilities.points == LC_POINTS_LIMIT)
+    for (Result& r : results) add_digits(r, evidence.mesh);
   return results;
 }
 

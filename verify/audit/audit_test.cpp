@@ -81,7 +81,7 @@ const std::vector<Planted>& kill_table() {
       {"unwritten_triangle", {"written", "coverage", "watertight"}},
       {"wrong_limit_mask", {"positions"}},
       {"wrong_edge_mask", {"positions"}},
-      {"flipped_normals", {"normals"}},
+      {"flipped_normals", {"normals", "normals-against-positions"}},
       {"one_flipped_normal", {"normals"}},
       {"long_normals", {"normal-length"}},
       {"shifted_provenance", {"positions", "coverage"}},
@@ -127,16 +127,12 @@ TEST_P(PlantedFault, IsSeenByTheChecksWhoseBusinessItIs) {
 INSTANTIATE_TEST_SUITE_P(All, PlantedFault, testing::ValuesIn(kill_table()),
                          [](const auto& instance) { return std::string(instance.param.fault); });
 
-TEST(PlantedFaults, AreAllInTheTableAndEveryRowOfTheAuditIsTurnedRedByOne) {
-  std::set<std::string> planted, seen;
-  for (const Planted& p : kill_table()) {
-    planted.insert(p.fault);
-    seen.insert(p.seen_by.begin(), p.seen_by.end());
-  }
+// That every row of the audit is turned red by something is the business of verify/mutants.
+TEST(PlantedFaults, AreAllInTheTable) {
+  std::set<std::string> planted;
+  for (const Planted& p : kill_table()) planted.insert(p.fault);
   for (const Fault& f : faults())
     EXPECT_TRUE(f.name == "none" || planted.contains(std::string(f.name))) << f.name << ": " << f.description;
-  for (const Check& check : checks())
-    for (const std::string_view name : check.rows) EXPECT_TRUE(seen.contains(std::string(name))) << name;
 }
 
 TEST(PlantedFaults, APerfectCopyOfAGoodSubjectHolds) {

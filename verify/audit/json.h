@@ -11,8 +11,9 @@ namespace limitcheck::verify {
 /// The report as one JSON document. Keys of the header: program, version, depth, seconds, held, subjects,
 /// meshes (name with the generator's seed, vertices, faces). `results`: subject, mesh, depth, check, status,
 /// count (how many are wrong), of (of how many), worst, bound, unit, rms, p99, worst_absolute, worst_ulps,
-/// message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got) - null where it does not
-/// apply.
+/// message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got,
+/// expected_digits, command, reproduce) - null where it does not
+/// apply. The schema: verify/audit/schema/audit.schema.json.
 std::string to_json(const Report& report);
 
 /// Writes text to a temporary name beside `file` and renames it; makes the folder. Throws std::runtime_error.

@@ -207,7 +207,9 @@ class Compared {
         continue;
       }
       seen[at.id] = true;
-      const std::int64_t mine = exact != by_face_.end() ? exact->second : any->second;
+      std::int64_t mine = exact != by_face_.end() ? exact->second : any->second;
+      for (auto [k2, last] = by_face_.equal_range(*at.face_and_point); k2 != last; ++k2)
+        if (same(t, k, v, k2->second)) mine = k2->second;
       const Vector p = v.position(t.position(k)), q = e_.tessellation.position(mine);
       double off = norm(p - q) / e_.diagonal;
       if (!std::isfinite(off)) off = p == q ? 0 : std::numeric_limits<double>::infinity();
@@ -236,9 +238,15 @@ class Compared {
   }
 
  private:
+  bool same(const Tessellation& t, std::int64_t k, const Variant& v, std::int64_t mine) const {
+    return v.position(t.position(k)) == e_.tessellation.position(mine) &&
+           (!t.has_normals() || !e_.tessellation.has_normals() ||
+            v.normal(t.normal(k)) == e_.tessellation.normal(mine));
+  }
+
   const Evidence& e_;
   const bool uniform_;
-  std::unordered_map<Key, std::int64_t> by_face_;
+  std::unordered_multimap<Key, std::int64_t> by_face_;  // a face may deliver a point more than once
   std::unordered_map<Lattice::Id, std::int64_t> by_point_;
 };
 
@@ -385,7 +393,8 @@ class Relations {
       ++r.of;
       try {
         Session session(*subject_.subject, mesh, subject_.options);
-        session.tessellate(1, threads_);
+        const Tessellation t = session.tessellate(1, threads_);
+        if (mesh.triangles.empty() && t.triangle_count() == 0) continue;  // nothing of nothing
         ++r.bad;
         r.message += fmt::format("{}{}", r.message.empty() ? "accepted: " : ", ", what);
       } catch (const SubjectError&) {

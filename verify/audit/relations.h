@@ -23,7 +23,8 @@ namespace limitcheck::verify {
 ///   translation          moved by some diagonals (positions only: the rounding of the input turns normals)
 ///   extreme-scale        times 2^40 and 2^-40
 ///   degenerate-geometry  all control points on a line, or the same: finite, normals of unit length
-///   rejected-inputs      meshes that are no manifold, or have no faces: refused
+///   rejected-inputs      meshes that are no manifold: refused; one without faces: refused, or nothing
+///   delivered
 /// The rows from face-order to extreme-scale hold if positions and normals differ by at most twice what one
 /// result may be off; a difference in bits beneath that is a quality warning where the numbers handed in are
 /// the same ones.

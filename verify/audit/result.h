@@ -34,6 +34,7 @@ struct Witness {
   std::int64_t vertex = -1;    // of the tessellation
   std::int64_t triangle = -1;  // of the tessellation
   std::vector<double> expected, got;
+  std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
 };
 
 /// One row. `worst` and `bound` are in `unit`; so are rms and p99, which run over everything that was

@@ -238,10 +238,14 @@ std::string to_table(const Report& report, bool colour, bool all) {
         "control mesh rounded to the subject's precision.)\n";
   for (std::size_t k = 0; k < findings.size(); ++k) add_finding(out, static_cast<int>(k) + 1, findings[k]);
 
-  std::int64_t held = 0, bad = 0, other = 0;
-  for (const Result& r : report.results) (r.status == Status::kHeld ? held : is_bad(r) ? bad : other) += 1;
-  out += fmt::format("\n{} held, {} findings, {} not supported or not run; {:.1f} s\n", held, bad, other,
-                     report.seconds);
+  std::int64_t held = 0, bad = 0, noted = 0, other = 0;
+  for (const Result& r : report.results) {
+    const bool note = r.status == Status::kQualityWarning || r.status == Status::kWaived ||
+                      r.status == Status::kUnexpectedPass;
+    (r.status == Status::kHeld ? held : is_bad(r) ? bad : note ? noted : other) += 1;
+  }
+  out += fmt::format("\n{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
+                     noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
   return out;
 }
 

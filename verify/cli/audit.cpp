@@ -20,6 +20,7 @@
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
 #include "verify/cli/audit_files.h"
+#include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/doors.h"
 #include "verify/cli/progress.h"
@@ -39,6 +40,7 @@ struct Arguments {
   int threads = 0;
   std::string json;
   bool each_mesh = false;
+  OutputArguments output;
   DoorArguments door;
 };
 
@@ -131,6 +133,7 @@ void check_json(const std::string& json) {
 }
 
 int audit(Arguments a) {
+  if (explained(a.output)) return kHeld;
   const Depths depths = parse_depths(a.depths);
   if (depths.kind == "view" && a.depth > fast::kDeepest)
     throw std::invalid_argument(fmt::format("--depths view: --depth {} at most", fast::kDeepest));
@@ -167,12 +170,17 @@ int audit(Arguments a) {
                                                 : fmt::format("{}:{}", s.subject->name, s.options));
 
   const auto start = std::chrono::steady_clock::now();
-  verify::Auditor auditor(a.depth, a.threads, [&](const verify::AuditStep& s) {
-    progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
-  });
+  verify::Auditor auditor(
+      a.depth, a.threads,
+      [&](const verify::AuditStep& s) {
+        progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
+      },
+      level(a.output));
   report.results = auditor.run(audited, meshes);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
+  waive(a.output, audited, report);
+  write_junit(a.output, report);
 
   if (a.json == "-") {
     fmt::print("{}", verify::to_json(report));
@@ -222,6 +230,7 @@ void add_audit(CLI::App& app, int& exit_code) {
       ->default_str("-");
   command->add_flag("--each-mesh", a->each_mesh,
                     "A line for every mesh in the table, not only for the worst");
+  add_output_options(*command, a->output);
   add_door_options(*command, a->door);
   auto files = std::make_shared<FilesArguments>();
   add_files_options(*command, *files);

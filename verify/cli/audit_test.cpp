@@ -14,7 +14,7 @@ namespace {
 class AuditCommand : public CommandTest {};
 
 TEST_F(AuditCommand, ExitsWithZeroWhenAllHeld) {
-  const Outcome o = run("audit opensubdiv-far tetrahedron --depth 2 --option precision=double");
+  const Outcome o = run("audit opensubdiv-far tetrahedron --depth 2 --level quick --option precision=double");
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_NE(o.out.find("opensubdiv-far:precision=double"), std::string::npos);
   EXPECT_EQ(o.err, "") << "no progress unless standard error is a terminal";
@@ -54,7 +54,8 @@ TEST_F(AuditCommand, JsonOnStandardOutputIsOneDocumentAndNothingElse) {
 
 TEST_F(AuditCommand, JsonGoesToAFileBesideTheTable) {
   const Outcome o =
-      run("audit opensubdiv-far tetrahedron --depth 1 --option precision=double --json out/report.json");
+      run("audit opensubdiv-far tetrahedron --depth 1 --level quick --option precision=double --json "
+          "out/report.json");
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.out.find("positions"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["held"], true);
@@ -76,8 +77,9 @@ TEST_F(AuditCommand, AnAuditOfAllSubjectsGoesOnWhenOneRefuses) {
 
 TEST_F(AuditCommand, OurEngineHoldsAtRandomAndAtViewDependentDepths) {
   for (const std::string depths : {"random", "random:7", "view"}) {
-    const Outcome o = run("audit sliding-window bumpy:200 icosahedron holes wheel:50 --depths " + depths +
-                          " --json report.json");
+    const Outcome o =
+        run("audit sliding-window bumpy:200 icosahedron holes wheel:50 --level quick --depths " + depths +
+            " --json report.json");
     EXPECT_EQ(o.code, 0) << o.out << o.err;
     const auto report = nlohmann::json::parse(read("report.json"));
     EXPECT_EQ(report["depths"], depths.substr(0, depths.find(':')));

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/explain.h"
+
+namespace limitcheck::verify {
+
+const std::vector<Explanation>& explanations() {
+  constexpr std::string_view kTwice =
+      "Twice what one result may be off from the exact one: sqrt(3) 8 (depth + 2) u M of the diagonal in "
+      "position (u unit roundoff, M largest coordinate; at least 1e-14), in the normal 1e-3 rad in float and "
+      "1e-9 rad in double, doubling with each level beyond 5. `worst` is in these bounds, so the limit is 1.";
+  constexpr std::string_view kRelation = "verify/audit/relations.h; needs no exact surface";
+  constexpr std::string_view kNone = "None wrong.";
+  static const std::vector<Explanation> all{
+      {"tessellates", "The subject takes a valid control mesh and delivers.",
+       "It must, unless it says that it does not support what was asked.", "verify/subject/subject.h"},
+      {"written",
+       "The arrays lie in the host's memory, are as long as announced, overlap nowhere, were filled to the "
+       "last "
+       "byte and not beyond; indices are in range; the control mesh was left alone.",
+       kNone, "guard zones and 0xFF fill of the host (verify/subject/host.h)"},
+      {"finite", "No position or normal is NaN or infinite.", kNone, "IEEE 754"},
+      {"positions", "Distance of each vertex from the exact limit point that its provenance names.",
+       "sqrt(3) 8 (depth + 2) u M, in bounding-box diagonals; at least 1e-14 in double.",
+       "each of depth + 2 steps is a convex combination that adds a few roundings (verify/audit/bounds.h); "
+       "truth: "
+       "Stam's evaluator in double, itself held against 50 digits"},
+      {"refined-positions",
+       "For subjects that deliver no limit points: distance from the vertex of the refined control mesh.",
+       "As for positions.", "verify/audit/bounds.h; truth: the textbook refinement in double"},
+      {"normals", "Angle between each normal and the exact one, where the surface has one.",
+       "1e-3 rad in float, 1e-9 rad in double; doubling with each level beyond 5.",
+       "differences of points 2^-depth apart lose a bit with each level; measured on float engines "
+       "(verify/audit/bounds.h)"},
+      {"normal-length", "Distance of the normals' length from 1.", "8 unit roundoffs.",
+       "rounding of three components, a root and a division"},
+      {"normals-against-positions",
+       "Whether each normal fits the delivered facets round it as well as the exact normal fits the exact "
+       "facets.",
+       "That of normals, and the turn that the bound of the positions can give a facet, 4 of them over its "
+       "shortest edge.",
+       "differences of the delivered positions against the same differences of the exact ones"},
+      {"orientation",
+       "Triangles run counter-clockwise on their control face and face as the exact facet does.", kNone,
+       "signed areas in exact lattice coordinates; exact facets"},
+      {"coverage", "Each control face is tiled exactly once, at its depth, and culled faces are not there.",
+       kNone, "integer arithmetic on the lattice of the control face"},
+      {"shared-positions",
+       "A point on a control edge or vertex that is delivered more than once has the same bits each time.",
+       "No bit.", "watertight display needs it: renderers do not weld"},
+      {"shared-normals", "The same of normals.", "No bit.", "otherwise shading shows seams"},
+      {"continuity",
+       "What the faces at a control edge or vertex deliver there differs by no more than two results' "
+       "errors.",
+       kTwice, "the surface is continuous, and so is its tangent plane"},
+      {"watertight",
+       "Merging equal positions only, the triangles form a manifold whose boundary is that of the control "
+       "mesh, "
+       "with as many loops.",
+       kNone, "counted twice, by our own code and by CGAL"},
+      {"t-vertices", "No vertex lies inside an edge of another triangle.", kNone,
+       "exact predicates on the delivered coordinates"},
+      {"determinism", "The same request again, with 1, 2 and 4 threads, gives the same bits.", "No bit.",
+       kRelation},
+      {"face-order", "Faces handed over in another order.", kTwice, kRelation},
+      {"vertex-order", "Control vertices numbered otherwise.", kTwice, kRelation},
+      {"corner-rotation", "Faces that begin at another corner.", kTwice, kRelation},
+      {"mirror", "The mirror image gives the mirror image.", kTwice, kRelation},
+      {"rotation", "Axes exchanged with signs, an exact rotation.", kTwice, kRelation},
+      {"scaling", "Sizes times 2^10 and 2^-10, which rounds nothing.", kTwice, kRelation},
+      {"translation", "The mesh moved by a few diagonals. Positions only: rounding the input turns normals.",
+       "As for the others, with the larger coordinates.", kRelation},
+      {"extreme-scale", "Sizes times 2^40 and 2^-40: squares overflow or vanish in float.", kTwice,
+       kRelation},
+      {"degenerate-geometry",
+       "All control points on a line, or all the same: positions finite, normals finite and of unit length.",
+       kNone, "the surface has no normal there, a renderer needs one all the same"},
+      {"rejected-inputs",
+       "An edge with three faces, faces of opposite orientation, fans that meet in a vertex: "
+       "refused with "
+       "a message.",
+       "None accepted.", "the scheme is defined on oriented manifolds only"},
+  };
+  return all;
+}
+
+const Explanation* explain(std::string_view check) {
+  for (const Explanation& e : explanations())
+    if (e.check == check) return &e;
+  return nullptr;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/junit.h"
+
+#include <fmt/core.h>
+
+#include "verify/audit/table.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// XML 1.0 has no control characters but these three, escaped or not.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+      case '\t':
+        out += ' ';
+        break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20) out += c;
+    }
+  }
+  return out;
+}
+
+std::string describe(const Result& r) {
+  std::string text = fmt::format("{} of {}", r.bad, r.of);
+  if (r.worst) text += fmt::format(", worst {:.3e} {}", *r.worst, r.unit);
+  if (r.bound) text += fmt::format(", bound {:.3e}", *r.bound);
+  if (!r.message.empty()) text += "; " + r.message;
+  return text;
+}
+
+std::string outcome(const Result& r) {
+  const std::string text = escaped(describe(r));
+  switch (r.status) {
+    case Status::kHeld:
+      return "";
+    case Status::kQualityWarning:
+    case Status::kUnexpectedPass:
+      return fmt::format("<system-out>{}: {}</system-out>", word(r.status), text);
+    case Status::kFinding:
+      return fmt::format("<failure message=\"{}\">{}</failure>", text, escaped(eval_command(r)));
+    case Status::kNotSupported:
+    case Status::kNotRun:
+    case Status::kWaived:
+      return fmt::format("<skipped message=\"{}: {}\"/>", word(r.status), text);
+    default:
+      return fmt::format("<error message=\"{}: {}\"/>", word(r.status), text);
+  }
+}
+
+}  // namespace
+
+std::string to_junit(const Report& report) {
+  std::string suites;
+  for (const std::string& subject : report.subjects) {
+    int tests = 0, failures = 0, errors = 0, skipped = 0;
+    std::string cases;
+    for (const Result& r : report.results) {
+      if (r.subject != subject) continue;
+      const std::string body = outcome(r);
+      ++tests;
+      failures += body.starts_with("<failure");
+      errors += body.starts_with("<error");
+      skipped += body.starts_with("<skipped");
+      cases += fmt::format("  <testcase classname=\"{}.{}\" name=\"{}\" time=\"0\">{}</testcase>\n",
+                           escaped(subject), escaped(r.mesh), escaped(r.check), body);
+    }
+    suites += fmt::format(
+        " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"0\">\n{} "
+        "</testsuite>\n",
+        escaped(subject), tests, failures, errors, skipped, cases);
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"limitcheck audit\" "
+      "time=\"{:.3f}\">\n{}</testsuites>\n",
+      report.seconds, suites);
+}
+
+}  // namespace limitcheck::verify

@@ -2,6 +2,7 @@
 // Numbers of several lanes, from an array each to one vector per number.
 #pragma once
 
+#include <type_traits>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -13,7 +14,7 @@ namespace limitcheck::fast::row_stream {
 template <int group, class T>
 void to_lanes(const T* const* from, const T* const* origin, int count, int lanes, T* out) {
 #if defined(__SSE2__)
-  if constexpr (group == 4 && sizeof(T) == 4) {
+  if constexpr (group == 4 && std::is_same_v<T, float>) {
     for (int k = 0; k < count; k += 4) {
       const int first = k + 4 > count && count > 4 ? count - 4 : k;  // the last four may overlap
       __m128 v[4];

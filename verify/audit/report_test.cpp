@@ -44,7 +44,8 @@ Report example() {
                           17,
                           -1,
                           {0.1, 0.2, 0.3},
-                          {static_cast<double>(0.1F), std::numeric_limits<double>::quiet_NaN(), 1}};
+                          {static_cast<double>(0.1F), std::numeric_limits<double>::quiet_NaN(), 1},
+                          {}};
   return report;
 }
 

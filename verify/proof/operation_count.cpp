@@ -128,8 +128,7 @@ KernelCost count_stream(const data::ControlMesh& mesh, int depth) {
   std::vector<Number> out(static_cast<std::size_t>(6 * side * side));
   stored_numbers = 0;
   cost.operations = count([&] { stream->whole({&pair, 1}, depth, out.data()); });
-  // every output is written once into the kernel's block
-  cost.stored_vectors = (stored_numbers - 6 * side * side) / 3;
+  cost.stored_vectors = stored_numbers / 3;
   cost.limits = side * side;
   return cost;
 }
@@ -156,8 +155,9 @@ RuleCosts count_rules(CountedKernel kernel) {
     costs.limit = count([&] { stream::limit_rule<CountedLane>(x[0], h); });
     costs.normal = count([&] {
       const Number a[3] = {x[0], x[1], x[2]}, b[3] = {x[3], x[4], x[5]};
-      Number n[3];
-      stream::normal_of<CountedLane>(a, b, n);
+      stream::Vertex<CountedLane> v;
+      v.set_normal(a, b);
+      v.finish();
     });
     return costs;
   }

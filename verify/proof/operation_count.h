@@ -35,7 +35,8 @@ struct KernelCost {
   OperationCounts prepass;          ///< of all control vertices of the mesh
   std::int64_t points = 0;          ///< distinct limit points of the pair
   std::int64_t limits = 0;          ///< limit points evaluated
-  std::int64_t stored_vectors = 0;  ///< points of the subdivision that are written; the copies in rings too
+  std::int64_t stored_vectors = 0;  ///< triples written on the way: points, copies in rings, and of row
+                                    ///< streaming the kept points and normals
 
   double flops_per_point() const {
     return static_cast<double>(operations.flops()) / static_cast<double>(points);

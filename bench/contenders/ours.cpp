@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
+#include "fast/row_stream/compact_vertex.h"
 #include "fast/row_stream/row_stream.h"
 #include "fast/sliding_window.h"
 #include "reference/naive.h"

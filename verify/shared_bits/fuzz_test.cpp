@@ -140,7 +140,7 @@ TEST(SharedBitsFuzz, TheAuditFindsNothingButTheNormalsOfSlivers) {
     const AuditMesh audited{fmt::format("seed {}", seed), mesh,
                             random_depths(mesh.triangles.size(), -1, 4, seed)};
     for (const Result& r : auditor.run({lc_subject_row_stream(), ""}, audited)) {
-      if (r.check == "normals" || (r.check == "watertight" && overlaps(seed))) continue;
+      if (r.check.starts_with("normals") || (r.check == "watertight" && overlaps(seed))) continue;
       EXPECT_NE(r.status, Status::kFinding) << r.mesh << " " << r.check << ": " << r.message;
       held += r.status == Status::kHeld;
     }

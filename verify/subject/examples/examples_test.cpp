@@ -58,8 +58,8 @@ TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
   EXPECT_EQ(shell("prefix/bin/limitcheck --version").out, "limitcheck 0.1.0\n");
   for (const std::string language : {"c", "cpp"}) {
     build(kExamples / language, language);
-    expect_all_held(
-        shell("prefix/bin/limitcheck audit " + language + "/libloop.so --depth 2 --json - " + kMeshes));
+    expect_all_held(shell("prefix/bin/limitcheck audit " + language +
+                          "/libloop.so --depth 2 --level quick --json - " + kMeshes));
   }
 }
 
@@ -76,7 +76,8 @@ TEST_F(Examples, InCWithOneWeightChangedIsCaughtWithTheRightWitness) {
   write("wrong/loop.c", code.replace(place, 7, "0.626"));
   build(folder_ / "wrong", "wrong/build");
 
-  const Outcome o = shell("prefix/bin/limitcheck audit wrong/build/libloop.so octahedron --depth 0 --json -");
+  const Outcome o =
+      shell("prefix/bin/limitcheck audit wrong/build/libloop.so octahedron --depth 0 --level quick --json -");
   ASSERT_EQ(o.code, 1) << o.out << o.err;
   const json report = json::parse(o.out);
   const double right = 24.0 / 55, wrong = 3 / (3 + 8 * (0.626 - 9.0 / 64));
@@ -106,7 +107,7 @@ TEST_F(Examples, InCWithOneWeightChangedIsCaughtWithTheRightWitness) {
 
 TEST_F(Examples, InPythonPassesTheAudit) {
   expect_all_held(run("audit --program \"python3 '" + (kExamples / "python/loop.py").string() +
-                      "'\" --depth 2 --timeout 300 --json - " + kMeshes));
+                      "'\" --depth 2 --level quick --timeout 300 --json - " + kMeshes));
 }
 
 }  // namespace

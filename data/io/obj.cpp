@@ -13,9 +13,9 @@
 namespace limitcheck::data::io {
 namespace {
 
-constexpr std::string_view kReadOver[] = {"vt",         "g",      "o",        "s",        "mg",
-                                          "usemtl",     "mtllib",    "usemap", "maplib",   "bevel",    "lod",
-                                          "shadow_obj", "trace_obj", "p",      "c_interp", "d_interp", "l"};
+constexpr std::string_view kReadOver[] = {"vt",        "g",      "o",        "s",        "mg",  "usemtl",
+                                          "mtllib",    "usemap", "maplib",   "bevel",    "lod", "shadow_obj",
+                                          "trace_obj", "p",      "c_interp", "d_interp", "l"};
 constexpr std::string_view kFreeForm[] = {"vp",   "cstype", "deg",   "bmat", "step", "curv", "curv2",
                                           "surf", "parm",   "trim",  "hole", "scrv", "sp",   "end",
                                           "con",  "ctech",  "stech", "call", "fo"};
@@ -89,7 +89,8 @@ class ObjReader {
         scanner_.syntax_error(fmt::format("a corner is v, v/vt, v//vn or v/vt/vn, not {}", quoted(word)));
       }
       if (part == 0) index = *value;
-      if (part == 2) normal = *value > 0 ? *value - 1 : static_cast<std::int64_t>(soup_.normals.size()) + *value;
+      if (part == 2)
+        normal = *value > 0 ? *value - 1 : static_cast<std::int64_t>(soup_.normals.size()) + *value;
       if (slash == std::string_view::npos) break;
       parts.remove_prefix(slash + 1);
     }

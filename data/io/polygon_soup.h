@@ -22,7 +22,8 @@ struct PolygonSoup {
   std::vector<std::int64_t> polygon_lines;
   // Normals as the file has them, for those who ask (PLY, OBJ); any length, unchecked.
   std::vector<std::array<double, 3>> normals;
-  std::vector<std::int64_t> corner_normals;  // OBJ: of each corner, -1 none; otherwise normals[i] is that of position i
+  std::vector<std::int64_t>
+      corner_normals;  // OBJ: of each corner, -1 none; otherwise normals[i] is that of position i
 
   void close_polygon(std::int64_t line = 0) {
     polygon_end.push_back(corners.size());
@@ -35,7 +36,8 @@ PolygonSoup read_off(std::string_view content, const std::string& name);
 PolygonSoup read_ply(std::string_view content, const std::string& name);
 PolygonSoup read_stl(std::string_view content, const std::string& name);
 
-/// A file as it is, nothing checked but its syntax; the format told by the extension. Throws InputError with a FILE_ code.
+/// A file as it is, nothing checked but its syntax; the format told by the extension. Throws InputError with
+/// a FILE_ code.
 PolygonSoup read_soup(const std::filesystem::path& file);
 
 /// Checks, triangulates and validates. Throws InputError.

@@ -64,7 +64,8 @@ std::string errata() {
                {"refuted", "Not true as a guarantee", "what is true"},
                {"ambiguous", "Left open by the text", "what is missing, and our reading"}};
   const auto cell = [](std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+      text.insert(at, 1, '\\');
     return text;
   };
   for (const auto& section : sections) {

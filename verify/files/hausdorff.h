@@ -15,9 +15,9 @@ struct Bracket {
 };
 
 struct Hausdorff {
-  Bracket from_triangles;  // max over the triangles of the distance to the surface
-  Bracket from_surface;    // max over the surface of the distance to the triangles
-  std::int64_t loose = 0;  // triangles that reach over several control faces
+  Bracket from_triangles;        // max over the triangles of the distance to the surface
+  Bracket from_surface;          // max over the surface of the distance to the triangles
+  std::int64_t loose = 0;        // triangles that reach over several control faces
   double one_triangle_each = 0;  // at most so far is the surface from one triangle per control face
 };
 
@@ -27,10 +27,10 @@ struct Hausdorff {
 /// the part of T to P; and the surface deviates from P by no more than patch_bound.h proves. Parts of the
 /// surface that no triangle covers are bounded by the distance at their corners and their size. The lower
 /// bounds are exact distances at the most promising corners; pieces whose upper bound is beyond the largest
-/// of them by more than `tightness` are split, at most four times, or ten times towards an extraordinary vertex. There the upper bound stays some 3 times too large: a triangle
-/// laid over the domain is shifted along the surface against the piece it is compared with.
-/// Triangles over several faces are bounded by the distances of their corners and their size, split three
-/// times.
+/// of them by more than `tightness` are split, at most four times, or ten times towards an extraordinary
+/// vertex. There the upper bound stays some 3 times too large: a triangle laid over the domain is shifted
+/// along the surface against the piece it is compared with. Triangles over several faces are bounded by the
+/// distances of their corners and their size, split three times.
 ///   error  rounding, 1e-15 of the mesh, is not accounted for
 Hausdorff hausdorff(const FileEvidence& evidence, double tightness = .02);
 

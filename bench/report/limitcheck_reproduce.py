@@ -61,14 +61,14 @@ def draw_figures(folder):
 
 def steps(programs, folder, quick):
     limitcheck = programs.parent / "limitcheck"
-    level = ["bumpy:200"] if quick else []
+    meshes = ["icosahedron", "bumpy:200", "fan:5"] if quick else []
     pattern = "faces:4000/depth:[35]/threads:1|write-only|100000/depth:5|set-up"
     yield "pictures and tables", lambda: run(
         [programs / "reproduction" / "reproduction", "-o", folder, *(["--quick"] if quick else [])])
     yield "claims", lambda: run([limitcheck, "claims", "--json"], folder / "claims.json", (0, 1))
-    yield "audit", lambda: run([limitcheck, "audit", "--json", "-", *level] if quick else [limitcheck, "audit", "--json"],
-                               folder / "audit.json", (0, 1))
-    yield "proofs", lambda: run([limitcheck, "prove", "--json"], folder / "proofs.json", (0, 1))
+    yield "audit", lambda: run([limitcheck, "audit", "all", *meshes, "--json"], folder / "audit.json", (0, 1))
+    yield "proofs", lambda: run([limitcheck, "prove", *(["--depth", "2"] if quick else []), "--json"], folder / "proofs.json",
+                                (0, 1))
     yield "throughput", lambda: run([programs / "throughput_bench", f"--benchmark_filter={pattern}",
                                      "--benchmark_format=json"], folder / "throughput.json")
 

@@ -73,13 +73,13 @@ def audit(data):
     cells = {}
     for r in results:
         cells.setdefault((r["subject"], r["check"]), []).append(r)
-    rank = ["crash", "timeout", "fail", "unexpected-pass", "warning", "quality-warning", "waived", "pass", "not-supported"]
+    rank = ["crash", "timeout", "error", "finding", "unexpected-pass", "quality-warning", "waived", "not-run", "held", "not-supported"]
 
     def worst(some):
-        status = min((r["status"] for r in some), key=lambda s: rank.index(s.lower()) if s.lower() in rank else 0)
-        return f"<span class='status {text(status.lower())}'>{text(status)}</span>"
+        status = min((r["status"] for r in some), key=lambda s: rank.index(s) if s in rank else 0)
+        return f"<span class='status {text(status)}'>{text(status)}</span>"
     rows = [[text(c), *(worst(cells[s, c]) if (s, c) in cells else "" for s in subjects)] for c in checks]
-    failed = [r for r in results if r["status"].lower() in ("fail", "crash", "timeout") and r.get("witness")]
+    failed = [r for r in results if r["status"] in ("finding", "crash", "timeout", "error") and r.get("witness")]
     witnesses = table(["subject", "mesh", "check", "worst", "bound", "witness"],
                       [[text(r["subject"]), text(r["mesh"]), text(r["check"]), number(r["worst"]), number(r["bound"]),
                         f"<code>{text(r['witness'] if isinstance(r['witness'], str) else json.dumps(r['witness']))[:400]}</code>"]
@@ -114,12 +114,23 @@ def throughput(data):
 
 
 def proofs(data):
-    rows = data.get("rows") or data.get("proofs") or []
-    if not rows:
-        return ""
-    header = list(rows[0])
-    return ("<p>Alone: <code>limitcheck prove</code>.</p>"
-            + table(header, [[number(r.get(h, "")) for h in header] for r in rows]))
+    """One line for each group of topologies and kernel."""
+    groups = {}
+    for row in data["rows"]:
+        groups.setdefault((row["group"], row["kernel"]), []).append(row)
+    lines = []
+    for (group, kernel), some in groups.items():
+        wrong = [r for r in some if r["map"] != "equal"]
+        bounds, digits = [r for r in some if r.get("bound")], [r["digits"] for r in some if r.get("digits")]
+        bound, worst = max((r["bound"] for r in bounds), default=None), max((r["worst"] for r in bounds), default=None)
+        lines.append([text(group), text(kernel), text(len({r["topology"] for r in some})),
+                      f"{min(r['depths'][0] for r in some)} to {max(r['depths'][1] for r in some)}",
+                      text(sum(r["points"] for r in some)), mark(not wrong), ", ".join(sorted({text(r["arithmetic"]) for r in some})),
+                      f"{min(digits):.1f}" if digits else "", number(bound) if bound else "", number(worst) if worst else "",
+                      number(bound / worst) if bound and worst else ""])
+    return ("<p>Topology by topology: <code>limitcheck prove --each</code>.</p>"
+            + table(["group", "kernel", "topologies", "depths", "points", "map equal", "arithmetic", "digits", "proved bound",
+                     "worst observed", "slack"], lines))
 
 
 def view(folder):

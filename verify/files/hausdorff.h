@@ -28,7 +28,7 @@ struct Hausdorff {
 /// surface that no triangle covers are bounded by the distance at their corners and their size. The lower
 /// bounds are exact distances at the most promising corners; pieces whose upper bound is beyond the largest
 /// of them by more than `tightness` are split, at most four times, or ten times towards an extraordinary
-/// vertex. There the upper bound stays some 3 times too large: a triangle laid over the domain is shifted
+/// vertex. There the upper bound stays too large: a triangle laid over the domain is shifted
 /// along the surface against the piece it is compared with. Triangles over several faces are bounded by the
 /// distances of their corners and their size, split three times.
 ///   error  rounding, 1e-15 of the mesh, is not accounted for

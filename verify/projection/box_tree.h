@@ -2,8 +2,8 @@
 // Boxes near a point.
 //
 // Our own few lines because no library at hand does this: the search must end when the visitor, who knows
-// more about a box than its distance, says so. Boost's R-tree sorts all candidates again at every leaf (0.1
-// ms and more for a query, measured), CGAL's AABB tree hands out one primitive, not the next, and is GPL-3.
+// more about a box than its distance, says so. Boost's R-tree sorts all candidates again at every leaf,
+// CGAL's AABB tree hands out one primitive, not the next, and is GPL-3.
 #pragma once
 
 #include <cstdint>

@@ -27,8 +27,7 @@ struct Foot {
 /// The limit surface of a control mesh with a search structure. Any number of threads may ask at once.
 class ClosestPoint {
  public:
-  /// `pieces`: the search structure has about so many flat triangles (and at least 16 per face). 1.3 s per
-  /// million.
+  /// `pieces`: the search structure has about so many flat triangles (and at least 16 per face).
   explicit ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces = std::size_t{1} << 18);
   ~ClosestPoint();
 

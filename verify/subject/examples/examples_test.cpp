@@ -37,9 +37,9 @@ class Examples : public CommandTest {
   /// Builds the project in `source` against the prefix.
   void build(const fs::path& source, const std::string& to) const {
     const std::string cmake = "'" LIMITCHECK_CMAKE "' ";
-    const Outcome o =
-        shell(cmake + "-S '" + source.string() + "' -B " + to + " -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" " +
-              LIMITCHECK_COMPILERS " && " + cmake + "--build " + to);
+    const Outcome o = shell(cmake + "-G Ninja -S '" + source.string() + "' -B " + to +
+                            " -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" " + LIMITCHECK_COMPILERS " && " + cmake +
+                            "--build " + to);
     ASSERT_EQ(o.code, 0) << o.out << o.err;
   }
   /// Every check holds on every mesh.

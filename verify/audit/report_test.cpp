@@ -102,5 +102,30 @@ TEST(Status, WordsAreStable) {
   EXPECT_EQ(word(Status::kError), "error");
 }
 
+TEST(Table, ShowsSeveralSubjectsSideBySide) {
+  Report r;
+  r.subjects = {"one", "two-with-a-long-name"};
+  const auto add = [&](const char* subject, const char* mesh, const char* check, Status status) {
+    Result result;
+    result.subject = subject;
+    result.mesh = mesh;
+    result.check = check;
+    result.status = status;
+    r.results.push_back(result);
+  };
+  add("one", "a", "positions", Status::kHeld);
+  add("one", "b", "positions", Status::kFinding);
+  add("two-with-a-long-name", "a", "positions", Status::kHeld);
+  add("two-with-a-long-name", "a", "normals", Status::kCrash);
+  const std::string table = to_table(r, false);
+  EXPECT_NE(table.find("  check                     one            two-with-a-long-name\n"
+                       "  positions                 FINDING        held                \n"
+                       "  normals                                  CRASH               \n"),
+            std::string::npos)
+      << table;
+  r.subjects.pop_back();
+  EXPECT_EQ(to_table(r, false).find("  check                     one "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace limitcheck::verify

@@ -139,7 +139,7 @@ std::string where(const Result& r) {
 void add_line(std::string& out, const Result& r, const std::string& meshes, bool colour) {
   const bool has_worst = r.worst.has_value() || r.rms.has_value();
   const std::string count = r.of > 0 ? fmt::format("{}/{}", r.bad, r.of) : "-";
-  out += fmt::format("  {:<17} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", r.check,
+  out += fmt::format("  {:<25} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", r.check,
                      painted(r.status, colour), meshes, count,
                      has_worst ? (r.worst ? amount(r.worst) : "nan") : "-", has_worst ? amount(r.bound) : "-",
                      has_worst ? amount(r.p99) : "-", r.unit, where(r));
@@ -183,6 +183,34 @@ void add_finding(std::string& out, int number, const Line& line) {
   if (const std::string command = eval_command(r); !command.empty()) out += fmt::format("     {}\n", command);
 }
 
+/// All subjects side by side: the worst verdict of each check over the meshes.
+std::string matrix(const Report& report, bool colour) {
+  constexpr std::size_t kLeast = 14;  // a verdict, padded
+  std::vector<std::vector<Line>> columns;
+  std::vector<std::string> checks;
+  std::string out = fmt::format("\n  {:<25}", "check");
+  for (const std::string& subject : report.subjects) {
+    columns.push_back(lines_of(report, subject));
+    out += fmt::format(" {:<{}}", subject, kLeast);
+    for (const Line& line : columns.back())
+      if (std::find(checks.begin(), checks.end(), line.check) == checks.end()) checks.push_back(line.check);
+  }
+  out += "\n";
+  for (const std::string& check : checks) {
+    out += fmt::format("  {:<25}", check);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const auto line =
+          std::find_if(columns[k].begin(), columns[k].end(), [&](const Line& l) { return l.check == check; });
+      const std::size_t width = std::max(report.subjects[k].size(), kLeast);
+      const std::string cell =
+          line == columns[k].end() ? std::string(kLeast, ' ') : painted(line->shown->status, colour);
+      out += " " + cell + std::string(width - kLeast, ' ');
+    }
+    out += "\n";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string eval_command(const Result& result) {
@@ -214,7 +242,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
       report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),
       faces);
   const auto row = [&](auto... cell) {
-    return fmt::format("  {:<17} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", cell...);
+    return fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", cell...);
   };
 
   std::vector<Line> findings;
@@ -237,6 +265,8 @@ std::string to_table(const Report& report, bool colour, bool all) {
         "of the "
         "control mesh rounded to the subject's precision.)\n";
   for (std::size_t k = 0; k < findings.size(); ++k) add_finding(out, static_cast<int>(k) + 1, findings[k]);
+
+  if (report.subjects.size() > 1) out += matrix(report, colour);
 
   std::int64_t held = 0, bad = 0, noted = 0, other = 0;
   for (const Result& r : report.results) {

@@ -70,7 +70,7 @@ def steps(programs, folder, quick):
     yield "proofs", lambda: run([limitcheck, "prove", *(["--depth", "2"] if quick else []), "--json"], folder / "proofs.json",
                                 (0, 1))
     yield "throughput", lambda: run([programs / "throughput_bench", f"--benchmark_filter={pattern}",
-                                     "--benchmark_format=json"], folder / "throughput.json")
+                                     f"--benchmark_out={folder / 'throughput.json'}", "--benchmark_out_format=json"])
 
 
 def main():

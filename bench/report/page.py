@@ -45,9 +45,14 @@ def table(header, rows, caption=""):
     return f"<div class=wide><table><caption>{caption}</caption><thead><tr>{head}<tbody>{body}</table></div>"
 
 
-def load(folder, name):
+def load(folder, name, missing):
+    """What a step left, or None; a file that is no JSON is said to be missing."""
     path = folder / name
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+    try:
+        return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+    except ValueError as error:
+        missing.append(f"{name}: {error}")
+        return None
 
 
 def mark(held):
@@ -161,12 +166,12 @@ def picture(folder, name, title, caption):
 
 
 def write(folder, missing):
-    sections = []
+    missing, sections = list(missing), []
 
     def section(name, title, body):
         if body:
             sections.append((name, title, body))
-    loaded = {name: load(folder, name + ".json") for name in ("claims", "audit", "proofs", "spheres", "trends", "throughput")}
+    loaded = {name: load(folder, name + ".json", missing) for name in ("claims", "audit", "proofs", "spheres", "trends", "throughput")}
     pictures = lambda some: "".join(picture(folder, n, *about) for n, about in some.items())  # noqa: E731
     section("trends", "Does what the text says of its figures hold?", trends(loaded["trends"]) if loaded["trends"] else "")
     section("tables", "Tables", (pictures(FIGURES) + spheres(loaded["spheres"])) if loaded["spheres"] else "")

@@ -81,6 +81,11 @@ class Page(unittest.TestCase):
         self.assertEqual(reader.sections, ["trends"])
         self.assertIn("claims: the program crashed", self.text)
 
+    def test_a_broken_result_is_said_to_be_missing(self):
+        (self.folder / "claims.json").write_text("----- Benchmark")
+        self.assertEqual(self.made(("trends",)).sections, ["trends"])
+        self.assertIn("claims.json: Expecting value", self.text)
+
     def test_a_claim_that_did_not_run_is_not_called_held(self):
         self.made(("claims",))
         self.assertIn("not held", self.text)

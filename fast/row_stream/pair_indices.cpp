@@ -9,14 +9,17 @@ namespace limitcheck::fast::row_stream {
 
 namespace {
 
+int checked(int depth) {
+  if (depth < 0 || depth > kMaxDepth) throw std::invalid_argument("pair indices: depth is 0 to 10");
+  return depth;
+}
+
 // Vertex (column i, row j) seen from face0's corner A: rows r = 0 .. N below D's side, column c = 0 .. r.
 // face1 is the same half a turn on.
 struct Lattice {
   std::uint32_t size;
 
-  explicit Lattice(int depth) : size(std::uint32_t{1} << depth) {
-    if (depth < 0 || depth > kMaxDepth) throw std::invalid_argument("pair indices: depth is 0 to 10");
-  }
+  explicit Lattice(int depth) : size(std::uint32_t{1} << checked(depth)) {}
   std::uint32_t at(int face, std::uint32_t column, std::uint32_t row) const {
     const std::uint32_t index = row * (size + 1) + column;
     return face == 0 ? index : (size + 1) * (size + 1) - 1 - index;

@@ -74,8 +74,8 @@ TEST(Cost_RowStream, IsItsRulesTimesItsPoints) {
   }
 }
 
-// Local origins: the five edges of a pair are evaluated twice, once for themselves. By hand that was put at
-// 10 % at depth 5 (NOTES.md); it is 17 %, as the time it takes.
+// Local origins: the five edges of a pair are evaluated twice, once for themselves. That is 17 % at
+// depth 5, and half of it at the next.
 TEST(Cost_RowStream, RisesWithLocalOriginsByTheStripsAlone) {
   for (int depth = 4; depth <= 6; ++depth) {
     const KernelCost cost = count_operations(CountedKernel::kRowStream, data::torus(5, 6), depth);
@@ -162,14 +162,13 @@ TEST(Cost_PerPoint, TendsToNinetyOneFlopsForRowStreaming) {
   EXPECT_LT(before, 94);
 }
 
-TEST(Cost_PerPoint, OfThePaperIsTwoAndAHalfTimesThat) {
+TEST(Cost_PerPoint, OfThePaperIsMoreThanTwiceThat) {
   const auto at = [](CountedKernel kernel, int depth) {
     return count_operations(kernel, data::torus(5, 6), depth).flops_per_point();
   };
-  EXPECT_NEAR(at(CountedKernel::kSlidingWindowPrinted, 5), 246.6, .1);
-  EXPECT_NEAR(at(CountedKernel::kSlidingWindow, 5), 164, .1);
-  EXPECT_NEAR(at(CountedKernel::kRowStream, 5), 114.2, .1) << "with local origins";
-  EXPECT_NEAR(at(CountedKernel::kRowStream, 3), 115.4, .1) << "without";
+  for (const int depth : {3, 5})
+    EXPECT_GT(at(CountedKernel::kSlidingWindowPrinted, depth), 2 * at(CountedKernel::kRowStream, depth));
+  EXPECT_LT(at(CountedKernel::kSlidingWindow, 5), at(CountedKernel::kSlidingWindowPrinted, 5));
 }
 
 }  // namespace

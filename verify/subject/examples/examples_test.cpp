@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "verify/cli/command_test.h"
+#include "verify/package/installed_test.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -21,27 +21,8 @@ const fs::path kExamples = fs::path(LIMITCHECK_SOURCE_DIR) / "verify/subject/exa
 // Every valence class inside, and boundary vertices with 1 to 5 faces.
 constexpr const char* kMeshes = "icosahedron octahedron torus holes fan:5 wheel:3 wheel:13:2 two-components";
 
-class Examples : public CommandTest {
+class Examples : public InstalledTest {
  protected:
-  /// A command of the shell, in the test's own folder.
-  Outcome shell(const std::string& command) const {
-    const std::string all =
-        "cd '" + folder_.string() + "' && { " + command + " ; } > .stdout 2> .stderr < /dev/null";
-    const int status = std::system(all.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
-  }
-  void install() const {
-    const Outcome o = shell("'" LIMITCHECK_CMAKE "' --install '" LIMITCHECK_BINARY_DIR "' --prefix prefix");
-    ASSERT_EQ(o.code, 0) << o.out << o.err;
-  }
-  /// Builds the project in `source` against the prefix.
-  void build(const fs::path& source, const std::string& to) const {
-    const std::string cmake = "'" LIMITCHECK_CMAKE "' ";
-    const Outcome o = shell(cmake + "-G Ninja -S '" + source.string() + "' -B " + to +
-                            " -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" " + LIMITCHECK_COMPILERS " && " + cmake +
-                            "--build " + to);
-    ASSERT_EQ(o.code, 0) << o.out << o.err;
-  }
   /// Every check holds on every mesh.
   static void expect_all_held(const Outcome& o) {
     ASSERT_EQ(o.code, 0) << o.out << o.err;

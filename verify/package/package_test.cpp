@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// What `cmake --install` gives to other projects: it builds there, with nothing more than it needs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "verify/package/installed_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kConsumers = fs::path(LIMITCHECK_SOURCE_DIR) / "verify/package/consumers";
+
+using Package = InstalledTest;
+
+// A machine that has none of the libraries that are judged; and a project with folders named like ours.
+TEST_F(Package, FastNeedsNoCgalNoOpenSubdivNoOpenMeshNoFlint) {
+  install();
+  fs::copy(kConsumers / "fast", folder_ / "project");
+  for (const char* own : {"project/data", "project/fast"}) fs::create_directories(folder_ / own);
+  for (const char* own : {"project/data/control_mesh.h", "project/fast/frame.h", "project/fast/vec3.h"})
+    write(own, "#error \"the project's own header was included\"\n");
+  build(folder_ / "project", "build",
+        "-DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenSubdiv=ON "
+        "-DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON "
+        "-DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON");
+
+  // An octahedron at depth 3: 8 x 4^3 triangles, by Euler half as many vertices and 2. Its corners' limit is
+  // 24/55 of the way out (valence 4: 3 / (3 + 8 a(4)), a(4) = 31/64).
+  const Outcome o = shell("build/tessellate");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("uniform: 8 faces, 512 triangles, 258 vertices, 0 fans\n"), std::string::npos)
+      << o.out;
+  const std::size_t corner = o.out.find("corner: ");
+  ASSERT_NE(corner, std::string::npos) << o.out;
+  double x = 0, y = 0, z = 0;
+  ASSERT_EQ(std::sscanf(o.out.c_str() + corner, "corner: %lf %lf %lf", &x, &y, &z), 3) << o.out;
+  EXPECT_NEAR(std::abs(x) + std::abs(y) + std::abs(z), 24.0 / 55, 1e-7) << o.out;
+
+  const std::string libraries = shell("ldd build/tessellate").out;
+  EXPECT_NE(libraries.find("libtbb"), std::string::npos) << libraries;
+  for (const char* foreign : {"CGAL", "osd", "OpenMesh", "flint", "mpfr", "gmp", "tinygltf"})
+    EXPECT_EQ(libraries.find(foreign), std::string::npos) << libraries;
+  EXPECT_EQ(shell("build/tessellate absent.obj").code, 2);
+}
+
+// data/known_answers.json, exact_tetrahedron: found by rational arithmetic outside this project.
+TEST_F(Package, ReferenceGivesTheKnownAnswer) {
+  install();
+  build(kConsumers / "reference", "build",
+        "-DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenSubdiv=ON "
+        "-DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON");
+  const Outcome o = shell("build/true_point");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("certified: 0.149691358024691358024691358025 0.149691358024691358024691358025 "
+                       "-0.149691358024691358024691358025 "),
+            std::string::npos)
+      << o.out;
+  EXPECT_NE(o.out.find("leaves at depth 3: 64\n"), std::string::npos) << o.out;
+}
+
+TEST_F(Package, EveryHeaderCompilesByItself) {
+  install();
+  int headers = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "prefix/include")) {
+    if (entry.path().extension() != ".h") continue;
+    ++headers;
+    const std::string name = entry.path().lexically_relative(folder_ / "prefix/include");
+    write("alone.cpp", "#include <" + name + ">\n#include <" + name + ">\n");
+    const Outcome o =
+        shell("'" LIMITCHECK_CXX
+              "' -std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Werror -Iprefix/include "
+              "alone.cpp");
+    EXPECT_EQ(o.code, 0) << name << "\n" << o.err;
+    // All names of ours lie in limitcheck/.
+    EXPECT_TRUE(name.starts_with("limitcheck/")) << name;
+    const std::string text = read(entry.path());
+    for (const char* folder : {"data/", "reference/", "fast/", "verify/"})
+      EXPECT_EQ(text.find("#include \"" + std::string(folder)), std::string::npos) << name;
+  }
+  EXPECT_GT(headers, 30);
+}
+
+class Components : public InstalledTest {
+ protected:
+  Outcome find(const std::string& arguments, const std::string& without, const std::string& then = "") const {
+    fs::remove_all(folder_ / "build");
+    fs::create_directories(folder_ / "project");
+    write("project/CMakeLists.txt",
+          "cmake_minimum_required(VERSION 3.16)\nproject(p LANGUAGES CXX)\n"
+          "find_package(limitcheck 0.1 " +
+              arguments + ")\n" + then);
+    return configure("project", "build", "-DCMAKE_DISABLE_FIND_PACKAGE_" + without + "=ON");
+  }
+};
+
+TEST_F(Components, ThatCannotBeHadAreRefusedWithWhatTheyLack) {
+  install();
+  Outcome o = find("REQUIRED COMPONENTS fast", "hwy");
+  EXPECT_NE(o.code, 0);
+  EXPECT_NE(o.err.find("component fast needs hwy"), std::string::npos) << o.err;
+  o = find("REQUIRED COMPONENTS faster", "hwy");
+  EXPECT_NE(o.code, 0);
+  EXPECT_NE(o.err.find("there is no component 'faster'"), std::string::npos) << o.err;
+  // The others do not miss it.
+  o = find("REQUIRED COMPONENTS subject reference", "hwy",
+           "if(NOT TARGET limitcheck::reference OR TARGET limitcheck::fast)\nmessage(FATAL_ERROR "
+           "wrong)\nendif()\n");
+  EXPECT_EQ(o.code, 0) << o.err;
+}
+
+TEST_F(Components, AreAllThatCanBeHadWhereNoneIsNamed) {
+  install();
+  const std::string check =
+      "if(NOT TARGET limitcheck::subject OR NOT TARGET limitcheck::reference OR TARGET limitcheck::fast)\n"
+      "message(FATAL_ERROR wrong)\nendif()\n";
+  const Outcome o = find("REQUIRED", "hwy", check);
+  EXPECT_EQ(o.code, 0) << o.err;
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

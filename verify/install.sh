@@ -14,6 +14,7 @@ packages=(
   libhwy-dev                                                # SIMD with dispatch at run time
   libtinygltf-dev libassimp-dev                             # glTF output; the reader that checks it
   libgtest-dev libbenchmark-dev                             # tests, benchmarks
+  dpkg-dev file                                             # the Debian package
   python3-jsonschema                                        # tests: the reports against their schema
   libepoxy-dev libegl1 libgl1-mesa-dri libpng-dev pkgconf   # OpenGL without a display, pictures
   valgrind python3-scipy                                    # exact instruction counts; statistics of timings

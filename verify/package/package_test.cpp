@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 const fs::path kConsumers = fs::path(LIMITCHECK_SOURCE_DIR) / "verify/package/consumers";
 
 using Package = InstalledTest;
+using DebianPackage = InstalledTest;
 
 // A machine that has none of the libraries that are judged; and a project with folders named like ours.
 TEST_F(Package, FastNeedsNoCgalNoOpenSubdivNoOpenMeshNoFlint) {
@@ -120,6 +121,27 @@ TEST_F(Components, AreAllThatCanBeHadWhereNoneIsNamed) {
       "message(FATAL_ERROR wrong)\nendif()\n";
   const Outcome o = find("REQUIRED", "hwy", check);
   EXPECT_EQ(o.code, 0) << o.err;
+}
+
+// As it comes out of `cpack`; unpacked, not installed, so that the test needs no rights.
+TEST_F(DebianPackage, HoldsAProgramThatRunsAndSaysItsLicence) {
+  const Outcome made = shell("cpack --config '" LIMITCHECK_BINARY_DIR "/CPackConfig.cmake' -B .");
+  ASSERT_EQ(made.code, 0) << made.out << made.err;
+  const std::string depends = shell("dpkg-deb -f limitcheck_0.1.0_*.deb Depends").out;
+  for (const char* needed : {"libtbb12", "libosdcpu3.5.0", "libflint-arb2", "libc6"})
+    EXPECT_NE(depends.find(needed), std::string::npos) << depends;
+  EXPECT_EQ(depends.find("-dev"), std::string::npos) << depends;
+
+  ASSERT_EQ(shell("dpkg-deb -x limitcheck_0.1.0_*.deb root").code, 0);
+  EXPECT_EQ(shell("root/usr/bin/limitcheck --version").out, "limitcheck 0.1.0\n");
+  for (const char* file :
+       {"include/limitcheck/subject.h", "share/man/man1/limitcheck.1.gz",
+        "share/bash-completion/completions/limitcheck", "share/doc/limitcheck/changelog.gz"})
+    EXPECT_TRUE(fs::exists(folder_ / "root/usr" / file)) << file;
+  const std::string copyright = read("root/usr/share/doc/limitcheck/copyright");
+  const std::size_t program = copyright.find("Files: usr/bin/limitcheck\n");
+  ASSERT_NE(program, std::string::npos) << copyright;
+  EXPECT_NE(copyright.find("License: GPL-3+\n", program), std::string::npos) << copyright;
 }
 
 }  // namespace

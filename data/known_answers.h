@@ -63,6 +63,7 @@ struct SurfaceAnswer {
 
 /// A closed mesh with exact rational answers.
 struct ClosedMeshAnswer {
+  /// The midpoint of an edge moved by the edge rule.
   struct EdgePoint {
     std::int32_t v0 = 0, v1 = 0;
     Numeral3 position;
@@ -84,6 +85,7 @@ struct BasisAnswer {
   std::array<Numeral, 12> b, db_dalpha, db_dbeta;
 };
 
+/// The whole file.
 struct KnownAnswers {
   std::vector<InteriorRingAnswer> interior_rings;
   std::vector<BoundaryRingAnswer> boundary_rings;

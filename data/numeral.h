@@ -12,6 +12,7 @@ namespace limitcheck::data {
 
 /// A number as text: an integer "-3", a fraction "-9/500", or a decimal "0.0122", "1e-3".
 using Numeral = std::string;
+/// A point or vector of them.
 using Numeral3 = std::array<Numeral, 3>;
 
 /// The same number as a quotient of two integers in plain digits (no leading zeros or '+', denominator > 0).
@@ -52,6 +53,7 @@ N parse(std::string_view text) {
   }
 }
 
+/// Each component by itself; throws as that does.
 template <class N>
 std::array<N, 3> parse(const Numeral3& text) {
   return {parse<N>(text[0]), parse<N>(text[1]), parse<N>(text[2])};

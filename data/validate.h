@@ -39,6 +39,7 @@ enum class MeshFault {
 /// The stable name: "MESH_NONMANIFOLD_EDGE", ...
 std::string_view code(MeshFault fault);
 
+/// One thing that is wrong, and where.
 struct MeshFinding {
   MeshFault fault{};
   std::vector<std::int64_t> elements;  ///< as listed at MeshFault

@@ -12,6 +12,7 @@
 
 namespace limitcheck::fast {
 
+/// A perspective view.
 struct Camera {
   Point3 eye{0, 0, 4};
   Point3 target{0, 0, 0};

@@ -11,12 +11,14 @@
 
 namespace limitcheck::fast {
 
+/// What becomes of a face with deeper neighbours.
 enum class Repair : std::uint8_t {
   kFan,     // the paper's: a fan around the centre, no interior points
   kStitch,  // ours: keep the interior points, stitch the outer ring (a fan below depth 2, which has none)
   kNone     // leave the cracks
 };
 
+/// Where the middle of a fan lies.
 enum class FanCentre : std::uint8_t {
   kLimit,       // the limit position of (1/3, 1/3, 1/3)
   kFlatLimit,   // centroid of the three corners' limit positions
@@ -30,6 +32,7 @@ enum class EdgeDepthRule : std::uint8_t {
   kTwoOrMore    // as kMaximum, but only faces with two or more deeper neighbours are repaired
 };
 
+/// How cracks are closed; the defaults leave none.
 struct CrackOptions {
   Repair repair = Repair::kFan;
   FanCentre centre = FanCentre::kLimit;

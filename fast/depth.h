@@ -21,6 +21,7 @@ namespace limitcheck::fast {
 inline constexpr std::int32_t kCulled = -1;  // the depth of a face that is not displayed
 inline constexpr int kDeepest = 10;  // the largest depth that may be asked for: 4^10 triangles per face
 
+/// What decides how deep a face is subdivided.
 enum class Strategy {
   kUniform,        // every face `depth`
   kRandom,         // 0 .. depth, independent of each other, from `seed`
@@ -40,6 +41,7 @@ Strategy parse_strategy(std::string_view text);
 /// 0.
 enum class Facing : std::int8_t { kFront, kSilhouette, kBack };
 
+/// A strategy and its parameters.
 struct DepthOptions {
   Strategy strategy = Strategy::kCombined;
   int depth = 3;              // uniform; the largest of random

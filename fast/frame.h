@@ -15,6 +15,7 @@
 
 namespace limitcheck::fast {
 
+/// What holds for all frames of a mesh.
 struct TessellatorOptions {
   PairingOptions pairing;
   CrackOptions cracks;

@@ -19,6 +19,7 @@ namespace limitcheck::fast {
 template <class N>
 struct NumberTraits;
 
+/// For float and double.
 template <std::floating_point N>
 struct NumberTraits<N> {
   using Scalar = N;
@@ -30,13 +31,16 @@ struct NumberTraits<N> {
   static constexpr N narrow(Wide v) { return static_cast<N>(v); }
 };
 
+/// A vector of the number that rings are summed in.
 template <class N>
 using WideVec3 = Vec3<typename NumberTraits<N>::Wide>;
 
+/// Exactly, component by component.
 template <class N>
 constexpr WideVec3<N> widen(const Vec3<N>& v) {
   return {NumberTraits<N>::widen(v.x), NumberTraits<N>::widen(v.y), NumberTraits<N>::widen(v.z)};
 }
+/// Rounded, component by component.
 template <class N>
 constexpr Vec3<N> narrow(const WideVec3<N>& v) {
   return {NumberTraits<N>::narrow(v.x), NumberTraits<N>::narrow(v.y), NumberTraits<N>::narrow(v.z)};
@@ -72,6 +76,7 @@ constexpr Vec3<N> midpoint(const Vec3<N>& a, const Vec3<N>& b) {
   return NumberTraits<N>::ratio(1, 2) * (a + b);
 }
 
+/// Sum of the six, the same bits seen from the opposite direction.
 template <class N>
 constexpr Vec3<N> axis_sum(const AxisRing<N>& r) {
   return (r.e + r.w) + ((r.ne + r.nw) + (r.sw + r.se));
@@ -107,6 +112,7 @@ struct VertexWeights {
   Scalar centre{}, ring{};
 };
 
+/// For valence n >= 3.
 template <class N>
 VertexWeights<N> vertex_weights(int n) {
   using Wide = typename NumberTraits<N>::Wide;

@@ -32,6 +32,7 @@ struct Pair {
   friend bool operator==(const Pair&, const Pair&) = default;
 };
 
+/// Every face that is not culled is in exactly one of the pairs.
 struct PairingResult {
   std::vector<Pair> pairs;          // pairs and singletons in the order they were found
   std::vector<std::int32_t> depth;  // per face, both members raised to the larger; -1 culled
@@ -40,6 +41,7 @@ struct PairingResult {
   std::int64_t culled = 0;
 };
 
+/// How faces move between the priority sets.
 enum class PairingRule {
   kCorrected,  // step 3 as in erratum 6: what falls to one free neighbour goes to S0, then S3 -> S2, then S2
                // -> S1
@@ -47,6 +49,7 @@ enum class PairingRule {
             // S0  [C39]
 };
 
+/// How partners are chosen.
 struct PairingOptions {
   PairingRule rule = PairingRule::kCorrected;
   bool prefer_equal_depth = true;  // false: the neighbour of highest priority whatever its depth      [C42]

@@ -32,6 +32,7 @@ struct LatticePoint {
 /// (section 5), or an outer ring stitched to finer borders.
 enum class Kind : std::uint8_t { kPair, kSingleton, kFan, kStitched };
 
+/// How the vertices of a draw make triangles, as in OpenGL.
 enum class DrawMode : std::uint8_t { kStrip, kFan, kTriangles };
 
 /// One call of the graphics library: `count` vertices from `first`, or all of them if they come by

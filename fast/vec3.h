@@ -19,10 +19,12 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+/// a . b
 template <class N>
 constexpr N dot(const Vec3<N>& a, const Vec3<N>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// a x b
 template <class N>
 constexpr Vec3<N> cross(const Vec3<N>& a, const Vec3<N>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -20,6 +20,7 @@ struct Enclosure {
   std::string value;
   double radius;
 };
+/// A point or vector.
 using Enclosure3 = std::array<Enclosure, 3>;
 
 /// As SurfacePoint. Curvatures exist where second derivatives and the normal do; the mean curvature is

@@ -25,6 +25,7 @@ template <class N>
 struct CircleTable {
   std::vector<N> cosine, sine;  ///< of pi i / m, i = 0..2m-1
 };
+/// The table of m, made at its first use by a thread.
 template <class N>
 const CircleTable<N>& circle_table(long m) {
   thread_local std::vector<std::unique_ptr<CircleTable<N>>> tables;

@@ -27,6 +27,7 @@ struct LeafCorner {
 template <class N>
 using LeafTriangle = std::array<LeafCorner<N>, 3>;
 
+/// Built for double, Decimal50, Decimal100.
 template <class N>
 class NaiveSubdivider {
  public:

@@ -7,12 +7,14 @@
 
 namespace limitcheck::reference {
 
+/// The exponent of zero: below that of every other number.
 inline constexpr long kZeroExponent = -(1L << 40);
 
 /// Specialised per number type (double here; the others in number_mp.h and ball.h).
 template <class N>
 struct NumberTraits;
 
+/// Rounded to 53 bits.
 template <>
 struct NumberTraits<double> {
   /// cos(pi p / q) to within 1 ulp, exact where it is rational: the argument is reduced in integers first.

@@ -10,15 +10,21 @@
 
 namespace limitcheck::reference {
 
+/// A quotient of integers of any size.
 using Rational =
     boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+/// An integer of any size.
 using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+/// So many decimal digits, correctly rounded.
 template <unsigned Digits>
 using Decimal = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<Digits>,
                                               boost::multiprecision::et_off>;
+/// Fifty digits.
 using Decimal50 = Decimal<50>;
+/// A hundred digits.
 using Decimal100 = Decimal<100>;
 
+/// Exact, as long as no cosine is asked for that is not rational.
 template <>
 struct NumberTraits<Rational> {
   /// Only 0, +-1/2, +-1 are rational: throws std::domain_error otherwise.
@@ -37,6 +43,7 @@ struct NumberTraits<Rational> {
   static double approximate(const Rational& a) { return a.convert_to<double>(); }
 };
 
+/// Rounded to so many decimals.
 template <unsigned Digits>
 struct NumberTraits<Decimal<Digits>> {
   using N = Decimal<Digits>;

@@ -6,6 +6,7 @@
 
 namespace limitcheck::reference {
 
+/// A point or vector.
 template <class N>
 struct Vec3 {
   N x{}, y{}, z{};
@@ -35,11 +36,14 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+/// a . b
+/// a . b
 template <class N>
 N dot(const Vec3<N>& a, const Vec3<N>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// a x b
 template <class N>
 Vec3<N> cross(const Vec3<N>& a, const Vec3<N>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

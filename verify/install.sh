@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian 12 packages that are missing; silent and quick when none is. Needs root or sudo only then.
 #   verify/install.sh          what building and testing need
+#   verify/install.sh --docs   also what the API reference needs
 #   verify/install.sh --dev    also clang, the formatters and linters, the fuzzer's runtime
 set -euo pipefail
 
@@ -21,6 +22,8 @@ packages=(
 )
 if [[ ${1:-} == --dev ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy ccache)
+elif [[ ${1:-} == --docs ]]; then
+  packages+=(doxygen)
 fi
 
 missing=()

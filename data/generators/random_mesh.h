@@ -8,6 +8,7 @@
 
 namespace limitcheck::data {
 
+/// How large and how irregular.
 struct RandomMeshOptions {
   int faces = 200;       // about so many, 1 .. 1 million
   int max_valence = 50;  // neighbours of a vertex at most, >= 12

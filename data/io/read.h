@@ -27,10 +27,12 @@ enum class Triangulation {
   kNone               ///< refused: MESH_POLYGON
 };
 
+/// What is up to the reader.
 struct ReadOptions {
   Triangulation polygons = Triangulation::kFan;
 };
 
+/// Of which format a content is.
 enum class FileFormat { kObj, kOff, kPly, kStl };
 
 /// Reads a file, its format told by its extension, and validates it.

@@ -10,6 +10,7 @@
 
 namespace limitcheck::data {
 
+/// What is up to the writer.
 struct WriteOptions {
   bool ascii_ply = false;  ///< PLY in text instead of binary little endian
 };

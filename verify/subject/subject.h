@@ -29,8 +29,10 @@
 extern "C" {
 #endif
 
+/* The version of this interface. */
 #define LC_SUBJECT_ABI 1u
 
+/* How a call went. */
 typedef enum lc_status {
   LC_OK = 0,
   LC_NOT_SUPPORTED = 1, /* the subject does not offer what was asked; not a fault */
@@ -38,23 +40,28 @@ typedef enum lc_status {
   LC_FAILED = 3         /* it tried and could not */
 } lc_status;
 
+/* Of positions and normals. */
 typedef enum lc_precision { LC_FLOAT32 = 0, LC_FLOAT64 = 1 } lc_precision;
 
+/* Which family of vertex weights; they give different surfaces. */
 typedef enum lc_weights {
   LC_WEIGHTS_LOOP = 0,  /* Loop 1987: a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64 */
   LC_WEIGHTS_WARREN = 1 /* Warren: 3/(8n), 3/16 at n = 3. Another surface. */
 } lc_weights;
 
+/* What happens at boundary edges. */
 typedef enum lc_boundary {
   LC_BOUNDARY_SPLINE = 0, /* cubic B-spline boundary curve, ordinary rule on all interior edges */
   LC_BOUNDARY_NONE = 1    /* closed meshes only */
 } lc_boundary;
 
+/* Where the vertices lie. */
 typedef enum lc_points {
   LC_POINTS_LIMIT = 0,  /* points of the limit surface */
   LC_POINTS_REFINED = 1 /* vertices of the control mesh refined `depth` times; not on the limit surface */
 } lc_points;
 
+/* What a subject does under given options. */
 typedef struct lc_capabilities {
   lc_precision precision; /* of positions and normals; the control mesh is rounded to it beforehand */
   lc_weights weights;
@@ -66,6 +73,7 @@ typedef struct lc_capabilities {
   int32_t exact_lattice;  /* 1: claims to be exact at lattice points; 0: documented as an approximation */
 } lc_capabilities;
 
+/* A valid control mesh: an oriented 2-manifold, boundaries allowed. The arrays are the host's. */
 typedef struct lc_mesh {
   const double* positions; /* 3 * vertex_count, representable in the subject's precision */
   int64_t vertex_count;
@@ -73,6 +81,7 @@ typedef struct lc_mesh {
   int64_t triangle_count;
 } lc_mesh;
 
+/* One tessellation that is asked for. */
 typedef struct lc_request {
   const int32_t* face_depth; /* triangle_count entries: 0..max_depth, or -1 for a culled face. A face may be
                                 displayed deeper than asked for, but not deeper than a visible neighbour. */
@@ -90,6 +99,7 @@ typedef struct lc_provenance {
   uint32_t denominator;
 } lc_provenance;
 
+/* What the subject delivers: arrays that it got from request->allocate() and filled to the last byte. */
 typedef struct lc_tessellation {
   int64_t vertex_count;
   int64_t triangle_count;
@@ -101,6 +111,7 @@ typedef struct lc_tessellation {
   void* owner;               /* the subject's own; untouched by the host */
 } lc_tessellation;
 
+/* The table of functions that a subject consists of. */
 typedef struct lc_subject {
   uint32_t abi; /* LC_SUBJECT_ABI */
   const char* name;
@@ -134,7 +145,9 @@ typedef struct lc_subject {
 #else
 #define LC_EXPORT
 #endif
+/* The name of the function below. */
 #define LC_SUBJECT_ENTRY "lc_subject_get"
+/* What a shared library exports: see above. */
 LC_EXPORT const lc_subject* lc_subject_get(uint32_t abi);
 
 #ifdef __cplusplus

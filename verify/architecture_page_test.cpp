@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The picture in ARCHITECTURE.md is the include graph of the sources.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Arrows = std::map<std::pair<std::string, std::string>, std::string>;  // and an example of each
+
+Arrows drawn(std::istream& page) {
+  static const std::regex arrow("^ *([a-z_/]+) --> ([a-z_/]+)$");
+  Arrows arrows;
+  std::smatch m;
+  for (std::string line; std::getline(page, line);)
+    if (std::regex_match(line, m, arrow)) arrows[{m[1], m[2]}] = "ARCHITECTURE.md";
+  return arrows;
+}
+
+// The folder of the picture that a file is part of: data/generators is data, verify/subject/isolation is
+// verify/subject.
+std::string node(const std::string& path) {
+  const std::size_t first = path.find('/');
+  const std::string top = path.substr(0, first);
+  if (top != "verify" || first == std::string::npos) return top;
+  const std::size_t second = path.find('/', first + 1);
+  return second == std::string::npos ? top : path.substr(0, second);
+}
+
+// The arrows of one file. A test's own includes do not count.
+void add_arrows(const std::string& path, std::istream& text, Arrows& arrows) {
+  static const std::regex test_file("_test\\.(cpp|h)$|/test_[a-z_]*\\.h$|_test\\.c$");
+  static const std::regex include("^ *# *include \"([a-z_]+/[^\"]+)\"");
+  if (std::regex_search(path, test_file)) return;
+  std::smatch m;
+  for (std::string line; std::getline(text, line);) {
+    if (!std::regex_search(line, m, include)) continue;
+    const std::string from = node(path), to = node(m[1]);
+    if (to != "data" && from != to) arrows[{from, to}] = path + " includes " + m[1].str();
+  }
+}
+
+Arrows included() {
+  const fs::path root = LIMITCHECK_SOURCE_DIR;
+  Arrows arrows;
+  for (const char* folder : {"data", "reference", "fast", "verify", "bench"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp" && extension != ".c") continue;
+      std::ifstream in(entry.path());
+      add_arrows(entry.path().lexically_relative(root), in, arrows);
+    }
+  }
+  return arrows;
+}
+
+TEST(Architecture, ThePictureIsTheIncludeGraph) {
+  std::ifstream page(fs::path(LIMITCHECK_SOURCE_DIR) / "verify/ARCHITECTURE.md");
+  const Arrows picture = drawn(page), sources = included();
+  EXPECT_GT(sources.size(), 20U);
+  for (const auto& [arrow, example] : sources)
+    EXPECT_TRUE(picture.contains(arrow))
+        << "not in the picture: " << arrow.first << " --> " << arrow.second << " (" << example << ")";
+  for (const auto& [arrow, example] : picture)
+    EXPECT_TRUE(sources.contains(arrow))
+        << "in the picture, but nobody includes: " << arrow.first << " --> " << arrow.second;
+}
+
+TEST(Architecture, HasNoCircle) {
+  const Arrows arrows = included();
+  std::map<std::string, int> state;  // 1: being visited, 2: done
+  const std::function<void(const std::string&)> visit = [&](const std::string& from) {
+    state[from] = 1;
+    for (const auto& [arrow, example] : arrows) {
+      if (arrow.first != from) continue;
+      EXPECT_NE(state[arrow.second], 1)
+          << from << " --> " << arrow.second << " closes a circle (" << example << ")";
+      if (state[arrow.second] == 0) visit(arrow.second);
+    }
+    state[from] = 2;
+  };
+  for (const auto& [arrow, example] : arrows)
+    if (state[arrow.first] == 0) visit(arrow.first);
+}
+
+TEST(Architecture, TheReaderOfIncludesSeesWhatItIsThereFor) {
+  const auto count = [](const std::string& path, const std::string& text) {
+    std::istringstream in(text);
+    Arrows arrows;
+    add_arrows(path, in, arrows);
+    return arrows.size();
+  };
+  EXPECT_EQ(count("verify/audit/a.cpp", "#include \"verify/subject/isolation/b.h\"\n"), 1U);
+  EXPECT_EQ(count("verify/subject/isolation/a.cpp", "#include \"verify/subject/b.h\"\n"), 0U);
+  EXPECT_EQ(count("verify/audit/a_test.cpp", "#include \"fast/b.h\"\n"), 0U);
+  EXPECT_EQ(count("fast/a.h", "#include \"data/b.h\"\n#include <vector>\n"), 0U);
+}
+
+}  // namespace

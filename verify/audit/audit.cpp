@@ -9,6 +9,7 @@
 
 #include "verify/audit/checks.h"
 #include "verify/audit/digits.h"
+#include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
 #include "verify/subject/host.h"
@@ -18,22 +19,6 @@ namespace {
 
 std::string label(const AuditSubject& s) {
   return s.options.empty() ? s.subject->name : fmt::format("{}:{}", s.subject->name, s.options);
-}
-
-// A control mesh is valid when it gets here, so a subject that calls it invalid is wrong; one that says it
-// does not offer this is not.
-Status status_of(lc_status status) {
-  if (status == LC_NOT_SUPPORTED) return Status::kNotSupported;
-  return status == LC_INVALID_INPUT ? Status::kFinding : Status::kError;
-}
-
-Status status_of(const std::exception& error) {
-  if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) {
-    if (died->kind() == SubjectDied::Kind::kTimeout) return Status::kTimeout;
-    return died->kind() == SubjectDied::Kind::kProtocol ? Status::kFinding : Status::kCrash;
-  }
-  const auto* refusal = dynamic_cast<const SubjectError*>(&error);
-  return refusal ? status_of(refusal->status()) : Status::kError;
 }
 
 }  // namespace
@@ -153,8 +138,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   }
   if (level_ == Level::kThorough ||
       (level_ == Level::kStandard && mesh.mesh.triangles.size() <= kRelationFaces)) {
-    step(name, mesh.name, "relations");
-    for (Result& r : check_relations(audited, evidence, threads_)) results.push_back(std::move(r));
+    const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
+    for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));
   }
   if (capabilities.points == LC_POINTS_LIMIT)
     for (Result& r : results) add_digits(r, evidence.mesh);

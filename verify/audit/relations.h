@@ -3,7 +3,7 @@
 // otherwise. They need no exact surface, so they judge every family of weights.
 #pragma once
 
-#include <span>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -30,7 +30,11 @@ namespace limitcheck::verify {
 /// the same ones.
 const std::vector<std::string_view>& relation_rows();
 
-/// One row for each. `e` is the evidence of the request as it was; never throws for what the subject does.
-std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads);
+/// One row for each. `e` is the evidence of the request as it was; never throws for what the subject does: a
+/// process that dies or hangs in one request makes its row a crash or a timeout, with the input that did it,
+/// and the next request gets a new process.
+///   on_row  called with the name of each row before it is looked at
+std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
+                                    const std::function<void(std::string_view)>& on_row = {});
 
 }  // namespace limitcheck::verify

@@ -23,6 +23,7 @@
 #include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/doors.h"
+#include "verify/cli/must_refuse.h"
 #include "verify/cli/progress.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
@@ -39,7 +40,7 @@ struct Arguments {
   std::string depths = "uniform";
   int threads = 0;
   std::string json;
-  bool each_mesh = false;
+  bool each_mesh = false, must_refuse = false;
   OutputArguments output;
   DoorArguments door;
 };
@@ -140,6 +141,8 @@ int audit(Arguments a) {
   take_program(a.door, a.subject, a.meshes);
   const bool main_job = a.subject.empty();
   if (main_job) a.subject = "all";
+  if (a.must_refuse && (main_job || a.meshes.empty()))
+    throw std::invalid_argument("--must-refuse needs a subject and the files of broken meshes");
   if (a.meshes.empty()) {
     a.meshes = {"bumpy:800"};
     for (std::string& shape : data::stock_shapes()) a.meshes.push_back(std::move(shape));
@@ -155,8 +158,9 @@ int audit(Arguments a) {
   verify::Report report;
   for (const std::string& name : a.meshes) {
     progress.show(0, 1, "mesh " + name);
-    data::ControlMesh mesh = data::open_mesh(name);
-    std::vector<std::int32_t> depth = face_depths(depths, mesh, a.depth);
+    data::ControlMesh mesh = a.must_refuse ? open_broken_mesh(name) : data::open_mesh(name);
+    std::vector<std::int32_t> depth;
+    if (!a.must_refuse) depth = face_depths(depths, mesh, a.depth);
     meshes.push_back({name, std::move(mesh), std::move(depth)});
     report.meshes.push_back({name, static_cast<std::int64_t>(meshes.back().mesh.positions.size()),
                              static_cast<std::int64_t>(meshes.back().mesh.triangles.size())});
@@ -176,7 +180,7 @@ int audit(Arguments a) {
         progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
       },
       level(a.output));
-  report.results = auditor.run(audited, meshes);
+  report.results = a.must_refuse ? must_refuse(audited, meshes, a.threads) : auditor.run(audited, meshes);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
   waive(a.output, audited, report);
@@ -230,6 +234,9 @@ void add_audit(CLI::App& app, int& exit_code) {
       ->default_str("-");
   command->add_flag("--each-mesh", a->each_mesh,
                     "A line for every mesh in the table, not only for the worst");
+  command->add_flag(
+      "--must-refuse", a->must_refuse,
+      "The MESHes (files) are broken, and handed over as they are: the subject must refuse them");
   add_output_options(*command, a->output);
   add_door_options(*command, a->door);
   auto files = std::make_shared<FilesArguments>();

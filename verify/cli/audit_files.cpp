@@ -24,8 +24,9 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
                       ->group(group);
   auto* tessellation =
       audit
-          .add_option("--tessellation", files.tessellation,
-                      "What some program made of it: PLY, OBJ, OFF or STL; triangles or larger polygons")
+          .add_option(
+              "--tessellation", files.tessellation,
+              "What some program made of it: PLY, OBJ, OFF, STL, glTF or GLB; triangles or larger polygons")
           ->group(group);
   control->needs(tessellation);
   tessellation->needs(control);

@@ -23,7 +23,9 @@ TEST_F(AuditOutput, IsValidByThePublishedSchema) {
   for (const char* arguments :
        {"audit naive tetrahedron fan:1 --depth 2", "audit opensubdiv-bfr fan:1 bumpy:20 --depth 2",
         "audit null tetrahedron --depth 1", "audit openmesh wheel:50:1 --depth 1 --depths uniform",
-        "audit faulty:fault=nan_position,of=model tetrahedron --depth 1 --level quick"}) {
+        "audit faulty:fault=nan_position,of=model tetrahedron --depth 1 --level quick",
+        "audit --program 'kill -SEGV $$' tetrahedron",
+        "audit --program 'sleep 1000' tetrahedron --timeout 0.3"}) {
     ASSERT_LE(run(std::string(arguments) + " --json report.json").code, 1) << arguments;
     EXPECT_EQ(
         python("import json, jsonschema\n"

@@ -123,23 +123,25 @@ class Measurer {
         for (const std::int32_t t : loose_) sample(corners_[t], bracket);
 
       // From the largest on, until what is left cannot raise the result.
-      const double enough = bracket.at_least * (1 + tightness) + 1e-15 * e_.surface.diagonal();
       bracket.at_most = bracket.at_least;
       for (const std::size_t k : order) {
+        const double enough = enough_for(bracket, tightness);
         const double bound = value(bounds_[k]);
         if (bound <= std::max(enough, bracket.at_most)) {
           bracket.at_most = std::max(bracket.at_most, std::min(bound, enough));
           break;
         }
         const Piece piece = lattice.piece(k);
-        bracket.at_most = std::max(
-            bracket.at_most,
-            refine(piece, near(piece, over_[static_cast<std::size_t>(piece.face)]), forwards, enough, 0));
+        const double most = refine(piece, near(piece, over_[static_cast<std::size_t>(piece.face)]), forwards,
+                                   tightness, bracket, 0);
+        bracket.at_most = std::max(bracket.at_most, most);
       }
       if (forwards)
         for (const std::int32_t t : loose_)
           bracket.at_most =
-              std::max(bracket.at_most, at_most(corners_[t], std::max(enough, bracket.at_most), 0));
+              std::max(bracket.at_most,
+                       at_most(corners_[t], std::max(enough_for(bracket, tightness), bracket.at_most), 0));
+      bracket.at_most = std::max(bracket.at_most, bracket.at_least);
     }
     return result;
   }
@@ -150,6 +152,7 @@ class Measurer {
     FacePoint at_triangles, at_surface;  // where they are taken
     std::int32_t triangle = -1;          // from which, at at_triangles ...
     Barycentric weight{};                // ... with these coordinates
+    bool bare = false;                   // some of the piece has no triangle over it
   };
 
   std::array<Vector, 3> lattice_face(std::size_t f) const {
@@ -231,26 +234,43 @@ class Measurer {
       }
     }
     if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
-      double most = 0, size = 0;
-      for (int k = 0; k < 3; ++k) {
-        most = std::max(most, distance_to_triangles(piece.corner[k]));
-        size = std::max(size, norm(piece.corner[k] - piece.corner[(k + 1) % 3]));
-      }
-      bound.at_surface = piece.parameter({1. / 3, 1. / 3, 1. / 3});
-      bound.from_surface = std::max(bound.from_surface, most + size + piece.deviation);
+      // No point of the piece is farther from its middle than a corner is, and the distance to the triangles
+      // changes no faster than the place.
+      constexpr Barycentric kMiddle{1. / 3, 1. / 3, 1. / 3};
+      const Vector middle = piece.flat(kMiddle);
+      double reach = 0;
+      for (const Vector& corner : piece.corner) reach = std::max(reach, norm(corner - middle));
+      bound.bare = true;
+      bound.at_surface = piece.parameter(kMiddle);
+      bound.from_surface =
+          std::max(bound.from_surface, distance_to_triangles(middle) + reach + piece.deviation);
     }
     return bound;
   }
 
-  double refine(const Piece& piece, const std::vector<Over>& over, bool forwards, double enough,
-                int level) const {
+  double enough_for(const Bracket& bracket, double tightness) const {
+    return bracket.at_least * (1 + tightness) + 1e-15 * e_.surface.diagonal();
+  }
+
+  // Where no triangle is, the distance at the middle is as good as any: it raises the lower end, too.
+  double refine(const Piece& piece, const std::vector<Over>& over, bool forwards, double tightness,
+                Bracket& bracket, int level) const {
     const Bound bound = look(piece, over);
+    if (!forwards && bound.bare) raise(bracket, bound.at_surface);
     const double value = forwards ? bound.from_triangles : bound.from_surface;
-    if (value <= enough || level >= (piece.irregular >= 0 ? kCornerSplits : kSplits)) return value;
+    if (value <= enough_for(bracket, tightness) || level >= (piece.irregular >= 0 ? kCornerSplits : kSplits))
+      return value;
     double most = 0;
     for (const Piece& child : e_.surface.lattice().split(piece, e_.surface.surface()))
-      most = std::max(most, refine(child, near(child, over), forwards, enough, level + 1));
+      most = std::max(most, refine(child, near(child, over), forwards, tightness, bracket, level + 1));
     return std::min(value, most);
+  }
+
+  void raise(Bracket& bracket, const FacePoint& at) const {
+    const double distance = distance_to_triangles(e_.surface.at(at, {}).position);
+    if (distance <= bracket.at_least) return;
+    bracket.at_least = distance;
+    bracket.where = at;
   }
 
   // The distance itself at the place where the bound is taken, and in the middle of the triangle or the
@@ -259,12 +279,7 @@ class Measurer {
     if (forwards && bound.triangle >= 0) sample(corners_[bound.triangle], bracket);
     for (const Barycentric& weight : kMiddles) {
       if (forwards) break;
-      const FacePoint middle = piece.parameter(weight);
-      const double distance = distance_to_triangles(e_.surface.at(middle, {}).position);
-      if (distance > bracket.at_least) {
-        bracket.at_least = distance;
-        bracket.where = middle;
-      }
+      raise(bracket, piece.parameter(weight));
     }
     const FacePoint& at = forwards ? bound.at_triangles : bound.at_surface;
     if (at.face < 0) return;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The brackets against known distances and against dense samples.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "data/generators/named_mesh.h"
@@ -64,7 +66,40 @@ TEST(Hausdorff, SeesAHoleFromTheSurfaceOnly) {
   EXPECT_LE(h.from_triangles.at_least, 1e-12);
   EXPECT_LE(h.from_surface.at_least, radius * (1 + 1e-12));
   EXPECT_GE(h.from_surface.at_most, radius);
-  EXPECT_GE(h.from_surface.at_least, radius / 4);
+  RecordProperty("at_least_by_radius", fmt::format("{:.4f}", h.from_surface.at_least / radius));
+  RecordProperty("at_most_by_radius", fmt::format("{:.4f}", h.from_surface.at_most / radius));
+  EXPECT_GE(h.from_surface.at_least, .95 * radius) << radius;
+  EXPECT_LE(h.from_surface.at_most, 1.10 * radius) << radius;
+}
+
+// The same of a tetrahedron: one of 4^3 triangles of the first face taken out. The hole's rim stays, so no
+// point of the surface over it is farther from what is left than from the rim; and the point of the surface
+// over the middle of the hole is nowhere nearer to a triangle than a dense search finds.
+TEST(Hausdorff, OfATetrahedronWithATriangleLessIsWhatADenseSearchFinds) {
+  Case c("tetrahedron", 3, 1 << 12);
+  const auto hole = c.t.triangles[20];
+  c.t.triangles.erase(c.t.triangles.begin() + 20);
+  const Hausdorff h = c.run();
+  const std::array<Vector, 3> corner{c.t.positions[hole[0]], c.t.positions[hole[1]], c.t.positions[hole[2]]};
+  double farthest = 0;
+  constexpr int kSteps = 60;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; i + j <= kSteps; ++j) {
+      const double u = double(i) / kSteps, v = double(j) / kSteps;
+      const Vector flat = (1 - u - v) * corner[0] + u * corner[1] + v * corner[2];
+      const Vector there = c.surface.at(c.surface.closest(flat).at, {}).position;
+      double least = 1e300;
+      for (const auto& t : c.t.triangles)
+        least = std::min(
+            least, closest_on_triangle(there, {c.t.positions[t[0]], c.t.positions[t[1]], c.t.positions[t[2]]})
+                       .distance);
+      farthest = std::max(farthest, least);
+    }
+  RecordProperty("dense", fmt::format("{:.6g}", farthest));
+  RecordProperty("bracket", fmt::format("{:.6g} .. {:.6g}", h.from_surface.at_least, h.from_surface.at_most));
+  EXPECT_GE(h.from_surface.at_most, farthest);
+  EXPECT_GE(h.from_surface.at_least, .95 * farthest);
+  EXPECT_LE(h.from_surface.at_most, 1.10 * farthest);
 }
 
 TEST(Hausdorff, DenseSamplesOfBothSidesAreWithinTheBrackets) {

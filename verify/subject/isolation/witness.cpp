@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "data/io/write.h"
+#include "data/validate.h"
 #include "verify/subject/control_mesh.h"
 
 namespace limitcheck::verify {
@@ -54,6 +55,7 @@ std::string save_input(const std::string& folder, const Input& input) try {
   const auto mesh_file = place / fmt::format("{:016x}.obj", hash);
   data::write_mesh(mesh_file, mesh);
   command += fmt::format(" {}", shell_word(mesh_file.string()));
+  if (!data::validate(mesh).empty()) return fmt::format("; again with: {}{} --must-refuse", command, rest);
 
   if (!input.face_depth.empty()) {
     const auto [least, most] = std::minmax_element(input.face_depth.begin(), input.face_depth.end());

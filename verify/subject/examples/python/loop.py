@@ -7,6 +7,7 @@
 import json
 import sys
 from array import array
+from collections import Counter
 from math import cos, pi, sin, sqrt
 
 
@@ -16,17 +17,24 @@ def weighted(terms):
 
 
 class Mesh:
-    """Positions, and triangles (corners, control face, (i, j) of each corner)."""
+    """Positions, and triangles (corners, control face, (i, j) of each corner), which must form an oriented manifold."""
 
     def __init__(self, positions, triangles):
         self.positions, self.triangles = positions, triangles
         self.after = {}  # (v, a) -> b for each triangle (v, a, b): the next neighbour of v, counter-clockwise
         self.start = {}
+        faces = Counter(v for corners, _, _ in triangles for v in corners)
         for corners, _, _ in triangles:
             for k in range(3):
                 v, a, b = corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]
+                if (v, a) in self.after:
+                    raise ValueError("two triangles run along an edge in the same direction")
                 self.after[v, a] = b
                 self.start[v] = a
+        for v in faces:
+            ring, boundary = self.ring(v)
+            if len(ring) - boundary != faces[v]:
+                raise ValueError("the triangles at a vertex form more than one fan")
 
     def ring(self, v):
         """The neighbours of v counter-clockwise, from boundary to boundary if there is one."""
@@ -119,9 +127,14 @@ while line := sys.stdin.buffer.readline():
     elif question["request"] == "create":
         xyz, corners = read("d", 3 * question["vertices"]), read("i", 3 * question["triangles"])
         faces = [tuple(corners[k:k + 3]) for k in range(0, len(corners), 3)]
-        control = Mesh([tuple(xyz[k:k + 3]) for k in range(0, len(xyz), 3)],
-                       [(v, face, ((0, 0), (1, 0), (0, 1))) for face, v in enumerate(faces)])
-        write({})
+        try:
+            if not faces:
+                raise ValueError("there are no triangles")
+            control = Mesh([tuple(xyz[k:k + 3]) for k in range(0, len(xyz), 3)],
+                           [(v, face, ((0, 0), (1, 0), (0, 1))) for face, v in enumerate(faces)])
+            write({})
+        except ValueError as refusal:
+            write({"status": "invalid-input", "message": str(refusal)})
     elif question["request"] == "tessellate":
         depth = read("i", question["triangles"])[0]
         mesh = control

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A library that behaves as the C example does, except on meshes of six vertices (the octahedron): there it
-// does what its option says, do=THING. Everything here is wrong on purpose.
+// does what its option says, do=THING, or only when on=CASE. Everything here is wrong on purpose.
 #include <limitcheck/subject.h>
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-extern "C" const lc_subject* good_subject_get(std::uint32_t abi);  // examples/c/loop.c, its entry renamed
+extern "C" const lc_subject* good_subject_get(std::uint32_t abi);  // examples/c, its entry renamed
 
 namespace {
 
@@ -23,7 +23,32 @@ const lc_subject& good() {
 struct Instance {
   void* inner = nullptr;
   std::string what;
+  bool second_only = false;  // not in the first request
 };
+
+std::string option(const char* options, const std::string& key) {
+  const std::string text = std::string(",") + (options != nullptr ? options : "") + ",";
+  const std::size_t place = text.find("," + key + "=");
+  if (place == std::string::npos) return "";
+  const std::size_t begin = place + key.size() + 2;
+  return text.substr(begin, text.find(',', begin) - begin);
+}
+
+// Whether this mesh is the one to misbehave on, made from the octahedron by the audit.
+bool is_the_case(const std::string& which, const lc_mesh& mesh) {
+  const auto all_equal = [&](int axis) {
+    for (int v = 1; v < mesh.vertex_count; ++v)
+      if (mesh.positions[3 * v + axis] != mesh.positions[axis]) return false;
+    return true;
+  };
+  if (which == "broken") return mesh.vertex_count == 7 && mesh.triangle_count == 4;
+  if (mesh.vertex_count != 6) return false;
+  if (which == "mirrored") return mesh.triangles[0] == 0 && mesh.triangles[1] == 4;
+  if (which == "line") return all_equal(1) && !all_equal(0);
+  if (which == "point") return all_equal(1) && all_equal(0);
+  if (which == "large") return mesh.positions[0] == 1024;
+  return true;
+}
 
 volatile int* nowhere = nullptr;
 
@@ -88,21 +113,28 @@ lc_mesh lent;
 extern "C" const lc_subject* lc_subject_get(std::uint32_t) {
   static lc_subject subject = good();
   subject.name = "hostile";
-  subject.options = "do=THING";
+  subject.options = "do=THING, on=CASE";
   subject.capabilities = [](const char*, lc_capabilities* out, const char** message) {
     return good().capabilities(nullptr, out, message);
   };
   subject.create = [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
     auto* made = new Instance;
-    if (options != nullptr && mesh->vertex_count == 6) made->what = std::string(options).substr(3);
+    const std::string which = option(options, "on");
+    if (is_the_case(which, *mesh)) made->what = option(options, "do");
+    made->second_only = which == "second";
     lent = *mesh;
     *instance = made;
     if (made->what == "create") *nowhere = 1;
+    if (which == "broken") misbehave(made->what);
     return good().create(mesh, nullptr, &made->inner, message);
   };
   subject.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out,
                           const char** message) {
     auto& self = *static_cast<Instance*>(instance);
+    if (self.second_only) {
+      self.second_only = false;
+      return good().tessellate(self.inner, request, out, message);
+    }
     misbehave(self.what);
     const lc_status status = good().tessellate(self.inner, request, out, message);
     spoil(self.what, lent, *out);

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A subject in C++: Loop subdivision of the whole mesh, step by step, then every vertex moved to its limit;
-// delivered in float. Exceptions stay on this side of the door.
-#include <limitcheck/subject.h>
+// A tessellator such as yours may be: Loop subdivision of a whole mesh, one step after another. Slow, short
+// and right, boundaries included. It knows nothing of limitcheck; subject.cpp does.
+#pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <exception>
 #include <map>
-#include <memory>
-#include <new>
-#include <type_traits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
-
-namespace {
 
 using Vec = std::array<double, 3>;
 struct Triangle {
@@ -24,9 +18,9 @@ struct Triangle {
   std::array<std::array<unsigned, 2>, 3> at;  // (i, j) of each corner
 };
 
-const double kPi = std::acos(-1.0);
+inline const double kPi = std::acos(-1.0);
 
-void add(Vec& to, double w, const Vec& p) {
+inline void add(Vec& to, double w, const Vec& p) {
   for (std::size_t k = 0; k < 3; ++k) to[k] += w * p[k];
 }
 
@@ -36,12 +30,22 @@ struct Mesh {
   std::map<std::pair<int, int>, int> after{};  // (v, a) -> b for each triangle (v, a, b)
   std::map<int, int> start{};                  // a neighbour; the first, counter-clockwise, at a boundary
 
+  /// Finds the neighbours. Throws std::invalid_argument if the triangles are no oriented manifold.
   void connect() {
+    if (triangles.empty()) throw std::invalid_argument("there are no triangles");
+    std::map<int, int> faces;
     for (const Triangle& t : triangles)
-      for (std::size_t k = 0; k < 3; ++k) after[{t.v[k], t.v[(k + 1) % 3]}] = t.v[(k + 2) % 3];
+      for (std::size_t k = 0; k < 3; ++k, ++faces[t.v[k % 3]])
+        if (!after.try_emplace({t.v[k], t.v[(k + 1) % 3]}, t.v[(k + 2) % 3]).second)
+          throw std::invalid_argument("two triangles run along an edge in the same direction");
     for (const auto& [edge, next] : after)
       if (after.count({edge.second, edge.first}) == 0 || start.count(edge.first) == 0)
         start[edge.first] = edge.second;
+    for (const auto& [v, count] : faces) {
+      bool boundary = false;
+      const int around = static_cast<int>(ring(v, boundary).size()) - boundary;
+      if (around != count) throw std::invalid_argument("the triangles at a vertex form more than one fan");
+    }
   }
 
   std::vector<int> ring(int v, bool& boundary) const {
@@ -120,79 +124,3 @@ struct Mesh {
     return fine;
   }
 };
-
-void deliver(const Mesh& mesh, const lc_request& request, lc_tessellation& out) {
-  const auto get = [&](auto*& array, std::size_t count) {
-    array = static_cast<std::remove_reference_t<decltype(array)>>(
-        request.allocate(request.host, count * sizeof(*array)));
-    if (array == nullptr) throw std::bad_alloc();
-  };
-  float *position = nullptr, *normal = nullptr;
-  get(position, 3 * mesh.positions.size());
-  get(normal, 3 * mesh.positions.size());
-  get(out.provenance, mesh.positions.size());
-  get(out.triangles, 3 * mesh.triangles.size());
-  get(out.triangle_face, mesh.triangles.size());
-  out.positions = position;
-  out.normals = normal;
-  for (; out.vertex_count < static_cast<std::int64_t>(mesh.positions.size()); ++out.vertex_count) {
-    Vec n{};
-    for (const double x : mesh.moved(static_cast<int>(out.vertex_count), &n))
-      *position++ = static_cast<float>(x);
-    for (const double x : n) *normal++ = static_cast<float>(x);
-  }
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      out.triangles[3 * out.triangle_count + static_cast<std::int64_t>(k)] = static_cast<unsigned>(t.v[k]);
-      out.provenance[t.v[k]] = {t.face, t.at[k][0], t.at[k][1], 1U << request.face_depth[0]};
-    }
-    out.triangle_face[out.triangle_count++] = t.face;
-  }
-}
-
-}  // namespace
-
-extern "C" const lc_subject* lc_subject_get(std::uint32_t abi) {
-  static lc_subject subject{};
-  subject.abi = LC_SUBJECT_ABI;
-  subject.name = "loop-in-c++";
-  subject.description = "Loop subdivision step by step, in C++";
-  subject.capabilities = [](const char*, lc_capabilities* out, const char**) {
-    *out = {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 6, 1, 0, 1};
-    return LC_OK;
-  };
-  subject.create = [](const lc_mesh* control, const char*, void** instance, const char** message) {
-    try {
-      auto mesh = std::make_unique<Mesh>();
-      for (std::int64_t v = 0; v < control->vertex_count; ++v) {
-        const double* p = control->positions + 3 * v;
-        mesh->positions.push_back({p[0], p[1], p[2]});
-      }
-      for (int f = 0; f < control->triangle_count; ++f) {
-        const std::int32_t* t = control->triangles + 3 * f;
-        mesh->triangles.push_back({{t[0], t[1], t[2]}, f, {{{0, 0}, {1, 0}, {0, 1}}}});
-      }
-      mesh->connect();
-      *instance = mesh.release();
-      return LC_OK;
-    } catch (const std::exception&) {
-      *message = "out of memory";
-      return LC_FAILED;
-    }
-  };
-  subject.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out,
-                          const char** message) {
-    try {
-      Mesh mesh = *static_cast<const Mesh*>(instance);
-      for (int d = 0; d < request->face_depth[0]; ++d) mesh = mesh.refined();
-      deliver(mesh, *request, *out);
-      return LC_OK;
-    } catch (const std::exception&) {
-      *message = "out of memory";
-      return LC_FAILED;
-    }
-  };
-  subject.release = [](void*, lc_tessellation*) {};
-  subject.destroy = [](void* instance) { delete static_cast<Mesh*>(instance); };
-  return abi == LC_SUBJECT_ABI ? &subject : nullptr;
-}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/relation_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verify/audit/bounds.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Key = std::int64_t;
+struct Placed {
+  std::optional<Key> face_and_point;
+  Lattice::Id id = Lattice::kNone;
+};
+
+// Where a vertex lies on the original mesh: its point, and that point together with the face that names it.
+Placed place(const Evidence& e, const Variant& v, const lc_provenance& p) {
+  if (p.face < 0 || static_cast<std::size_t>(p.face) >= v.face.size() || p.denominator == 0 ||
+      std::int64_t{p.i} + p.j > p.denominator)
+    return {};
+  const std::array<std::uint32_t, 3> there{p.denominator - p.i - p.j, p.i, p.j};
+  std::array<std::uint32_t, 3> here{};
+  for (std::size_t k = 0; k < 3; ++k) here[v.corner[p.face][k]] = there[k];
+  const lc_provenance q{v.face[p.face], here[1], here[2], p.denominator};
+  const Lattice::Id id = e.lattice.id(q);
+  if (id == Lattice::kNone) return {};
+  return {id * static_cast<Key>(v.face.size()) + q.face, id};
+}
+
+}  // namespace
+
+Compared::Compared(const Evidence& e)
+    : e_(e), uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(), [&](std::int32_t d) {
+        return d == e.face_depth[0];
+      })) {
+  const Variant same = identity(e);
+  for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
+    const Placed at = place(e, same, e.tessellation.provenance()[v]);
+    if (at.id == Lattice::kNone) continue;
+    by_face_.emplace(*at.face_and_point, v);
+    by_point_.emplace(at.id, v);
+  }
+}
+
+Comparison Compared::with(const Tessellation& t, const Variant& v, double slack) const {
+  Comparison c;
+  const int depth = e_.lattice.depth();
+  const double position_limit =
+      slack * position_bound(e_.capabilities.precision, depth, v.magnitude, std::max(e_.diagonal, 1e-300));
+  const double normal_limit = slack * normal_bound(e_.capabilities.precision, depth);
+  const bool normals = v.normals && t.has_normals() && e_.tessellation.has_normals();
+  std::vector<bool> seen(static_cast<std::size_t>(e_.lattice.size()), false);
+  const auto note = [&](double excess, std::int64_t mine, const Vector& expected, const Vector& got) {
+    if (c.witness && excess <= c.worst) return;
+    c.worst = excess;
+    c.witness = e_.at_vertex(mine);
+    c.witness->expected = {expected.begin(), expected.end()};
+    c.witness->got = {got.begin(), got.end()};
+  };
+  for (std::int64_t k = 0; k < t.vertex_count(); ++k) {
+    const Placed at = place(e_, v, t.provenance()[k]);
+    if (at.id == Lattice::kNone) continue;
+    const auto exact = by_face_.find(*at.face_and_point);
+    const auto any = by_point_.find(at.id);
+    ++c.of;
+    if (any == by_point_.end()) {
+      if (!uniform_) continue;
+      ++c.bad;
+      c.message = "a point that the original does not have";
+      continue;
+    }
+    seen[at.id] = true;
+    std::int64_t mine = exact != by_face_.end() ? exact->second : any->second;
+    for (auto [k2, last] = by_face_.equal_range(*at.face_and_point); k2 != last; ++k2)
+      if (same(t, k, v, k2->second)) mine = k2->second;
+    const Vector p = v.position(t.position(k)), q = e_.tessellation.position(mine);
+    double off = norm(p - q) / e_.diagonal;
+    if (!std::isfinite(off)) off = p == q ? 0 : std::numeric_limits<double>::infinity();
+    c.position = std::max(c.position, off);
+    bool wrong = !(off <= position_limit), bits = p == q;
+    note(position_limit > 0 ? off / position_limit : off > 0 ? 1e300 : 0, mine, q, p);
+    if (normals && e_.reference.has_normal(at.id)) {
+      const Vector a = v.normal(t.normal(k)), b = e_.tessellation.normal(mine);
+      const double angle = a == b ? 0 : angle_degrees(a, b);
+      c.normal = std::max(c.normal, angle);
+      wrong = wrong || !(angle <= normal_limit);
+      bits = bits && a == b;
+      note(normal_limit > 0 ? angle / normal_limit : angle > 0 ? 1e300 : 0, mine, b, a);
+    }
+    c.bad += wrong;
+    c.other_bits += !bits;
+  }
+  // A face may be displayed deeper than asked for where its neighbours are: which, may depend on the order.
+  for (const auto& [id, vertex] : by_point_)
+    if (uniform_ && !seen[id]) {
+      ++c.of;
+      ++c.bad;
+      c.message = "a point of the original is missing";
+    }
+  return c;
+}
+
+bool Compared::same(const Tessellation& t, std::int64_t k, const Variant& v, std::int64_t mine) const {
+  return v.position(t.position(k)) == e_.tessellation.position(mine) &&
+         (!t.has_normals() || !e_.tessellation.has_normals() ||
+          v.normal(t.normal(k)) == e_.tessellation.normal(mine));
+}
+
+}  // namespace limitcheck::verify

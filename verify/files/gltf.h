@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Tessellations from glTF 2.0, as game engines and viewers export them.
+#pragma once
+
+#include <filesystem>
+
+#include "data/io/polygon_soup.h"
+
+namespace limitcheck::verify {
+
+/// .gltf or .glb, in any case.
+bool is_gltf(const std::filesystem::path& file);
+
+/// All triangles (lists, strips and fans) of all meshes that the default scene shows, each where its node
+/// puts it; without scenes all meshes as they are. Primitives that share their vertices share them here.
+///   precision  floats bit for bit under nodes without a transformation, else double arithmetic
+///   throws     data::InputError: FILE_CANNOT_OPEN, FILE_SYNTAX (not glTF 2.0, or an accessor out of its
+///              buffer), FILE_UNSUPPORTED (positions that are not floats, sparse or compressed accessors,
+///              nodes in a circle)
+data::io::PolygonSoup read_gltf(const std::filesystem::path& file);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Subjects that behave on the mesh they are given and misbehave on what the audit makes of it: the row that
+// asked says so, with the input; every other row, and the next mesh, is what it would have been.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+using nlohmann::json;
+using Statuses = std::map<std::string, std::string>;
+
+class RelationBreakdown : public CommandTest {
+ protected:
+  json audit(const std::string& options, const std::string& limits = "") const {
+    const Outcome o = run("audit '" LIMITCHECK_TEST_SUBJECTS
+                          "/hostile.so' octahedron tetrahedron --depth 1 "
+                          "--json - --options " +
+                          options + " " + limits);
+    EXPECT_EQ(o.code, options == "do=nothing" ? 0 : 1) << options << "\n" << o.out << o.err;
+    const json report = json::parse(o.out, nullptr, false);
+    EXPECT_FALSE(report.is_discarded()) << o.out;
+    return report;
+  }
+  static Statuses statuses(const json& report, const std::string& mesh) {
+    Statuses all;
+    for (const json& r : report["results"])
+      if (r["mesh"] == mesh) all[r["check"]] = r["status"];
+    return all;
+  }
+  static std::string message(const json& report, const std::string& check) {
+    for (const json& r : report["results"])
+      if (r["mesh"] == "octahedron" && r["check"] == check)
+        return r["message"].is_null() ? "" : r["message"].get<std::string>();
+    return "no row";
+  }
+};
+
+struct Case {
+  const char* name;
+  const char* options;
+  const char* check;  // the only row that is other than without fault
+  const char* status;
+  const char* words;  // in its message
+  const char* limits = "";
+};
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
+
+class Misbehaves : public RelationBreakdown, public testing::WithParamInterface<Case> {};
+
+TEST_P(Misbehaves, ItIsTheRowThatAskedAndNoOther) {
+  const Case& c = GetParam();
+  static const json good = audit("do=nothing");
+  Statuses expected = statuses(good, "octahedron");
+  ASSERT_GE(expected.size(), 25U) << "checks and relations";
+  for (const auto& [check, status] : expected) EXPECT_NE(status, "not-run") << check;
+
+  const json report = audit(c.options, c.limits);
+  expected[c.check] = c.status;
+  EXPECT_EQ(statuses(report, "octahedron"), expected) << message(report, c.check);
+  Statuses other = statuses(good, "tetrahedron");
+  if (std::string(c.check) == "rejected-inputs") other[c.check] = c.status;  // the same broken meshes
+  EXPECT_EQ(statuses(report, "tetrahedron"), other);
+  const std::string told = message(report, c.check);
+  EXPECT_NE(told.find(c.words), std::string::npos) << told;
+
+  // A process that breaks down leaves its input and the command that does it again.
+  if (std::string(c.status) != "crash" && std::string(c.status) != "timeout") return;
+  const std::string key = "again with: limitcheck ";
+  const std::size_t place = told.find(key);
+  ASSERT_NE(place, std::string::npos) << told;
+  const std::string rest = told.substr(place + key.size());
+  const Outcome again = run(rest.substr(0, rest.find(" / ")) + " --level quick --json -");
+  EXPECT_EQ(again.code, 1) << told << again.err;
+  const json repeated = json::parse(again.out, nullptr, false);
+  ASSERT_FALSE(repeated.is_discarded()) << again.out;
+  EXPECT_EQ(repeated["results"][0]["status"], c.status) << repeated["results"][0];
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    InOneRequest, Misbehaves,
+    testing::Values(
+        Case{"dies_on_the_mirrored_mesh", "do=segfault,on=mirrored", "mirror", "crash", "mirrored: "},
+        Case{"dies_at_the_end_of_the_mirrored_mesh", "do=destroy,on=mirrored", "mirror", "crash",
+             "killed by SIGABRT"},
+        Case{"hangs_on_a_line", "do=sleep,on=line", "degenerate-geometry", "timeout",
+             "with all control points on a line: ", "--timeout 2"},
+        Case{"hangs_on_a_point", "do=spin,on=point", "degenerate-geometry", "timeout",
+             "with all control points at the same place: ", "--timeout 2"},
+        Case{"takes_all_memory_on_the_large_mesh", "do=memory,on=large", "scaling", "crash",
+             "times 2^10: ", "--memory 500"},
+        Case{"delivers_garbage_counts_when_mirrored", "do=garbage_counts,on=mirrored", "mirror", "finding",
+             "mirrored: vertex_count is 6510615555426900570"},
+        Case{"delivers_garbage_counts_the_second_time", "do=garbage_counts,on=second", "determinism",
+             "finding", "vertex_count is 6510615555426900570"},
+        Case{"fails_on_a_line", "do=throw,on=line", "degenerate-geometry", "error", "out of luck"},
+        Case{"writes_behind_its_memory_when_mirrored", "do=write_behind,on=mirrored", "mirror", "finding",
+             "mirrored: positions written outside its memory"},
+        Case{"dies_of_a_broken_mesh", "do=segfault,on=broken", "rejected-inputs", "crash",
+             "an edge with three faces: "},
+        Case{"hangs_on_a_broken_mesh", "do=sleep,on=broken", "rejected-inputs", "timeout",
+             "an edge with three faces: ", "--timeout 1"}),
+    [](const auto& of) { return std::string(of.param.name); });
+
+}  // namespace
+}  // namespace limitcheck::cli

@@ -20,7 +20,7 @@ PAGE = """<!doctype html>
 td,th{{padding:.1rem .8rem .1rem 0;text-align:left;vertical-align:top}}</style>
 <h1>Performance over time</h1>
 <p>One section per machine, compiler, flags and vector targets: figures of different sections are not comparable. One panel
-per benchmark, one point per record, in the order of their dates. Times are medians of all repetitions, the band holds the
+per benchmark, one point per record, in the order of their dates; a star marks a working tree with changes on top of its commit. Times are medians of all repetitions, the band holds the
 middle half of them; instruction counts are exact. Axes do not start at zero; they span at least 10 % either way.</p>
 {sections}</html>
 """

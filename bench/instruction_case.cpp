@@ -2,7 +2,8 @@
 // One small piece of work, once, for callgrind to count the instructions of; nothing before or after it is
 // counted.
 //   valgrind --tool=callgrind --collect-atstart=no instruction_case CASE
-// Without an argument: the names of the cases. Callgrind knows no AVX-512, so AVX2 is the widest target.
+// Without an argument: the build, then the names of the cases. Callgrind knows no AVX-512, so AVX2 is the
+// widest target.
 #include <valgrind/callgrind.h>
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/build_identity.h"
 #include "bench/contenders/contender.h"
 #include "data/generators/bumpy_sphere.h"
 #include "fast/frame.h"
@@ -62,6 +64,7 @@ std::map<std::string, std::function<Case()>> cases() {
 int main(int argc, char** argv) {
   const auto list = cases();
   if (argc < 2) {
+    std::puts(bench::build_identity().c_str());
     for (const auto& [name, make] : list) std::puts(name.c_str());
     return 0;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "fast/row_stream/row_stream.h"
 #include "fast/sliding_window.h"
 #include "reference/naive.h"
+
+#ifndef PLANTED_SLOWDOWN
+#define PLANTED_SLOWDOWN 0
+#endif
 
 namespace limitcheck::bench {
 
@@ -70,9 +75,12 @@ class RowStreaming : public Contender {
       switch (form_) {
         case Form::kRows:
           stream_.rows(some, depth_, *workspace, nullptr, nullptr);
-          if constexpr (PLANTED_SLOWDOWN > 0)
-            stream_.rows(some.first(some.size() * PLANTED_SLOWDOWN / 100), depth_, *workspace, nullptr,
+          if constexpr (PLANTED_SLOWDOWN > 0) {  // so many per cent of the batches, at least one, once more
+            const std::size_t batches = (some.size() + lanes - 1) / lanes;
+            const std::size_t again = std::max<std::size_t>(1, (batches * PLANTED_SLOWDOWN + 50) / 100);
+            stream_.rows(some.first(std::min(some.size(), again * lanes)), depth_, *workspace, nullptr,
                          nullptr);
+          }
           break;
         case Form::kWhole:
           stream_.whole(some, depth_, *workspace, out_.data() + start);

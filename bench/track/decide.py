@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Is B slower than A? Exact counts decide by themselves; times need statistics, size and a second round."""
+import itertools
+import math
 import statistics
 
 import scipy.stats
@@ -24,23 +26,40 @@ def judge_round(a, b):
     """(ratio of medians, p, +1 slower / -1 faster / 0 no difference shown)."""
     ratio = statistics.median(b) / statistics.median(a)
     p = scipy.stats.mannwhitneyu(a, b, alternative="two-sided").pvalue
+    return ratio, p, sign_of(ratio, p)
+
+
+def judge_launches(launches):
+    """Of two builds timed in turns, see turns.py: as judge_round. A launch counts once, as the median of its pairs of
+    turns; then Wilcoxon's signed-rank test, and the shift that belongs to it (Hodges and Lehmann)."""
+    logs = [statistics.median(math.log(b / a) for a, b in blocks) for blocks in launches]
+    ratio = math.exp(statistics.median((x + y) / 2 for x, y in itertools.combinations_with_replacement(logs, 2)))
+    p = scipy.stats.wilcoxon(logs).pvalue if any(logs) else 1.0
+    return ratio, p, sign_of(ratio, p)
+
+
+def sign_of(ratio, p):
     if p >= TIME_ALPHA or abs(ratio - 1) < TIME_EFFECT:
-        return ratio, p, 0
-    return ratio, p, 1 if ratio > 1 else -1
+        return 0
+    return 1 if ratio > 1 else -1
+
+
+def time_row(name, judged):
+    """A difference counts when every round shows it alike."""
+    signs = {sign for _, _, sign in judged}
+    verdict = {1: "slower", -1: "faster"}.get(signs.pop() if len(signs) == 1 else 0, "")
+    return {"name": name, "kind": "time", "ratio": statistics.median(r for r, _, _ in judged),
+            "p": max(p for _, p, _ in judged), "verdict": verdict, "rounds": len(judged)}
 
 
 def judge_times(a, b):
-    """One row per benchmark that both have. A difference counts when every round shows it alike."""
+    """One row per benchmark that both have."""
     rows = []
     rounds = [(samples(x), samples(y)) for x, y in zip(a["rounds"], b["rounds"])]
     for name in rounds[0][0]:
         judged = [judge_round(x[name], y[name]) for x, y in rounds if name in x and name in y]
-        if len(judged) < len(rounds):
-            continue
-        signs = {sign for _, _, sign in judged}
-        verdict = {1: "slower", -1: "faster"}.get(signs.pop() if len(signs) == 1 else 0, "")
-        rows.append({"name": name, "kind": "time", "ratio": statistics.median(r for r, _, _ in judged),
-                     "p": max(p for _, p, _ in judged), "verdict": verdict, "rounds": len(judged)})
+        if len(judged) == len(rounds):
+            rows.append(time_row(name, judged))
     return rows
 
 
@@ -54,20 +73,25 @@ def judge_counts(a, b):
     return rows
 
 
-def missing(a, b):
-    """Names that one record has and the other lacks: never a silent pass."""
-    def names(record):
-        return set(samples(record["rounds"][0])) | set(record["instructions"])
-    return sorted(names(a) - names(b)), sorted(names(b) - names(a))
+def unmatched(a, b):
+    """Names that one side has and the other lacks: never a silent pass."""
+    return sorted(set(a) - set(b)), sorted(set(b) - set(a))
+
+
+def names(record):
+    return set(samples(record["rounds"][0])) | set(record["instructions"])
+
+
+def result(rows, only_a, only_b, differences=()):
+    """What a comparison says, as --json prints it."""
+    confirmed = [r for r in rows if r["verdict"] == "more" or (r["verdict"] == "slower" and r["rounds"] >= 2)]
+    return {"comparable": not differences, "differences": list(differences), "rows": rows, "only_a": only_a,
+            "only_b": only_b, "regressions": len(confirmed)}
 
 
 def compare(a, b):
-    """{'comparable': bool, 'differences': [...], 'rows': [...], 'only_a', 'only_b', 'regressions': n}."""
+    """Two records: {'comparable': bool, 'differences': [...], 'rows': [...], 'only_a', 'only_b', 'regressions': n}."""
     differences = machine.differences(a["identity"], b["identity"])
     if differences:
-        return {"comparable": False, "differences": differences, "rows": [], "only_a": [], "only_b": [], "regressions": 0}
-    rows = judge_counts(a, b) + judge_times(a, b)
-    only_a, only_b = missing(a, b)
-    confirmed = [r for r in rows if r["verdict"] == "more" or (r["verdict"] == "slower" and r["rounds"] >= 2)]
-    return {"comparable": True, "differences": [], "rows": rows, "only_a": only_a, "only_b": only_b,
-            "regressions": len(confirmed)}
+        return result([], [], [], differences)
+    return result(judge_counts(a, b) + judge_times(a, b), *unmatched(names(a), names(b)))

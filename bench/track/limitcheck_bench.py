@@ -1,18 +1,23 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""limitcheck bench: performance tracking. run measures and stores, compare decides, trend draws."""
+"""Performance tracking: run measures and stores, compare decides, gate holds exact costs, trend draws."""
 import argparse
 import json
 import os
 import pathlib
 import re
+import shutil
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import decide  # noqa: E402
+import gate  # noqa: E402
+import machine  # noqa: E402
 import measure  # noqa: E402
+import self_test  # noqa: E402
 import trend  # noqa: E402
+import turns  # noqa: E402
 
 HELD, FINDINGS, BAD_INPUT = 0, 1, 2
 
@@ -61,50 +66,110 @@ def load(store, name):
         raise UsageError(f"{path}: not a record of `limitcheck bench run` ({error})") from error
 
 
+def keep(programs, name):
+    """Copies the programs that comparisons need to a folder beside them."""
+    folder = programs / "kept" / name
+    folder.mkdir(parents=True, exist_ok=True)
+    for program in turns.PROGRAMS:
+        shutil.copy2(programs / program, folder / program)
+    return str(folder.resolve())
+
+
 def command_run(args):
     record = measure.measure(args.programs, args.suite, args.repetitions, args.rounds, counts=not args.no_counts,
                              progress=progress)
     progress("")
-    label = args.label or record["commit"]
-    path = args.store / record["key"] / f"{label}.json"
+    name = args.label or record["commit"]
+    if args.keep:
+        record["kept"] = keep(args.programs, name)
+    path = args.store / record["key"] / f"{name}.json"
     write_whole(path, json.dumps(record, indent=1))
     names = decide.samples(record["rounds"][0])
-    print(f"{path}: {len(names)} benchmarks, {args.rounds} rounds of {args.repetitions}, "
+    print(f"{path}: {len(names)} benchmarks, {args.rounds} rounds of {args.repetitions} repetitions, "
           f"{len(record['instructions'])} instruction counts")
+    if args.keep:
+        print(f"programs kept in {record['kept']}")
     return HELD
 
 
-def command_compare(args):
+def in_turns(a, b, suite, counts_of_a, differences):
+    """Two builds that are both here. counts_of_a: None to measure them, too."""
+    if differences:
+        return decide.result([], [], [], differences)
+    rows, only_a, only_b = turns.compare(a, b, suite, progress=progress)
+    if counts_of_a is None:
+        counts_of_a = measure.instruction_counts(a, progress)
+    of_a, of_b = {"instructions": counts_of_a}, {"instructions": {}}
+    if counts_of_a:
+        of_b = {"instructions": measure.instruction_counts(b, progress)}
+    lost, new = decide.unmatched(of_a["instructions"], of_b["instructions"])
+    return decide.result(decide.judge_counts(of_a, of_b) + rows, only_a + lost, only_b + new)
+
+
+def compare_with_build(args):
+    other = turns.programs_of(args.against)
+    builds = [turns.build_and_cases(side)[0] for side in (other, args.programs)]
+    differences = [f"build: {builds[0]} | {builds[1]}"] if builds[0] != builds[1] else []
+    return in_turns(other, args.programs, args.suite, {} if args.no_counts else None, differences)
+
+
+def compare_records(args):
+    """(result, note about how the times were compared)."""
     a = load(args.store, args.a)
     if args.b:
-        b = load(args.store, args.b)
+        return decide.compare(a, load(args.store, args.b)), "times of two records"
+    kept = pathlib.Path(a.get("kept", "/nowhere"))
+    if (kept / "timing_turns").is_file():
+        differences = machine.differences(a["identity"], measure.identity(args.programs))
+        return in_turns(kept, args.programs, a["suite"], a["instructions"], differences), "times in turns with the kept programs"
+    b = measure.measure(args.programs, a["suite"], counts=bool(a["instructions"]), progress=progress)
+    lost = f"the programs of {args.a} are no longer in {kept}" if "kept" in a else f"the programs of {args.a} were not kept"
+    return decide.compare(a, b), f"{lost} (bench run --keep), so its times are of another hour: less sharp on a busy machine"
+
+
+def command_compare(args):
+    if (args.a is None) == (args.against is None):
+        raise UsageError("compare needs a record A or --against FOLDER, and not both")
+    if args.against is not None:
+        result, note = compare_with_build(args), "times in turns"
+        names = str(args.against), "this build"
     else:
-        b = measure.measure(args.programs, a["suite"], counts=bool(a["instructions"]), progress=progress)
-        progress("")
-    result = decide.compare(a, b)
+        result, note = compare_records(args)
+        names = args.a, args.b or "this build"
+    progress("")
     if args.json:
         print(json.dumps(result, indent=1))
     else:
-        print_comparison(args, result)
+        print_comparison(*names, result, note)
     if not result["comparable"]:
         return BAD_INPUT
     return FINDINGS if result["regressions"] or result["only_a"] else HELD
 
 
-def print_comparison(args, result):
-    b = args.b or "working tree"
+def print_comparison(a, b, result, note):
     if not result["comparable"]:
-        print(f"limitcheck bench: {args.a} and {b} cannot be compared:", *result["differences"], sep="\n  ", file=sys.stderr)
+        print(f"limitcheck bench: {a} and {b} cannot be compared:", *result["differences"], sep="\n  ", file=sys.stderr)
         return
-    print(f"{'':9}{'B / A':>7}  {'p':>8}   A = {args.a}, B = {b}")
+    print(f"A = {a}, B = {b}; {note}")
+    print(f"{'':9}{'B / A':>7}  {'p':>8}  {'':12}  benchmark")
     for row in result["rows"]:
         p = f"{row['p']:.1e}" if "p" in row else "exact"
-        print(f"{row['verdict']:9}{row['ratio']:7.3f}  {p:>8}   {row['kind']:12} {row['name']}")
+        print(f"{row['verdict']:9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}")
     for side, names in (("A", result["only_a"]), ("B", result["only_b"])):
         for name in names:
             print(f"only in {side}: {name}")
-    print(f"{result['regressions']} regressions. Times count when every round shows at least "
-          f"{decide.TIME_EFFECT:.0%} with p < {decide.TIME_ALPHA}; counts from {decide.COUNT_TOLERANCE:.1%} on.")
+    lost = f", {len(result['only_a'])} benchmarks of A lost" if result["only_a"] else ""
+    print(f"{result['regressions']} regressions{lost}. A difference in time counts when two rounds show at least "
+          f"{decide.TIME_EFFECT:.0%} with p < {decide.TIME_ALPHA}; one in instructions from {decide.COUNT_TOLERANCE:.1%} on.")
+
+
+def command_gate(args):
+    kinds = [args.only] if args.only else gate.KINDS
+    return gate.run(kinds, args.programs, args.update, args.unknown_skips, write_whole, progress)
+
+
+def command_self_test(args):
+    return HELD if self_test.run(args.programs, args.same, args.planted, args.suite, progress) else FINDINGS
 
 
 def command_trend(args):
@@ -119,31 +184,66 @@ def command_trend(args):
 def parser():
     top = argparse.ArgumentParser(prog="limitcheck bench", description=__doc__,
                                   epilog="Exit codes: 0 no regression, 1 regression, 2 bad usage, no baseline or not comparable.")
-    commands = top.add_subparsers(dest="command", required=True)
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    def command(name, function, text):
-        sub = commands.add_parser(name, help=text, description=text)
+    def command(name, function, text, more=""):
+        sub = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.{more}")
         sub.set_defaults(function=function)
-        sub.add_argument("--store", type=pathlib.Path, default=pathlib.Path("bench-records"),
-                         help="folder of records (default: bench-records)")
-        sub.add_argument("--programs", type=pathlib.Path, default=default_programs(),
-                         help="folder of the benchmark programs (default: %(default)s)")
         return sub
 
-    run = command("run", command_run, "measure this build and store the result under its machine and compiler")
-    run.add_argument("--label", type=label, help="name of the record (default: the commit)")
-    run.add_argument("--suite", default="standard", help="standard, quick, or a regular expression of benchmark names")
-    run.add_argument("--repetitions", type=positive, default=6)
-    run.add_argument("--rounds", type=positive, default=2, help="independent rounds; a difference in time must show in each")
-    run.add_argument("--no-counts", action="store_true", help="leave out the instruction counts (no valgrind needed)")
+    def takes_programs(sub):
+        sub.add_argument("--programs", type=pathlib.Path, default=default_programs(), metavar="FOLDER",
+                         help="where the benchmark programs of this build are (default: %(default)s)")
 
-    compare = command("compare", command_compare, "compare two records, or a record with this build")
-    compare.add_argument("a", metavar="A", help="label or file")
+    def takes_store(sub):
+        sub.add_argument("--store", type=pathlib.Path, default=pathlib.Path("bench-records"), metavar="FOLDER",
+                         help="where records are kept (default: %(default)s)")
+
+    suites = f"{', '.join(measure.SUITES)}, or a regular expression of benchmark names (default: %(default)s)"
+
+    run = command("run", command_run, "measure this build and store a record under its machine, compiler, flags and targets")
+    run.add_argument("--label", type=label, help="name of the record (default: the commit)")
+    run.add_argument("--keep", action="store_true",
+                     help="keep the programs, too, in kept/LABEL beside them, so that a later build can be timed in turns with them")
+    run.add_argument("--suite", default="standard", help=suites)
+    run.add_argument("--repetitions", type=positive, default=6, metavar="N", help="of each benchmark in a round (default: %(default)s)")
+    run.add_argument("--rounds", type=positive, default=2, metavar="N",
+                     help="independent rounds; a difference in time must show in each (default: %(default)s)")
+    run.add_argument("--no-counts", action="store_true", help="leave out the instruction counts (no valgrind needed)")
+    takes_store(run)
+    takes_programs(run)
+
+    compare = command("compare", command_compare, "compare two records, or a record or another build with this build",
+                      " Two builds that are both here are timed in turns of milliseconds, which is what works on a busy machine.")
+    compare.add_argument("a", metavar="A", nargs="?", help="label or file of a record")
     compare.add_argument("b", metavar="B", nargs="?", help="label or file; without it this build is measured")
-    compare.add_argument("--json", action="store_true")
+    compare.add_argument("--against", type=pathlib.Path, metavar="FOLDER", help="a build folder in place of A")
+    compare.add_argument("--suite", default="standard", help=f"with --against: {suites}")
+    compare.add_argument("--no-counts", action="store_true", help="with --against: times only")
+    compare.add_argument("--json", action="store_true", help="print one JSON document")
+    takes_store(compare)
+    takes_programs(compare)
+
+    gated = command("gate", command_gate, "hold this build's exact costs against the baseline in bench/track/baseline",
+                    " Operations, vectors, allocations and bytes must be equal; instruction counts within "
+                    f"{decide.COUNT_TOLERANCE * 100:.1f} %, for the compilers that have a baseline.")
+    gated.add_argument("--update", action="store_true", help="make what is measured the baseline")
+    gated.add_argument("--only", choices=gate.KINDS, help="one kind of cost")
+    gated.add_argument("--unknown-skips", action="store_true",
+                       help=f"for ctest: exit code {gate.SKIPPED} if there is no baseline for this compiler and CI is not set")
+    takes_programs(gated)
+
+    tried = command("self-test", command_self_test, "try on this machine whether planted slowdowns are found and equal builds pass",
+                    " Takes some minutes; gives the best answer at high priority (nice -n -15).")
+    tried.add_argument("--same", type=positive, default=20, metavar="N", help="comparisons of this build with itself (default: %(default)s)")
+    tried.add_argument("--planted", type=positive, default=10, metavar="N", help="comparisons with one 10 %% slower (default: %(default)s)")
+    tried.add_argument("--suite", default="standard", help=suites)
+    takes_programs(tried)
 
     drawn = command("trend", command_trend, "draw the history of all records as a page")
-    drawn.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("trend.html"))
+    drawn.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("trend.html"), metavar="FILE",
+                       help="the page (default: %(default)s)")
+    takes_store(drawn)
     return top
 
 

@@ -23,11 +23,16 @@ class MeasureError(Exception):
     """A program is missing or failed; the message says which and how."""
 
 
-def run_program(command):
+def matches(pattern, name):
+    return re.search(pattern, name) is not None
+
+
+def run_program(command, environment=None):
     try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     except OSError as error:
-        raise MeasureError(f"{command[0]}: {error.strerror}") from error
+        raise MeasureError(f"{command[0]}: {error.strerror}; is it "
+                           + ("installed?" if command[0] == "valgrind" else "built?")) from error
     if done.returncode != 0:
         last = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:]
         raise MeasureError(f"{command[0]} ended with {done.returncode}: {''.join(last)}")
@@ -43,20 +48,33 @@ def time_once(programs, pattern, repetitions, min_time):
         return json.load(out)
 
 
+def counted_cases(programs):
+    """(what the build is, [cases])."""
+    lines = run_program([str(programs / "instruction_case")])[0].splitlines()
+    return lines[0], lines[1:]
+
+
 def instructions_of(programs, case):
+    # The environment lies on the stack and moves it, and with it what the C library does by alignment.
     _, text = run_program(["valgrind", "--tool=callgrind", "--collect-atstart=no", "--callgrind-out-file=/dev/null",
-                           str(programs / "instruction_case"), case])
+                           str(programs / "instruction_case"), case], {"PATH": os.environ.get("PATH", os.defpath)})
     return int(re.search(r"Collected : (\d+)", text).group(1))
 
 
-def instruction_counts(programs, progress):
-    cases = run_program([str(programs / "instruction_case")])[0].split()
+def instruction_counts(programs, progress, pattern=""):
+    """{case: instructions}, of the cases that match."""
+    cases = [case for case in counted_cases(programs)[1] if matches(pattern, case)]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         counts = {}
         for case, count in zip(cases, pool.map(lambda c: instructions_of(programs, c), cases)):
             counts[case] = count
             progress(f"instructions {len(counts)}/{len(cases)}")
         return counts
+
+
+def identity(programs):
+    """Machine, compiler, flags and targets of a build, without measuring it."""
+    return machine.identity(time_once(programs, "^write-only/first-level", 1, 0.001)["context"])
 
 
 def commit_of(folder):

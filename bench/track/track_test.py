@@ -10,10 +10,15 @@ import random
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import decide  # noqa: E402
 import limitcheck_bench  # noqa: E402
+import machine  # noqa: E402
+import measure  # noqa: E402
+import trend  # noqa: E402
+import turns  # noqa: E402
 
 
 def timing(rng, factor=1.0, noise=0.02, repetitions=6):
@@ -63,6 +68,58 @@ class Decisions(unittest.TestCase):
         less = copy.deepcopy(record())
         less["instructions"] = {}
         self.assertEqual(decide.compare(record(), less)["only_a"], ["case"])
+
+
+def launches(rng, factor, spread=0.02, bursts=0.2):
+    """Turns on a busy machine: both builds of a block share what it has, but for a burst that hits one of them."""
+    def block():
+        shared = rng.choice((1, 1.8)) * 1e6
+        burst = [rng.choice((1.3, 1.8)) if rng.random() < bursts else 1 for _ in range(2)]
+        return (shared * burst[0] * rng.gauss(1, spread), shared * burst[1] * factor * rng.gauss(1, spread))
+    return [[block() for _ in range(turns.BLOCKS)] for _ in range(turns.LAUNCHES)]
+
+
+class InTurns(unittest.TestCase):
+    """The decision, and the two rounds, on made-up launches."""
+
+    def compare(self, factors, seed=1):
+        rng = random.Random(seed)
+        rounds = iter(factors)
+
+        def one_round(a, b, cases, _, progress, name):
+            factor = next(rounds)
+            return {case: launches(rng, factor) for case in cases}
+        with mock.patch.object(turns, "build_and_cases", lambda folder: ("GNU", ["a/steady", "b/scratch"])), \
+                mock.patch.object(turns, "one_round", one_round):
+            return turns.compare("A", "B", "/steady", seed)
+
+    def test_the_same_build_raises_at_most_one_alarm_in_two_hundred(self):
+        rng = random.Random(2)
+        alarms = sum(decide.judge_launches(launches(rng, 1))[2] != 0 for _ in range(200))
+        self.assertLessEqual(alarms, 1)
+
+    def test_ten_per_cent_are_found_nine_times_of_ten(self):
+        rng = random.Random(3)
+        found = sum(decide.judge_launches(launches(rng, 1.1))[2] == 1 for _ in range(100))
+        self.assertGreaterEqual(found, 90)
+
+    def test_the_shift_is_that_of_the_builds(self):
+        ratio, _, sign = decide.judge_launches(launches(random.Random(4), 0.8))
+        self.assertAlmostEqual(ratio, 0.8, delta=0.02)
+        self.assertEqual(sign, -1)
+
+    def test_equal_times_are_no_difference(self):
+        self.assertEqual(decide.judge_launches([[(5.0, 5.0)] * 3] * turns.LAUNCHES), (1.0, 1.0, 0))
+
+    def test_a_difference_must_show_again_in_new_processes(self):
+        self.assertEqual([row["verdict"] for row in self.compare([1.2, 1.2])[0]], ["slower"])
+        self.assertEqual([row["verdict"] for row in self.compare([1.2, 1.0])[0]], [""])
+        self.assertEqual([row["rounds"] for row in self.compare([1.0])[0]], [1])
+
+    def test_no_matching_case_is_an_error(self):
+        with mock.patch.object(turns, "build_and_cases", lambda folder: ("GNU", ["a"])):
+            with self.assertRaises(measure.MeasureError):
+                turns.compare("A", "B", "nothing")
 
 
 class CommandLine(unittest.TestCase):
@@ -120,6 +177,54 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("machine: m | elsewhere", err)
 
+    def test_nothing_that_tells_builds_apart_is_passed_over(self):
+        identity = {"machine": "m", "cores": 2, "caches": ["L1"], "compiler": "GNU 12.2.0", "flags": "-O3", "targets": "avx2 scalar"}
+        a, b = record(1), record(2)
+        a["identity"] = identity
+        self.assertEqual(set(machine.identity({"caches": [], "compiler": "", "flags": "", "targets": ""})), set(identity))
+        self.keep("a", a)
+        for name in identity:
+            b["identity"] = {**identity, name: "other"}
+            self.keep("b", b)
+            code, out, err = self.run_it("compare", "a", "b")
+            self.assertEqual(code, 2)
+            self.assertEqual(out, "")
+            self.assertIn(f"{name}: {identity[name]} | other", err)
+
+    def build(self, name):
+        folder = self.store / name / "bench"
+        folder.mkdir(parents=True)
+        (folder / "timing_turns").touch()
+        return folder
+
+    def test_a_build_of_another_compiler_is_not_timed(self):
+        other = self.build("other")
+        names = {other: "Clang-14", pathlib.Path("ours"): "GNU-12"}
+        with mock.patch.object(turns, "build_and_cases", lambda folder: (names[folder], [])):
+            code, _, err = self.run_it("compare", "--against", str(other.parent), "--programs", "ours")
+        self.assertEqual(code, 2)
+        self.assertIn("build: Clang-14 | GNU-12", err)
+
+    def test_compare_wants_a_record_or_a_build(self):
+        self.assertEqual(self.run_it("compare")[0], 2)
+        self.assertEqual(self.run_it("compare", "a", "--against", "b")[0], 2)
+
+    def test_a_folder_without_a_build_is_said_plainly(self):
+        code, _, err = self.run_it("compare", "--against", str(self.store))
+        self.assertEqual(code, 2)
+        self.assertIn("no build with benchmark programs", err)
+
+    def test_kept_programs_are_timed_in_turns_and_lost_ones_are_named(self):
+        for kept, note in ((self.build("kept"), "in turns with the kept programs"), (self.store / "gone", "no longer in")):
+            self.keep("a", {**record(1), "kept": str(kept)})
+            with mock.patch.object(measure, "identity", lambda programs: record()["identity"]), \
+                    mock.patch.object(turns, "compare", lambda *a, **k: ([], [], [])), \
+                    mock.patch.object(measure, "instruction_counts", lambda *a: {"case": 1_000_000}), \
+                    mock.patch.object(measure, "measure", lambda *a, **k: record(2)):
+                code, out, _ = self.run_it("compare", "a")
+            self.assertEqual(code, 0)
+            self.assertIn(note, out)
+
     def test_a_label_of_two_machines_is_ambiguous(self):
         self.keep("a", record(1))
         self.keep("a", record(1), "other")
@@ -138,6 +243,16 @@ class CommandLine(unittest.TestCase):
         self.keep("b", record(2))
         _, out, _ = self.run_it("compare", "a", "b", "--json")
         self.assertTrue(json.loads(out)["comparable"])
+
+    def test_the_trend_never_joins_machines_and_leaves_gaps(self):
+        other = {**record(3), "key": "other", "date": "2026-01-02"}
+        less = {**record(4), "date": "2026-01-03", "instructions": {}}
+        with mock.patch.object(trend, "draw", lambda spec: json.dumps(spec["concat"])):
+            page = trend.page([record(1), other, less])
+        self.assertEqual(page.count("<h2>"), 2)
+        self.assertEqual(page.count("<h3>"), 4)
+        counts = trend.panel("case", trend.history([record(1), less])["instructions", "case"], ["x #1", "x #2"])
+        self.assertEqual([value["value"] for value in counts["data"]["values"]], [1.0, None])
 
     def test_an_empty_store_has_no_trend(self):
         code, _, err = self.run_it("trend")

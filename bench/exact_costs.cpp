@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Costs that are whole numbers and the same on every machine: operations and vectors of a pair, allocations,
+// bytes. One JSON object, "what/engine/shape/depth:N": number. `limitcheck bench gate` holds them against a
+// baseline.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/allocation_count.h"
+#include "bench/contenders/contender.h"
+#include "data/shapes.h"
+#include "fast/row_stream/row_stream.h"
+#include "fast/sliding_window.h"
+#include "verify/proof/operation_count.h"
+
+namespace {
+
+using namespace limitcheck;
+namespace rs = fast::row_stream;
+
+using Costs = nlohmann::ordered_json;
+using Shape = std::pair<const char*, data::ControlMesh>;
+
+/// Of the pair of half-edge 0: regular, irregular and boundary corners.
+void add_operations(Costs& costs) {
+  const std::vector<Shape> shapes = {{"torus:5x6", data::torus(5, 6)},
+                                     {"bipyramid:9", data::bipyramid(9)},
+                                     {"wheel:7", data::wheel(7)},
+                                     {"wheel:5x1", data::wheel(5, 1)}};
+  const std::pair<const char*, verify::CountedKernel> engines[] = {
+      {"row-stream", verify::CountedKernel::kRowStream},
+      {"sliding-window", verify::CountedKernel::kSlidingWindow},
+      {"sliding-window-printed", verify::CountedKernel::kSlidingWindowPrinted}};
+  for (const auto& [engine, kernel] : engines) {
+    for (const auto& [shape, mesh] : shapes) {
+      for (const int depth : {0, 1, 3, 5}) {
+        const verify::KernelCost cost = verify::count_operations(kernel, mesh, depth);
+        const std::string tail = fmt::format("/{}/{}/depth:{}", engine, shape, depth);
+        costs["flops" + tail] = cost.operations.flops();
+        costs["vectors-stored" + tail] = cost.stored_vectors;
+        costs["limits-evaluated" + tail] = cost.limits;
+        if (depth == 0) costs[fmt::format("flops/prepass/{}/{}", engine, shape)] = cost.prepass.flops();
+      }
+    }
+  }
+}
+
+/// The engines whose names and lanes every machine has that has AVX2.
+bool everywhere(const bench::Route& route) {
+  return route.name == "row-stream/avx2" || route.name == "row-stream/scalar" ||
+         route.name == "sliding-window";
+}
+
+void add_allocations(Costs& costs, const Shape& shape) {
+  for (const bench::Route& route : bench::our_routes()) {
+    if (!everywhere(route)) continue;
+    for (const int depth : {3, 5}) {
+      const std::string tail = fmt::format("/{}/{}/depth:{}", route.name, shape.first, depth);
+      std::unique_ptr<bench::Contender> contender;
+      costs["allocations/set-up" + tail] =
+          bench::count_allocations([&] { contender = route.make(shape.second, depth, 1); }).count;
+      const bench::Allocations first = bench::count_allocations([&] { contender->run(); });
+      costs["allocations/first-run" + tail] = first.count;
+      costs["bytes/workspace-of-a-thread" + tail] = first.kept;
+      costs["allocations/later-run" + tail] = bench::count_allocations([&] { contender->run(); }).count;
+    }
+  }
+}
+
+/// What is kept of the control mesh before the first point, and the most that making it takes.
+void add_prepass(Costs& costs, const Shape& shape) {
+  const data::ControlMesh& mesh = shape.second;
+  const std::string tail = fmt::format("/{}/faces:{}", shape.first, mesh.triangles.size());
+  const auto add = [&](const std::string& what, const bench::Allocations& made) {
+    costs["bytes/" + what + tail] = made.kept;
+    costs["bytes-while-made/" + what + tail] = made.peak;
+  };
+  std::optional<fast::Adjacency> adjacency;
+  add("adjacency", bench::count_allocations([&] { adjacency.emplace(mesh); }));
+  std::optional<rs::RowStream> stream;
+  add("prepass/row-stream", bench::count_allocations([&] { stream.emplace(mesh, *adjacency); }));
+  std::vector<fast::Vec3<float>> positions;
+  for (const auto& p : mesh.positions)
+    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  std::optional<fast::PreparedMesh<float>> prepared;
+  add("prepass/sliding-window", bench::count_allocations([&] { prepared.emplace(*adjacency, positions); }));
+}
+
+}  // namespace
+
+int main() {
+  Costs costs = Costs::object();
+  add_operations(costs);
+  const Shape torus{"torus:20x24", data::torus(20, 24)}, holes{"holes", data::holes()};
+  for (const Shape* shape : {&torus, &holes}) {
+    add_allocations(costs, *shape);
+    add_prepass(costs, *shape);
+  }
+  std::puts(costs.dump(0).c_str());
+  return 0;
+}

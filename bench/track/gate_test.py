@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""The gate on made-up costs; and, with the folder of the built programs as argument, on a build slowed down on purpose."""
+import contextlib
+import io
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import decide  # noqa: E402
+import gate  # noqa: E402
+import measure  # noqa: E402
+import self_test  # noqa: E402
+
+PROGRAMS = None
+QUIET = lambda text: None  # noqa: E731
+
+
+class MadeUp(unittest.TestCase):
+    """Costs and baselines from dictionaries."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.exact = {"flops/row-stream/torus/depth:3": 9345, "allocations/later-run/row-stream": 0}
+        self.counts = {"row-stream/avx2/depth:3": 1_000_000}
+        for name, value in (("measured_exact", lambda programs: self.exact), ("key_of", lambda programs: "GNU-12/avx2")):
+            patch = mock.patch.object(gate, name, value)
+            patch.start()
+            self.addCleanup(patch.stop)
+        patch = mock.patch.object(measure, "instruction_counts", lambda programs, progress: self.counts)
+        patch.start()
+        self.addCleanup(patch.stop)
+        self.run_gate(update=True)
+
+    def run_gate(self, kinds=gate.KINDS, update=False, skips=False, ci=False):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), mock.patch.dict(os.environ):
+            os.environ.pop("CI", None)
+            if ci:
+                os.environ["CI"] = "true"
+            code = gate.run(kinds, None, update, skips, lambda path, text: path.write_text(text), QUIET, self.folder)
+        return code, out.getvalue()
+
+    def test_what_equals_its_baseline_passes(self):
+        self.assertEqual(self.run_gate()[0], 0)
+
+    def test_one_flop_more_or_less_is_told_with_both_numbers_and_what_to_do(self):
+        for flops, percent in ((9346, "+0.01%"), (9344, "-0.01%"), (18690, "+100.00%")):
+            self.exact = {**self.exact, "flops/row-stream/torus/depth:3": flops}
+            code, out = self.run_gate()
+            self.assertEqual(code, 1)
+            self.assertIn(f"flops/row-stream/torus/depth:3: 9345 -> {flops} ({percent})", out)
+            self.assertIn("limitcheck bench gate --update", out)
+
+    def test_an_allocation_where_there_was_none_fails(self):
+        self.exact = {**self.exact, "allocations/later-run/row-stream": 1}
+        self.assertEqual(self.run_gate()[0], 1)
+
+    def test_instructions_may_move_by_half_a_per_cent_up_or_down(self):
+        for count, code in ((1_005_000, 0), (1_005_001, 1), (995_000, 0), (994_999, 1)):
+            self.counts = {"row-stream/avx2/depth:3": count}
+            self.assertEqual(self.run_gate()[0], code, count)
+
+    def test_a_cost_that_is_lost_or_new_fails(self):
+        self.counts = {"another": 5}
+        code, out = self.run_gate()
+        self.assertEqual(code, 1)
+        self.assertIn("row-stream/avx2/depth:3: 1000000 in the baseline, not measured", out)
+        self.assertIn("another: 5, not in the baseline", out)
+
+    def test_another_compiler_is_an_error_that_lists_the_baselines(self):
+        with mock.patch.object(gate, "key_of", lambda programs: "Clang-14/avx2"):
+            code, out = self.run_gate()
+            self.assertEqual(code, 2)
+            for text in ("NOT CHECKED", "no baseline for this compiler", "Clang-14/avx2", "GNU-12/avx2"):
+                self.assertIn(text, out)
+
+    def test_under_ctest_another_compiler_is_skipped_but_never_in_ci(self):
+        with mock.patch.object(gate, "key_of", lambda programs: "Clang-14/avx2"):
+            self.assertEqual(self.run_gate(skips=True)[0], gate.SKIPPED)
+            self.assertEqual(self.run_gate(skips=True, ci=True)[0], 2)
+
+    def test_no_baseline_at_all_is_an_error(self):
+        (self.folder / "exact.json").unlink()
+        code, out = self.run_gate()
+        self.assertEqual(code, 2)
+        self.assertIn("exact.json is not there", out)
+
+    def test_a_regression_is_not_hidden_by_a_missing_baseline(self):
+        (self.folder / "instructions.json").unlink()
+        self.exact = {}
+        self.assertNotEqual(self.run_gate(skips=True)[0], 0)
+
+    def test_renewing_keeps_the_other_compilers(self):
+        with mock.patch.object(gate, "key_of", lambda programs: "Clang-14/avx2"):
+            self.run_gate(["instructions"], update=True)
+        kept = json.loads((self.folder / "instructions.json").read_text())
+        self.assertEqual(set(kept), {"GNU-12/avx2", "Clang-14/avx2"})
+
+
+class Built(unittest.TestCase):
+    """What the programs of this build say."""
+
+    def setUp(self):
+        if PROGRAMS is None:
+            raise unittest.SkipTest("give the folder of the programs")
+
+    def test_a_planted_slowdown_of_five_per_cent_shows_in_every_case_of_its_kernel_and_in_no_other(self):
+        pattern = self_test.PLANTED_KERNEL + "|whole-pairs/depth:3|sliding-window/depth:3"
+        a, b = ({"instructions": measure.instruction_counts(side, QUIET, pattern)}
+                for side in (PROGRAMS, PROGRAMS / "planted" / "5"))
+        rows = decide.judge_counts(a, b)
+        slow = [row for row in rows if measure.matches(self_test.PLANTED_KERNEL, row["name"])]
+        self.assertGreaterEqual(len(slow), 1)
+        self.assertEqual({row["verdict"] for row in slow}, {"more"}, slow)
+        others = [row for row in rows if row not in slow and not row["name"].startswith("set-up/")]
+        self.assertEqual({row["verdict"] for row in others}, {""}, others)
+
+    def test_nothing_is_allocated_once_a_contender_has_run(self):
+        later = {n: v for n, v in gate.measured_exact(PROGRAMS).items() if n.startswith("allocations/later-run/")}
+        self.assertGreater(len(later), 0)
+        self.assertEqual(set(later.values()), {0}, later)
+
+    def test_the_environment_moves_counts_by_less_than_a_fifth_of_what_is_allowed(self):
+        case = "^set-up/row-stream/avx2$|^set-up/sliding-window$"
+        with mock.patch.dict(os.environ, {"A_LONG_VARIABLE": 5000 * "x"}):
+            longer = measure.instruction_counts(PROGRAMS, QUIET, case)
+        for name, count in measure.instruction_counts(PROGRAMS, QUIET, case).items():
+            self.assertAlmostEqual(longer[name] / count, 1, delta=decide.COUNT_TOLERANCE / 5)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and pathlib.Path(sys.argv[1]).is_dir():
+        PROGRAMS = pathlib.Path(sys.argv.pop(1))
+    unittest.main()

@@ -33,6 +33,8 @@ class Workshop:
                 code, words = progress.run(command, self.label, self.expected, stdout)
             if code not in accepted:
                 raise PartError(f"{pathlib.Path(command[0]).name} ended with {code}: {words[-600:] or 'no message'}")
+            if output and output.endswith(".json"):
+                self.check_json(partial, command, words)
             if output:
                 partial.replace(self.folder / output)
         except FileNotFoundError as error:
@@ -40,6 +42,13 @@ class Workshop:
         finally:
             if partial:
                 partial.unlink(missing_ok=True)
+
+    @staticmethod
+    def check_json(path, command, words):
+        try:
+            json.loads(path.read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise PartError(f"{pathlib.Path(command[0]).name} left no JSON ({error}): {words[-600:] or 'no message'}") from error
 
     def reproduction(self, *arguments):
         self.run([self.bench / "reproduction" / "reproduction", "-o", self.folder, *arguments, *(["--quick"] if self.quick else [])])
@@ -129,12 +138,12 @@ def places(shop, findings):
         w = r["witness"]
         at = (r["mesh"], str(w["face"]), w["l1"], w["l2"])
         if at not in points:
-            shop.run([shop.limitcheck, "eval", *at, "--json"], "point.json", (0, 2))
             try:
+                shop.run([shop.limitcheck, "eval", *at, "--json"], "point.json")
                 exact = json.loads((shop.folder / "point.json").read_text(encoding="utf-8"))
                 points[at] = {k: [float(x) for x in exact[k]] for k in ("position", "normal")}
             except (ValueError, KeyError, TypeError):
-                points[at] = None  # a point without normal, say
+                points[at] = None  # a point without normal, or a mesh made for one relation only
         if points[at]:
             bound = f", bound {r['bound']:.3g}" if r.get("bound") is not None else ""
             off = f": {r['worst']:.3g} {r.get('unit') or ''}{bound}" if r.get("worst") is not None else ""

@@ -182,7 +182,10 @@ void Renderer::draw(std::span<const Segment> segments, const Colour& colour) {
   glUniform1i(glGetUniformLocation(program_, "lit"), 0);
   glUniform1i(glGetUniformLocation(program_, "both"), 0);
   glVertexAttrib3fv(2, colour.data());
+  glLineWidth(2.5f);  // a core context may refuse it: then they stay thin
   glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(2 * segments.size()));
+  glLineWidth(1);
+  glGetError();
 }
 
 void Renderer::finish() {

@@ -1,38 +1,71 @@
 // SPDX-License-Identifier: MIT
 // Opens the report in headless Chromium as a reader would: node browser_test.mjs INDEX.html FOLDER
-// Fails on any console error, a dead button, or sideways scrolling on a telephone; leaves screenshots in FOLDER.
+// (npm install in this folder first; Debian's chromium). Fails on a console error, a request to anywhere, a dead button or key,
+// sideways scrolling on a telephone; leaves screenshots and a PDF in FOLDER.
 import { chromium } from "playwright-core";
 import path from "node:path";
 
 const [page_file, folder] = process.argv.slice(2);
 const problems = [];
 const browser = await chromium.launch({
-  executablePath: "/usr/bin/chromium",
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
   args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--disable-background-networking", "--disable-component-update"],
 });
+const shots = (name) => path.join(folder, `${name}.png`);
+
+async function try_viewer(page, name) {
+  const viewer = page.locator("#viewer"), canvas = viewer.locator("canvas"), words = viewer.locator("output");
+  let last = null;
+  async function changes(what, act) {
+    await act();
+    const now = await canvas.screenshot({ path: shots(`viewer-${name}-${what.replaceAll(" ", "-")}`) });
+    if (last && last.equals(now)) problems.push(`${name}: the view does not change: ${what}`);
+    last = now;
+  }
+  await canvas.scrollIntoViewIfNeeded();
+  await changes("at first", async () => {});
+  await changes("colour", () => viewer.locator("select").selectOption("position"));
+  await changes("worst triangle", () => viewer.locator("button[name=worst]").click());
+  await changes("arrow key", async () => { await canvas.focus(); await page.keyboard.press("ArrowLeft"); });
+  await changes("plus key", () => page.keyboard.press("+"));
+
+  // A witness by keyboard alone: open the list, reach its button, press it.
+  const button = page.locator("button.jump").first();
+  if (await button.count()) {
+    await page.locator("#audit summary").first().focus();
+    await page.keyboard.press("Enter");
+    const witness = JSON.parse(await button.getAttribute("data-witness"));
+    await changes("witness", async () => { await button.focus(); await page.keyboard.press("Enter"); });
+    if ((await words.textContent()) !== witness.text) problems.push(`${name}: the view does not say which witness it shows`);
+    const focused = await page.evaluate(() => document.activeElement.tagName);
+    if (focused !== "CANVAS") problems.push(`${name}: after a jump the keyboard is at ${focused}, not at the view`);
+    for (const other of (await page.locator("button.jump").all()).slice(1)) await other.evaluate((b) => b.click());
+    await changes("back", () => viewer.locator("button[name=back]").click());
+  } else if (await page.locator("#audit").count()) {
+    problems.push(`${name}: no witness of the audit can be shown`);
+  }
+}
+
 for (const [name, viewport, colorScheme] of [["wide", { width: 1280, height: 900 }, "light"], ["phone", { width: 390, height: 844 }, "dark"]]) {
   const page = await browser.newPage({ viewport, colorScheme, offline: true });
   page.setDefaultTimeout(120000);
   page.on("console", (message) => message.type() === "error" && problems.push(`${name}: console: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`${name}: ${error.message}`));
-  await page.goto("file://" + path.resolve(page_file));
+  const file = "file://" + path.resolve(page_file);
+  page.on("request", (request) => request.url() !== file && !/^(data|blob):/.test(request.url()) && problems.push(`${name}: asks for ${request.url()}`));
+  const start = Date.now();
+  await page.goto(file);
+  console.log(`${name}: loaded in ${((Date.now() - start) / 1000).toFixed(1)} s`);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   if (overflow > 0) problems.push(`${name}: the page is ${overflow} pixels too wide`);
-  const viewer = page.locator("#viewer");
-  if (await viewer.count()) {
-    const canvas = viewer.locator("canvas");
-    await canvas.scrollIntoViewIfNeeded();
-    const before = await canvas.screenshot({ path: path.join(folder, `viewer-${name}.png`) });
-    await viewer.locator("select").selectOption("position");
-    await viewer.locator("button").click();
-    const after = await canvas.screenshot({ path: path.join(folder, `viewer-${name}-worst.png`) });
-    if (before.equals(after)) problems.push(`${name}: the viewer does not change when its button is pressed`);
-  }
-  for (const summary of await page.locator("summary").all()) await summary.click();
-  await page.screenshot({ path: path.join(folder, `report-${name}.png`), fullPage: true });
+  await page.screenshot({ path: shots(`report-${name}`), fullPage: true });
+  if (await page.locator("#viewer").count()) await try_viewer(page, name);
+  for (const summary of await page.locator("details:not([open]) > summary").all()) await summary.click();
+  await page.screenshot({ path: shots(`report-${name}-open`), fullPage: true });
+  if (name === "wide") await page.pdf({ path: path.join(folder, "report.pdf"), format: "A4" });
   await page.close();
 }
 await browser.close();
 for (const problem of problems) console.error(problem);
-console.log(problems.length ? `${problems.length} problems` : "the report works in Chromium: wide and phone, light and dark");
+console.log(problems.length ? `${problems.length} problems` : "the report works in Chromium: wide and phone, light and dark, keyboard");
 process.exitCode = problems.length ? 1 : 0;

@@ -2,105 +2,91 @@
 # SPDX-License-Identifier: MIT
 """limitcheck reproduce: the paper's claims, tables and figures from our own data, and one page that shows them."""
 import argparse
-import json
 import pathlib
-import shutil
-import subprocess
+import signal
 import sys
-import time
 
+sys.dont_write_bytecode = True  # nothing is left in the source tree
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import page  # noqa: E402
+from parts import PARTS, Workshop, order  # noqa: E402
+from progress import say  # noqa: E402
+from record import Record  # noqa: E402
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-SPECIFICATIONS = SOURCE / "papers" / "mueller-havemann-2000" / "figures"
-HERE = SOURCE / "bench" / "report"
-
-
-class StepError(Exception):
-    pass
+HELD, INCOMPLETE, BAD_INPUT = 0, 1, 2
 
 
-def say(text):
-    print(text, file=sys.stderr, flush=True)
+def interrupt(_signal, _frame):
+    raise KeyboardInterrupt
 
 
-def run(command, output=None, accepted=(0,)):
-    """Runs a program; its standard output to a file, under a temporary name until it is whole."""
-    try:
-        done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    except OSError as error:
-        raise StepError(f"{command[0]}: {error.strerror}") from error
-    if done.returncode not in accepted:
-        raise StepError(f"{' '.join(map(str, command))} ended with {done.returncode}: {done.stderr.strip()[-400:]}")
-    if output:
-        partial = output.with_name(output.name + ".partial")
-        partial.write_text(done.stdout, encoding="utf-8")
-        partial.replace(output)
-
-
-def draw_figures(folder):
-    """SVG files of the specifications, and the viewer's script; returns why not, if they cannot be made."""
-    if not shutil.which("node"):
-        return "Node.js is not installed (Debian: nodejs npm): figures are left out, their data are in spheres.json."
-    if not (HERE / "node_modules").is_dir():
-        if not shutil.which("npm"):
-            return "npm is not installed (Debian: npm): figures are left out, their data are in spheres.json."
-        say("installing Vega-Lite and three.js")
-        run(["npm", "install", "--prefix", HERE, "--no-audit", "--no-fund", "--no-package-lock"])
-    rows = folder / "spheres-rows.json"
-    rows.write_text(json.dumps(json.loads((folder / "spheres.json").read_text())["rows"]), encoding="utf-8")
-    for specification in sorted(SPECIFICATIONS.glob("*.vl.json")):
-        name = specification.name.removesuffix(".vl.json")
-        run(["node", HERE / "render.mjs", specification, f"spheres={rows}"], folder / f"{name}.svg")
-    rows.unlink()
-    run([HERE / "node_modules" / ".bin" / "esbuild", HERE / "viewer.mjs", "--bundle", "--minify",
-         "--format=esm", "--log-level=error", f"--outfile={folder / 'viewer.js'}"])
-    return None
-
-
-def steps(programs, folder, quick):
-    limitcheck = programs.parent / "limitcheck"
-    meshes = ["icosahedron", "bumpy:200", "fan:5"] if quick else []
-    pattern = "faces:4000/depth:[35]/threads:1|write-only|100000/depth:5|set-up"
-    yield "pictures and tables", lambda: run(
-        [programs / "reproduction" / "reproduction", "-o", folder, *(["--quick"] if quick else [])])
-    yield "claims", lambda: run([limitcheck, "claims", "--json"], folder / "claims.json", (0, 1))
-    yield "audit", lambda: run([limitcheck, "audit", "all", *meshes, "--json"], folder / "audit.json", (0, 1))
-    yield "proofs", lambda: run([limitcheck, "prove", *(["--depth", "2"] if quick else []), "--json"], folder / "proofs.json",
-                                (0, 1))
-    yield "throughput", lambda: run([programs / "throughput_bench", f"--benchmark_filter={pattern}",
-                                     f"--benchmark_out={folder / 'throughput.json'}", "--benchmark_out_format=json"])
-
-
-def main():
-    parser = argparse.ArgumentParser(prog="limitcheck reproduce", description=__doc__,
-                                     epilog="Exit codes: 0 the report is complete, 1 a part is missing (said in it), 2 bad usage.")
+def arguments():
+    parser = argparse.ArgumentParser(
+        prog="limitcheck reproduce", description=__doc__,
+        epilog="Each part leaves its result in the folder as soon as it is made, and the page shows what is there: a run that fails or is "
+               "interrupted loses only the part it was at. Exit codes: 0 the report is complete, 1 a part is missing (said in it), "
+               "2 bad usage.")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("build/report"),
                         help="folder of the report (default: %(default)s)")
     parser.add_argument("--quick", action="store_true", help="fewer frames and meshes: two minutes instead of a quarter of an hour")
-    args = parser.parse_args()
-    programs = pathlib.Path(sys.argv[0]).absolute().parent  # where the build puts a link to this file
-    args.output.mkdir(parents=True, exist_ok=True)
+    parser.add_argument("--only", action="append", metavar="PART", choices=PARTS,
+                        help="make this part, and of the parts it needs those that are not in the folder; may be repeated")
+    parser.add_argument("--list", action="store_true", help="the names of all parts")
+    return parser.parse_args()
 
-    missing = []
-    for name, step in steps(programs, args.output, args.quick):
-        start = time.monotonic()
+
+def make(selected, shop, record):
+    """Makes the parts, each saved before the next begins."""
+    for number, name in enumerate(selected, 1):
+        part = PARTS[name]
+        label = f"[{number}/{len(selected)}] {part.title}"
+        missing = [n for n in part.needs if not record.has(n)]
+        if missing:
+            record.fail(name, f"needs {', '.join(missing)}, which could not be made")
+            say(f"{label}: {record.problem(name)}")
+            continue
+        shop.begin(label, record.seconds(name, shop.quick))
         try:
-            step()
-            say(f"{name}: {time.monotonic() - start:.0f} s")
-        except StepError as error:
-            missing.append(f"{name}: {error}")
-            say(missing[-1])
+            with record.making(name, shop.quick):
+                part.make(shop)
+            say(f"{label}: {record.seconds(name, shop.quick):.0f} s")
+        except KeyboardInterrupt:
+            record.fail(name, "interrupted")
+            for rest in selected[number:]:
+                record.fail(rest, "not made: the run was interrupted before it")
+            page.write(shop.folder, record)
+            raise
+        except (OSError, ValueError, KeyError) as error:  # parts.PartError is a ValueError
+            record.fail(name, str(error))
+            say(f"{label}: {error}")
+        page.write(shop.folder, record)
+
+
+def main():
+    args = arguments()
+    if args.list:
+        for name, part in PARTS.items():
+            print(f"{name:<12} {part.title}")
+        return HELD
+    programs = pathlib.Path(sys.argv[0]).absolute().parent  # where the build puts a link to this file
     try:
-        reason = draw_figures(args.output)
-        if reason:
-            missing.append(reason)
-    except (StepError, OSError, ValueError) as error:
-        missing.append(f"figures: {error}")
-    page.write(args.output, missing)
+        args.output.mkdir(parents=True, exist_ok=True)
+        record = Record(args.output, PARTS)
+    except (OSError, ValueError) as error:
+        say(f"limitcheck reproduce: {error}")
+        return BAD_INPUT
+    selected = order(args.only or list(PARTS), record)
+    if not args.only:
+        for name in selected:
+            record.fail(name, "not made yet")
+    signal.signal(signal.SIGTERM, interrupt)
+    try:
+        make(selected, Workshop(programs, args.output, args.quick), record)
+    except KeyboardInterrupt:
+        say(f"interrupted; what was made is in {args.output / 'index.html'}")
+        return INCOMPLETE
     print(args.output / "index.html")
-    return 1 if missing else 0
+    return INCOMPLETE if any(record.problem(name) for name in selected) else HELD
 
 
 if __name__ == "__main__":

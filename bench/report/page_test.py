@@ -4,18 +4,27 @@
 import html.parser
 import json
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import page  # noqa: E402
+from parts import PARTS  # noqa: E402
+from record import Record  # noqa: E402
 
 EVIL = "<script>alert('x')</script> & co"
 
 
 def timing(fps):
-    return {"frames_per_second": fps, "frames": 1, "stages": {}}
+    return {"frames_per_second": fps, "frames": 1,
+            "stages": {"heuristics": 0.1, "pairing": 0.1, "cracks": 0.1, "window": 0.2, "drawing": 0.5}}
+
+
+def needs(triangles):
+    return {"triangles": triangles, "frames_per_second": 7.0}
 
 
 RESULTS = {
@@ -26,10 +35,15 @@ RESULTS = {
                           {"subject": "b", "mesh": "m", "check": "positions", "status": "held", "count": 1, "worst": 0, "bound": 1,
                            "unit": "", "witness": None}]},
     "trends": [{"id": "T1", "statement": EVIL, "held": True, "figures": "1 2"}],
-    "spheres": {"renderer": "r", "rows": [{"faces": 200, "strategy": "combined", "triangles": 1.0, "fans": 0.0, "singletons": 0.0,
-                                           "culled_share": 0.25, "sliding_window": timing(1.0), "row_stream": timing(2.0),
-                                           "sliding_window_drawn": timing(3.0), "row_stream_drawn": timing(4.0),
-                                           "error_pixels": {"silhouette_99": 0.1, "interior_99": 0.2}}]},
+    "spheres": {"renderer": "r", "threads": 2, "viewport": [1024, 768], "seed": 1, "rows": [
+        {"faces": 200, "strategy": "combined", "triangles": 1.0, "strips": 2.0, "fans": 0.0, "pairs": 3.0, "singletons": 0.0,
+         "culled_share": 0.25, "limit_points": 4.0,
+         **{engine + how: timing(1.0) for engine in ("sliding_window", "row_stream") for how in ("", "_all_threads", "_drawn")},
+         "error_pixels": {"silhouette_99": 0.1, "silhouette_worst": 0.2, "interior_99": 0.2, "interior_worst": 0.3, "mean": 0.05}}]},
+    "matched": {"engine": "e", "curves": [], "rows": [{"faces": 200, "measure": "mean", "as": "uniform-3", "error": 0.5,
+                                                      "uniform": needs(100.0), "combined": needs(50.0), "combined, stitched": None}]},
+    "proofs": {"rows": [{"group": "g", "kernel": "k", "map": "equal", "topology": "3 3 3", "depths": [0, 2], "points": 5,
+                         "arithmetic": "exact", "bound": 1e-6, "worst": 1e-7, "digits": None}]},
     "throughput": {"benchmarks": [{"name": "a/real_time", "points/s": 1e6, "real_time": 2.0, "time_unit": "ms", "peak": 2**20}]},
 }
 
@@ -55,18 +69,39 @@ class Page(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def made(self, names=tuple(RESULTS), missing=()):
+    def made(self, names=tuple(RESULTS), failed=()):
+        record = Record(self.folder, PARTS)
         for name in names:
             (self.folder / f"{name}.json").write_text(json.dumps(RESULTS[name]))
-        page.write(self.folder, list(missing))
+        for name in PARTS:
+            if all((self.folder / file).is_file() for file in PARTS[name].files):
+                with record.making(name, False):
+                    pass
+        for name, why in failed:
+            record.fail(name, why)
+        self.gaps = page.write(self.folder, record)
         reader = Reader()
         self.text = (self.folder / "index.html").read_text()
         reader.feed(self.text)
         return reader
 
-    def test_every_part_that_was_made_has_its_section(self):
-        (self.folder / "figure-3.png").write_bytes(b"png")
-        self.assertEqual(self.made().sections, ["trends", "tables", "pictures", "claims", "audit", "throughput"])
+    def draw_all(self):
+        for name in (f for part in PARTS.values() for f in part.files):
+            (self.folder / name).write_text("{}")
+
+    def test_every_part_has_its_section(self):
+        self.draw_all()
+        self.assertEqual(self.made().sections,
+                         ["trends", "tables", "matched", "pictures", "view", "claims", "audit", "proofs", "throughput"])
+        self.assertEqual(self.gaps, [])
+
+    def test_every_table_and_figure_names_the_command_that_makes_it_alone(self):
+        self.draw_all()
+        self.made()
+        named = re.findall(r"<code>limitcheck reproduce --only ([^<]*)</code>", self.text)
+        self.assertEqual(sorted(named), sorted(PARTS))
+        for block in re.findall(r"<figure.*?</figure>|<section.*?</section>", self.text, re.DOTALL):
+            self.assertIn("limitcheck reproduce --only", block)
 
     def test_it_opens_from_disk_with_nothing_beside_it(self):
         (self.folder / "figure-3.png").write_bytes(b"png")
@@ -77,14 +112,40 @@ class Page(unittest.TestCase):
         self.assertIn("&lt;script&gt;", self.text)
 
     def test_a_part_that_is_missing_is_left_out_and_said(self):
-        reader = self.made(("trends",), ["claims: the program crashed"])
+        reader = self.made(("trends",), [("claims", "the program crashed")])
         self.assertEqual(reader.sections, ["trends"])
-        self.assertIn("claims: the program crashed", self.text)
+        self.assertIn("the paper&#x27;s claims (claims): the program crashed", self.text)
+        for name in set(PARTS) - {"trends", "claims"}:
+            self.assertIn(f"({name}): not made", self.text)
+
+    def test_an_older_result_is_not_passed_off_as_new(self):
+        self.made(("claims",), [("claims", "interrupted")])
+        self.assertIn("Shown is an older result", self.text)
+        self.assertIn("Not made anew: interrupted", self.text)
+
+    def test_all_rates_counts_stages_and_errors_are_in_the_tables(self):
+        self.made(("spheres",))
+        for words in ("sliding window, 1 thread<", "sliding window, 2 threads", "sliding window, 1 thread, drawn", "row streaming, 1 thread<",
+                      "row streaming, 2 threads", "row streaming, 1 thread, drawn", "triangles", "strips", "fans", "singletons", "culled",
+                      "heuristics", "pairing", "window", "cracks", "drawing", "silhouette, 99 %", "interior, 99 %", "by r, 1024 by 768"):
+            self.assertIn(words, self.text)
+
+    def test_at_equal_error_the_ratio_says_how_many_triangles_are_saved(self):
+        self.made(("matched",))
+        self.assertIn("50 (2.00)", self.text)
+        self.assertIn("not reached", self.text)
 
     def test_a_broken_result_is_said_to_be_missing(self):
         (self.folder / "claims.json").write_text("----- Benchmark")
         self.assertEqual(self.made(("trends",)).sections, ["trends"])
         self.assertIn("claims.json: Expecting value", self.text)
+
+    def test_throughput_has_ratios(self):
+        runs = [{"name": f"{route}/steady/bumpy/faces:4000/depth:3/threads:1/real_time", "points/s": rate, "real_time": 1.0, "time_unit": "ms"}
+                for route, rate in (("row-stream/avx2", 6e6), ("far/uniform", 2e6))]
+        (self.folder / "throughput.json").write_text(json.dumps({"benchmarks": runs}))
+        self.made(())
+        self.assertIn("<td>far/uniform<td>2<td>3<td>", self.text)
 
     def test_a_claim_that_did_not_run_is_not_called_held(self):
         self.made(("claims",))

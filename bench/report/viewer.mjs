@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The report's view in three dimensions: orbit with the mouse, a finger or the arrow keys; colours by what is chosen.
+// The report's view in three dimensions: orbit with the mouse, a finger or the keyboard; colours by what is chosen; buttons of
+// the audit's table (class jump) show a witness on the surface it lies on.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-const floats = (text) => new Float32Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+const floats = (text) => new Float32Array(bytes(text));
 
 // Dark to light, readable without colour vision (viridis).
 const stops = ["#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"].map((c) => new THREE.Color(c));
@@ -12,86 +14,190 @@ function ramp(t) {
   return stops[k].clone().lerp(stops[k + 1], x - k);
 }
 const kinds = ["#21618c", "#c0392b", "#d9730d", "#7d3c98"].map((c) => new THREE.Color(c));
+const plain = new THREE.Color("#9fb0c0"), chosen = new THREE.Color("#d9730d");
 
-function start(model, element) {
-  const canvas = element.querySelector("canvas"), select = element.querySelector("select");
-  const wire = element.querySelector("input[name=wire]"), legend = element.querySelector("output");
-  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-  const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
-  camera.position.set(1.3, 1.4, 3.6);
-  const controls = new OrbitControls(camera, canvas);
-  controls.listenToKeyEvents(canvas);
-  const lamp = new THREE.DirectionalLight(0xffffff, 2.4);
-  camera.add(lamp);
-  lamp.position.set(-0.4, 0.6, 1);
-  scene.add(camera, new THREE.AmbientLight(0xffffff, 0.7));
+function solid() {
+  return new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+}
+function withEdges(geometry) {
+  const group = new THREE.Group();
+  group.add(new THREE.Mesh(geometry, solid()),
+    new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: 0x101820, wireframe: true })));
+  return group;
+}
 
-  const positions = floats(model.positions), geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  geometry.setAttribute("normal", new THREE.BufferAttribute(floats(model.normals), 3));
-  const colour = new THREE.BufferAttribute(new Float32Array(positions.length), 3);
-  geometry.setAttribute("color", colour);
-  const material = new THREE.MeshLambertMaterial({ vertexColors: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  const lines = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: 0x101820, wireframe: true }));
-  scene.add(new THREE.Mesh(geometry, material), lines);
-
-  const errors = { position: floats(model.position_error), normal: floats(model.normal_error) };
-  const paint = {
-    depth: (t) => ramp(model.depth[t] / 5),
-    kind: (t) => kinds[model.kind[t]],
-    position: (t) => ramp(1 + Math.log10(Math.max(errors.position[t], 1e-9) / model.worst_position) / 4),
-    normal: (t) => ramp(1 + Math.log10(Math.max(errors.normal[t], 1e-9) / model.worst_normal) / 4),
-  };
-  const words = {
-    depth: "dark: depth 0, light: depth 5",
-    kind: "blue: pairs, red: without partner, orange: fans",
-    position: `logarithmic; yellow: ${model.worst_position.toPrecision(2)} of the diagonal, violet: 10⁻⁴ of that`,
-    normal: `logarithmic; yellow: ${model.worst_normal.toPrecision(2)} degrees, violet: 10⁻⁴ of that`,
-  };
-
-  function draw() {
-    const width = canvas.clientWidth, height = canvas.clientHeight;
-    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    renderer.setSize(width, height, false);
-    camera.aspect = width / height;
-    camera.updateProjectionMatrix();
-    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-    renderer.setClearColor(dark ? 0x1b1f23 : 0xf2f4f6);
-    renderer.render(scene, camera);
+// The view itself: canvas, camera, light; one object at a time.
+class Stage {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
+    this.controls = new OrbitControls(this.camera, canvas);
+    const lamp = new THREE.DirectionalLight(0xffffff, 2.4);
+    lamp.position.set(-0.4, 0.6, 1);
+    this.camera.add(lamp);
+    this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.7));
+    this.controls.addEventListener("change", () => this.draw());
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    addEventListener("resize", () => this.draw());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
-  function recolour() {
+  key(event) {
+    const offset = new THREE.Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target)), step = Math.PI / 18;
+    const moves = {
+      ArrowLeft: () => (offset.theta -= step), ArrowRight: () => (offset.theta += step),
+      ArrowUp: () => (offset.phi -= step), ArrowDown: () => (offset.phi += step),
+      "+": () => (offset.radius /= 1.2), "=": () => (offset.radius /= 1.2), "-": () => (offset.radius *= 1.2),
+    };
+    if (!moves[event.key] || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    moves[event.key]();
+    offset.makeSafe();
+    this.camera.position.setFromSpherical(offset).add(this.controls.target);
+    this.controls.update();
+    this.draw();
+  }
+  show(object) {
+    if (this.object) this.scene.remove(this.object);
+    this.scene.add((this.object = object));
+  }
+  look(target, eye, size) {
+    this.camera.near = size / 1000;
+    this.camera.far = size * 100;
+    this.controls.target.copy(target);
+    this.camera.position.copy(eye);
+    this.controls.update();
+  }
+  draw() {
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.renderer.setClearColor(matchMedia("(prefers-color-scheme: dark)").matches ? 0x1b1f23 : 0xf2f4f6);
+    this.renderer.render(this.scene, this.camera);
+  }
+}
+
+// The tessellation by the combined strategy, triangle by triangle.
+class Tessellation {
+  constructor(model) {
+    this.model = model;
+    this.positions = floats(model.positions);
+    this.geometry = new THREE.BufferGeometry();
+    this.geometry.setAttribute("position", new THREE.BufferAttribute(this.positions, 3));
+    this.geometry.setAttribute("normal", new THREE.BufferAttribute(floats(model.normals), 3));
+    this.colour = new THREE.BufferAttribute(new Float32Array(this.positions.length), 3);
+    this.geometry.setAttribute("color", this.colour);
+    this.errors = { position: floats(model.position_error), normal: floats(model.normal_error) };
+    this.object = withEdges(this.geometry);
+  }
+  paint(by) {
+    const { model, errors } = this;
+    const logarithmic = (name, worst) => (t) => ramp(1 + Math.log10(Math.max(errors[name][t], 1e-9) / worst) / 4);
+    const of = {
+      depth: (t) => ramp(model.depth[t] / 5), kind: (t) => kinds[model.kind[t]],
+      position: logarithmic("position", model.worst_position), normal: logarithmic("normal", model.worst_normal),
+    }[by];
     for (let t = 0; t < model.depth.length; ++t) {
-      const c = paint[select.value](t);
-      for (let k = 0; k < 3; ++k) colour.setXYZ(3 * t + k, c.r, c.g, c.b);
+      const c = of(t);
+      for (let k = 0; k < 3; ++k) this.colour.setXYZ(3 * t + k, c.r, c.g, c.b);
     }
-    colour.needsUpdate = true;
-    lines.visible = wire.checked;
-    legend.textContent = words[select.value];
-    draw();
+    this.colour.needsUpdate = true;
+    return {
+      depth: "dark: depth 0, light: depth 5",
+      kind: "blue: pairs, red: without partner, orange: fans",
+      position: `logarithmic; yellow: ${model.worst_position.toPrecision(2)} of the diagonal, violet: 10⁻⁴ of that`,
+      normal: `logarithmic; yellow: ${model.worst_normal.toPrecision(2)} degrees, violet: 10⁻⁴ of that`,
+    }[by];
   }
-  // The witness: the triangle that is worst by what is shown.
-  function jump() {
-    const by = select.value === "normal" ? errors.normal : errors.position;
-    const t = by.indexOf(Math.max(...by)), middle = new THREE.Vector3();
-    for (let k = 0; k < 3; ++k) middle.add(new THREE.Vector3().fromArray(positions, 9 * t + 3 * k));
-    middle.divideScalar(3);
-    const normal = new THREE.Vector3().fromBufferAttribute(geometry.getAttribute("normal"), 3 * t);
-    controls.target.copy(middle);
-    camera.position.copy(middle).addScaledVector(normal, 0.6);
-    controls.update();
-    draw();
+  // Middle and normal of the triangle that is worst by what is shown.
+  worst(by) {
+    const list = by === "normal" ? this.errors.normal : this.errors.position;
+    const t = list.reduce((best, e, k) => (e > list[best] ? k : best), 0), middle = new THREE.Vector3();
+    for (let k = 0; k < 3; ++k) middle.add(new THREE.Vector3().fromArray(this.positions, 9 * t + 3 * k));
+    return { middle: middle.divideScalar(3), normal: new THREE.Vector3().fromBufferAttribute(this.geometry.getAttribute("normal"), 3 * t) };
   }
-  controls.addEventListener("change", draw);
-  select.addEventListener("change", recolour);
-  wire.addEventListener("change", recolour);
-  element.querySelector("button").addEventListener("click", jump);
-  addEventListener("resize", draw);
-  recolour();
+}
+
+// The surface of a witness's mesh with its control face and point marked.
+function marked(shape, witness) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(floats(shape.positions), 3));
+  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(shape.triangles)), 1));
+  const apart = geometry.toNonIndexed(), face = new Int32Array(bytes(shape.face));
+  geometry.computeVertexNormals();
+  apart.setAttribute("normal", geometry.toNonIndexed().getAttribute("normal"));
+  const colour = new Float32Array(9 * face.length);
+  for (let t = 0; t < face.length; ++t)
+    for (let k = 0; k < 3; ++k) (face[t] === witness.face ? chosen : plain).toArray(colour, 9 * t + 3 * k);
+  apart.setAttribute("color", new THREE.BufferAttribute(colour, 3));
+  apart.computeBoundingBox();
+  const size = apart.boundingBox.getSize(new THREE.Vector3()).length();
+
+  const point = new THREE.Vector3(...witness.position), normal = new THREE.Vector3(...witness.normal);
+  const object = withEdges(apart), ink = new THREE.MeshBasicMaterial({ color: 0x000000, depthTest: false, transparent: true });
+  const ball = new THREE.Mesh(new THREE.SphereGeometry(size / 250, 16, 12), ink);
+  ball.position.copy(point);
+  const needle = new THREE.Mesh(new THREE.CylinderGeometry(size / 1200, size / 1200, size / 12), ink);
+  needle.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), normal);
+  needle.position.copy(point).addScaledVector(normal, size / 24);
+  ball.renderOrder = needle.renderOrder = 1;
+  object.add(ball, needle);
+  // Seen from before the surface, a little from the side so that the needle shows.
+  const side = Math.abs(normal.y) < 0.9 ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(1, 0, 0);
+  side.cross(normal).normalize();
+  return { object, point, eye: point.clone().addScaledVector(normal, 0.4 * size).addScaledVector(side, 0.2 * size), size };
+}
+
+function start(element) {
+  const read = (id) => JSON.parse(document.getElementById(id).textContent);
+  const control = (name) => element.querySelector(name);
+  const select = control("select"), wire = control("input[name=wire]"), legend = control("output"), back = control("button[name=back]");
+  const stage = new Stage(control("canvas")), tessellation = new Tessellation(read("model")), shapes = read("shapes");
+  let witness = null;
+
+  function refresh() {
+    if (!witness) legend.textContent = tessellation.paint(select.value);
+    stage.object.children[1].visible = wire.checked;
+    stage.draw();
+  }
+  function overview() {
+    witness = null;
+    back.hidden = true;
+    stage.show(tessellation.object);
+    stage.look(new THREE.Vector3(), new THREE.Vector3(1.3, 1.4, 3.6), 3);
+    refresh();
+  }
+  function jump(to) {
+    const scene = marked(shapes[to.mesh], to);
+    witness = to;
+    back.hidden = false;
+    stage.show(scene.object);
+    stage.look(scene.point, scene.eye, scene.size);
+    legend.textContent = to.text;
+    refresh();
+    element.scrollIntoView({ block: "start" });
+    stage.canvas.focus({ preventScroll: true });
+  }
+  select.addEventListener("change", () => (witness ? overview() : refresh()));
+  wire.addEventListener("change", refresh);
+  back.addEventListener("click", overview);
+  control("button[name=worst]").addEventListener("click", () => {
+    if (witness) overview();
+    const { middle, normal } = tessellation.worst(select.value);
+    stage.look(middle, middle.clone().addScaledVector(normal, 0.6), 3);
+    stage.draw();
+  });
+  for (const button of document.querySelectorAll("button.jump"))
+    button.addEventListener("click", () => jump(JSON.parse(button.dataset.witness)));
+  overview();
 }
 
 const element = document.getElementById("viewer");
 try {
-  start(JSON.parse(document.getElementById("model").textContent), element);
+  start(element);
 } catch (error) {
   element.querySelector("output").textContent = `This browser shows no WebGL (${error.message}).`;
 }

@@ -3,34 +3,66 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 
 #include "bench/reproduction/reproduction.h"
 #include "verify/mesh_output/atomic_file.h"
 
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json read(const fs::path& file, const char* part) {
+  std::ifstream in(file);
+  if (!in)
+    throw std::runtime_error(fmt::format("{} is not there: make the part '{}' first", file.string(), part));
+  return Json::parse(in);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace limitcheck;
-  namespace fs = std::filesystem;
   CLI::App app{"The paper's pictures and tables from our own data, as PNG and JSON files", "reproduction"};
   fs::path folder = "build/report";
   bool quick = false;
+  std::vector<std::string> parts, meshes, names = bench::picture_names();
+  names.insert(names.end(), {"model", "spheres", "matched", "trends", "shapes"});
+  app.add_option("PART", parts, "What to make; matched and trends read what spheres and matched have left")
+      ->required()
+      ->check(CLI::IsMember(names));
   app.add_option("-o,--output", folder, "Folder for the results")->capture_default_str();
+  app.add_option("--mesh", meshes, "Control meshes of shapes")->allow_extra_args(false);
   app.add_flag("--quick", quick, "Fewer frames");
   CLI11_PARSE(app, argc, argv);
-  const auto save = [&](const char* name, const nlohmann::ordered_json& data) {
-    verify::AtomicFile file(folder / name);
-    file.stream() << data.dump(1) << "\n";
+  const auto save = [&](const std::string& name, const Json& data) {
+    verify::AtomicFile file(folder / (name + ".json"));
+    file.stream() << data.dump(name == "spheres" || name == "matched" || name == "trends" ? 1 : -1) << "\n";
     file.commit();
-    fmt::print("{}\n", (folder / name).string());
   };
   try {
     fs::create_directories(folder);
-    bench::draw_pictures(folder);
-    save("model.json", bench::model());
-    const auto spheres = bench::sphere_table(quick);
-    save("spheres.json", spheres);
-    save("trends.json", bench::check_trends(spheres, quick));
+    const auto spheres = [&] { return read(folder / "spheres.json", "spheres"); };
+    for (const std::string& part : parts) {
+      if (part == "model") {
+        save(part, bench::model());
+      } else if (part == "shapes") {
+        save(part, bench::shapes(meshes));
+      } else if (part == "spheres") {
+        save(part, bench::sphere_table(quick));
+      } else if (part == "matched") {
+        save(part, bench::matched_error_table(spheres(), quick));
+      } else if (part == "trends") {
+        save(part, bench::check_trends(spheres(), read(folder / "matched.json", "matched"), quick));
+      } else {
+        bench::draw_picture(part, folder);
+      }
+    }
   } catch (const std::exception& error) {
     fmt::print(stderr, "reproduction: {}\n", error.what());
     return 2;

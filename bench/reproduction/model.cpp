@@ -2,10 +2,10 @@
 // A tessellation for the report's view in three dimensions.
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
-#include <string>
+#include <vector>
 
+#include "bench/reproduction/base64.h"
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
 #include "data/generators/bumpy_sphere.h"
@@ -14,25 +14,6 @@
 #include "verify/audit/lattice.h"
 
 namespace limitcheck::bench {
-
-namespace {
-
-// Numbers in the byte order of every machine that draws them, as base 64.
-std::string base64(const std::vector<float>& numbers) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes(4 * numbers.size(), '\0'), text;
-  std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    unsigned group = 0;
-    for (std::size_t b = k; b < k + 3; ++b)
-      group = group << 8 | (b < bytes.size() ? static_cast<unsigned char>(bytes[b]) : 0u);
-    for (int digit = 3; digit >= 0; --digit)
-      text += k + static_cast<std::size_t>(3 - digit) > bytes.size() ? '=' : kDigits[group >> 6 * digit & 63];
-  }
-  return text;
-}
-
-}  // namespace
 
 nlohmann::ordered_json model() {
   const auto mesh = data::bumpy_sphere(200, kSphereSeed);

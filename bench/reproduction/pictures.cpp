@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The paper's pictures from our own data.
-#include <fmt/core.h>
-
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "bench/render/renderer.h"
 #include "bench/reproduction/reproduction.h"
+#include "bench/reproduction/scene.h"
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "fast/depth.h"
@@ -35,6 +35,12 @@ Colour depth_colour(int depth) {
   return scale[std::min(depth, 5)];
 }
 
+struct Lines {
+  std::vector<Segment> segments;
+  Colour colour;
+};
+constexpr Colour kRed{.8f, .1f, .1f}, kBlue{.05f, .2f, .75f};
+
 class Studio {
  public:
   explicit Studio(data::ControlMesh mesh) : mesh_(std::move(mesh)) {}
@@ -49,11 +55,11 @@ class Studio {
     return out;
   }
   Image shot(const fast::DrawList<float>& frame, const fast::Camera& camera, const Appearance& appearance,
-             std::span<const Segment> lines = {}) {
+             const std::vector<Lines>& lines = {}) {
     static Renderer renderer(kSize, kSize, 4);
     renderer.begin(camera, 20);
     renderer.draw(frame, appearance);
-    if (!lines.empty()) renderer.draw(lines, {.75f, .1f, .1f});
+    for (const Lines& some : lines) renderer.draw(some.segments, some.colour);
     return renderer.image();
   }
   const data::ControlMesh& mesh() const { return mesh_; }
@@ -82,8 +88,8 @@ fast::Point3 point(const reference::Vec3<double>& p) {
   return {p.x, p.y, p.z};
 }
 
-/// The ring of a vertex after 0, 1 and 2 steps in place, a normal on each of its triangles, and the cone
-/// about the limit normal that they have to enter.
+/// The ring of a vertex after 0, 1 and 2 steps in place, the normals of its triangles moved to the vertex,
+/// and the cone about the limit normal that they have to enter.
 Image normal_cone(Studio& studio) {
   reference::RefinedMesh<double> refined(studio.mesh());
   const fast::Adjacency adjacency(studio.mesh());
@@ -113,13 +119,12 @@ Image normal_cone(Studio& studio) {
     for (const std::int32_t w : ring) reach = std::max(reach, length(at(w) - centre));
 
     fast::DrawList<float> fan;
-    std::vector<Segment> lines;
+    std::vector<Segment> cone, normals;
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const fast::Point3 a = at(ring[k]), b = at(ring[(k + 1) % ring.size()]);
       fast::Point3 n = cross(a - centre, b - centre);
       n = (1 / length(n)) * n;
-      const fast::Point3 middle = (1. / 3) * (centre + a + b);
-      lines.push_back({middle, middle + .5 * reach * n});
+      normals.push_back({centre, centre + reach * n});
       for (const fast::Point3& p : {centre, a, b}) {
         fan.vertices.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
                                 {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}});
@@ -135,8 +140,8 @@ Image normal_cone(Studio& studio) {
       const double angle = 2 * std::numbers::pi * k / kRays;
       const fast::Point3 rim =
           centre + height * axis + radius * (std::cos(angle) * side + std::sin(angle) * other);
-      lines.push_back({last, rim});
-      if (k % 4 == 0) lines.push_back({centre, rim});
+      cone.push_back({last, rim});
+      if (k % 4 == 0) cone.push_back({centre, rim});
       last = rim;
     }
 
@@ -148,7 +153,7 @@ Image normal_cone(Studio& studio) {
     camera.width = camera.height = kSize;
     Appearance appearance;
     appearance.wireframe = appearance.backfaces = true;
-    images.push_back(studio.shot(fan, camera, appearance, lines));
+    images.push_back(studio.shot(fan, camera, appearance, {{cone, kRed}, {normals, kBlue}}));
     refined.refine();
   }
   return beside(images);
@@ -166,47 +171,100 @@ std::vector<Segment> limit_normals(const data::ControlMesh& mesh) {
   return lines;
 }
 
-}  // namespace
+fast::CrackOptions cracks(fast::Repair repair, fast::FanCentre centre = fast::FanCentre::kLimit) {
+  fast::CrackOptions options;
+  options.repair = repair;
+  options.centre = centre;
+  return options;
+}
 
-void draw_pictures(const std::filesystem::path& folder) {
-  const auto save = [&](const char* name, const Image& image) {
-    write_png(folder / name, image);
-    fmt::print("{}\n", (folder / name).string());
-  };
-  const fast::Camera front = camera_at(20, 3.7);
-  Studio small(data::bumpy_sphere(200, 1)), large(data::bumpy_sphere(4000, 1));
-  save("figure-3.png", normal_cone(small));
+Studio bumpy(int faces) {
+  return Studio(data::bumpy_sphere(faces, kSphereSeed));
+}
 
-  // Near enough to see the cracks; unlit lines between the triangles would hide them.
-  const fast::DepthOptions random = strategy(fast::Strategy::kRandom);
+/// Random depths, near enough to see the cracks; unlit lines between the triangles would hide them.
+Image close_up(fast::Repair repair) {
+  Studio studio = bumpy(200);
   fast::Camera close = camera_at(32, 1.9);
   close.target = {.35, .1, .6};
-  fast::CrackOptions none, flat;
-  none.repair = fast::Repair::kNone;
-  flat.centre = fast::FanCentre::kFlatLimit;
-  save("figure-6.png", small.shot(small.frame(random, close, none), close, by_depth(true)));
-  save("figure-7.png", small.shot(small.frame(random, close), close, by_depth(true)));
+  return studio.shot(studio.frame(strategy(fast::Strategy::kRandom), close, cracks(repair)), close,
+                     by_depth(true));
+}
 
-  Studio round(data::icosahedron());
+Image fan_centres() {
+  Studio studio(data::icosahedron());
   const fast::DepthOptions coarse = strategy(fast::Strategy::kRandom, 3);
   const fast::Camera whole = camera_at(20, 5.2);
-  save("figure-8.png", beside({round.shot(round.frame(coarse, whole, flat), whole, by_depth(true)),
-                               round.shot(round.frame(coarse, whole), whole, by_depth(true))}));
+  const auto with = [&](fast::FanCentre centre) {
+    return studio.shot(studio.frame(coarse, whole, cracks(fast::Repair::kFan, centre)), whole,
+                       by_depth(true));
+  };
+  return beside({with(fast::FanCentre::kFlatLimit), with(fast::FanCentre::kLimit)});
+}
 
-  const fast::DepthOptions fine = strategy(fast::Strategy::kUniform);
-  save("figure-10.png", beside({small.shot(small.frame(fine, front), front, {}),
-                                large.shot(large.frame(fine, front), front, {})}));
+Image two_sizes() {
+  const fast::Camera front = camera_at(20, 3.7);
+  std::vector<Image> images;
+  for (const int faces : {200, 4000}) {
+    Studio studio = bumpy(faces);
+    images.push_back(studio.shot(studio.frame(strategy(fast::Strategy::kUniform), front), front, {}));
+  }
+  return beside(images);
+}
 
+Image random_depths() {
+  Studio studio = bumpy(200);
+  const fast::Camera front = camera_at(20, 3.7);
   Appearance turned = by_depth(true);
   turned.backfaces = true;
+  const fast::DepthOptions random = strategy(fast::Strategy::kRandom);
   fast::DepthOptions culled = random;
   culled.cull = true;
-  save("figure-13.png", beside({small.shot(small.frame(random, front), front, by_depth(true)),
-                                small.shot(small.frame(culled, front), camera_at(130, 3.7), turned)}));
+  return beside({studio.shot(studio.frame(random, front), front, by_depth(true)),
+                 studio.shot(studio.frame(culled, front), camera_at(130, 3.7), turned)});
+}
 
-  const auto curved = small.frame(strategy(fast::Strategy::kCurvature), front);
-  save("figure-14.png", beside({small.shot(curved, front, by_depth(true)),
-                                small.shot(curved, front, by_depth(false), limit_normals(small.mesh()))}));
+Image by_curvature() {
+  Studio studio = bumpy(200);
+  const fast::Camera front = camera_at(20, 3.7);
+  const auto curved = studio.frame(strategy(fast::Strategy::kCurvature), front);
+  return beside({studio.shot(curved, front, by_depth(true)),
+                 studio.shot(curved, front, by_depth(false), {{limit_normals(studio.mesh()), kRed}})});
+}
+
+struct Picture {
+  std::string name;
+  Image (*draw)();
+};
+const std::vector<Picture> kPictures{
+    {"figure-3",
+     [] {
+       Studio studio = bumpy(200);
+       return normal_cone(studio);
+     }},
+    {"figure-6", [] { return close_up(fast::Repair::kNone); }},
+    {"figure-7", [] { return close_up(fast::Repair::kFan); }},
+    {"figure-8", fan_centres},
+    {"figure-10", two_sizes},
+    {"figure-13", random_depths},
+    {"figure-14", by_curvature},
+};
+
+}  // namespace
+
+const std::vector<std::string>& picture_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const Picture& picture : kPictures) list.push_back(picture.name);
+    return list;
+  }();
+  return names;
+}
+
+void draw_picture(const std::string& name, const std::filesystem::path& folder) {
+  for (const Picture& picture : kPictures)
+    if (picture.name == name) return write_png(folder / (name + ".png"), picture.draw());
+  throw std::invalid_argument("no picture is called " + name);
 }
 
 }  // namespace limitcheck::bench

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""The parts of the report: what makes each, from what, into which files."""
+import collections
+import json
+import pathlib
+import shutil
+
+import progress
+
+HERE = pathlib.Path(__file__).resolve().parent
+SPECIFICATIONS = HERE.parents[1] / "papers" / "mueller-havemann-2000" / "figures"
+NO_NODE = "{} is not installed (apt-get install nodejs npm)"
+
+
+class PartError(ValueError):
+    pass
+
+
+class Workshop:
+    """Runs programs for a part; results go to a temporary name until they are whole."""
+
+    def __init__(self, programs, folder, quick):
+        self.bench, self.limitcheck, self.folder, self.quick = programs, programs.parent / "limitcheck", folder, quick
+        self.label, self.expected = "", None
+
+    def begin(self, label, expected):
+        self.label, self.expected = label, expected
+
+    def run(self, command, output=None, accepted=(0,)):
+        partial = self.folder / (output + ".partial") if output else None
+        try:
+            with open(partial or "/dev/null", "wb") as stdout:
+                code, words = progress.run(command, self.label, self.expected, stdout)
+            if code not in accepted:
+                raise PartError(f"{pathlib.Path(command[0]).name} ended with {code}: {words[-600:] or 'no message'}")
+            if output and output.endswith(".json"):
+                self.check_json(partial, command, words)
+            if output:
+                partial.replace(self.folder / output)
+        except FileNotFoundError as error:
+            raise PartError(f"{command[0]} is not there: build it with bash verify/build.sh release") from error
+        finally:
+            if partial:
+                partial.unlink(missing_ok=True)
+
+    @staticmethod
+    def check_json(path, command, words):
+        try:
+            json.loads(path.read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise PartError(f"{pathlib.Path(command[0]).name} left no JSON ({error}): {words[-600:] or 'no message'}") from error
+
+    def reproduction(self, *arguments):
+        self.run([self.bench / "reproduction" / "reproduction", "-o", self.folder, *arguments, *(["--quick"] if self.quick else [])])
+
+    def node(self):
+        """Node.js with the packages, installed on first use."""
+        for program in ("node", "npm"):
+            if not shutil.which(program):
+                raise PartError(NO_NODE.format(program))
+        needed = json.loads((HERE / "package.json").read_text(encoding="utf-8"))["dependencies"]
+        if not all((HERE / "node_modules" / name / "package.json").is_file() for name in needed):
+            try:
+                self.run(["npm", "install", "--prefix", HERE, "--omit=dev", "--no-audit", "--no-fund", "--no-package-lock",
+                          "--fetch-retries=1", "--fetch-retry-mintimeout=1000", "--fetch-timeout=30000"])
+            except PartError as error:
+                raise PartError(f"npm could not install {', '.join(needed)} (is there a network?): {error}") from error
+        return "node"
+
+
+def picture(name):
+    return lambda shop: shop.reproduction(name)
+
+
+def chart(name, source, key):
+    """An SVG of the specification papers/.../NAME.vl.json and the rows of a result."""
+    def draw(shop):
+        node = shop.node()
+        rows = shop.folder / f"{name}-rows.json"
+        try:
+            rows.write_text(json.dumps(json.loads((shop.folder / f"{source}.json").read_text(encoding="utf-8"))[key]), encoding="utf-8")
+            shop.run([node, HERE / "render.mjs", SPECIFICATIONS / f"{name}.vl.json", f"{source}={rows}"], f"{name}.svg")
+        finally:
+            rows.unlink(missing_ok=True)
+    return draw
+
+
+def claims(shop):
+    shop.run([shop.limitcheck, "claims", "--json"], "claims.json", (0, 1))
+
+
+def audit(shop):
+    meshes = ["icosahedron", "bumpy:200", "fan:5"] if shop.quick else []
+    shop.run([shop.limitcheck, "audit", "all", *meshes, "--json"], "audit.json", (0, 1))
+
+
+def proofs(shop):
+    shop.run([shop.limitcheck, "prove", *(["--depth", "2", "--valences", "3:5"] if shop.quick else []), "--json"], "proofs.json", (0, 1))
+
+
+def throughput(shop):
+    cases = "faces:1000/depth:[35]/threads:1" if shop.quick else "faces:4000/depth:[35]/threads:1|100000/depth:5"
+    partial = shop.folder / "throughput.json.partial"
+    try:
+        shop.run([shop.bench / "throughput_bench", f"--benchmark_filter={cases}|write-only|set-up/bumpy/faces:4000",
+                  *(["--benchmark_min_time=0.03"] if shop.quick else []),
+                  f"--benchmark_out={partial}", "--benchmark_out_format=json"])
+        partial.replace(shop.folder / "throughput.json")
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def shown_findings(results):
+    """The findings that the report lists: of every subject and check the worst few."""
+    seen = collections.Counter()
+    shown = []
+    bad = [r for r in results if r["status"] in ("finding", "crash", "timeout", "error") and r.get("witness")]
+    for r in sorted(bad, key=lambda r: -((r.get("worst") or 0) / (r.get("bound") or 1e-9))):
+        seen[r["subject"], r["check"]] += 1
+        if seen[r["subject"], r["check"]] <= 3:
+            shown.append(r)
+    return sorted(shown, key=lambda r: (r["subject"], r["check"])), len(bad)
+
+
+def place_key(r):
+    """Names the finding's witness; '' if it names no point of the surface."""
+    w = r.get("witness")
+    named = isinstance(w, dict) and w.get("face") is not None and w.get("l1") is not None
+    return f"{r['subject']}|{r['check']}|{r['mesh']}|{w['face']}|{w['l1']}|{w['l2']}" if named else ""
+
+
+def places(shop, findings):
+    """Where the witnesses lie, by the exact evaluator: {key: what the view shows}."""
+    points, found = {}, {}
+    for r in findings:
+        if not place_key(r):
+            continue
+        w = r["witness"]
+        at = (r["mesh"], str(w["face"]), w["l1"], w["l2"])
+        if at not in points:
+            try:
+                shop.run([shop.limitcheck, "eval", *at, "--json"], "point.json")
+                exact = json.loads((shop.folder / "point.json").read_text(encoding="utf-8"))
+                points[at] = {k: [float(x) for x in exact[k]] for k in ("position", "normal")}
+            except (ValueError, KeyError, TypeError):
+                points[at] = None  # a point without normal, or a mesh made for one relation only
+        if points[at]:
+            bound = f", bound {r['bound']:.3g}" if r.get("bound") is not None else ""
+            off = f": {r['worst']:.3g} {r.get('unit') or ''}{bound}" if r.get("worst") is not None else ""
+            found[place_key(r)] = {"mesh": r["mesh"], "face": w["face"], **points[at],
+                                   "text": f"{r['subject']} / {r['check']}{off}; {r['mesh']} face {w['face']} at ({w['l1']}, {w['l2']})"}
+    (shop.folder / "point.json").unlink(missing_ok=True)
+    return found
+
+
+def view(shop):
+    node = shop.node()
+    shop.reproduction("model")
+    audited = shop.folder / "audit.json"
+    findings = []
+    if audited.is_file():  # the surfaces its witnesses lie on
+        findings, _ = shown_findings(json.loads(audited.read_text(encoding="utf-8"))["results"])
+    names = sorted({r["mesh"] for r in findings})
+    shop.reproduction("shapes", *(word for name in names for word in ("--mesh", name)))
+    (shop.folder / "witnesses.json").write_text(json.dumps(places(shop, findings)), encoding="utf-8")
+    partial = shop.folder / "viewer.js.partial"
+    shop.run([node, HERE / "bundle.mjs", HERE / "viewer.mjs", partial])
+    partial.replace(shop.folder / "viewer.js")
+
+
+Part = collections.namedtuple("Part", "title make files needs", defaults=((),))
+
+
+def parts():
+    yield "spheres", Part("frame rates, counts and errors on bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
+    yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"], ["spheres"])
+    yield "trends", Part("trends T1 to T10", lambda shop: shop.reproduction("trends"), ["trends.json"], ["spheres", "matched"])
+    for name, title in (("figure-11", "frames per second"), ("figure-12", "triangles and culled faces")):
+        yield name, Part(f"{name}: {title}", chart(name, "spheres", "rows"), [f"{name}.svg"], ["spheres"])
+    yield "error", Part("error against triangles", chart("error", "matched", "curves"), ["error.svg"], ["matched"])
+    for number, title in ((3, "normal cone"), (6, "cracks"), (7, "cracks repaired"), (8, "centres of fans"), (10, "bumpy spheres"),
+                          (13, "random depths"), (14, "depth by curvature")):
+        yield f"figure-{number}", Part(f"figure-{number}: {title}", picture(f"figure-{number}"), [f"figure-{number}.png"])
+    yield "claims", Part("the paper's claims", claims, ["claims.json"])
+    yield "audit", Part("audit of the built-in tessellators", audit, ["audit.json"])
+    yield "proofs", Part("proofs", proofs, ["proofs.json"])
+    yield "throughput", Part("throughput against others", throughput, ["throughput.json"])
+    yield "view", Part("view in three dimensions", view, ["model.json", "shapes.json", "witnesses.json", "viewer.js"])
+
+
+PARTS = dict(parts())
+
+
+def order(wanted, record):
+    """The parts wanted and those they need and the folder lacks, in the order of PARTS."""
+    chosen = set()
+
+    def choose(name):
+        chosen.add(name)
+        for need in PARTS[name].needs:
+            if need not in chosen and not record.has(need):
+                choose(need)
+    for name in wanted:
+        choose(name)
+    return [name for name in PARTS if name in chosen]

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+"""Results as tables of the report."""
+import html
+import json
+import re
+
+from parts import place_key, shown_findings
+
+
+def text(value):
+    return html.escape(str(value))
+
+
+def number(value, digits=3):
+    return f"{value:.{digits}g}" if isinstance(value, float) else text(value)
+
+
+def table(header, rows, caption=""):
+    head = "".join(f"<th scope=col>{text(h)}" for h in header)
+    body = "".join("<tr>" + "".join(f"<td>{cell}" for cell in row) + "\n" for row in rows)
+    return (f"<div class=wide tabindex=0><table><caption>{caption}</caption><thead><tr>{head}<tbody>{body}</table></div>")
+
+
+def details(summary, body):
+    return f"<details><summary>{summary}</summary>{body}</details>"
+
+
+def mark(held):
+    return {True: "<b class=yes>held</b>", False: "<b class=no>not held</b>"}.get(held, "<b class=open>not run</b>")
+
+
+def claims(data):
+    rows = data["claims"]
+    counts = {}
+    for row in rows:
+        counts[row["verdict"]] = counts.get(row["verdict"], 0) + 1
+    summary = ", ".join(f"{n} {text(v)}" for v, n in sorted(counts.items(), key=lambda item: -item[1]))
+    errata = [r for r in rows if r["verdict"] == "misprint"]
+    return (f"<p>{len(rows)} claims: {summary}.</p>"
+            + table(["claim", "place", "printed", "correction"],
+                    [[text(r["id"]), text(r.get("place", "")), text(r["statement"]), text(r.get("note") or "")] for r in errata],
+                    f"{len(errata)} errata; as Markdown: <code>limitcheck claims --errata</code>")
+            + details(f"All {len(rows)} claims", table(
+                ["claim", "says", "verdict", "today", "note", "check"],
+                [[text(r["id"]), text(r.get("statement", "")), text(r["verdict"]),
+                  mark(r["held"] if r["ran"] else None), text(r.get("note") or ""),
+                  f"<code>{text(', '.join(r['check']) if isinstance(r['check'], list) else r['check'] or '')}</code>"] for r in rows])))
+
+
+def claims_not_run(data):
+    """Why a part of the claims says nothing today; '' if all ran."""
+    waiting = [r["id"] for r in data["claims"] if not r["ran"] and r["check"]]
+    return (f"{len(waiting)} of {len(data['claims'])} claims were not run, their test programs are not built "
+            "(bash verify/test.sh builds them)") if waiting else ""
+
+
+def audit(data, places):
+    results = data["results"]
+    subjects = list(dict.fromkeys(r["subject"] for r in results))
+    checks = list(dict.fromkeys(r["check"] for r in results))
+    cells = {}
+    for r in results:
+        cells.setdefault((r["subject"], r["check"]), []).append(r)
+    rank = ["crash", "timeout", "error", "finding", "unexpected-pass", "quality-warning", "waived", "not-run", "held", "not-supported"]
+
+    def worst(some):
+        status = min((r["status"] for r in some), key=lambda s: rank.index(s) if s in rank else 0)
+        return f"<span class='status {text(status)}'>{text(status)}</span>"
+    rows = [[text(c), *(worst(cells[s, c]) if (s, c) in cells else "" for s in subjects)] for c in checks]
+    shown, bad = shown_findings(results)
+    lines = []
+    for r in shown:
+        w = r["witness"]
+        where = f"face {w['face']} ({w['l1']}, {w['l2']})" if isinstance(w, dict) and w.get("l1") is not None else (r.get("message") or "")
+        place = places.get(place_key(r))
+        button = (f"<button class=jump data-witness='{text(json.dumps(place))}'>show</button>" if place else "")
+        commands = "<br>".join(f"<code>{text(w[k])}</code>" for k in ("command", "reproduce") if isinstance(w, dict) and w.get(k))
+        lines.append([text(r["subject"]), text(r["check"]), text(r["mesh"]), number(r["worst"]), number(r["bound"]),
+                      text(r.get("unit") or ""), text(where), button, commands])
+    witnesses = table(["subject", "check", "mesh", "worst", "bound", "unit", "witness", "in the view", "again with"], lines)
+    meshes = ", ".join(text(m["name"]) for m in data.get("meshes", []))
+    return (table(["check", *subjects], rows, f"The worst of all meshes: {meshes}")
+            + details(f"{bad} findings; the {len(shown)} worst with witnesses, at most three of a subject and check", witnesses))
+
+
+def trends(data):
+    return table(["", "the text says", "today", "figures"],
+                 [[text(t["id"]), text(t["statement"]), mark(t["held"]), text(t["figures"])] for t in data])
+
+
+ENGINES = (("sliding_window", "sliding window"), ("row_stream", "row streaming"))
+
+
+def spheres(data):
+    rows = data["rows"]
+
+    def lines(*columns):
+        return [[text(r["faces"]), text(r["strategy"]), *(c(r) for c in columns)] for r in rows]
+    share = lambda value: f"{value:.1%}"  # noqa: E731
+    mean = lambda key, digits=0: lambda r: f"{r[key]:.{digits}f}"  # noqa: E731
+    rate = lambda key: lambda r: number(float(r[key]["frames_per_second"]))  # noqa: E731
+    stage = lambda key, name: lambda r: share(r[key]["stages"][name])  # noqa: E731
+    pixels = lambda key: lambda r: number(float(r["error_pixels"][key]))  # noqa: E731
+    first, threads = ["faces", "strategy"], data["threads"]
+    stages = ["heuristics", "pairing", "cracks", "window"]
+    return (
+        details("Frames per second", table(
+            first + [f"{name}, {how}" for _, name in ENGINES for how in ("1 thread", f"{threads} threads", "1 thread, drawn")],
+            lines(*(rate(key + end) for key, _ in ENGINES for end in ("", "_all_threads", "_drawn"))),
+            f"Drawn: with OpenGL by {text(data['renderer'])}, {data['viewport'][0]} by {data['viewport'][1]} pixels."))
+        + details("What a frame holds", table(
+            first + ["triangles", "strips", "fans", "pairs", "no partner (singletons)", "culled", "limit points"],
+            lines(mean("triangles"), mean("strips"), mean("fans"), mean("pairs"), mean("singletons", 1),
+                  lambda r: share(r["culled_share"]), mean("limit_points")),
+            "Means over the frames of a turn."))
+        + details("Shares of the stages", table(
+            first + [f"{name}: {s}" for _, name in ENGINES for s in stages] + [f"{name}, drawn: drawing" for _, name in ENGINES],
+            lines(*(stage(key, s) for key, _ in ENGINES for s in stages), *(stage(key + "_drawn", "drawing") for key, _ in ENGINES)),
+            "Of the time of a frame, one thread. Row streaming plans pairs and cracks together. Drawing: share of a frame that is drawn."))
+        + details("Error in pixels", table(
+            first + ["silhouette, 99 %", "silhouette, worst", "interior, 99 %", "interior, worst", "mean"],
+            lines(*(pixels(k) for k in ("silhouette_99", "silhouette_worst", "interior_99", "interior_worst", "mean"))),
+            "Distance to the exact surface as the viewer sees it, at middles of triangles and edges; 99 %: of the samples are closer. "
+            "Silhouette: the normal is within 20 degrees of the image plane. The worst of three views.")))
+
+
+def matched(data):
+    families = [k for k in data["rows"][0] if k not in ("faces", "measure", "as", "error")]
+    measures = {"interior_99": "interior, 99 %", "silhouette_99": "silhouette, 99 %", "mean": "mean"}
+
+    def cell(row, family):
+        it, uniform = row[family], row["uniform"]
+        if not it:
+            return "not reached"
+        ratio = "" if family == "uniform" else f" ({uniform['triangles'] / it['triangles']:.2f})"
+        return f"{it['triangles']:.0f}{ratio}<br>{it['frames_per_second']:.3g}"
+    rows = [[text(r["faces"]), text(measures[r["measure"]]), text(r["as"]), number(float(r["error"])), *(cell(r, f) for f in families)]
+            for r in data["rows"]]
+    intro = ("<p>Equal depth is no comparison: the strategies do not show the surface equally well. Here each adaptive strategy is run "
+             "from coarse to fine settings (240 to 3.75 pixels, half the number of degrees), and read off where its error on the screen "
+             "equals that of a uniform depth. In each cell: triangles, (those of uniform depth divided by them: above 1 the strategy is "
+             "better), and below frames per second. With the paper's fans the strategies lose, because a fan drops all points inside a "
+             "face; with their borders stitched to the inner points instead they are about equal at the worst spots and better on "
+             "the mean.</p>")
+    only = lambda depth: [row for row, r in zip(rows, data["rows"]) if r["as"] == depth]  # noqa: E731
+    header = ["faces", "error", "as", "pixels", *families]
+    return (intro + table(header, only("uniform-3"), f"At the error of uniform depth 3; {text(data['engine'])}")
+            + details("At the error of uniform depths 2 and 4", table(header, only("uniform-2") + only("uniform-4"))))
+
+
+def throughput(data):
+    """Rates, and how many times as fast row streaming (the first of each case) is."""
+    runs = [r for r in data["benchmarks"] if "points/s" in r and r.get("run_type") != "aggregate"]
+    ours, rows = {}, []
+    for r in runs:
+        name = r["name"].replace("/real_time", "")
+        route, _, case = re.sub(r"/(steady|scratch)/", r"|\1/", name, count=1).partition("|")
+        best = ours.setdefault(case, r["points/s"])
+        rows.append([text(case), text(route), f"{r['points/s'] / 1e6:.4g}", f"{best / r['points/s']:.3g}",
+                     f"{r['real_time']:.4g} {r['time_unit']}", f"{r['peak'] / 2**20:.3g} MiB" if "peak" in r else ""])
+    rows.sort(key=lambda row: list(ours).index(row[0]))
+    return table(["case", "route", "million points/s", "row streaming is so many times as fast", "time", "peak memory"], rows,
+                 "All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench</code>")
+
+
+def proofs(data):
+    """One line for each group of topologies and kernel."""
+    groups = {}
+    for row in data["rows"]:
+        groups.setdefault((row["group"], row["kernel"]), []).append(row)
+    lines = []
+    for (group, kernel), some in groups.items():
+        wrong = [r for r in some if r["map"] != "equal"]
+        bounds, digits = [r for r in some if r.get("bound")], [r["digits"] for r in some if r.get("digits")]
+        bound, worst = max((r["bound"] for r in bounds), default=None), max((r["worst"] for r in bounds), default=None)
+        lines.append([text(group), text(kernel), text(len({r["topology"] for r in some})),
+                      f"{min(r['depths'][0] for r in some)} to {max(r['depths'][1] for r in some)}",
+                      text(sum(r["points"] for r in some)), mark(not wrong), ", ".join(sorted({text(r["arithmetic"]) for r in some})),
+                      f"{min(digits):.1f}" if digits else "", number(bound) if bound else "", number(worst) if worst else "",
+                      number(bound / worst) if bound and worst else ""])
+    return ("<p>The map from control points to limit points that each kernel applies, against the reference's, for every geometry of a "
+            "topology at once; and a bound of the float32 error over all control meshes in the unit box. Topology by topology: "
+            "<code>limitcheck prove --each</code>.</p>"
+            + table(["group", "kernel", "topologies", "depths", "points", "map equal", "arithmetic", "digits", "proved bound",
+                     "worst observed", "slack"], lines))

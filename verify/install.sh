@@ -21,7 +21,7 @@ packages=(
   valgrind python3-scipy                                    # exact instruction counts; statistics of timings
 )
 if [[ ${1:-} == --dev ]]; then
-  packages+=(clang libclang-rt-14-dev clang-format clang-tidy ccache)
+  packages+=(clang libclang-rt-14-dev clang-format clang-tidy cppcheck codespell gcovr ccache)
 elif [[ ${1:-} == --docs ]]; then
   packages+=(doxygen)
 fi

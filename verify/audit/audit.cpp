@@ -67,13 +67,16 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     for (const std::string_view r : check.rows) row(r, status, message);
   };
 
-  // Tessellate.
+  // Tessellate: the whole mesh, of which all but a sample is culled.
+  const MeshSample* sample = mesh.sample.get();
+  std::vector<std::int32_t> asked(face_depth.begin(), face_depth.end());
+  if (sample) asked = sample->cull(std::move(asked));
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
   try {
     step(name, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options);
-    tessellation.emplace(session->tessellate(face_depth, threads_));
+    tessellation.emplace(session->tessellate(asked, threads_));
     row("tessellates", Status::kHeld, "");
     results.back().of = 1;
   } catch (const std::exception& error) {
@@ -86,10 +89,19 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     return results;
   }
 
+  // From here on a sample is the mesh.
+  std::optional<data::ControlMesh> part;
+  if (sample) {
+    tessellation->renumber_faces(sample->part_of(), static_cast<std::int64_t>(sample->faces().size()));
+    part = sample->part_with(session->mesh());
+    asked = sample->depths_of_part(asked);
+  }
+  const data::ControlMesh& judged = part ? *part : session->mesh();
+
   // The truth at every point the subject names.
   const lc_capabilities& capabilities = session->capabilities();
   step(name, mesh.name, "reference");
-  ReferenceSurface& truth = reference(session->mesh(), capabilities.points);
+  ReferenceSurface& truth = reference(judged, capabilities.points);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
   const bool same_family = capabilities.weights == LC_WEIGHTS_LOOP;
   std::string no_reference =
@@ -103,7 +115,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   }
 
   // The checks.
-  Vector low = session->mesh().positions.at(0), high = low;
+  Vector low = session->mesh().positions.at(0), high = low;  // of the whole
   double magnitude = 0;
   for (const Vector& p : session->mesh().positions)
     for (int axis = 0; axis < 3; ++axis) {
@@ -111,9 +123,9 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
       high[axis] = std::max(high[axis], p[axis]);
       magnitude = std::max(magnitude, std::abs(p[axis]));
     }
-  const Evidence evidence{name,          mesh.name,       capabilities, session->mesh(),   face_depth,
-                          *tessellation, truth.lattice(), truth,        std::move(points), norm(high - low),
-                          magnitude};
+  const Evidence evidence{
+      name,  mesh.name,         capabilities,     judged,   asked, *tessellation, truth.lattice(),
+      truth, std::move(points), norm(high - low), magnitude};
   // The subject is done, and may still break down while it cleans up.
   try {
     session->close();
@@ -137,12 +149,15 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     }
   }
   if (level_ == Level::kThorough ||
-      (level_ == Level::kStandard && mesh.mesh.triangles.size() <= kRelationFaces)) {
+      (level_ == Level::kStandard && judged.triangles.size() <= kRelationFaces)) {
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
     for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));
   }
   if (capabilities.points == LC_POINTS_LIMIT)
     for (Result& r : results) add_digits(r, evidence.mesh);
+  if (sample)
+    for (Result& r : results)
+      if (r.witness && r.witness->face >= 0) r.witness->face = sample->faces()[r.witness->face];
   return results;
 }
 

@@ -11,6 +11,7 @@
 #include "data/control_mesh.h"
 #include "verify/audit/reference_surface.h"
 #include "verify/audit/result.h"
+#include "verify/audit/sample.h"
 #include "verify/subject/subject.h"
 
 namespace limitcheck::verify {
@@ -20,6 +21,7 @@ struct AuditMesh {
   data::ControlMesh mesh;
   std::vector<std::int32_t> face_depth =
       {};  // 0 .. the auditor's depth or -1 (culled); empty: all that depth
+  std::shared_ptr<const MeshSample> sample = nullptr;  // if given, only this part of the mesh is looked at
 };
 
 struct AuditSubject {

@@ -54,7 +54,8 @@ Json witness(const Report& report, const Result& r) {
         fmt::format("limitcheck audit {} {} --depth {}{}", quoted(r.subject), quoted(r.mesh), report.depth,
                     report.depths == "uniform" ? ""
                     : report.seed              ? fmt::format(" --depths {}:{}", report.depths, *report.seed)
-                                               : fmt::format(" --depths {}", report.depths));
+                                               : fmt::format(" --depths {}", report.depths)) +
+        (report.sample.empty() ? "" : " --sample " + report.sample);
   return {{"face", index(w->face)},
           {"l1", text(w->l1)},
           {"l2", text(w->l2)},
@@ -75,6 +76,7 @@ std::string to_json(const Report& report) {
            {"depth", report.depth},
            {"depths", report.depths},
            {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
+           {"sample", text(report.sample)},
            {"seconds", report.seconds},
            {"held", report.held()}};
   out["subjects"] = report.subjects;

@@ -69,6 +69,7 @@ struct Report {
   int depth = 0;                      // the largest
   std::string depths = "uniform";     // how the faces got theirs: uniform, random, view; file: unknown
   std::optional<std::uint64_t> seed;  // of random
+  std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at
   std::vector<Mesh> meshes;
   std::vector<std::string> subjects;
   std::vector<Result> results;

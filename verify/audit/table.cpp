@@ -237,6 +237,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
   else if (report.depths != "uniform")
     depth += fmt::format(" at most, {}", report.depths);
   if (report.seed) depth += fmt::format(" (seed {})", *report.seed);
+  if (!report.sample.empty()) depth += fmt::format(", a sample of faces ({})", report.sample);
   out += fmt::format(
       "limitcheck {}: {} on {} ({} faces)\n", report.version, depth,
       report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),

@@ -53,8 +53,8 @@ std::vector<Waiver> parse_waivers(const std::string& text) {
       if (!known.contains(key)) refuse(fmt::format("there is no field \"{}\"", key));
     const auto field = [&](const nlohmann::json& in, const char* key, const char* fallback) {
       if (!in.contains(key)) {
-        if (fallback == nullptr) refuse(fmt::format("\"{}\" is missing", key));
-        return std::string(fallback);
+        if (fallback != nullptr) return std::string(fallback);
+        refuse(fmt::format("\"{}\" is missing", key));
       }
       if (!in[key].is_string()) refuse(fmt::format("\"{}\" is not text", key));
       return in[key].get<std::string>();

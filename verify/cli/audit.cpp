@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <optional>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "data/generators/named_mesh.h"
@@ -38,6 +39,7 @@ struct Arguments {
   std::vector<std::string> meshes, options;
   int depth = 4;
   std::string depths = "uniform";
+  std::string sample;
   int threads = 0;
   std::string json;
   bool each_mesh = false, must_refuse = false;
@@ -125,6 +127,27 @@ std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlM
   return depth;
 }
 
+// --sample: "FACES" or "FACES:SEED".
+struct Sampling {
+  std::size_t faces = 0;
+  std::uint64_t seed = 1;
+};
+
+std::optional<Sampling> parse_sample(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  Sampling sampling;
+  const char* last = text.data() + text.size();
+  auto [end, error] = std::from_chars(text.data(), last, sampling.faces);
+  if (error == std::errc() && end != last && *end == ':')
+    std::tie(end, error) = [&] {
+      const auto seed = std::from_chars(end + 1, last, sampling.seed);
+      return std::pair(seed.ptr, seed.ec);
+    }();
+  if (error != std::errc() || end != last || sampling.faces == 0)
+    throw std::invalid_argument(fmt::format("--sample {}: FACES or FACES:SEED", text));
+  return sampling;
+}
+
 void check_json(const std::string& json) {
   if (!json.empty() && json != "-" && !json.ends_with(".json"))
     throw std::invalid_argument(
@@ -136,6 +159,7 @@ void check_json(const std::string& json) {
 int audit(Arguments a) {
   if (explained(a.output)) return kHeld;
   const Depths depths = parse_depths(a.depths);
+  const std::optional<Sampling> sampling = parse_sample(a.sample);
   if (depths.kind == "view" && a.depth > fast::kDeepest)
     throw std::invalid_argument(fmt::format("--depths view: --depth {} at most", fast::kDeepest));
   take_program(a.door, a.subject, a.meshes);
@@ -161,7 +185,10 @@ int audit(Arguments a) {
     data::ControlMesh mesh = a.must_refuse ? open_broken_mesh(name) : data::open_mesh(name);
     std::vector<std::int32_t> depth;
     if (!a.must_refuse) depth = face_depths(depths, mesh, a.depth);
-    meshes.push_back({name, std::move(mesh), std::move(depth)});
+    std::shared_ptr<const verify::MeshSample> sample;
+    if (sampling && !a.must_refuse)
+      sample = std::make_shared<verify::MeshSample>(mesh, sampling->faces, sampling->seed);
+    meshes.push_back({name, std::move(mesh), std::move(depth), std::move(sample)});
     report.meshes.push_back({name, static_cast<std::int64_t>(meshes.back().mesh.positions.size()),
                              static_cast<std::int64_t>(meshes.back().mesh.triangles.size())});
   }
@@ -169,6 +196,7 @@ int audit(Arguments a) {
   report.depth = a.depth;
   report.depths = depths.kind;
   report.seed = depths.seed;
+  if (sampling) report.sample = fmt::format("{}:{}", sampling->faces, sampling->seed);
   for (const auto& s : audited)
     report.subjects.push_back(s.options.empty() ? s.subject->name
                                                 : fmt::format("{}:{}", s.subject->name, s.options));
@@ -222,6 +250,12 @@ void add_audit(CLI::App& app, int& exit_code) {
                    "uniform, random[:SEED] (0 .. depth), view (by size on the screen and curvature, back "
                    "faces culled) or file:FILE (one per face, -1 is culled)")
       ->capture_default_str();
+  command
+      ->add_option(
+          "--sample", a->sample,
+          "Look at about so many faces of each mesh only, in patches around random vertices, and have "
+          "the others culled: for meshes of millions of faces")
+      ->type_name("FACES[:SEED]");
   command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
       ->take_all()
       ->expected(1);

@@ -98,6 +98,9 @@ class Tessellation {
   /// The control face exists and (i, j) / denominator lies in its domain.
   bool provenance_ok(std::int64_t v) const;
 
+  /// Gives faces other numbers: face f of the request becomes to[f], one of `count` faces, or none (-1).
+  void renumber_faces(std::span<const std::int32_t> to, std::int64_t count);
+
   const std::vector<Defect>& defects() const { return defects_; }
   const std::vector<Overrun>& overruns() const { return overruns_; }
 
@@ -119,9 +122,9 @@ class Tessellation {
   std::int64_t faces_ = 0, vertices_ = 0, triangles_ = 0;
   const void* positions_ = nullptr;
   const void* normals_ = nullptr;
-  const lc_provenance* provenance_ = nullptr;
+  lc_provenance* provenance_ = nullptr;
   const std::array<std::uint32_t, 3>* indices_ = nullptr;
-  const std::int32_t* triangle_face_ = nullptr;
+  std::int32_t* triangle_face_ = nullptr;
   std::vector<Defect> defects_;
   std::vector<Overrun> overruns_;
 };

@@ -72,6 +72,15 @@ bool Tessellation::triangle_ok(std::int64_t t) const {
                      [this](std::uint32_t v) { return static_cast<std::int64_t>(v) < vertices_; });
 }
 
+void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t count) {
+  const auto renumber = [&](std::int32_t& face) {
+    face = face >= 0 && static_cast<std::size_t>(face) < to.size() ? to[face] : -1;
+  };
+  for (std::int64_t v = 0; v < vertices_; ++v) renumber(provenance_[v].face);
+  for (std::int64_t t = 0; t < triangles_; ++t) renumber(triangle_face_[t]);
+  faces_ = count;
+}
+
 bool Tessellation::provenance_ok(std::int64_t v) const {
   const lc_provenance& p = provenance_[v];
   return p.face >= 0 && p.face < faces_ && p.denominator > 0 &&

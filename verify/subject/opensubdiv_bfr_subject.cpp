@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: MIT
 // OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface), its uniform Tessellation
-// evaluated point by point, and forgotten: the streaming use, nearest to what the paper does. Faces share no
-// vertices. The normal is d/du x d/dv as evaluated, NaN where the library's derivatives are parallel or zero.
+// evaluated point by point, and forgotten: the streaming use, nearest to what the paper does.
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
-#include <opensubdiv/bfr/tessellation.h>
 
-#include <cmath>
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
+#include <string>
 #include <vector>
 
-#include "verify/subject/faces_in_parallel.h"
-#include "verify/subject/opensubdiv_mesh.h"
+#include "verify/subject/opensubdiv_faces.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -27,28 +22,30 @@ using Cache = Bfr::SurfaceFactoryCacheThreaded<std::shared_mutex, std::shared_lo
                                                std::unique_lock<std::shared_mutex>>;
 using Factory = Bfr::RefinerSurfaceFactory<Cache>;
 
-// The library's tessellation of a triangle at one depth.
+// The surface of one face after another.
 template <class Real>
-struct Pattern {
-  explicit Pattern(int depth) : denominator(std::uint32_t{1} << depth) {
-    const Bfr::Parameterization triangle(OpenSubdiv::Sdc::SCHEME_LOOP, 3);
-    const Bfr::Tessellation tessellation(triangle, 1 << depth);
-    coords.resize(2 * static_cast<std::size_t>(tessellation.GetNumCoords()));
-    facets.resize(3 * static_cast<std::size_t>(tessellation.GetNumFacets()));
-    tessellation.GetCoords(coords.data());
-    tessellation.GetFacets(facets.data());
-    // (u, v) is (l1, l2): the corners of the face are (0, 0), (1, 0), (0, 1).
-    for (const Real coordinate : coords) {
-      const Real scaled = coordinate * static_cast<Real>(denominator);
-      lattice.push_back(static_cast<std::uint32_t>(std::lround(scaled)));
-      if (static_cast<Real>(lattice.back()) != scaled)
-        throw SubjectError(LC_FAILED, "Bfr leaves the dyadic lattice");
-    }
+class FaceSurface {
+ public:
+  FaceSurface(const Factory& factory, const std::vector<Real>& control)
+      : factory_(factory), control_(control) {}
+
+  void begin(std::int32_t face) {
+    const OpenSubdivErrors errors;
+    if (!factory_.InitVertexSurface(face, &surface_))
+      throw SubjectError(LC_FAILED, "Bfr has no limit surface for face " + std::to_string(face));
+    errors.check();
+    points_.resize(3 * static_cast<std::size_t>(surface_.GetNumPatchPoints()));
+    surface_.PreparePatchPoints(control_.data(), 3, points_.data(), 3);
   }
-  std::uint32_t denominator;
-  std::vector<Real> coords;            // u, v
-  std::vector<std::uint32_t> lattice;  // i, j
-  std::vector<int> facets;
+  void evaluate(const Real* uv, Real* position, Real* du, Real* dv) const {
+    surface_.Evaluate(uv, points_.data(), 3, position, du, dv);
+  }
+
+ private:
+  const Factory& factory_;
+  const std::vector<Real>& control_;
+  Bfr::Surface<Real> surface_;
+  std::vector<Real> points_;
 };
 
 class BfrSubject {
@@ -78,63 +75,8 @@ class BfrSubject {
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
-    const auto faces = mesh_.triangle_count;
-    std::map<int, Pattern<Real>> patterns;
-    std::vector<std::int64_t> first_vertex(static_cast<std::size_t>(faces) + 1);
-    std::vector<std::int64_t> first_triangle(static_cast<std::size_t>(faces) + 1);
-    for (std::int64_t f = 0; f < faces; ++f) {
-      const int depth = request.face_depth[f];
-      const auto k = static_cast<std::size_t>(f);
-      first_vertex[k + 1] = first_vertex[k];
-      first_triangle[k + 1] = first_triangle[k];
-      if (depth < 0) continue;
-      const Pattern<Real>& pattern = patterns.try_emplace(depth, depth).first->second;
-      first_vertex[k + 1] += static_cast<std::int64_t>(pattern.coords.size() / 2);
-      first_triangle[k + 1] += static_cast<std::int64_t>(pattern.facets.size() / 3);
-    }
-    const auto output = allocate_output<Real>(request, out, first_vertex.back(), first_triangle.back(), true);
     const std::vector<Real> control(mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count);
-
-    faces_in_parallel(faces, request.threads, [&](std::int64_t begin, std::int64_t end) {
-      Bfr::Surface<Real> surface;
-      std::vector<Real> patch_points;
-      for (std::int64_t f = begin; f < end; ++f) {
-        if (request.face_depth[f] < 0) continue;
-        const OpenSubdivErrors errors;
-        if (!factory_->InitVertexSurface(static_cast<int>(f), &surface)) {
-          throw SubjectError(LC_FAILED, "Bfr has no limit surface for face " + std::to_string(f));
-        }
-        errors.check();
-        patch_points.resize(3 * static_cast<std::size_t>(surface.GetNumPatchPoints()));
-        surface.PreparePatchPoints(control.data(), 3, patch_points.data(), 3);
-        const auto k = static_cast<std::size_t>(f);
-        write_face(static_cast<std::int32_t>(f), patterns.at(request.face_depth[f]), surface, patch_points,
-                   output, first_vertex[k], first_triangle[k]);
-      }
-    });
-  }
-
-  template <class Real>
-  static void write_face(std::int32_t face, const Pattern<Real>& pattern, const Bfr::Surface<Real>& surface,
-                         const std::vector<Real>& patch_points, const Output<Real>& output,
-                         std::int64_t vertex, std::int64_t triangle) {
-    const auto first = static_cast<std::uint32_t>(vertex);
-    for (std::size_t p = 0; p < pattern.coords.size(); p += 2, ++vertex) {
-      Real du[3], dv[3];
-      surface.Evaluate(&pattern.coords[p], patch_points.data(), 3, output.positions + 3 * vertex, du, dv);
-      const Real n[3] = {du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2],
-                         du[0] * dv[1] - du[1] * dv[0]};
-      const Real length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-      for (int c = 0; c < 3; ++c) output.normals[3 * vertex + c] = n[c] / length;
-      output.provenance[vertex] = {face, pattern.lattice[p], pattern.lattice[p + 1], pattern.denominator};
-    }
-    for (std::size_t t = 0; t < pattern.facets.size(); t += 3, ++triangle) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        output.triangles[3 * triangle + static_cast<std::int64_t>(c)] =
-            first + static_cast<std::uint32_t>(pattern.facets[t + c]);
-      }
-      output.triangle_face[triangle] = face;
-    }
+    tessellate_faces<Real>(mesh_, request, out, [&] { return FaceSurface<Real>(*factory_, control); });
   }
 
   const lc_mesh mesh_;

@@ -4,8 +4,13 @@
 namespace limitcheck::verify {
 
 std::vector<const lc_subject*> built_in_subjects() {
-  return {lc_subject_naive(),          lc_subject_sliding_window(), lc_subject_row_stream(),
-          lc_subject_opensubdiv_far(), lc_subject_opensubdiv_bfr(), lc_subject_cgal(),
+  return {lc_subject_naive(),
+          lc_subject_sliding_window(),
+          lc_subject_row_stream(),
+          lc_subject_opensubdiv_far(),
+          lc_subject_opensubdiv_far_patches(),
+          lc_subject_opensubdiv_bfr(),
+          lc_subject_cgal(),
           lc_subject_openmesh()};
 }
 

@@ -12,6 +12,7 @@ const lc_subject* lc_subject_naive();
 const lc_subject* lc_subject_sliding_window();
 const lc_subject* lc_subject_row_stream();
 const lc_subject* lc_subject_opensubdiv_far();
+const lc_subject* lc_subject_opensubdiv_far_patches();
 const lc_subject* lc_subject_opensubdiv_bfr();
 const lc_subject* lc_subject_cgal();
 const lc_subject* lc_subject_openmesh();

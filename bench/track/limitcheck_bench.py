@@ -127,15 +127,19 @@ def compare_records(args):
     return decide.compare(a, b), f"{lost} (bench run --keep), so its times are of another hour: less sharp on a busy machine"
 
 
+def this_build(args):
+    return "this build" if args.programs == default_programs() else str(args.programs)
+
+
 def command_compare(args):
     if (args.a is None) == (args.against is None):
         raise UsageError("compare needs a record A or --against FOLDER, and not both")
     if args.against is not None:
         result, note = compare_with_build(args), "times in turns"
-        names = str(args.against), "this build"
+        names = str(args.against), this_build(args)
     else:
         result, note = compare_records(args)
-        names = args.a, args.b or "this build"
+        names = args.a, args.b or this_build(args)
     progress("")
     if args.json:
         print(json.dumps(result, indent=1))
@@ -154,7 +158,8 @@ def print_comparison(a, b, result, note):
     print(f"{'':9}{'B / A':>7}  {'p':>8}  {'':12}  benchmark")
     for row in result["rows"]:
         p = f"{row['p']:.1e}" if "p" in row else "exact"
-        print(f"{row['verdict']:9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}")
+        counts = f": {row['a']} -> {row['b']}" if row["verdict"] and "a" in row else ""
+        print(f"{row['verdict']:9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}{counts}")
     for side, names in (("A", result["only_a"]), ("B", result["only_b"])):
         for name in names:
             print(f"only in {side}: {name}")

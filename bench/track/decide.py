@@ -8,9 +8,9 @@ import scipy.stats
 
 import machine
 
-COUNT_TOLERANCE = 0.005  # instruction counts repeat exactly; this is for a library that moved by an instruction
-TIME_EFFECT = 0.05       # smaller differences of medians are not worth anybody's time
-TIME_ALPHA = 0.01        # of a Mann-Whitney U test in each round
+COUNT_TOLERANCE = 0.005  # counts of kernels repeat exactly, those of set-up, which allocates, within 0.0015
+TIME_EFFECT = 0.05       # smaller differences are not worth anybody's time
+TIME_ALPHA = 0.01        # of the test of each round
 
 
 def samples(timing):
@@ -23,7 +23,7 @@ def samples(timing):
 
 
 def judge_round(a, b):
-    """(ratio of medians, p, +1 slower / -1 faster / 0 no difference shown)."""
+    """(ratio of medians, p of Mann and Whitney's test, +1 slower / -1 faster / 0 no difference shown)."""
     ratio = statistics.median(b) / statistics.median(a)
     p = scipy.stats.mannwhitneyu(a, b, alternative="two-sided").pvalue
     return ratio, p, sign_of(ratio, p)

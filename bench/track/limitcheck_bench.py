@@ -121,10 +121,15 @@ def compare_records(args):
     kept = pathlib.Path(a.get("kept", "/nowhere"))
     if (kept / "timing_turns").is_file():
         differences = machine.differences(a["identity"], measure.identity(args.programs))
-        return in_turns(kept, args.programs, a["suite"], a["instructions"], differences), "times in turns with the kept programs"
+        result = in_turns(kept, args.programs, a["suite"], a["instructions"], differences)
+        return result, "times in turns with the kept programs"
     b = measure.measure(args.programs, a["suite"], counts=bool(a["instructions"]), progress=progress)
     lost = f"the programs of {args.a} are no longer in {kept}" if "kept" in a else f"the programs of {args.a} were not kept"
     return decide.compare(a, b), f"{lost} (bench run --keep), so its times are of another hour: less sharp on a busy machine"
+
+
+def this_build(args):
+    return "this build" if args.programs == default_programs() else str(args.programs)
 
 
 def command_compare(args):
@@ -132,10 +137,10 @@ def command_compare(args):
         raise UsageError("compare needs a record A or --against FOLDER, and not both")
     if args.against is not None:
         result, note = compare_with_build(args), "times in turns"
-        names = str(args.against), "this build"
+        names = str(args.against), this_build(args)
     else:
         result, note = compare_records(args)
-        names = args.a, args.b or "this build"
+        names = args.a, args.b or this_build(args)
     progress("")
     if args.json:
         print(json.dumps(result, indent=1))
@@ -154,12 +159,14 @@ def print_comparison(a, b, result, note):
     print(f"{'':9}{'B / A':>7}  {'p':>8}  {'':12}  benchmark")
     for row in result["rows"]:
         p = f"{row['p']:.1e}" if "p" in row else "exact"
-        print(f"{row['verdict']:9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}")
+        counts = f": {row['a']} -> {row['b']}" if row["verdict"] and "a" in row else ""
+        print(f"{row['verdict']:9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}{counts}")
     for side, names in (("A", result["only_a"]), ("B", result["only_b"])):
         for name in names:
             print(f"only in {side}: {name}")
     lost = f", {len(result['only_a'])} benchmarks of A lost" if result["only_a"] else ""
-    print(f"{result['regressions']} regressions{lost}. A difference in time counts when two rounds show at least "
+    plural = "" if result["regressions"] == 1 else "s"
+    print(f"{result['regressions']} regression{plural}{lost}. A difference in time counts when two rounds show at least "
           f"{decide.TIME_EFFECT:.0%} with p < {decide.TIME_ALPHA}; one in instructions from {decide.COUNT_TOLERANCE:.1%} on.")
 
 
@@ -204,9 +211,10 @@ def parser():
     run = command("run", command_run, "measure this build and store a record under its machine, compiler, flags and targets")
     run.add_argument("--label", type=label, help="name of the record (default: the commit)")
     run.add_argument("--keep", action="store_true",
-                     help="keep the programs, too, in kept/LABEL beside them, so that a later build can be timed in turns with them")
+                     help="keep the programs, too, in kept/LABEL beside them: later builds are timed in turns with them")
     run.add_argument("--suite", default="standard", help=suites)
-    run.add_argument("--repetitions", type=positive, default=6, metavar="N", help="of each benchmark in a round (default: %(default)s)")
+    run.add_argument("--repetitions", type=positive, default=6, metavar="N",
+                     help="of each benchmark in a round (default: %(default)s)")
     run.add_argument("--rounds", type=positive, default=2, metavar="N",
                      help="independent rounds; a difference in time must show in each (default: %(default)s)")
     run.add_argument("--no-counts", action="store_true", help="leave out the instruction counts (no valgrind needed)")
@@ -233,10 +241,13 @@ def parser():
                        help=f"for ctest: exit code {gate.SKIPPED} if there is no baseline for this compiler and CI is not set")
     takes_programs(gated)
 
-    tried = command("self-test", command_self_test, "try on this machine whether planted slowdowns are found and equal builds pass",
-                    " Takes some minutes; gives the best answer at high priority (nice -n -15).")
-    tried.add_argument("--same", type=positive, default=20, metavar="N", help="comparisons of this build with itself (default: %(default)s)")
-    tried.add_argument("--planted", type=positive, default=10, metavar="N", help="comparisons with one 10 %% slower (default: %(default)s)")
+    tried = command("self-test", command_self_test,
+                    "try on this machine whether planted slowdowns are found and equal builds pass",
+                    " Takes ten minutes; gives the best answer at high priority (nice -n -15).")
+    tried.add_argument("--same", type=positive, default=20, metavar="N",
+                       help="comparisons of this build with itself (default: %(default)s)")
+    tried.add_argument("--planted", type=positive, default=10, metavar="N",
+                       help="comparisons with a build of which one kernel is 10 %% slower (default: %(default)s)")
     tried.add_argument("--suite", default="standard", help=suites)
     takes_programs(tried)
 

@@ -61,7 +61,7 @@ void add(CLI::App& app, int& exit_code, const std::string& name, const std::stri
 void add_external(CLI::App& app, int& exit_code) {
   add(app, exit_code, "reproduce",
       "The paper reproduced: claims, tables, figures and one page that shows them");
-  add(app, exit_code, "bench", "Performance tracking: measure, compare with a baseline, draw the trend");
+  add(app, exit_code, "bench", "Performance tracking: measure, compare, hold exact costs, draw the trend");
 }
 
 }  // namespace limitcheck::cli

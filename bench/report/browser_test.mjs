@@ -23,6 +23,7 @@ async function try_viewer(page, name) {
     last = now;
   }
   await canvas.scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelector("#viewer output").textContent !== "");
   await changes("at first", async () => {});
   await changes("colour", () => viewer.locator("select").selectOption("position"));
   await changes("worst triangle", () => viewer.locator("button[name=worst]").click());

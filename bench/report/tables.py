@@ -15,6 +15,10 @@ def number(value, digits=3):
     return f"{value:.{digits}g}" if isinstance(value, float) else text(value)
 
 
+def rate(value):
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+
+
 def table(header, rows, caption=""):
     head = "".join(f"<th scope=col>{text(h)}" for h in header)
     body = "".join("<tr>" + "".join(f"<td>{cell}" for cell in row) + "\n" for row in rows)
@@ -98,7 +102,7 @@ def spheres(data):
         return [[text(r["faces"]), text(r["strategy"]), *(c(r) for c in columns)] for r in rows]
     share = lambda value: f"{value:.1%}"  # noqa: E731
     mean = lambda key, digits=0: lambda r: f"{r[key]:.{digits}f}"  # noqa: E731
-    rate = lambda key: lambda r: number(float(r[key]["frames_per_second"]))  # noqa: E731
+    fps = lambda key: lambda r: rate(r[key]["frames_per_second"])  # noqa: E731
     stage = lambda key, name: lambda r: share(r[key]["stages"][name])  # noqa: E731
     pixels = lambda key: lambda r: number(float(r["error_pixels"][key]))  # noqa: E731
     first, threads = ["faces", "strategy"], data["threads"]
@@ -106,7 +110,7 @@ def spheres(data):
     return (
         details("Frames per second", table(
             first + [f"{name}, {how}" for _, name in ENGINES for how in ("1 thread", f"{threads} threads", "1 thread, drawn")],
-            lines(*(rate(key + end) for key, _ in ENGINES for end in ("", "_all_threads", "_drawn"))),
+            lines(*(fps(key + end) for key, _ in ENGINES for end in ("", "_all_threads", "_drawn"))),
             f"Drawn: with OpenGL by {text(data['renderer'])}, {data['viewport'][0]} by {data['viewport'][1]} pixels."))
         + details("What a frame holds", table(
             first + ["triangles", "strips", "fans", "pairs", "no partner (singletons)", "culled", "limit points"],
@@ -133,7 +137,7 @@ def matched(data):
         if not it:
             return "not reached"
         ratio = "" if family == "uniform" else f" ({uniform['triangles'] / it['triangles']:.2f})"
-        return f"{it['triangles']:.0f}{ratio}<br>{it['frames_per_second']:.3g}"
+        return f"{it['triangles']:.0f}{ratio}<br>{rate(it['frames_per_second'])}"
     rows = [[text(r["faces"]), text(measures[r["measure"]]), text(r["as"]), number(float(r["error"])), *(cell(r, f) for f in families)]
             for r in data["rows"]]
     intro = ("<p>Equal depth is no comparison: the strategies do not show the surface equally well. Here each adaptive strategy is run "

@@ -69,10 +69,16 @@ for (const [name, viewport, colorScheme] of [["wide", { width: 1280, height: 900
   console.log(`${name}: loaded in ${((Date.now() - start) / 1000).toFixed(1)} s`);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   if (overflow > 0) problems.push(`${name}: the page is ${overflow} pixels too wide`);
-  await page.screenshot({ path: shots(`report-${name}`), fullPage: true });
+  // Section by section: a picture of the whole page would be too tall for the browser.
+  const boxes = await page.evaluate(() => [...document.querySelectorAll("main > section")].map((section) => {
+    const box = section.getBoundingClientRect();
+    return { id: section.id, clip: { x: 0, y: box.y + scrollY, width: innerWidth, height: Math.min(box.height, 8000) } };
+  }));
+  for (const { id, clip } of boxes) await page.screenshot({ path: shots(`report-${name}-${id}`), fullPage: true, clip });
   if (await page.locator("#viewer").count()) await try_viewer(page, name);
   await page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
-  await page.screenshot({ path: shots(`report-${name}-open`), fullPage: true });
+  const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  if (wider > 0) problems.push(`${name}: with everything unfolded the page is ${wider} pixels too wide`);
   if (name === "wide") await page.pdf({ path: path.join(folder, "report.pdf"), format: "A4" });
   await page.close();
 }

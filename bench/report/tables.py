@@ -43,7 +43,7 @@ def claims(data):
     return (f"<p>{len(rows)} claims: {summary}.</p>"
             + table(["claim", "place", "printed", "correction"],
                     [[text(r["id"]), text(r.get("place", "")), text(r["statement"]), text(r.get("note") or "")] for r in errata],
-                    f"{len(errata)} errata; as Markdown: <code>limitcheck claims --errata</code>")
+                    f"{len(errata)} wrong as printed; the errata as Markdown: <code>limitcheck claims --errata</code>")
             + details(f"All {len(rows)} claims", table(
                 ["claim", "says", "verdict", "today", "note", "check"],
                 [[text(r["id"]), text(r.get("statement", "")), text(r["verdict"]),

@@ -6,7 +6,9 @@
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 bash "$top/verify/install.sh"
-bash "$top/verify/build.sh" release -DBUILD_TESTING=OFF
+testing=OFF
+if [[ ${1:-} == claims || ${1:-} == reproduce ]]; then testing=ON; fi  # the claims are tests
+bash "$top/verify/build.sh" release -DBUILD_TESTING=$testing
 if [[ $# -gt 0 ]]; then
   exec "$top/build/release/limitcheck" "$@"
 fi

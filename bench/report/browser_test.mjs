@@ -23,6 +23,7 @@ async function try_viewer(page, name) {
     last = now;
   }
   await canvas.scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelector("#viewer output").textContent !== "");
   await changes("at first", async () => {});
   await changes("colour", () => viewer.locator("select").selectOption("position"));
   await changes("worst triangle", () => viewer.locator("button[name=worst]").click());
@@ -39,7 +40,15 @@ async function try_viewer(page, name) {
     if ((await words.textContent()) !== witness.text) problems.push(`${name}: the view does not say which witness it shows`);
     const focused = await page.evaluate(() => document.activeElement.tagName);
     if (focused !== "CANVAS") problems.push(`${name}: after a jump the keyboard is at ${focused}, not at the view`);
-    for (const other of (await page.locator("button.jump").all()).slice(1)) await other.evaluate((b) => b.click());
+    // One witness of every mesh.
+    await page.evaluate(() => {
+      const seen = new Set();
+      for (const b of document.querySelectorAll("button.jump")) {
+        const { mesh } = JSON.parse(b.dataset.witness);
+        if (!seen.has(mesh)) b.click();
+        seen.add(mesh);
+      }
+    });
     await changes("back", () => viewer.locator("button[name=back]").click());
   } else if (await page.locator("#audit").count()) {
     problems.push(`${name}: no witness of the audit can be shown`);
@@ -52,16 +61,24 @@ for (const [name, viewport, colorScheme] of [["wide", { width: 1280, height: 900
   page.on("console", (message) => message.type() === "error" && problems.push(`${name}: console: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`${name}: ${error.message}`));
   const file = "file://" + path.resolve(page_file);
-  page.on("request", (request) => request.url() !== file && !/^(data|blob):/.test(request.url()) && problems.push(`${name}: asks for ${request.url()}`));
+  page.on("request", (request) => {
+    if (request.url() !== file && !/^(data|blob):/.test(request.url())) problems.push(`${name}: asks for ${request.url()}`);
+  });
   const start = Date.now();
   await page.goto(file);
   console.log(`${name}: loaded in ${((Date.now() - start) / 1000).toFixed(1)} s`);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   if (overflow > 0) problems.push(`${name}: the page is ${overflow} pixels too wide`);
-  await page.screenshot({ path: shots(`report-${name}`), fullPage: true });
+  // Section by section: a picture of the whole page would be too tall for the browser.
+  const boxes = await page.evaluate(() => [...document.querySelectorAll("main > section")].map((section) => {
+    const box = section.getBoundingClientRect();
+    return { id: section.id, clip: { x: 0, y: box.y + scrollY, width: innerWidth, height: Math.min(box.height, 8000) } };
+  }));
+  for (const { id, clip } of boxes) await page.screenshot({ path: shots(`report-${name}-${id}`), fullPage: true, clip });
   if (await page.locator("#viewer").count()) await try_viewer(page, name);
-  for (const summary of await page.locator("details:not([open]) > summary").all()) await summary.click();
-  await page.screenshot({ path: shots(`report-${name}-open`), fullPage: true });
+  await page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
+  const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  if (wider > 0) problems.push(`${name}: with everything unfolded the page is ${wider} pixels too wide`);
   if (name === "wide") await page.pdf({ path: path.join(folder, "report.pdf"), format: "A4" });
   await page.close();
 }

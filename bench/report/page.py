@@ -16,7 +16,7 @@ DEPTHS = "Depths: yellow 0, light green 1, green 2, blue 3, dark blue 4, violet 
 PICTURES = {
     "figure-3": ("Figure 3", "The ring of a vertex after 0, 1 and 2 steps in place. Blue: the normals of its triangles, moved to the "
                              "vertex. Red: the cone of 30 degrees about the limit normal that they have to enter, and do after two."),
-    "figure-6": ("Figure 6", "Random depths without repair: white cracks wherever depths differ. " + DEPTHS),
+    "figure-6": ("Figure 6", "Random depths without repair: white cracks between unequal depths, seen best at the upper left. " + DEPTHS),
     "figure-7": ("Figure 7", "The same with the paper's fans: no crack is left. " + DEPTHS),
     "figure-8": ("Figure 8", "Fans on an icosahedron: round the middle of the flat triangle (left) they dent the surface, round the "
                              "limit point (right) they do not. " + DEPTHS),
@@ -27,7 +27,7 @@ PICTURES = {
 }
 CHARTS = {
     "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres."),
-    "figure-12": ("Figure 12", "Triangles per frame, and control faces culled."),
+    "figure-12": ("Figure 12", "Triangles per frame, and control faces culled: the same for both adaptive strategies, one rule decides."),
 }
 NO_NUMBERS = (
     "<p>Figures 11 and 12 of the paper are diagrams, and its text has none of their numbers: no frame rate, triangle count or culled share "

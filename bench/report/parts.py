@@ -95,11 +95,11 @@ def audit(shop):
 
 
 def proofs(shop):
-    shop.run([shop.limitcheck, "prove", *(["--depth", "2", "--valences", "3:5"] if shop.quick else []), "--json"], "proofs.json", (0, 1))
+    shop.run([shop.limitcheck, "prove", *(["--depth", "1", "--valences", "3:5"] if shop.quick else []), "--json"], "proofs.json", (0, 1))
 
 
 def throughput(shop):
-    cases = "faces:1000/depth:[35]/threads:1" if shop.quick else "faces:4000/depth:[35]/threads:1|100000/depth:5"
+    cases = "faces:1000/depth:3/threads:1" if shop.quick else "faces:4000/depth:[35]/threads:1|100000/depth:5"
     partial = shop.folder / "throughput.json.partial"
     try:
         shop.run([shop.bench / "throughput_bench", f"--benchmark_filter={cases}|write-only|set-up/bumpy/faces:4000",

@@ -15,6 +15,10 @@ def number(value, digits=3):
     return f"{value:.{digits}g}" if isinstance(value, float) else text(value)
 
 
+def rate(value):
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+
+
 def table(header, rows, caption=""):
     head = "".join(f"<th scope=col>{text(h)}" for h in header)
     body = "".join("<tr>" + "".join(f"<td>{cell}" for cell in row) + "\n" for row in rows)
@@ -39,7 +43,7 @@ def claims(data):
     return (f"<p>{len(rows)} claims: {summary}.</p>"
             + table(["claim", "place", "printed", "correction"],
                     [[text(r["id"]), text(r.get("place", "")), text(r["statement"]), text(r.get("note") or "")] for r in errata],
-                    f"{len(errata)} errata; as Markdown: <code>limitcheck claims --errata</code>")
+                    f"{len(errata)} wrong as printed; the errata as Markdown: <code>limitcheck claims --errata</code>")
             + details(f"All {len(rows)} claims", table(
                 ["claim", "says", "verdict", "today", "note", "check"],
                 [[text(r["id"]), text(r.get("statement", "")), text(r["verdict"]),
@@ -85,7 +89,7 @@ def audit(data, places):
 
 def trends(data):
     return table(["", "the text says", "today", "figures"],
-                 [[text(t["id"]), text(t["statement"]), mark(t["held"]), text(t["figures"])] for t in data])
+                 [[text(t["id"]), text(t["statement"]), mark(t["held"]), text(t["figures"]).replace("; ", "<br>")] for t in data])
 
 
 ENGINES = (("sliding_window", "sliding window"), ("row_stream", "row streaming"))
@@ -98,7 +102,7 @@ def spheres(data):
         return [[text(r["faces"]), text(r["strategy"]), *(c(r) for c in columns)] for r in rows]
     share = lambda value: f"{value:.1%}"  # noqa: E731
     mean = lambda key, digits=0: lambda r: f"{r[key]:.{digits}f}"  # noqa: E731
-    rate = lambda key: lambda r: number(float(r[key]["frames_per_second"]))  # noqa: E731
+    fps = lambda key: lambda r: rate(r[key]["frames_per_second"])  # noqa: E731
     stage = lambda key, name: lambda r: share(r[key]["stages"][name])  # noqa: E731
     pixels = lambda key: lambda r: number(float(r["error_pixels"][key]))  # noqa: E731
     first, threads = ["faces", "strategy"], data["threads"]
@@ -106,7 +110,7 @@ def spheres(data):
     return (
         details("Frames per second", table(
             first + [f"{name}, {how}" for _, name in ENGINES for how in ("1 thread", f"{threads} threads", "1 thread, drawn")],
-            lines(*(rate(key + end) for key, _ in ENGINES for end in ("", "_all_threads", "_drawn"))),
+            lines(*(fps(key + end) for key, _ in ENGINES for end in ("", "_all_threads", "_drawn"))),
             f"Drawn: with OpenGL by {text(data['renderer'])}, {data['viewport'][0]} by {data['viewport'][1]} pixels."))
         + details("What a frame holds", table(
             first + ["triangles", "strips", "fans", "pairs", "no partner (singletons)", "culled", "limit points"],
@@ -133,15 +137,14 @@ def matched(data):
         if not it:
             return "not reached"
         ratio = "" if family == "uniform" else f" ({uniform['triangles'] / it['triangles']:.2f})"
-        return f"{it['triangles']:.0f}{ratio}<br>{it['frames_per_second']:.3g}"
+        return f"{it['triangles']:.0f}{ratio}<br>{rate(it['frames_per_second'])}"
     rows = [[text(r["faces"]), text(measures[r["measure"]]), text(r["as"]), number(float(r["error"])), *(cell(r, f) for f in families)]
             for r in data["rows"]]
     intro = ("<p>Equal depth is no comparison: the strategies do not show the surface equally well. Here each adaptive strategy is run "
              "from coarse to fine settings (240 to 3.75 pixels, half the number of degrees), and read off where its error on the screen "
              "equals that of a uniform depth. In each cell: triangles, (those of uniform depth divided by them: above 1 the strategy is "
-             "better), and below frames per second. With the paper's fans the strategies lose, because a fan drops all points inside a "
-             "face; with their borders stitched to the inner points instead they are about equal at the worst spots and better on "
-             "the mean.</p>")
+             "better), and below frames per second. What holds the strategies back are the paper's fans, which drop all points inside a "
+             "face: the last two columns keep these and stitch only the border (not in the paper).</p>")
     only = lambda depth: [row for row, r in zip(rows, data["rows"]) if r["as"] == depth]  # noqa: E731
     header = ["faces", "error", "as", "pixels", *families]
     return (intro + table(header, only("uniform-3"), f"At the error of uniform depth 3; {text(data['engine'])}")

@@ -190,14 +190,28 @@ function start(element) {
     stage.look(middle, middle.clone().addScaledVector(normal, 0.6), 3);
     stage.draw();
   });
-  for (const button of document.querySelectorAll("button.jump"))
-    button.addEventListener("click", () => jump(JSON.parse(button.dataset.witness)));
   overview();
+  return jump;
 }
 
+// Nothing is drawn before it can be seen or is asked for.
 const element = document.getElementById("viewer");
-try {
-  start(element);
-} catch (error) {
-  element.querySelector("output").textContent = `This browser shows no WebGL (${error.message}).`;
+let jump = null;
+function begin() {
+  try {
+    jump ??= start(element);
+  } catch (error) {
+    element.querySelector("output").textContent = `This browser shows no WebGL (${error.message}).`;
+  }
 }
+new IntersectionObserver((entries, observer) => {
+  if (!entries.some((entry) => entry.isIntersecting)) return;
+  observer.disconnect();
+  begin();
+}).observe(element);
+document.addEventListener("click", (event) => {
+  const button = event.target.closest?.("button.jump");
+  if (!button) return;
+  begin();
+  jump?.(JSON.parse(button.dataset.witness));
+});

@@ -10,6 +10,8 @@ const std::vector<Explanation>& explanations() {
       "1e-9 rad in double, doubling with each level beyond 5. `worst` is in these bounds, so the limit is 1.";
   constexpr std::string_view kRelation = "verify/audit/relations.h; needs no exact surface";
   constexpr std::string_view kNone = "None wrong.";
+  constexpr std::string_view kFile =
+      "verify/files, verify/projection: Newton's iteration on Stam's evaluator";
   static const std::vector<Explanation> all{
       {"tessellates", "The subject takes a valid control mesh and delivers.",
        "It must, unless it says that it does not support what was asked.", "verify/subject/subject.h"},
@@ -79,6 +81,31 @@ const std::vector<Explanation>& explanations() {
        "refused with "
        "a message.",
        "None accepted.", "the scheme is defined on oriented manifolds only"},
+
+      // Of finished tessellations (--tessellation).
+      {"file-finite", "No position or normal in the file is NaN or infinite.", kNone, "IEEE 754"},
+      {"file-distance", "Distance of each vertex from the closest point of the exact limit surface.",
+       "--tolerance, in diagonals of the control mesh.", kFile},
+      {"file-positions",
+       "With --provenance: distance of each vertex from the exact point that its row names.",
+       "--tolerance, in diagonals of the control mesh.", "verify/files; truth: Stam's evaluator in double"},
+      {"file-normals", "Angle between each normal of the file and the surface's at the closest point.",
+       "1e-3 rad, as of a float engine at depth 5.", kFile},
+      {"file-orientation", "Triangles face outwards, and run counter-clockwise on their control face.", kNone,
+       kFile},
+      {"file-coverage",
+       "The triangles over each control face have its area: nothing is missing, nothing is there twice.",
+       "1e-4 of a face; 1e-2 of all where triangles cross the borders of control faces.",
+       "areas in the domain of the control faces, from the closest points of the corners"},
+      {"file-watertight",
+       "Merging equal positions, every edge inside has two triangles, and the boundary is that of the "
+       "control "
+       "mesh.",
+       kNone, "counted by our own code and by CGAL"},
+      {"file-hausdorff",
+       "The larger of the distances from the triangles to the surface and from the surface to the triangles.",
+       "--max-deviation; without it, what one triangle for each control face would have, and the tolerance.",
+       "bracketed: exact distances below, proved bounds above (verify/files/hausdorff.h)"},
   };
   return all;
 }

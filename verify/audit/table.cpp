@@ -145,14 +145,22 @@ void add_line(std::string& out, const Result& r, const std::string& meshes, bool
                      has_worst ? amount(r.p99) : "-", r.unit, where(r));
 }
 
+// What a process that broke down leaves behind, each command on a line of its own, to be copied.
+std::string in_lines(std::string message) {
+  for (const std::string_view mark : {"; again with: ", " / "})
+    for (std::size_t k = 0; (k = message.find(mark, k)) != std::string::npos; k += 6)
+      message.replace(k, mark.size(), mark == " / " ? "\n     " : "\n       ");
+  return message;
+}
+
 void add_finding(std::string& out, int number, const Line& line) {
   const Result& r = *line.shown;
   out += fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
   if (is_breakdown(r.status)) {
-    out += fmt::format("{}: {}\n", r.mesh, r.message);
+    out += fmt::format("{}: {}\n", r.mesh, in_lines(r.message));
     return;
   }
-  out += fmt::format("{} of {}", r.bad, r.of);
+  out += r.of > 0 ? fmt::format("{} of {}", r.bad, r.of) : fmt::format("{}", r.bad);
   if (!r.rms) {
     out += r.unit.empty() ? "" : " " + r.unit;
   } else {
@@ -169,7 +177,7 @@ void add_finding(std::string& out, int number, const Line& line) {
   if (!others.empty()) out += fmt::format("; also on {}", fmt::join(others, ", "));
   if (more > 0) out += fmt::format(" and {} more", more);
   out += "\n";
-  if (!r.message.empty()) out += fmt::format("     {}\n", r.message);
+  if (!r.message.empty()) out += fmt::format("     {}\n", in_lines(r.message));
   if (!r.witness) return;
   const Witness& w = *r.witness;
   std::vector<std::string> place;

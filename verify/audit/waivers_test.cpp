@@ -130,6 +130,7 @@ TEST(Explain, KnowsEveryRowOnce) {
   for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());
   rows.insert(relation_rows().begin(), relation_rows().end());
   for (const Explanation& e : explanations()) {
+    if (e.check.starts_with("file-")) continue;  // those of files: verify/files/audit_files_test.cpp
     EXPECT_TRUE(explained.insert(e.check).second) << e.check;
     EXPECT_FALSE(e.meaning.empty() || e.bound.empty() || e.source.empty()) << e.check;
   }

@@ -32,7 +32,7 @@ TEST_F(AuditFilesCommand, TellsTheControlMeshItselfFromATessellation) {
   ASSERT_EQ(run("generate icosahedron -o cage.obj").code, 0);
   const Outcome o = run("audit --control cage.obj --tessellation cage.obj");
   EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_NE(o.out.find("file-distance     FINDING"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("file-distance             FINDING"), std::string::npos) << o.out;
 }
 
 TEST_F(AuditFilesCommand, ExitsWithTwoOnBadUsageAndBadInput) {

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "data/generators/named_mesh.h"
 #include "data/splitmix64.h"
 #include "reference/refine.h"
+#include "verify/audit/explain.h"
 #include "verify/files/audit_files.h"
 #include "verify/files/hausdorff.h"
 #include "verify/files/schemes.h"
@@ -182,6 +186,57 @@ TEST(AuditFiles, ProvenanceIsHeldAgainstTheExactEvaluationThere) {
   EXPECT_NE(findings(audit(mesh, t, {}, wrong)).find("file-positions"), std::string::npos);
   rows.pop_back();
   EXPECT_EQ(findings(audit(mesh, t, {}, rows)), "file-positions") << "a vertex without a row";
+}
+
+// One faulty file for each check, and its row is red; every check that is explained has one, and no other.
+TEST(AuditFiles, NoCheckIsWithoutAFileThatItRefusesAndAnExplanation) {
+  const auto mesh = data::named_mesh("bumpy:20");
+  const FileTessellation good = exact(mesh, 2);
+  const ClosestPoint surface(mesh);
+  using Fault = void (*)(FileTessellation&, const ClosestPoint&);
+  const std::map<std::string, Fault> faults{
+      {"file-finite", [](FileTessellation& t, const ClosestPoint&) { t.normals[7].direction[2] = NAN; }},
+      {"file-distance",
+       [](FileTessellation& t, const ClosestPoint& s) {
+         t.positions[70] = t.positions[70] + 1e-5 * s.diagonal() * s.closest(t.positions[70]).normal;
+       }},
+      {"file-normals",
+       [](FileTessellation& t, const ClosestPoint&) {
+         for (double& x : t.normals[30].direction) x = -x;
+       }},
+      {"file-orientation",
+       [](FileTessellation& t, const ClosestPoint&) { std::swap(t.triangles[9][0], t.triangles[9][1]); }},
+      {"file-coverage",
+       [](FileTessellation& t, const ClosestPoint&) { t.triangles.push_back(t.triangles[11]); }},
+      {"file-watertight",
+       [](FileTessellation& t, const ClosestPoint&) { t.triangles.erase(t.triangles.begin() + 12); }},
+      {"file-hausdorff",
+       [](FileTessellation& t, const ClosestPoint&) {  // a corner at the other end of the mesh
+         std::int32_t& corner = t.triangles[13][0];
+         const Vector here = t.positions[corner];
+         for (std::size_t v = 0; v < t.positions.size(); ++v)
+           if (norm(t.positions[v] - here) > norm(t.positions[corner] - here))
+             corner = static_cast<std::int32_t>(v);
+       }},
+  };
+  std::set<std::string> killers;
+  for (const auto& [check, fault] : faults) {
+    FileTessellation t = good;
+    fault(t, surface);
+    const FilesAudit a = audit(mesh, t);
+    EXPECT_EQ(row(a, check).status, Status::kFinding) << check << " did not; red: " << findings(a);
+    if (row(a, check).status == Status::kFinding) killers.insert(check);
+  }
+  // Every vertex on the surface, one of them not where its row says.
+  const FilesAudit a =
+      audit(mesh, good, {}, {{0, {0, {1. / 3, 1. / 3, 1. / 3}}}, {1, {0, {1. / 3, 1. / 3, 1. / 3}}}});
+  if (row(a, "file-positions").status == Status::kFinding) killers.insert("file-positions");
+
+  std::set<std::string> explained;
+  for (const Explanation& e : explanations())
+    if (e.check.starts_with("file-")) explained.emplace(e.check);
+  EXPECT_EQ(killers, explained);
+  for (const Result& r : audit(mesh, good).results) EXPECT_TRUE(explained.contains(r.check)) << r.check;
 }
 
 TEST(AuditFiles, SaysWhatItLooksLike) {

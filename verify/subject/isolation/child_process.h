@@ -22,6 +22,10 @@ struct ProcessLimits {
   std::uint64_t memory_bytes() const { return static_cast<std::uint64_t>(memory_mib) << 20; }
 };
 
+/// Memory is watched every 20 ms and not limited by the kernel: RLIMIT_AS and RLIMIT_DATA count what is
+/// reserved, and interpreters, sanitizers and threads reserve far more than they use. So a process can be
+/// beyond its limit for that long; what one machine can fill in 20 ms is some tens of MiB.
+///
 /// A child process in a process group of its own; its standard input, output and error are pipes. Any
 /// failure, of whatever kind, kills the whole group and leaves no zombie; then every further call throws the
 /// same SubjectDied again. If this process ends, the kernel ends the child (so the thread that made it must

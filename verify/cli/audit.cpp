@@ -47,8 +47,8 @@ struct Arguments {
   DoorArguments door;
 };
 
-// "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: as they
-// come, and isolated as deep as they are sampled.
+// "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
+// levels of isolation (Bfr's default), and isolated as deep as they are sampled.
 std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
   std::string options;
   for (const std::string& o : a.options) options += (options.empty() ? "" : ",") + o;
@@ -60,7 +60,11 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
       list.push_back({behind, ""});
       if (std::string_view(s->name) == "opensubdiv-bfr")
         list.push_back({behind, fmt::format("approx-level={}", std::max(a.depth, 1))});
+      if (std::string_view(s->name) == "opensubdiv-far-patches")
+        list.push_back({behind, fmt::format("level={}", std::clamp(a.depth, 1, 10))});
     }
+    for (const verify::MissingSubject& m : verify::missing_subjects())
+      fmt::print(stderr, "limitcheck: left out: {}\n", m.why);
     return list;
   }
   const auto [subject, given] = doors.open(a.subject);
@@ -74,6 +78,15 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
                                             subject->options ? subject->options : ""));
   }
   return {{subject, options}};
+}
+
+// For --help.
+std::string built_in_names() {
+  std::string names;
+  for (const lc_subject* s : verify::built_in_subjects())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", s->name);
+  for (const verify::MissingSubject& m : verify::missing_subjects()) names += fmt::format("; {}", m.why);
+  return names;
 }
 
 // --depths: "uniform", "random", "random:SEED", "view", "file:FILE".
@@ -235,9 +248,10 @@ void add_audit(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("audit", "Judge a tessellator against the exact surface");
   command->add_option(
       "SUBJECT", a->subject,
-      "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), or "
-      "program:COMMAND. Without it: all on the default meshes, and the report in " +
-          std::string(kReportFile));
+      fmt::format(
+          "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), or "
+          "program:COMMAND. Without it: all on the default meshes, and the report in {}. Built in: {}",
+          kReportFile, built_in_names()));
   command->add_option("MESH", a->meshes,
                       "Control meshes: files or generator names (default: bumpy:800 and the stock shapes)");
   command

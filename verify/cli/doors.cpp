@@ -93,6 +93,8 @@ std::pair<const lc_subject*, std::string> Doors::open(const std::string& text) {
   if (is_file(name) || name.find('/') != std::string::npos || names_a_library(name))
     return {remote(Kind::kLibrary, name), options};
 
+  for (const verify::MissingSubject& missing : verify::missing_subjects())
+    if (missing.name == name) throw std::invalid_argument(missing.why);
   std::string known = "all";
   for (const lc_subject* s : verify::built_in_subjects()) known += fmt::format(", {}", s->name);
   throw std::invalid_argument(fmt::format(

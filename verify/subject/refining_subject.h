@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "verify/subject/adapter.h"
@@ -18,11 +19,13 @@ namespace limitcheck::verify {
 ///   std::int64_t vertex_count() const
 ///   std::array<double, 3> position(std::int64_t) const
 ///   std::vector<std::array<std::uint32_t, 3>> triangles() const
-template <class T>
+/// Real is the number type it keeps its points in.
+template <class T, class Real = double>
 class RefiningSubject {
  public:
   static lc_capabilities capabilities(Options&) {
-    return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, 8, 0, 0, 1};
+    constexpr auto precision = std::is_same_v<Real, float> ? LC_FLOAT32 : LC_FLOAT64;
+    return {precision, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, 8, 0, 0, 1};
   }
 
   RefiningSubject(const lc_mesh& mesh, Options&) : control_(mesh) { (void)T(mesh); }
@@ -37,10 +40,11 @@ class RefiningSubject {
       tracker.step(mesh.vertex_count(), mesh.triangles());
     }
     const auto triangle_count = static_cast<std::int64_t>(tracker.triangles().size());
-    const auto output = allocate_output<double>(request, out, tracker.vertex_count(), triangle_count, false);
+    const auto output = allocate_output<Real>(request, out, tracker.vertex_count(), triangle_count, false);
     for (std::int64_t v = 0; v < tracker.vertex_count(); ++v) {
       const auto p = mesh.position(v);
-      std::copy(p.begin(), p.end(), output.positions + 3 * v);
+      for (std::size_t c = 0; c < 3; ++c)
+        output.positions[3 * static_cast<std::size_t>(v) + c] = static_cast<Real>(p[c]);
     }
     const auto provenance = tracker.provenance();
     std::copy(provenance.begin(), provenance.end(), output.provenance);

@@ -4,14 +4,22 @@
 namespace limitcheck::verify {
 
 std::vector<const lc_subject*> built_in_subjects() {
-  return {lc_subject_naive(),
-          lc_subject_sliding_window(),
-          lc_subject_row_stream(),
-          lc_subject_opensubdiv_far(),
-          lc_subject_opensubdiv_far_patches(),
-          lc_subject_opensubdiv_bfr(),
-          lc_subject_cgal(),
-          lc_subject_openmesh()};
+  std::vector<const lc_subject*> all{lc_subject_naive(),
+                                     lc_subject_sliding_window(),
+                                     lc_subject_row_stream(),
+                                     lc_subject_opensubdiv_far(),
+                                     lc_subject_opensubdiv_far_patches(),
+                                     lc_subject_opensubdiv_bfr(),
+                                     lc_subject_cgal(),
+                                     lc_subject_openmesh()};
+  if (const lc_subject* vtk = lc_subject_vtk()) all.push_back(vtk);
+  return all;
+}
+
+std::vector<MissingSubject> missing_subjects() {
+  if (lc_subject_vtk() != nullptr) return {};
+  return {{"vtk",
+           "this build has no vtk: VTK 9 was not there when it was configured (Debian package libvtk9-dev)"}};
 }
 
 const lc_subject* find_subject(std::string_view name) {

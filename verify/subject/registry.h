@@ -2,6 +2,7 @@
 // The subjects that are built in.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,7 @@ const lc_subject* lc_subject_opensubdiv_far_patches();
 const lc_subject* lc_subject_opensubdiv_bfr();
 const lc_subject* lc_subject_cgal();
 const lc_subject* lc_subject_openmesh();
+const lc_subject* lc_subject_vtk();  // nullptr: this build has none
 const lc_subject* lc_subject_null();
 const lc_subject* lc_subject_model();   // right, or wrong in one stated way: model_rules.h
 const lc_subject* lc_subject_faulty();  // options: verify/subject/faulty_subjects.h
@@ -25,6 +27,12 @@ namespace limitcheck::verify {
 
 /// The tessellators, in the order in which they are listed and audited.
 std::vector<const lc_subject*> built_in_subjects();
+
+/// A tessellator that this build could have and does not, and what it lacks.
+struct MissingSubject {
+  std::string name, why;
+};
+std::vector<MissingSubject> missing_subjects();
 
 /// By name, `null`, `faulty` and `model` included; nullptr if there is none.
 const lc_subject* find_subject(std::string_view name);

@@ -3,14 +3,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <ratio>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "verify/cli/commands.h"
+#include "verify/cli/interrupt.h"
 #include "verify/cli/progress.h"
 #include "verify/proof/proof_report.h"
-#include "verify/proof/proof_set.h"
+#include "verify/proof/prove.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -52,7 +57,7 @@ std::vector<int> valences(const std::string& text) {
   return result;
 }
 
-bool run(const Request& request) {
+int run(const Request& request) {
   verify::ProofRequest what;
   what.valences = valences(request.valences);
   what.depth = request.depth;
@@ -60,23 +65,33 @@ bool run(const Request& request) {
   what.row_stream = request.kernel != "sliding-window";
   what.size = request.set == "full" ? verify::ProofSize::kFull : verify::ProofSize::kStandard;
   const verify::ProofSet set = verify::proof_set(what);
+  const Interrupt interrupt;
   Progress progress;
-  const auto rows = verify::prove(set.tasks, [&](std::size_t done) {
-    progress.show(done, set.tasks.size(),
-                  set.tasks[done - 1].group + " " + set.tasks[done - 1].neighbourhood.name);
-  });
+  const auto start = std::chrono::steady_clock::now();
+  const auto rows = verify::prove(
+      set.tasks,
+      [&](const verify::ProofProgress& done) {
+        const std::chrono::duration<double, std::ratio<60>> passed = std::chrono::steady_clock::now() - start;
+        progress.show(static_cast<std::size_t>(100 * done.share), 100,
+                      fmt::format("% ({} of {}), {:.0f} min left: {} {}", done.tasks, set.tasks.size(),
+                                  passed.count() * (1 - done.share) / done.share, done.latest->group,
+                                  done.latest->neighbourhood.name));
+      },
+      [&] { return interrupt.came(); });
   progress.clear();
   std::vector<verify::FloatKernel> kernels;
   if (what.sliding_window) kernels.push_back(verify::FloatKernel::kSlidingWindow);
   if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
-  const verify::ProofReport report(set, rows,
-                                   verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12));
+  std::vector<verify::CertifiedLine> certified;
+  if (!interrupt.came()) certified = verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12);
+  const verify::ProofReport report(set, rows, std::move(certified));
   if (request.json) {
     fmt::print("{}\n", report.json());
   } else {
     fmt::print("{}", report.table(request.each));
   }
-  return report.held();
+  if (!report.held()) return kFindings;
+  return report.complete() ? kHeld : kInterrupted;
 }
 
 }  // namespace
@@ -95,12 +110,27 @@ void add_prove(CLI::App& app, int& exit_code) {
   command->add_option("--kernel", request->kernel, "The kernel")
       ->check(CLI::IsMember({"sliding-window", "row-stream", "all"}))
       ->capture_default_str();
-  command->add_option("--set", request->set, "How much: standard takes minutes, full much longer")
+  command
+      ->add_option("--set", request->set,
+                   "How much: standard takes three minutes on two cores, full some twenty")
       ->check(CLI::IsMember({"standard", "full"}))
       ->capture_default_str();
   command->add_flag("--each", request->each, "A line for every topology, not for every group of them");
   command->add_flag("--json", request->json, "One JSON document with every topology");
-  command->callback([request, &exit_code] { exit_code = run(*request) ? kHeld : kFindings; });
+  command->footer(
+      "Both sets hold every triple of valences, valences 20, 50 and 100, boundaries, the face alone and the\n"
+      "pairs of bumpy spheres, on every kernel. Maps (m) and float bounds (b) to depth, standard | full:\n"
+      "  triples    every triple, each corner facing the diagonal   m 4, every triple once 6, b 4 | m 6, b "
+      "4\n"
+      "             every triple once                               b - | 6\n"
+      "  high       valences 20, 50, 100                            m 4, b 4 | m 6, b 6\n"
+      "  boundary   around pairs of four kinds                      m 3, b 3 | m 6, b 4; the regular pair b "
+      "6\n"
+      "  alone      the face without neighbours                     m 4, b 4 | m 6, b 6\n"
+      "  spheres    all pairs of bumpy:200 | 200 800 2000 4000      m 3, b 3 | m 6, b 4\n"
+      "Maps again to 45 digits, depth 1-2 | 3, and exactly for valences 3, 4, 6, depth 2 | 5.\n"
+      "Ctrl-C ends with the table of what was proved so far: exit code 130, or 1 if something in it failed.");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 
 }  // namespace limitcheck::cli

@@ -106,14 +106,15 @@ double normal_error_share(const PointBound& bound) {
 BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
                        int last_depth, int meshes) {
   BoundProof proof;
+  proof.first_depth = first_depth;
   proof.last_depth = last_depth;
   for (int depth = first_depth; depth <= last_depth; ++depth) {
     const KernelBounds bounds = bound_kernel(kernel, neighbourhood, depth);
     proof.position_bound = std::max(proof.position_bound, bounds.position());
     proof.tangent_bound = std::max(proof.tangent_bound, bounds.tangent());
     proof.normal_bound = std::max(proof.normal_bound, bounds.normal());
-    const WorstObserved worst =
-        search_worst(neighbourhood, bounds, meshes, static_cast<std::uint64_t>(depth) + 1);
+    const WorstObserved worst = search_worst(neighbourhood, bounds, depth <= 4 ? meshes : meshes / 5,
+                                             static_cast<std::uint64_t>(depth) + 1);
     proof.position_worst = std::max(proof.position_worst, worst.position);
     proof.tangent_worst = std::max(proof.tangent_worst, worst.tangent);
     proof.share = std::max({proof.share, worst.position_share, worst.tangent_share});

@@ -95,6 +95,7 @@ WorstObserved search_worst(const Neighbourhood& neighbourhood, const KernelBound
                            std::uint64_t seed, double reach = kUnitBox);
 
 /// Bounds and search over the depths: what the table shows.
+///   meshes   tried at each depth up to 4; a fifth of them beyond, where each has many times the points
 BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
                        int last_depth, int meshes);
 

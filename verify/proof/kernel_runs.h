@@ -12,6 +12,7 @@
 #include "fast/crack_edge.h"
 #include "fast/patch.h"
 #include "fast/sliding_window.h"
+#include "fast/triangle_lattice.h"
 
 namespace limitcheck::verify {
 
@@ -43,10 +44,12 @@ class WindowRuns {
   const fast::Adjacency& adjacency() const { return adjacency_; }
   const fast::PreparedMesh<N, Surface>& prepared() const { return prepared_; }
 
-  /// The sliding window on the pair of half-edge 0. Calls visit(LatticePoint, const Vertex&) for every vertex
-  /// of every strip: the points of inner rows twice, as the window delivers them.
+  /// The sliding window on the pair of half-edge 0, or the lattice of face 0 if that has no neighbour. Calls
+  /// visit(LatticePoint, const Vertex&) for every vertex of every strip: the points of inner rows twice, as
+  /// the window delivers them.
   template <class Visit>
   void pair(int depth, Visit&& visit) const {
+    if (adjacency_.twin(0) < 0) return alone(depth, visit);
     fast::SlidingWindow<N, Surface> window(depth, adjacency_.max_valence());
     const fast::Half upper{0, 0, fast::Half::Show::kStrips};
     const std::int32_t twin = adjacency_.twin(0);
@@ -81,6 +84,16 @@ class WindowRuns {
   }
 
  private:
+  template <class Visit>
+  void alone(int depth, Visit&& visit) const {
+    fast::TriangleLattice<N, Surface> lattice(depth);
+    const fast::Half half{0, 0, fast::Half::Show::kStrips};
+    const int k = 1 << depth;
+    lattice.run(prepared_, 0, depth, [&](int row, const Vertex* strip) {
+      for (int q = 0; q <= 2 * (k - row); ++q) visit(half.lattice(k, row + q % 2, q / 2), strip[q]);
+    });
+  }
+
   fast::Adjacency adjacency_;
   fast::PreparedMesh<N, Surface> prepared_;
 };

@@ -21,7 +21,8 @@ class LinearRuns {
  public:
   using Points = std::vector<fast::Vec3<T>>;
 
-  LinearRuns(const data::ControlMesh& mesh, const Points& points) : mesh_(mesh), points_(points) {}
+  LinearRuns(const data::ControlMesh& mesh, const Points& points)
+      : mesh_(mesh), points_(points), faces_(mesh.triangles.size() == 1 ? 1 : 2) {}
 
   template <class Visit>
   void run(BoundedKernel kernel, int depth, Visit&& visit) {
@@ -29,15 +30,15 @@ class LinearRuns {
       case BoundedKernel::kSlidingWindow:
         return window().pair(depth, visit);
       case BoundedKernel::kCrackEdge:
-        for (std::int32_t h = 0; h < 6; ++h) window().edge(h, depth, visit);
+        for (std::int32_t h = 0; h < 3 * faces_; ++h) window().edge(h, depth, visit);
         return;
       case BoundedKernel::kCrackCentre:
-        for (std::int32_t face = 0; face < 2; ++face) window().centre(face, visit);
+        for (std::int32_t face = 0; face < faces_; ++face) window().centre(face, visit);
         return;
       case BoundedKernel::kRowStream:
         return stream().pair(depth, visit);
       case BoundedKernel::kRowStreamEdge:
-        for (std::int32_t h = 0; h < 6; ++h) stream().edge(h, depth, visit);
+        for (std::int32_t h = 0; h < 3 * faces_; ++h) stream().edge(h, depth, visit);
         return;
     }
   }
@@ -56,6 +57,7 @@ class LinearRuns {
 
   const data::ControlMesh& mesh_;
   Points points_;
+  std::int32_t faces_;  // of the pair, or the one that is alone
   std::optional<Window> window_;
   std::optional<Stream> stream_;
 };

@@ -237,6 +237,10 @@ std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence) {
   return result;
 }
 
+Neighbourhood face_alone() {
+  return {"alone", with_positions({{0, 1, 2}})};
+}
+
 std::vector<Neighbourhood> pairs_of(const data::ControlMesh& mesh) {
   const Adjacency adjacency(mesh);
   std::map<std::string, std::int32_t> first;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a proof ranges over: the situations that a pair of faces can be in.
+// What a proof ranges over: the situations that a pair of faces, or a face without neighbours, can be in.
 #pragma once
 
 #include <array>
@@ -40,6 +40,11 @@ std::optional<Neighbourhood> interior_pair(const std::array<int, 4>& valence);
 /// faces, or any of the four that share an edge with the pair. Distinct signatures, boundary edges and
 /// boundary vertices of every kind, the pair alone last.
 std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence);
+
+/// A face without neighbours, "alone": face 0 is all there is. A mesh has no other such face, since a vertex
+/// has its faces in one fan. A singleton of the pairing with a neighbour is a pair of which half is
+/// displayed.
+Neighbourhood face_alone();
 
 /// One pair of every signature that the mesh has, in both directions.
 std::vector<Neighbourhood> pairs_of(const data::ControlMesh& mesh);

@@ -16,6 +16,7 @@ namespace {
 struct Line {
   std::string group, kernel, arithmetic;
   std::int64_t topologies = 0, equal = 0, points = 0;
+  double seconds = 0;
   int first_depth = std::numeric_limits<int>::max(), last_depth = 0;
   double digits = std::numeric_limits<double>::infinity();
   std::optional<BoundProof> bound;
@@ -25,12 +26,14 @@ struct Line {
     ++topologies;
     equal += row.map.equal ? 1 : 0;
     points += row.points;
+    seconds += row.seconds;
     first_depth = std::min(first_depth, row.first_depth);
     last_depth = std::max(last_depth, row.last_depth);
     digits = std::min(digits, row.map.digits);
     if (row.cost && (!cost || row.cost->flops > cost->flops)) cost = row.cost;
     if (!row.bound) return;
-    if (!bound) bound.emplace();
+    if (!bound) bound.emplace().first_depth = row.bound->first_depth;
+    bound->first_depth = std::min(bound->first_depth, row.bound->first_depth);
     bound->position_bound = std::max(bound->position_bound, row.bound->position_bound);
     bound->position_worst = std::max(bound->position_worst, row.bound->position_worst);
     bound->tangent_bound = std::max(bound->tangent_bound, row.bound->tangent_bound);
@@ -46,6 +49,10 @@ struct Line {
     return arithmetic == "exact" ? "exact" : "exact mod p q";
   }
 };
+
+std::string range(int first, int last) {
+  return first == last ? fmt::format("{}", last) : fmt::format("{}-{}", first, last);
+}
 
 std::string describe(const Witness& w) {
   const std::string point = w.control_point < 0   ? ""
@@ -64,11 +71,16 @@ bool ProofReport::held() const {
   });
 }
 
+bool ProofReport::complete() const {
+  return std::ranges::none_of(rows_, [](const auto& rows) { return rows.empty(); });
+}
+
 std::string ProofReport::table(bool each) const {
   std::vector<Line> lines;
   std::map<std::string, std::size_t> index;
   std::string failures;
   std::int64_t points = 0;
+  double seconds = 0;
   Line overall;
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     const std::string& group = set_.tasks[t].group;
@@ -84,6 +96,7 @@ std::string ProofReport::table(bool each) const {
       }
       lines[at->second].add(row);
       points += row.points;
+      seconds += row.seconds;
       if (row.bound) overall.add(row);
       if (row.bound && row.bound->share > 1)
         failures += fmt::format("EXCEEDED {} {} {}: an error of {:.3f} times its bound\n", group,
@@ -95,33 +108,36 @@ std::string ProofReport::table(bool each) const {
   }
   std::size_t width = 10;
   for (const Line& line : lines) width = std::max(width, line.group.size());
-  std::string text = fmt::format("{:<{}}  {:<15}  {:>10}  {:>6}  {:>9}  {:<13}  {:>9}  {:>9}  {:>6}  {:>6}\n",
-                                 each ? "A B C D" : "topologies", width, "kernel", "topologies", "depths",
-                                 "points", "map", "bound", "worst", "slack", "flops");
+  std::string text =
+      fmt::format("{:<{}}  {:<15}  {:>10}  {:>6}  {:>9}  {:<13}  {:>6}  {:>9}  {:>9}  {:>6}  {:>6}  {:>7}\n",
+                  each ? "A B C D" : "topologies", width, "kernel", "topologies", "depths", "points", "map",
+                  "depths", "bound", "worst", "slack", "flops", "CPU s");
   for (const Line& line : lines) {
-    text += fmt::format(
-        "{:<{}}  {:<15}  {:>10}  {:>6}  {:>9}  {:<13}", line.group, width, line.kernel, line.topologies,
-        line.first_depth == line.last_depth ? fmt::format("{}", line.last_depth)
-                                            : fmt::format("{}-{}", line.first_depth, line.last_depth),
-        line.points, line.map());
-    if (line.bound)
-      text +=
-          fmt::format("  {:>9.2e}  {:>9.2e}  {:>6.1f}", line.bound->position_bound,
-                      line.bound->position_worst, line.bound->position_bound / line.bound->position_worst);
-    if (line.cost) text += fmt::format("{:{}}  {:>6.1f}", "", line.bound ? 0 : 30, line.cost->flops);
-    text += '\n';
+    text += fmt::format("{:<{}}  {:<15}  {:>10}  {:>6}  {:>9}  {:<13}", line.group, width, line.kernel,
+                        line.topologies, range(line.first_depth, line.last_depth), line.points, line.map());
+    text += line.bound ? fmt::format("  {:>6}  {:>9.2e}  {:>9.2e}  {:>6.1f}",
+                                     range(line.bound->first_depth, line.bound->last_depth),
+                                     line.bound->position_bound, line.bound->position_worst,
+                                     line.bound->position_bound / line.bound->position_worst)
+                       : fmt::format("{:38}", "");
+    text += line.cost ? fmt::format("  {:>6.1f}", line.cost->flops) : fmt::format("{:8}", "");
+    text += fmt::format("  {:>7.1f}\n", line.seconds);
   }
   text += failures;
   if (!set_.impossible.empty())
     text +=
         fmt::format("No face of a manifold mesh has the valences {}.\n", fmt::join(set_.impossible, ", "));
-  text += fmt::format("{}: {} limit points.\n",
-                      held() ? "Every map is the reference's" : "Some proofs FAILED", points);
+  text += fmt::format("{}: {} limit points, {:.0f} s of processor time.\n",
+                      held() ? "Every map is the reference's" : "Some proofs FAILED", points, seconds);
+  if (const auto left = std::ranges::count_if(rows_, [](const auto& r) { return r.empty(); }); left > 0)
+    text += fmt::format("STOPPED: {} of {} proofs were not done and nothing is said of them.\n", left,
+                        rows_.size());
   if (overall.bound)
     text += fmt::format(
         "For no control mesh of these topologies in the unit box is a float coordinate off by more than "
-        "{:.2e} (depths 0-{}); worst found {:.2e}.\n",
-        overall.bound->position_bound, overall.bound->last_depth, overall.bound->position_worst);
+        "{:.2e} (depths {}); worst found {:.2e}.\n",
+        overall.bound->position_bound, range(overall.bound->first_depth, overall.bound->last_depth),
+        overall.bound->position_worst);
   for (const char* kernel : {"sliding-window", "row-stream"}) {
     const CertifiedLine* worst = nullptr;
     std::int64_t looked_at = 0;
@@ -150,6 +166,7 @@ std::string ProofReport::json() const {
       j["kernel"] = row.kernel;
       j["depths"] = {row.first_depth, row.last_depth};
       j["points"] = row.points;
+      j["seconds"] = row.seconds;
       j["map"] = row.map.equal ? "equal" : "differs";
       j["arithmetic"] = row.map.arithmetic;
       j["digits"] = std::isfinite(row.map.digits) ? nlohmann::ordered_json(row.map.digits) : nullptr;
@@ -167,7 +184,7 @@ std::string ProofReport::json() const {
         j["tangent_bound"] = row.bound->tangent_bound;
         j["tangent_worst"] = row.bound->tangent_worst;
         j["normal_bound"] = row.bound->normal_bound;
-        j["bound_depth"] = row.bound->last_depth;
+        j["bound_depths"] = {row.bound->first_depth, row.bound->last_depth};
         j["worst_share"] = row.bound->share;
       }
       if (row.cost) {
@@ -185,8 +202,11 @@ std::string ProofReport::json() const {
                          {"points", line.errors.points},
                          {"position", line.errors.position},
                          {"normal", line.errors.normal}});
-  const nlohmann::ordered_json document = {
-      {"held", held()}, {"rows", rows}, {"impossible", set_.impossible}, {"certified", certified}};
+  const nlohmann::ordered_json document = {{"held", held()},
+                                           {"complete", complete()},
+                                           {"rows", rows},
+                                           {"impossible", set_.impossible},
+                                           {"certified", certified}};
   return document.dump(2);
 }
 

@@ -26,7 +26,7 @@ struct MapProof {
 
 /// Rounding of a float32 kernel over all control meshes in the unit box.
 struct BoundProof {
-  int last_depth = 0;
+  int first_depth = 0, last_depth = 0;
   double position_bound = 0;  ///< of a coordinate
   double position_worst = 0;  ///< observed
   double tangent_bound = 0;   ///< of a coordinate, relative to the largest it can be
@@ -47,6 +47,7 @@ struct ProofRow {
   std::string kernel;    ///< sliding-window, crack-edge, crack-centre, row-stream, row-stream-edge
   int first_depth = 0, last_depth = 0;
   std::int64_t points = 0;  ///< limit points compared
+  double seconds = 0;       ///< processor time that this row took
   MapProof map;
   std::optional<BoundProof> bound;
   std::optional<CostProof> cost;  ///< of sliding-window and row-stream

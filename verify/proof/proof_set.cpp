@@ -2,17 +2,13 @@
 #include "verify/proof/proof_set.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <mutex>
+#include <cmath>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 
 #include "data/generators/bumpy_sphere.h"
-#include "verify/proof/bounds.h"
-#include "verify/proof/operation_count.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -73,22 +69,19 @@ std::vector<Neighbourhood> each_triple_once(const std::vector<Neighbourhood>& pa
   return chosen;
 }
 
-BoundProof bound_of(const std::string& kernel, const ProofTask& task) {
-  for (const auto k : {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge, BoundedKernel::kCrackCentre,
-                       BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge}) {
-    if (kernel != name_of(k)) continue;
-    const int depth = k == BoundedKernel::kCrackCentre ? 0 : task.bound_depth;
-    return prove_bound(k, task.neighbourhood, 0, depth, task.bound_meshes);
+/// What a full set costs in seconds of one core, roughly: for the progress bar and its estimate.
+double estimated_seconds(const ProofTask& task) {
+  const auto at = [](int depth) { return std::exp2(2. * depth); };
+  const auto vertices = static_cast<double>(task.neighbourhood.mesh.positions.size());
+  const MapOptions& o = task.options;
+  const double weight = o.arithmetic == Arithmetic::kResidues ? 2e-6 : 8e-5;
+  double seconds = weight * vertices * at(o.last_depth);
+  if (task.bounds) {
+    const double points = at(task.bounds->last_depth) * (task.bounds->last_depth > 4 ? 1. / 5 : 1);
+    seconds += (3e-4 + 1e-6 * vertices) * at(task.bounds->last_depth) + 2e-6 * points * task.bounds->meshes +
+               1e-6 * vertices * at(task.bounds->last_depth);
   }
-  throw std::logic_error("no bounds for " + kernel);
-}
-
-std::optional<CostProof> cost_of(const std::string& kernel, const ProofTask& task) {
-  const bool window = kernel == name_of(BoundedKernel::kSlidingWindow);
-  if (!window && kernel != name_of(BoundedKernel::kRowStream)) return std::nullopt;
-  const KernelCost cost = count_operations(window ? CountedKernel::kSlidingWindow : CountedKernel::kRowStream,
-                                           task.neighbourhood.mesh, task.options.last_depth);
-  return CostProof{cost.flops_per_point(), cost.vectors_per_point()};
+  return seconds;
 }
 
 }  // namespace
@@ -97,7 +90,7 @@ ProofSet proof_set(const ProofRequest& request) {
   ProofSet set;
   const bool full = request.size == ProofSize::kFull;
   const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic,
-                       int first, int last) {
+                       int first, int last, std::optional<BoundOptions> bounds = {}) {
     MapOptions options;
     options.arithmetic = arithmetic;
     options.first_depth = first;
@@ -105,17 +98,22 @@ ProofSet proof_set(const ProofRequest& request) {
     options.sliding_window = request.sliding_window;
     options.row_stream = request.row_stream;
     if (options.last_depth < first) return;
-    // Rounding does not depend on the arithmetic of the map: bounds go with the residues.
-    const bool bounds = arithmetic == Arithmetic::kResidues && first == 0;
-    for (const Neighbourhood& pair : pairs)
-      set.tasks.push_back({group, pair, options, bounds ? options.last_depth : -1, full ? 400 : 40});
+    if (bounds) bounds->last_depth = std::min(bounds->last_depth, request.depth);
+    if (bounds && bounds->last_depth < bounds->first_depth) bounds.reset();
+    for (const Neighbourhood& pair : pairs) {
+      ProofTask task{group, pair, options, bounds, 0};
+      task.estimate = estimated_seconds(task);
+      set.tasks.push_back(std::move(task));
+    }
   };
+  const int meshes = full ? 400 : 40;
 
   const auto interior = triples(request.valences, set.impossible);
   const auto once = each_triple_once(interior);
-  add("triples", interior, Arithmetic::kResidues, 0, full ? request.depth : 4);
-  if (!full) add("deep", once, Arithmetic::kResidues, 5, request.depth);
-  add("digits", full ? interior : once, Arithmetic::kDigits, 0, full ? 4 : 2);
+  add("triples", interior, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, 4, meshes});
+  add("deep", once, Arithmetic::kResidues, 5, request.depth,
+      full ? std::optional(BoundOptions{5, 6, meshes}) : std::nullopt);
+  add("digits", full ? interior : once, Arithmetic::kDigits, 0, full ? 3 : 2);
 
   std::vector<Neighbourhood> rational, high, boundary;
   constexpr int kRational[] = {3, 4, 6};
@@ -130,7 +128,7 @@ ProofSet proof_set(const ProofRequest& request) {
     for (const auto& valences :
          {std::array{n, 6, 6, 6}, std::array{6, n, 6, 6}, std::array{n, 5, 7, 6}, std::array{n, n, n, n}})
       high.push_back(*interior_pair(valences));
-  add("high", high, Arithmetic::kResidues, 0, full ? 6 : 4);
+  add("high", high, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
   if (!full) std::erase_if(high, [](const Neighbourhood& pair) { return pair.mesh.positions.size() > 100; });
   add("high", high, Arithmetic::kDigits, 0, full ? 3 : 1);
 
@@ -140,38 +138,25 @@ ProofSet proof_set(const ProofRequest& request) {
       if (seen.insert(pair.name).second) boundary.push_back(std::move(pair));
   };
   add_boundary({6, 6, 6, 6});
+  if (full) add("boundary-deep", boundary, Arithmetic::kResidues, 5, 6, BoundOptions{5, 6, meshes});
   if (!full) add("boundary", boundary, Arithmetic::kDigits, 0, 1);
   for (const auto& valences : {std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
     add_boundary(valences);
-  add("boundary", boundary, Arithmetic::kResidues, 0, full ? 6 : 3);
+  add("boundary", boundary, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, meshes});
   if (full) add("boundary", boundary, Arithmetic::kDigits, 0, 3);
+
+  const std::vector<Neighbourhood> alone{face_alone()};
+  add("alone", alone, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
+  add("alone", alone, Arithmetic::kDigits, 0, full ? 4 : 2);
+  add("alone", alone, Arithmetic::kExact, 0, full ? 6 : 3);
 
   std::vector<Neighbourhood> spheres;
   seen.clear();
   for (const int faces : full ? std::vector{200, 800, 2000, 4000} : std::vector{200})
     for (Neighbourhood& pair : pairs_of(data::bumpy_sphere(faces, 1)))
       if (seen.insert(pair.name).second) spheres.push_back(std::move(pair));
-  add("spheres", spheres, Arithmetic::kResidues, 0, full ? 4 : 3);
+  add("spheres", spheres, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, 40});
   return set;
-}
-
-std::vector<std::vector<ProofRow>> prove(const std::vector<ProofTask>& tasks,
-                                         const std::function<void(std::size_t)>& progress) {
-  std::vector<std::vector<ProofRow>> result(tasks.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t t) {
-    const ProofTask& task = tasks[t];
-    result[t] = prove_map(task.neighbourhood, task.options);
-    for (ProofRow& row : result[t]) {
-      if (task.bound_depth >= 0) row.bound = bound_of(row.kernel, task);
-      row.cost = cost_of(row.kernel, task);
-    }
-    const std::scoped_lock lock(mutex);
-    ++done;
-    if (progress) progress(done);
-  });
-  return result;
 }
 
 }  // namespace limitcheck::verify

@@ -2,7 +2,7 @@
 // What `limitcheck prove` proves: which topologies, in which arithmetic, to which depth.
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace limitcheck::verify {
 
 enum class ProofSize : std::uint8_t {
   kStandard,  ///< every kind of topology; two minutes on two cores
-  kFull       ///< deeper, and all bumpy spheres
+  kFull       ///< deeper, and all bumpy spheres; some twenty minutes
 };
 
 struct ProofRequest {
@@ -22,13 +22,20 @@ struct ProofRequest {
   ProofSize size = ProofSize::kStandard;
 };
 
-/// One topology, one arithmetic; and the bounds of the rounding errors, if asked for.
+/// Bounds of the rounding errors, for each of the depths; and the control meshes tried against them, see
+/// prove_bound.
+struct BoundOptions {
+  int first_depth = 0, last_depth = 4;
+  int meshes = 40;
+};
+
+/// One topology, one arithmetic.
 struct ProofTask {
   std::string group;
   Neighbourhood neighbourhood;
   MapOptions options;
-  int bound_depth = -1;  ///< bounds for depths 0 .. bound_depth
-  int bound_meshes = 0;  ///< control meshes tried against them, at each depth
+  std::optional<BoundOptions> bounds;
+  double estimate = 0;  ///< of the work, in seconds of a core: good enough for a progress bar
 };
 
 struct ProofSet {
@@ -36,19 +43,24 @@ struct ProofSet {
   std::vector<std::string> impossible;  ///< triples of valences that no face of a manifold mesh has
 };
 
-/// Groups, in this order:
-/// - triples: every triple of valences, each of its corners once facing the pair's diagonal; residues
-/// - deep: every triple once, the depths beyond
-/// - digits: the same to 45 decimal digits, shallower, against Stam's evaluator too
-/// - rational: all pairs with valences 3, 4 and 6; exact
-/// - high: valences 20, 50 and 100
-/// - boundary: boundary edges and vertices around pairs of several valences
-/// - spheres: every pair of the bumpy spheres
+/// Groups, with the depths in the standard | full set; at most request.depth.
+///
+///     group          topologies                                           arithmetic  map        bounds
+///     triples        every triple of valences, each of its corners once   residues    0-4 | 0-6  0-4 | 0-4
+///                    facing the pair's diagonal
+///     deep           every triple once                                    residues    5-6 | 5-6    - | 5-6
+///     digits         as deep | as triples; against Stam's evaluator too   digits      0-2 | 0-3
+///     rational       all pairs with valences 3, 4 and 6                   exact       0-2 | 0-5
+///     high           valences 20, 50 and 100                              residues    0-4 | 0-6  0-4 | 0-6
+///                    (standard: those with at most 100 control points)    digits      0-1 | 0-3
+///     boundary       boundary edges and vertices around pairs of          residues    0-3 | 0-6  0-3 | 0-4
+///                    several valences (standard digits: of the regular)   digits      0-1 | 0-3
+///     boundary-deep  those around the regular pair                        residues      - | 5-6    - | 5-6
+///     alone          the face without neighbours                          residues    0-4 | 0-6  0-4 | 0-6
+///                                                                         digits      0-2 | 0-4
+///                                                                         exact       0-3 | 0-6
+///     spheres        every pair of the bumpy sphere of 200 | of 200,      residues    0-3 | 0-6  0-3 | 0-4
+///                    800, 2000 and 4000 faces
 ProofSet proof_set(const ProofRequest& request);
-
-/// Runs the tasks on all cores. The rows of task t are result[t], whatever the number of threads.
-///   progress   called from any one thread at a time with the number of tasks done
-std::vector<std::vector<ProofRow>> prove(const std::vector<ProofTask>& tasks,
-                                         const std::function<void(std::size_t)>& progress = {});
 
 }  // namespace limitcheck::verify

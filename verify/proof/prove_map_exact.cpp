@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "verify/proof/prove_map_impl.h"
 #include "verify/proof/prove_map_instances.h"
+#include "verify/proof/shared_reference_map.h"
 
 namespace limitcheck::verify::detail {
 
 std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options) {
-  using Recursion = ReferenceMap<Surd, reference::SubdivisionEvaluator<Surd>>;
+  using Recursion = SharedReferenceMap<Surd>;
   return prove_map<Surd>(neighbourhood, options, std::tuple<Recursion>(neighbourhood.mesh));
 }
 

@@ -11,6 +11,7 @@
 #include "verify/proof/map_comparison.h"
 #include "verify/proof/prove_map.h"
 #include "verify/proof/stream_runs.h"
+#include "verify/proof/thread_clock.h"
 
 namespace limitcheck::verify::detail {
 
@@ -38,6 +39,7 @@ template <class C, class Maps, class Run>
 ProofRow compare(const Neighbourhood& neighbourhood, const char* kernel, const MapOptions& options,
                  Maps& maps, Run&& run) {
   MapComparison<C> comparison;
+  const ThreadClock clock;
   for (int depth = options.first_depth; depth <= options.last_depth; ++depth) {
     run(depth, [&](const fast::LatticePoint& at, const fast::LimitFrame<Stencil<C>>& frame) {
       const auto where = [&] { return describe(depth, at); };
@@ -50,6 +52,7 @@ ProofRow compare(const Neighbourhood& neighbourhood, const char* kernel, const M
   row.first_depth = options.first_depth;
   row.last_depth = options.last_depth;
   row.points = comparison.points() / static_cast<std::int64_t>(std::tuple_size_v<Maps>);
+  row.seconds = clock.seconds();
   row.map.equal = !comparison.witness();
   row.map.digits = comparison.largest_difference() > 0 ? -std::log10(comparison.largest_difference())
                                                        : std::numeric_limits<double>::infinity();
@@ -61,18 +64,19 @@ ProofRow compare(const Neighbourhood& neighbourhood, const char* kernel, const M
 template <class C, class Maps>
 std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options, Maps maps) {
   std::vector<ProofRow> rows;
+  const std::int32_t faces = neighbourhood.mesh.triangles.size() == 1 ? 1 : 2;
   const auto points = identity<C>(neighbourhood.mesh.positions.size());
   if (options.sliding_window) {
     const WindowRuns<Stencil<C>, LinearSurface<Stencil<C>>> runs(neighbourhood.mesh, points);
     rows.push_back(compare<C>(neighbourhood, "sliding-window", options, maps,
                               [&](int depth, auto&& visit) { runs.pair(depth, visit); }));
     rows.push_back(compare<C>(neighbourhood, "crack-edge", options, maps, [&](int depth, auto&& visit) {
-      for (std::int32_t h = 0; h < 6; ++h) runs.edge(h, depth, visit);
+      for (std::int32_t h = 0; h < 3 * faces; ++h) runs.edge(h, depth, visit);
     }));
     MapOptions once = options;
     once.first_depth = once.last_depth = 0;
     rows.push_back(compare<C>(neighbourhood, "crack-centre", once, maps, [&](int, auto&& visit) {
-      for (std::int32_t face = 0; face < 2; ++face) runs.centre(face, visit);
+      for (std::int32_t face = 0; face < faces; ++face) runs.centre(face, visit);
     }));
   }
   if (options.row_stream) {
@@ -80,7 +84,7 @@ std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOpt
     rows.push_back(compare<C>(neighbourhood, "row-stream", options, maps,
                               [&](int depth, auto&& visit) { runs.pair(depth, visit); }));
     rows.push_back(compare<C>(neighbourhood, "row-stream-edge", options, maps, [&](int depth, auto&& visit) {
-      for (std::int32_t h = 0; h < 6; ++h) runs.edge(h, depth, visit);
+      for (std::int32_t h = 0; h < 3 * faces; ++h) runs.edge(h, depth, visit);
     }));
   }
   return rows;

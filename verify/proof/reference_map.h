@@ -3,6 +3,8 @@
 // .cpp files.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -17,8 +19,53 @@ namespace limitcheck::verify {
 /// One limit point: the weights of all control points in its position and its two tangents.
 template <class C>
 struct MapRow {
+  MapRow() = default;
+  explicit MapRow(std::size_t n) : position(n), d1(n), d2(n) {}
+
+  /// The point's x, y and z belong to points[first], points[first + 1] and points[first + 2].
+  void put(const std::vector<std::size_t>& points, std::size_t first, const reference::SurfacePoint<C>& p) {
+    constexpr std::array<C reference::Vec3<C>::*, 3> kCoordinates{
+        &reference::Vec3<C>::x, &reference::Vec3<C>::y, &reference::Vec3<C>::z};
+    for (std::size_t c = 0; c < 3 && first + c < points.size(); ++c) {
+      const std::size_t v = points[first + c];
+      position[v] = p.position.*kCoordinates[c];
+      d1[v] = p.d1.*kCoordinates[c];
+      d2[v] = p.d2.*kCoordinates[c];
+    }
+  }
+
   std::vector<C> position, d1, d2;
 };
+
+inline fast::LatticePoint lowest_terms(fast::LatticePoint p) {
+  for (; (p.i | p.j | p.denominator) % 2 == 0; p.i /= 2, p.j /= 2) p.denominator /= 2;
+  return p;
+}
+
+/// The vertices that a face's limit points depend on: the rings of its corners.
+inline std::vector<std::size_t> points_near(const data::ControlMesh& mesh, std::int32_t face) {
+  const auto& corners = mesh.triangles[static_cast<std::size_t>(face)];
+  std::vector<bool> near(mesh.positions.size());
+  for (const auto& other : mesh.triangles) {
+    if (std::ranges::find_first_of(other, corners) == other.end()) continue;
+    for (const std::int32_t v : other) near[static_cast<std::size_t>(v)] = true;
+  }
+  std::vector<std::size_t> points;
+  for (std::size_t v = 0; v < near.size(); ++v)
+    if (near[v]) points.push_back(v);
+  return points;
+}
+
+/// Control points that are zero, but points[first] is (1, 0, 0), the next (0, 1, 0), the one after (0, 0, 1).
+template <class C>
+std::vector<reference::Vec3<C>> unit_vectors(const data::ControlMesh& mesh,
+                                             const std::vector<std::size_t>& points, std::size_t first) {
+  std::vector<reference::Vec3<C>> unit(mesh.positions.size());
+  unit[points[first]].x = C(1);
+  if (first + 1 < points.size()) unit[points[first + 1]].y = C(1);
+  if (first + 2 < points.size()) unit[points[first + 2]].z = C(1);
+  return unit;
+}
 
 /// Rows of a mesh, computed once each.
 ///   Evaluator   reference::SubdivisionEvaluator<C> or reference::StamEvaluator<C>
@@ -27,70 +74,42 @@ class ReferenceMap {
  public:
   explicit ReferenceMap(const data::ControlMesh& mesh) : mesh_(mesh) {}
 
-  const MapRow<C>& at(const fast::LatticePoint& p) {
-    auto i = p.i, j = p.j, denominator = p.denominator;
-    for (; (i | j | denominator) % 2 == 0; i /= 2, j /= 2) denominator /= 2;
-    const auto [found, fresh] = rows_.try_emplace({p.face, i, j, denominator});
-    if (fresh) found->second = evaluate(p.face, i, j, denominator);
+  const MapRow<C>& at(const fast::LatticePoint& point) {
+    const fast::LatticePoint p = lowest_terms(point);
+    const auto [found, fresh] = rows_.try_emplace({p.face, p.i, p.j, p.denominator});
+    if (fresh) found->second = evaluate(p);
     return found->second;
   }
 
  private:
-  // Three unit vectors make a mesh: the first in x, the second in y, the third in z. A face's surface depends
-  // on the rings of its corners alone.
   struct Columns {
     std::vector<std::size_t> points;
-    std::vector<Evaluator> evaluators;
+    std::vector<Evaluator> evaluators;  // for three points each
   };
 
   const Columns& columns(std::int32_t face) {
     const auto [found, fresh] = columns_.try_emplace(face);
     Columns& result = found->second;
     if (!fresh) return result;
-    const auto& corners = mesh_.triangles[static_cast<std::size_t>(face)];
-    std::vector<bool> near(mesh_.positions.size());
-    for (const auto& other : mesh_.triangles) {
-      bool touches = false;
-      for (const std::int32_t v : other)
-        touches = touches || v == corners[0] || v == corners[1] || v == corners[2];
-      for (const std::int32_t v : other)
-        if (touches) near[static_cast<std::size_t>(v)] = true;
-    }
-    for (std::size_t v = 0; v < near.size(); ++v)
-      if (near[v]) result.points.push_back(v);
-    for (std::size_t k = 0; k < result.points.size(); k += 3) {
-      std::vector<reference::Vec3<C>> unit(mesh_.positions.size());
-      unit[result.points[k]].x = C(1);
-      if (k + 1 < result.points.size()) unit[result.points[k + 1]].y = C(1);
-      if (k + 2 < result.points.size()) unit[result.points[k + 2]].z = C(1);
-      result.evaluators.emplace_back(std::move(unit), mesh_.triangles);
-    }
+    result.points = points_near(mesh_, face);
+    for (std::size_t k = 0; k < result.points.size(); k += 3)
+      result.evaluators.emplace_back(unit_vectors<C>(mesh_, result.points, k), mesh_.triangles);
     return result;
   }
 
-  MapRow<C> evaluate(std::int32_t face, std::uint32_t i, std::uint32_t j, std::uint32_t denominator) {
-    const auto l1 = reference::Parameter::fraction(i, denominator),
-               l2 = reference::Parameter::fraction(j, denominator);
-    const Columns& c = columns(face);
-    const std::size_t n = mesh_.positions.size();
-    MapRow<C> row{std::vector<C>(n), std::vector<C>(n), std::vector<C>(n)};
-    for (std::size_t k = 0; k < c.points.size(); ++k) {
-      if (k % 3 == 0) point_ = c.evaluators[k / 3].evaluate(face, l1, l2, reference::Order::kFirst);
-      const auto coordinate = [&](const reference::Vec3<C>& v) {
-        return k % 3 == 0 ? v.x : k % 3 == 1 ? v.y : v.z;
-      };
-      const std::size_t v = c.points[k];
-      row.position[v] = coordinate(point_.position);
-      row.d1[v] = coordinate(point_.d1);
-      row.d2[v] = coordinate(point_.d2);
-    }
+  MapRow<C> evaluate(const fast::LatticePoint& p) {
+    const auto l1 = reference::Parameter::fraction(p.i, p.denominator),
+               l2 = reference::Parameter::fraction(p.j, p.denominator);
+    const Columns& c = columns(p.face);
+    MapRow<C> row(mesh_.positions.size());
+    for (std::size_t k = 0; k < c.evaluators.size(); ++k)
+      row.put(c.points, 3 * k, c.evaluators[k].evaluate(p.face, l1, l2, reference::Order::kFirst));
     return row;
   }
 
   const data::ControlMesh& mesh_;
   std::map<std::int32_t, Columns> columns_;
   std::map<std::tuple<std::int32_t, std::uint32_t, std::uint32_t, std::uint32_t>, MapRow<C>> rows_;
-  reference::SurfacePoint<C> point_;
 };
 
 }  // namespace limitcheck::verify

@@ -84,6 +84,11 @@ class Stencil {
     Stencil s;
     s.constant_ = a.constant_;
     kMinus ? s.constant_ -= b.constant_ : s.constant_ += b.constant_;
+    if (b.entries_.empty()) {
+      s.entries_ = a.entries_;
+      return s;
+    }
+    s.entries_.reserve(a.entries_.size() + b.entries_.size());
     auto p = a.entries_.begin();
     auto q = b.entries_.begin();
     while (p != a.entries_.end() || q != b.entries_.end()) {
@@ -122,7 +127,7 @@ class Stencil {
         fault != nullptr && fault->is_product() && !entries_.empty() && fault->strikes())
       factor *= K::ratio((1 << 20) + 1, 1 << 20);
     if (K::is_zero(factor)) return s;
-    s.constant_ = factor * constant_;
+    if (!K::is_zero(constant_)) s.constant_ = factor * constant_;
     s.entries_.reserve(entries_.size());
     for (const Entry& entry : entries_) s.entries_.push_back({entry.point, factor * entry.weight});
     return s;

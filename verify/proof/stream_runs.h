@@ -28,17 +28,20 @@ class StreamRuns {
   StreamRuns(const StreamRuns&) = delete;
   StreamRuns& operator=(const StreamRuns&) = delete;
 
-  /// The pair of half-edge 0. Calls visit(LatticePoint, const Frame&), row by row.
+  /// The pair of half-edge 0, or face 0 if that has no neighbour. Calls visit(LatticePoint, const Frame&),
+  /// row by row.
   template <class Visit>
   void pair(int depth, Visit&& visit) const {
     const std::int32_t twin = adjacency_.twin(0);
-    const fast::Pair pair{0, twin / 3, 0, twin % 3, depth};
+    const bool alone = twin < 0;
+    const fast::Pair pair =
+        alone ? fast::Pair{.face0 = 0, .depth = depth} : fast::Pair{0, twin / 3, 0, twin % 3, depth};
     const int size = 1 << depth, side = size + 1;
     std::vector<T> first(static_cast<std::size_t>(6 * side * side)), second(first.size());
     first_.whole({&pair, 1}, depth, first.data());
     second_.whole({&pair, 1}, depth, second.data());
     for (int row = 0; row <= size; ++row) {
-      for (int column = 0; column <= size; ++column) {
+      for (int column = 0; column <= (alone ? row : size); ++column) {
         const auto at = fast::row_stream::face_point(pair, size, column, row, row >= column);
         const auto k = static_cast<std::size_t>(6 * (row * side + column));
         visit(fast::LatticePoint{at.face, static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j),

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// The sets hold what they say: topologies are counted by other means, and what was not done is not claimed.
+#include "verify/proof/proof_set.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/generators/bumpy_sphere.h"
+#include "verify/proof/proof_report.h"
+#include "verify/proof/prove.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Valences = std::array<int, 4>;
+
+ProofSet set_of(ProofSize size) {
+  ProofRequest request;
+  request.size = size;
+  return proof_set(request);
+}
+
+std::vector<const ProofTask*> tasks_of(const ProofSet& set, const std::string& group, Arithmetic arithmetic) {
+  std::vector<const ProofTask*> found;
+  for (const ProofTask& task : set.tasks)
+    if (task.group == group && task.options.arithmetic == arithmetic) found.push_back(&task);
+  return found;
+}
+
+Valences valences_of(const ProofTask& task) {
+  Valences v{};
+  std::istringstream(task.neighbourhood.name) >> v[0] >> v[1] >> v[2] >> v[3];
+  return v;
+}
+
+// Of ten valences there are C(12, 3) = 220 triples in any order, and 55 * 10 with one corner apart from the
+// other two, which lie on the diagonal. A face with 3 3 n, n > 3, cannot be: 9 triples, each with the 3s on
+// the diagonal or one of them apart.
+TEST(Proof_Set, HoldsEveryTripleWithEachOfItsCornersApart) {
+  const ProofSet set = set_of(ProofSize::kFull);
+  EXPECT_EQ(set.impossible.size(), 9U);
+  for (const char* group : {"triples", "deep"}) {
+    std::set<std::array<int, 3>> whole, apart;
+    for (const ProofTask* task : tasks_of(set, group, Arithmetic::kResidues)) {
+      const Valences v = valences_of(*task);
+      for (const int d : {v[1], v[3]}) {
+        apart.insert({std::min(v[0], v[2]), std::max(v[0], v[2]), d});
+        std::array<int, 3> triple{v[0], v[2], d};
+        std::ranges::sort(triple);
+        whole.insert(triple);
+      }
+    }
+    EXPECT_EQ(whole.size(), 220U - 9) << group;
+    if (std::string(group) == "triples") EXPECT_EQ(apart.size(), 550U - 2 * 9);
+  }
+}
+
+// Counted from the edges of the sphere, without half-edges or signatures.
+std::set<Valences> pairs_by_edges(const data::ControlMesh& mesh) {
+  std::map<std::int32_t, int> valence;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> apex;  // left of the directed edge
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto v : {a, b, c}) ++valence[v];  // closed: as many faces as neighbours
+    apex[{a, b}] = c, apex[{b, c}] = a, apex[{c, a}] = b;
+  }
+  std::set<Valences> pairs;
+  for (const auto& [edge, d] : apex) {
+    const auto& [a, c] = edge;
+    pairs.insert({valence[a], valence[apex.at({c, a})], valence[c], valence[d]});
+  }
+  return pairs;
+}
+
+TEST(Proof_Set, HoldsEveryPairOfTheBumpySpheres) {
+  for (const ProofSize size : {ProofSize::kStandard, ProofSize::kFull}) {
+    std::set<Valences> expected;
+    for (const int faces : size == ProofSize::kFull ? std::vector{200, 800, 2000, 4000} : std::vector{200})
+      expected.merge(pairs_by_edges(data::bumpy_sphere(faces, 1)));
+    std::set<Valences> found;
+    const ProofSet set = set_of(size);
+    const auto tasks = tasks_of(set, "spheres", Arithmetic::kResidues);
+    for (const ProofTask* task : tasks) found.insert(valences_of(*task));
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(tasks.size(), expected.size()) << "each once";
+  }
+}
+
+// Around a pair of regular faces lie 6 + 6 + 6 + 6 - 10 = 14 others. What is taken away is a run of 1 .. 13
+// of them (14 * 13 ways), any two or more of the four beside the pair's edges (11 ways), or all.
+TEST(Proof_Set, HoldsEveryWayToTakeFacesAwayAroundTheRegularPair) {
+  const ProofSet set = set_of(ProofSize::kFull);
+  const auto tasks = tasks_of(set, "boundary-deep", Arithmetic::kResidues);
+  std::set<std::string> names;
+  for (const ProofTask* task : tasks) names.insert(task->neighbourhood.name);
+  EXPECT_EQ(names.size(), tasks.size());
+  EXPECT_EQ(names.size(), 14U * 13 + 11 + 1);
+  for (const ProofTask* task : tasks_of(set, "boundary", Arithmetic::kResidues))
+    names.erase(task->neighbourhood.name);
+  EXPECT_TRUE(names.empty()) << "the shallow group holds them, too";
+}
+
+TEST(Proof_Set, HoldsHighValencesAndTheFaceAlone) {
+  const ProofSet set = set_of(ProofSize::kFull);
+  EXPECT_EQ(tasks_of(set, "high", Arithmetic::kResidues).size(), 3U * 4);
+  for (const Arithmetic a : {Arithmetic::kResidues, Arithmetic::kDigits, Arithmetic::kExact})
+    EXPECT_EQ(tasks_of(set, "alone", a).size(), 1U);
+}
+
+// "every topology to depth 6, with bounds to depth 6 or 4": what the table and --help say of the full set.
+TEST(Proof_Set, GoesToDepthSixWithEveryTopology) {
+  const ProofSet set = set_of(ProofSize::kFull);
+  std::map<std::string, int> deepest, bounds;
+  for (const ProofTask& task : set.tasks) {
+    const auto note = [&](std::map<std::string, int>& list, int depth) {
+      int& d = list[task.neighbourhood.name];
+      d = std::max(d, depth);
+    };
+    if (task.options.arithmetic == Arithmetic::kExact) continue;  // those of the triples
+    note(deepest, task.options.last_depth);
+    note(bounds, task.bounds ? task.bounds->last_depth : -1);
+  }
+  for (const auto& [name, depth] : deepest) EXPECT_EQ(depth, 6) << name;
+  for (const auto& [name, depth] : bounds) EXPECT_GE(depth, 4) << name;
+}
+
+TEST(Proof_Set, IsReportedAsStoppedWhereItWas) {
+  ProofRequest request;
+  request.valences = {6};
+  request.depth = 0;
+  ProofSet set = proof_set(request);
+  set.tasks.resize(6);
+  std::size_t done = 0;
+  const auto rows = prove(
+      set.tasks, [&](const ProofProgress& progress) { done = progress.tasks; }, [&] { return done >= 2; });
+  const auto proved = std::ranges::count_if(rows, [](const auto& r) { return !r.empty(); });
+  EXPECT_GE(proved, 2);
+  EXPECT_LT(proved, 6);
+  EXPECT_FALSE(rows.front().empty()) << "begun in order";
+  const ProofReport report(set, rows);
+  EXPECT_TRUE(report.held());
+  EXPECT_FALSE(report.complete());
+  EXPECT_NE(report.table(false).find("STOPPED"), std::string::npos);
+  EXPECT_FALSE(nlohmann::json::parse(report.json())["complete"].get<bool>());
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -60,7 +60,9 @@ TEST(Proof_Set, HoldsEveryTripleWithEachOfItsCornersApart) {
       }
     }
     EXPECT_EQ(whole.size(), 220U - 9) << group;
-    if (std::string(group) == "triples") EXPECT_EQ(apart.size(), 550U - 2 * 9);
+    if (std::string(group) == "triples") {
+      EXPECT_EQ(apart.size(), 550U - 2 * 9);
+    }
   }
 }
 

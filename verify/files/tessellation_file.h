@@ -28,8 +28,8 @@ struct FileTessellation {
   std::int64_t left_out = 0;                         // fewer than three corners, or an index out of range
 };
 
-/// PLY, OBJ, OFF, STL, glTF by extension; normals from PLY, OBJ and glTF. The syntax must be right, the mesh need not:
-/// polygons, open, non-manifold or degenerate faces, duplicate vertices, NaN are all taken. Throws
+/// PLY, OBJ, OFF, STL, glTF by extension; normals from PLY, OBJ and glTF. The syntax must be right, the mesh
+/// need not: polygons, open, non-manifold or degenerate faces, duplicate vertices, NaN are all taken. Throws
 /// data::InputError with a FILE_ code, and MESH_EMPTY for a file without vertices.
 FileTessellation read_tessellation(const std::filesystem::path& file);
 

@@ -35,27 +35,9 @@ Json numbers(const std::vector<double>& list) {
   return out;
 }
 
-// A word for the shell.
-std::string quoted(const std::string& s) {
-  if (s.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-") ==
-      std::string::npos)
-    return s;
-  std::string out = "'";
-  for (const char c : s) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-Json witness(const Report& report, const Result& r) {
+Json witness(const Report& report, const Result& r, const std::string& level) {
   const std::optional<Witness>& w = r.witness;
   if (!w) return nullptr;
-  Json reproduce;
-  if (is_bad(r))
-    reproduce =
-        fmt::format("limitcheck audit {} {} --depth {}{}", quoted(r.subject), quoted(r.mesh), report.depth,
-                    report.depths == "uniform" ? ""
-                    : report.seed              ? fmt::format(" --depths {}:{}", report.depths, *report.seed)
-                                               : fmt::format(" --depths {}", report.depths)) +
-        (report.sample.empty() ? "" : " --sample " + report.sample);
   return {{"face", index(w->face)},
           {"l1", text(w->l1)},
           {"l2", text(w->l2)},
@@ -65,12 +47,12 @@ Json witness(const Report& report, const Result& r) {
           {"got", numbers(w->got)},
           {"expected_digits", w->expected_digits.empty() ? Json(nullptr) : Json(w->expected_digits)},
           {"command", text(eval_command(r))},
-          {"reproduce", std::move(reproduce)}};
+          {"reproduce", is_bad(r) ? Json(audit_command(report, r, level)) : Json(nullptr)}};
 }
 
 }  // namespace
 
-std::string to_json(const Report& report) {
+std::string to_json(const Report& report, const std::string& level) {
   Json out{{"program", "limitcheck audit"},
            {"version", report.version},
            {"depth", report.depth},
@@ -101,7 +83,7 @@ std::string to_json(const Report& report) {
                               {"worst_absolute", number(r.worst_absolute)},
                               {"worst_ulps", number(r.worst_ulps)},
                               {"message", text(r.message)},
-                              {"witness", witness(report, r)}});
+                              {"witness", witness(report, r, level)}});
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

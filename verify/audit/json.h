@@ -14,7 +14,8 @@ namespace limitcheck::verify {
 /// message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got,
 /// expected_digits, command, reproduce) - null where it does not
 /// apply. The schema: verify/audit/schema/audit.schema.json.
-std::string to_json(const Report& report);
+///   level   of the audit, for the commands that repeat it
+std::string to_json(const Report& report, const std::string& level = "standard");
 
 /// Writes text to a temporary name beside `file` and renames it; makes the folder. Throws std::runtime_error.
 void write_text(const std::filesystem::path& file, const std::string& text);

@@ -219,20 +219,32 @@ std::string matrix(const Report& report, bool colour) {
   return out;
 }
 
+// A word for the shell.
+std::string quoted(const std::string& text) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 }  // namespace
 
 std::string eval_command(const Result& result) {
   if (!result.witness || result.witness->face < 0 || result.witness->l1.empty()) return "";
-  const std::string& mesh = result.mesh;
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
-  std::string quoted = mesh;
-  if (mesh.find_first_not_of(kPlain) != std::string::npos) {
-    quoted.clear();
-    for (const char c : mesh) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    quoted = fmt::format("'{}'", quoted);
-  }
-  return fmt::format("limitcheck eval {} {} {} {}{}", quoted, result.witness->face, result.witness->l1,
-                     result.witness->l2, result.in_float ? " --precision float" : "");
+  return fmt::format("limitcheck eval {} {} {} {}{}", quoted(result.mesh), result.witness->face,
+                     result.witness->l1, result.witness->l2, result.in_float ? " --precision float" : "");
+}
+
+std::string audit_command(const Report& report, const Result& result, const std::string& level) {
+  std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
+                                    quoted(result.mesh), report.depth);
+  if (level != "standard") command += fmt::format(" --level {}", level);
+  if (report.seed)
+    command += fmt::format(" --depths {}:{}", report.depths, *report.seed);
+  else if (report.depths != "uniform")
+    command += fmt::format(" --depths {}", quoted(report.depths));
+  return command;
 }
 
 std::string to_table(const Report& report, bool colour, bool all) {

@@ -16,6 +16,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/splitmix64.h"
+#include "data/worst_cases.h"
 #include "fast/depth.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/json.h"
@@ -181,7 +182,8 @@ int audit(Arguments a) {
   if (a.must_refuse && (main_job || a.meshes.empty()))
     throw std::invalid_argument("--must-refuse needs a subject and the files of broken meshes");
   if (a.meshes.empty()) {
-    a.meshes = {"bumpy:800"};
+    if (a.output.level != "quick") a.meshes = data::worst_case_meshes();
+    a.meshes.emplace_back("bumpy:800");
     for (std::string& shape : data::stock_shapes()) a.meshes.push_back(std::move(shape));
   }
   if (a.threads <= 0) a.threads = tbb::info::default_concurrency();
@@ -226,16 +228,17 @@ int audit(Arguments a) {
   progress.clear();
   waive(a.output, audited, report);
   write_junit(a.output, report);
+  write_witnesses(a.output, audited, meshes, report, a.threads);
 
   if (a.json == "-") {
-    fmt::print("{}", verify::to_json(report));
+    fmt::print("{}", verify::to_json(report, a.output.level));
   } else {
     const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
     fmt::print("{}", verify::to_table(report, colour, a.each_mesh));
-    if (!a.json.empty()) verify::write_text(a.json, verify::to_json(report));
+    if (!a.json.empty()) verify::write_text(a.json, verify::to_json(report, a.output.level));
   }
   if (main_job) {
-    verify::write_text(kReportFile, verify::to_json(report));
+    verify::write_text(kReportFile, verify::to_json(report, a.output.level));
     fmt::print(stderr, "report: {}\n", kReportFile);
   }
   return report.held() ? kHeld : kFindings;
@@ -252,8 +255,10 @@ void add_audit(CLI::App& app, int& exit_code) {
           "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), or "
           "program:COMMAND. Without it: all on the default meshes, and the report in {}. Built in: {}",
           kReportFile, built_in_names()));
-  command->add_option("MESH", a->meshes,
-                      "Control meshes: files or generator names (default: bumpy:800 and the stock shapes)");
+  command->add_option(
+      "MESH", a->meshes,
+      "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "
+      "bumpy:800 and the stock shapes)");
   command
       ->add_option("--depth", a->depth,
                    "Subdivision depth of every face; otherwise than with uniform depths, the largest")

@@ -4,6 +4,7 @@
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -12,7 +13,10 @@
 #include "verify/audit/explain.h"
 #include "verify/audit/json.h"
 #include "verify/audit/junit.h"
+#include "verify/audit/relations.h"
+#include "verify/audit/shrink.h"
 #include "verify/audit/waivers.h"
+#include "verify/audit/witness_files.h"
 
 namespace limitcheck::cli {
 
@@ -28,6 +32,21 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
   command.add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted for a while")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
+  command
+      .add_option(
+          "--witnesses", a.witnesses,
+          "Write each finding to a folder of its own in DIR: the control mesh, and a JSON file with the "
+          "place, the exact value to 40 digits, what was got, and the commands that show both again")
+      ->type_name("DIR");
+  command
+      .add_option(
+          "--shrink", a.shrink_seconds,
+          "Look for a small mesh with the same finding, SECONDS (20) for each subject and check, and write "
+          "that as --witnesses does (default folder: limitcheck-witness)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.01, 86400.0))
+      ->expected(0, 1)
+      ->default_str("20");
   command
       .add_option("--explain", a.explain,
                   "Say what a check means, its bound, and where that comes from; or all")
@@ -72,6 +91,74 @@ void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& su
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", a.waivers, error.what()));
   }
+}
+
+namespace {
+
+// One finding of each subject and check: the one on the smallest mesh.
+std::vector<const verify::Result*> smallest(const std::vector<verify::AuditMesh>& meshes,
+                                            const verify::Report& report) {
+  const auto faces = [&](const verify::Result& r) {
+    for (const auto& m : meshes)
+      if (m.name == r.mesh) return m.mesh.triangles.size();
+    return std::size_t{0};
+  };
+  std::vector<const verify::Result*> chosen;
+  for (const verify::Result& r : report.results) {
+    if (!verify::is_bad(r)) continue;
+    const auto same = std::find_if(chosen.begin(), chosen.end(), [&](const verify::Result* c) {
+      return c->subject == r.subject && c->check == r.check;
+    });
+    if (same == chosen.end())
+      chosen.push_back(&r);
+    else if (faces(r) < faces(**same))
+      *same = &r;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSubject>& subjects,
+                     const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
+                     int threads) {
+  if (a.witnesses.empty() && a.shrink_seconds <= 0) return;
+  const std::string folder = a.witnesses.empty() ? "limitcheck-witness" : a.witnesses;
+  std::vector<const verify::Result*> findings;
+  if (a.shrink_seconds > 0) {
+    findings = smallest(meshes, report);
+  } else {
+    for (const verify::Result& r : report.results)
+      if (verify::is_bad(r)) findings.push_back(&r);
+  }
+  for (const verify::Result* finding : findings) {
+    const auto mesh = std::find_if(meshes.begin(), meshes.end(),
+                                   [&](const verify::AuditMesh& m) { return m.name == finding->mesh; });
+    const auto subject = std::find(report.subjects.begin(), report.subjects.end(), finding->subject);
+    if (mesh == meshes.end() || subject == report.subjects.end()) continue;
+    if (a.shrink_seconds <= 0) {
+      verify::write_witness(folder, report, *finding, *mesh, a.level);
+      continue;
+    }
+    const auto& audited = subjects[static_cast<std::size_t>(subject - report.subjects.begin())];
+    const verify::Shrunk small =
+        verify::shrink(audited, *mesh, report.depth, threads, *finding, a.shrink_seconds);
+    const auto& relations = verify::relation_rows();
+    const bool related = std::find(relations.begin(), relations.end(), finding->check) != relations.end();
+    verify::Report again = report;
+    again.depth = small.depth;
+    for (const verify::Result& r :
+         verify::Auditor(small.depth, threads, {}, related ? verify::Level::kThorough : verify::Level::kQuick)
+             .run(audited, small.mesh)) {
+      if (r.check != finding->check || !verify::is_bad(r)) continue;
+      const auto place = verify::write_witness(folder, again, r, small.mesh, related ? "thorough" : "quick");
+      fmt::print(stderr, "{} / {}: {} faces at depth {} shrunk to {} at depth {} ({} attempts): {}\n",
+                 r.subject, r.check, mesh->mesh.triangles.size(), report.depth,
+                 small.mesh.mesh.triangles.size(), small.depth, small.attempts, place.string());
+    }
+  }
+  if (a.shrink_seconds <= 0 && !findings.empty())
+    fmt::print(stderr, "{} witnesses in {}\n", findings.size(), folder);
 }
 
 void write_junit(const OutputArguments& a, const verify::Report& report) {

@@ -11,7 +11,8 @@
 namespace limitcheck::cli {
 
 struct OutputArguments {
-  std::string level = "standard", junit, waivers, explain;
+  std::string level = "standard", junit, waivers, explain, witnesses;
+  double shrink_seconds = 0;  // 0: not
 };
 
 void add_output_options(CLI::App& command, OutputArguments& arguments);
@@ -24,6 +25,12 @@ bool explained(const OutputArguments& arguments);
 /// Applies --waivers to the report. Throws std::invalid_argument: the file cannot be read or understood.
 void waive(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
            verify::Report& report);
+
+/// Writes each finding of the report as files (verify/audit/witness_files.h), if --witnesses or --shrink says
+/// so; with --shrink one for each subject and check, on a smaller mesh. Says so on standard error. `subjects`
+/// in the order of report.subjects. Throws std::runtime_error, data::InputError: a file cannot be written.
+void write_witnesses(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
+                     const std::vector<verify::AuditMesh>& meshes, const verify::Report& report, int threads);
 
 /// Writes --junit, if it was given.
 void write_junit(const OutputArguments& arguments, const verify::Report& report);

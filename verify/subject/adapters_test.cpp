@@ -26,10 +26,14 @@ struct Named {
   const char* subject;
   const char* options;
 };
-const std::vector<Named> kAdapters{
-    {"opensubdiv-far", ""}, {"opensubdiv-far", "precision=double"},
-    {"opensubdiv-bfr", ""}, {"opensubdiv-bfr", "precision=double,approx-level=4"},
-    {"cgal", ""},           {"openmesh", ""}};
+const std::vector<Named> kAdapters{{"opensubdiv-far", ""},
+                                   {"opensubdiv-far", "precision=double"},
+                                   {"opensubdiv-bfr", ""},
+                                   {"opensubdiv-bfr", "precision=double,approx-level=4"},
+                                   {"opensubdiv-far-patches", ""},
+                                   {"opensubdiv-far-patches", "precision=double,level=4,end-cap=bspline"},
+                                   {"cgal", ""},
+                                   {"openmesh", ""}};
 
 // Each control face is covered by 4^d triangles of the lattice, each once, corners on the face,
 // counter-clockwise.
@@ -96,6 +100,32 @@ TEST(Adapters, ThatRefineAWholeMeshShareEveryPoint) {
       for (const auto& [place, vertices] : places(mesh, session.tessellate(3))) {
         EXPECT_EQ(vertices.size(), 1u) << subject << " on " << name;
       }
+    }
+  }
+}
+
+// VTK's filter is there or not; where it is, it is one more of them, in float.
+TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
+  const lc_subject* vtk = find_subject("vtk");
+  if (vtk == nullptr) {
+    ASSERT_EQ(missing_subjects().size(), 1U);
+    EXPECT_EQ(missing_subjects()[0].name, "vtk");
+    EXPECT_NE(missing_subjects()[0].why.find("libvtk9-dev"), std::string::npos);
+    return;
+  }
+  EXPECT_TRUE(missing_subjects().empty());
+  for (const auto& [name, mesh] : shapes()) {
+    SCOPED_TRACE(name);
+    Session vtk_session(*vtk, mesh);
+    Session cgal_session(*lc_subject_cgal(), vtk_session.mesh());
+    const Tessellation in_float = vtk_session.tessellate(3), exact = cgal_session.tessellate(3);
+    expect_full_lattice(mesh, in_float, std::vector<int>(mesh.triangles.size(), 3));
+    const auto expected = places(mesh, exact);
+    for (const auto& [place, vertices] : places(mesh, in_float)) {
+      EXPECT_EQ(vertices.size(), 1u);
+      // Three steps, each rounding to float once: 3 * sqrt(3) * 2^-24 of the largest coordinate.
+      EXPECT_LE(distance(in_float.position(vertices[0]), exact.position(expected.at(place)[0])),
+                1e-6 * box_diagonal(mesh));
     }
   }
 }

@@ -37,20 +37,25 @@ class FarSubject {
  public:
   static lc_capabilities capabilities(Options& options) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
+    (void)bare(options);
     return {wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 8, 1, 0, 1};
   }
 
   FarSubject(const lc_mesh& mesh, Options& options)
-      : mesh_(mesh), wide_(capabilities(options).precision == LC_FLOAT64), refiner_(make_refiner(mesh)) {}
+      : mesh_(mesh),
+        wide_(capabilities(options).precision == LC_FLOAT64),
+        bare_(bare(options)),
+        refiner_(make_refiner(mesh)) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const int depth = uniform_depth(request, mesh_);
     refuse_too_many_triangles(mesh_, depth);
     const OpenSubdivErrors errors;
     refiner_->Unrefine();
-    // Without the full topology of the last level, Limit() returns and leaves its output as it was.
+    // Without the full topology of the last level, which is the library's default, Limit() returns and leaves
+    // its output as it was.
     Far::TopologyRefiner::UniformOptions uniform(depth);
-    uniform.fullTopologyInLastLevel = true;
+    uniform.fullTopologyInLastLevel = !bare_;
     refiner_->RefineUniform(uniform);
     errors.check();
     wide_ ? run<double>(request, depth, out) : run<float>(request, depth, out);
@@ -59,6 +64,8 @@ class FarSubject {
   }
 
  private:
+  static bool bare(Options& options) { return options.choice("last-level", {"full", "bare"}) == 1; }
+
   template <class Real>
   void run(const lc_request& request, int depth, lc_tessellation& out) const {
     std::vector<Vector<Real>> points(static_cast<std::size_t>(mesh_.vertex_count));
@@ -138,7 +145,7 @@ class FarSubject {
   }
 
   const lc_mesh mesh_;
-  const bool wide_;
+  const bool wide_, bare_;
   std::unique_ptr<Far::TopologyRefiner> refiner_;
 };
 
@@ -147,6 +154,6 @@ class FarSubject {
 extern "C" const lc_subject* lc_subject_opensubdiv_far() {
   static const lc_subject subject = make_subject<FarSubject>(
       "opensubdiv-far", "OpenSubdiv 3.5 Far: uniform refinement, then the limit masks",
-      "precision=float|double (default float)");
+      "precision=float|double (default float), last-level=full|bare (default full; bare is the library's)");
   return &subject;
 }

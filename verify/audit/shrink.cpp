@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/shrink.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "data/validate.h"
+#include "verify/audit/relations.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Faces = std::vector<std::size_t>;  // of the mesh being shrunk, ascending
+
+// The mesh of some faces, without the vertices that none of them names.
+AuditMesh part(const AuditMesh& whole, const Faces& faces) {
+  AuditMesh out{whole.name, {}};
+  std::vector<std::int32_t> number(whole.mesh.positions.size(), -1);
+  for (const std::size_t f : faces)
+    for (const std::int32_t v : whole.mesh.triangles[f]) number[static_cast<std::size_t>(v)] = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<std::int32_t>(out.mesh.positions.size());
+    out.mesh.positions.push_back(whole.mesh.positions[v]);
+  }
+  for (const std::size_t f : faces) {
+    auto t = whole.mesh.triangles[f];
+    for (auto& v : t) v = number[static_cast<std::size_t>(v)];
+    out.mesh.triangles.push_back(t);
+    if (!whole.face_depth.empty()) out.face_depth.push_back(whole.face_depth[f]);
+  }
+  return out;
+}
+
+// b goes into a; the faces that have both vanish. Validity is the caller's to see.
+AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
+  AuditMesh out = whole;
+  Faces left;
+  for (std::size_t f = 0; f < out.mesh.triangles.size(); ++f) {
+    auto& t = out.mesh.triangles[f];
+    std::replace(t.begin(), t.end(), b, a);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) left.push_back(f);
+  }
+  return part(out, left);
+}
+
+class Shrinker {
+ public:
+  Shrinker(const AuditMesh& mesh, int depth, const std::function<bool(const AuditMesh&, int)>& fails,
+           double seconds)
+      : best_{mesh, depth, 0},
+        fails_(fails),
+        end_(std::chrono::steady_clock::now() +
+             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                 std::chrono::duration<double>(seconds))) {}
+
+  Shrunk run(std::int64_t face) {
+    if (best_.mesh.face_depth.empty()) {
+      for (int depth = 0; depth < best_.depth && !late(); ++depth) {
+        ++best_.attempts;
+        if (!fails_(best_.mesh, depth)) continue;
+        best_.depth = depth;
+        break;
+      }
+    }
+    ball(face);
+    while (!late() && (remove_chunks() || collapse_edges())) {
+    }
+    return std::move(best_);
+  }
+
+ private:
+  bool late() const { return std::chrono::steady_clock::now() >= end_; }
+
+  bool take(AuditMesh candidate) {
+    if (late() || candidate.mesh.triangles.empty() || !data::validate(candidate.mesh).empty()) return false;
+    ++best_.attempts;
+    if (!fails_(candidate, best_.depth)) return false;
+    best_.mesh = std::move(candidate);
+    return true;
+  }
+
+  // All faces by the number of rings between them and `face`; those out of reach last.
+  std::vector<int> rings(std::int64_t face) const {
+    const auto& triangles = best_.mesh.mesh.triangles;
+    std::vector<int> ring(triangles.size(), -1), of_vertex(best_.mesh.mesh.positions.size(), -1);
+    if (face < 0 || face >= static_cast<std::int64_t>(triangles.size())) return ring;
+    ring[static_cast<std::size_t>(face)] = 0;
+    for (int r = 0, found = 1; found > 0; ++r) {
+      found = 0;
+      for (std::size_t f = 0; f < triangles.size(); ++f)
+        if (ring[f] == r)
+          for (const auto v : triangles[f]) of_vertex[static_cast<std::size_t>(v)] = r;
+      for (std::size_t f = 0; f < triangles.size(); ++f) {
+        if (ring[f] >= 0) continue;
+        if (std::any_of(triangles[f].begin(), triangles[f].end(),
+                        [&](auto v) { return of_vertex[static_cast<std::size_t>(v)] >= 0; })) {
+          ring[f] = r + 1;
+          ++found;
+        }
+      }
+    }
+    return ring;
+  }
+
+  // The smallest number of rings about the witness that is enough.
+  void ball(std::int64_t face) {
+    const std::vector<int> ring = rings(face);
+    const int most = ring.empty() ? -1 : *std::max_element(ring.begin(), ring.end());
+    for (int r = 0; r < most && !late(); ++r) {
+      Faces faces;
+      for (std::size_t f = 0; f < ring.size(); ++f)
+        if (ring[f] >= 0 && ring[f] <= r) faces.push_back(f);
+      if (take(part(best_.mesh, faces))) return;
+    }
+  }
+
+  bool remove_chunks() {
+    bool any = false;
+    for (std::size_t chunk = best_.mesh.mesh.triangles.size() / 2; chunk > 0 && !late();) {
+      bool smaller = false;
+      for (std::size_t begin = 0; begin < best_.mesh.mesh.triangles.size() && !late();) {
+        const std::size_t count = best_.mesh.mesh.triangles.size();
+        Faces faces;
+        for (std::size_t f = 0; f < count; ++f)
+          if (f < begin || f >= begin + chunk) faces.push_back(f);
+        if (take(part(best_.mesh, faces)))
+          smaller = true;
+        else
+          begin += chunk;
+      }
+      any = any || smaller;
+      if (!smaller) chunk /= 2;
+    }
+    return any;
+  }
+
+  bool collapse_edges() {
+    bool any = false;
+    for (std::size_t f = 0; f < best_.mesh.mesh.triangles.size() && !late(); ++f) {
+      const auto t = best_.mesh.mesh.triangles[f];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!take(collapsed(best_.mesh, t[k], t[(k + 1) % 3]))) continue;
+        any = true;
+        break;
+      }
+    }
+    return any;
+  }
+
+  Shrunk best_;
+  const std::function<bool(const AuditMesh&, int)>& fails_;
+  std::chrono::steady_clock::time_point end_;
+};
+
+}  // namespace
+
+Shrunk shrink(const AuditMesh& mesh, int depth, std::int64_t face,
+              const std::function<bool(const AuditMesh&, int)>& fails, double seconds) {
+  return Shrinker(mesh, depth, fails, seconds).run(face);
+}
+
+Shrunk shrink(const AuditSubject& subject, const AuditMesh& mesh, int depth, int threads,
+              const Result& finding, double seconds) {
+  const auto& relations = relation_rows();
+  const Level level = std::find(relations.begin(), relations.end(), finding.check) == relations.end()
+                          ? Level::kQuick
+                          : Level::kThorough;
+  const auto fails = [&](const AuditMesh& candidate, int at) {
+    const auto results = Auditor(at, threads, {}, level).run(subject, candidate);
+    return std::any_of(results.begin(), results.end(),
+                       [&](const Result& r) { return r.check == finding.check && is_bad(r); });
+  };
+  return shrink(mesh, depth, finding.witness ? finding.witness->face : -1, fails, seconds);
+}
+
+}  // namespace limitcheck::verify

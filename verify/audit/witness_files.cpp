@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/witness_files.h"
+
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "data/io/write.h"
+#include "reference/certified.h"
+#include "verify/audit/json.h"
+#include "verify/audit/table.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As part of a file's name.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' ? c : '_';
+  constexpr std::size_t kLongest = 60;
+  return out.size() > kLongest ? out.substr(out.size() - kLongest) : out;
+}
+
+Json numbers(const std::vector<double>& list) {
+  if (list.empty()) return nullptr;
+  Json out = Json::array();
+  for (const double x : list)
+    out.push_back(std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x));
+  return out;
+}
+
+// The limit surface at the witness, on the mesh as the subject gets it.
+void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
+  if (r.in_float)
+    for (auto& p : mesh.positions)
+      for (double& x : p) x = static_cast<double>(static_cast<float>(x));
+  constexpr int kDigits = 40;
+  const auto point = reference::CertifiedEvaluator(mesh).evaluate(
+      static_cast<int>(r.witness->face), reference::Parameter::parse(r.witness->l1),
+      reference::Parameter::parse(r.witness->l2), kDigits);
+  const auto vector = [](const auto& v) { return Json{v[0].value, v[1].value, v[2].value}; };
+  json["limit_position"] = vector(point.position);
+  json["limit_normal"] = vector(point.normal);
+}
+
+}  // namespace
+
+std::filesystem::path write_witness(const std::filesystem::path& folder, const Report& report,
+                                    const Result& result, const AuditMesh& mesh, const std::string& level) {
+  const std::filesystem::path place =
+      folder / (plain(result.subject) + "-" + plain(result.check) + "-" + plain(result.mesh));
+  std::filesystem::create_directories(place);
+  const std::filesystem::path control = place / "control.obj";
+  data::write_mesh(control, mesh.mesh);
+  Report how = report;
+  if (!mesh.face_depth.empty()) {
+    std::string lines;
+    for (const std::int32_t depth : mesh.face_depth) lines += std::to_string(depth) + "\n";
+    write_text(place / "depths.txt", lines);
+    how.depths = "file:" + (place / "depths.txt").string();
+    how.seed.reset();
+  }
+
+  Result here = result;
+  here.mesh = control.string();
+  Json json{{"subject", result.subject},
+            {"check", result.check},
+            {"status", word(result.status)},
+            {"mesh", result.mesh},
+            {"control", "control.obj"},
+            {"precision", result.in_float ? "float" : "double"},
+            {"count", result.bad},
+            {"of", result.of},
+            {"worst", result.worst && std::isfinite(*result.worst) ? Json(*result.worst) : Json(nullptr)},
+            {"bound", result.bound ? Json(*result.bound) : Json(nullptr)},
+            {"unit", result.unit},
+            {"message", result.message}};
+  if (result.witness) {
+    const Witness& w = *result.witness;
+    json["face"] = w.face >= 0 ? Json(w.face) : Json(nullptr);
+    json["l1"] = w.l1.empty() ? Json(nullptr) : Json(w.l1);
+    json["l2"] = w.l2.empty() ? Json(nullptr) : Json(w.l2);
+    json["expected"] = numbers(w.expected);
+    json["got"] = numbers(w.got);
+    if (const std::string command = eval_command(here); !command.empty()) {
+      add_limit(json, result, mesh.mesh);
+      json["eval"] = command + " --digits 40";
+    }
+  }
+  json["audit"] = audit_command(how, here, level);
+  write_text(place / "witness.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return place;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// --witnesses and --shrink: what is written for a finding shows the finding again.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "data/io/read.h"
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class WitnessFiles : public CommandTest {
+ protected:
+  // Runs both commands of each witness in `folder` and returns how many there were.
+  int expect_reproducible(const std::string& folder) {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / folder)) {
+      ++count;
+      const Json json = Json::parse(read(entry.path() / "witness.json"));
+      const std::string check = json.at("check");
+      const std::string again = json.at("audit");
+      EXPECT_TRUE(again.starts_with("limitcheck ")) << again;
+      const Outcome audit = run(again.substr(11) + " --json again.json");
+      EXPECT_EQ(audit.code, 1) << again << audit.err;
+      bool found = false;
+      for (const auto& row : Json::parse(read("again.json"))["results"])
+        found = found || (row["check"] == check && row["status"] == json.at("status"));
+      EXPECT_TRUE(found) << check << ": " << again;
+      if (!json.contains("eval")) continue;
+      const std::string eval = json.at("eval");
+      const Outcome point = run(eval.substr(11) + " --json");
+      EXPECT_EQ(point.code, 0) << eval << point.err;
+      EXPECT_EQ(Json::parse(point.out)["position"], json.at("limit_position")) << eval;
+      EXPECT_EQ(Json::parse(point.out)["normal"], json.at("limit_normal")) << eval;
+    }
+    return count;
+  }
+};
+
+TEST_F(WitnessFiles, OfEveryFindingShowItAgain) {
+  const Outcome o =
+      run("audit opensubdiv-bfr bumpy:20 fan:1 --depth 2 --level quick --witnesses found --json -");
+  EXPECT_EQ(o.code, 1) << o.err;
+  int findings = 0;
+  for (const auto& row : Json::parse(o.out)["results"]) findings += row["status"] == "finding";
+  EXPECT_EQ(expect_reproducible("found"), findings);
+  EXPECT_GT(findings, 4);
+}
+
+TEST_F(WitnessFiles, CarryTheDepthsOfTheFaces) {
+  const Outcome o =
+      run("audit sliding-window icosahedron --depth 2 --depths random:3 --option repair=none --level quick "
+          "--witnesses found");
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_GT(expect_reproducible("found"), 0);
+}
+
+TEST_F(WitnessFiles, AreSmallAfterShrinking) {
+  const Outcome o =
+      run("audit model:mutation=weight_1e-6_at_valence_5 random:5:300 --depth 2 --level quick --shrink 60");
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_NE(o.err.find("shrunk to"), std::string::npos) << o.err;
+  EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
+  for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
+    EXPECT_LE(data::read_mesh(entry.path() / "control.obj").triangles.size(), 8U) << entry.path();
+}
+
+TEST_F(WitnessFiles, ReproductionOfAQuickAuditIsQuick) {
+  const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 2 --level quick --json -");
+  for (const auto& row : Json::parse(o.out)["results"])
+    if (row["status"] == "finding") {
+      EXPECT_EQ(row["witness"]["reproduce"],
+                "limitcheck audit opensubdiv-bfr bumpy:20 --depth 2 --level quick");
+    }
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

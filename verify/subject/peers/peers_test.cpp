@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The register of peers' findings (findings.json), each seen again on its small mesh.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "data/generators/named_mesh.h"
+#include "verify/audit/audit.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::json;
+
+// A list, not a loop of EXPECTs only: who reads the output sees every finding with its figure.
+TEST(Peers, EveryFindingOfTheRegisterIsStillThere) {
+  const Json text = Json::parse(std::ifstream(LIMITCHECK_SOURCE_DIR "/verify/subject/peers/findings.json"));
+  int seen = 0;
+  for (const Json& f : text.at("findings")) {
+    const auto id = f.at("id").get<std::string>(), name = f.at("subject").get<std::string>();
+    const auto mesh = f.at("mesh").get<std::string>(), check = f.at("check").get<std::string>();
+    const lc_subject* subject = find_subject(name);
+    const auto missing = missing_subjects();
+    if (subject == nullptr) {
+      EXPECT_TRUE(std::any_of(missing.begin(), missing.end(), [&](const auto& m) { return m.name == name; }))
+          << name << " is neither there nor known to be missing";
+      fmt::print("{:<34} not looked at: no {} in this build\n", id, name);
+      continue;
+    }
+    Auditor auditor(f.at("depth").get<int>(), 1, {}, f.contains("level") ? Level::kStandard : Level::kQuick);
+    const auto results = auditor.run({subject, f.value("options", "")}, {mesh, data::named_mesh(mesh)});
+    const auto row =
+        std::find_if(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
+    ASSERT_NE(row, results.end()) << id;
+    fmt::print("{:<34} {} {} of {}, worst {} {} {}\n", id, word(row->status), row->bad, row->of,
+               row->worst ? fmt::format("{:.3g}", *row->worst) : "-", row->unit, row->message);
+    if (row->status != Status::kFinding) {
+      ADD_FAILURE() << id << ": not there any more (" << word(row->status) << "). Has " << name
+                    << " been mended? If so, take it out of the register and out of what we say about it.";
+      continue;
+    }
+    if (f.contains("least")) {  // a worst value that is not finite is worse than any
+      EXPECT_GE(row->worst.value_or(1e300), f.at("least").get<double>()) << id;
+    }
+    if (f.contains("share")) {
+      EXPECT_GE(static_cast<double>(row->bad), f.at("share").get<double>() * static_cast<double>(row->of))
+          << id;
+    }
+    if (f.contains("message")) {
+      EXPECT_NE(row->message.find(f.at("message").get<std::string>()), std::string::npos)
+          << id << ": " << row->message;
+    }
+    ++seen;
+  }
+  RecordProperty("findings_seen", seen);
+  EXPECT_GT(seen, 15);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

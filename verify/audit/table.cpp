@@ -244,6 +244,7 @@ std::string audit_command(const Report& report, const Result& result, const std:
     command += fmt::format(" --depths {}:{}", report.depths, *report.seed);
   else if (report.depths != "uniform")
     command += fmt::format(" --depths {}", quoted(report.depths));
+  if (!report.sample.empty()) command += " --sample " + report.sample;
   return command;
 }
 

@@ -29,7 +29,8 @@ class WitnessFiles : public CommandTest {
       const Outcome audit = run(again.substr(11) + " --json again.json");
       EXPECT_EQ(audit.code, 1) << again << audit.err;
       bool found = false;
-      for (const auto& row : Json::parse(read("again.json"))["results"])
+      const Json repeated = Json::parse(read("again.json"));
+      for (const auto& row : repeated["results"])
         found = found || (row["check"] == check && row["status"] == json.at("status"));
       EXPECT_TRUE(found) << check << ": " << again;
       if (!json.contains("eval")) continue;
@@ -48,7 +49,8 @@ TEST_F(WitnessFiles, OfEveryFindingShowItAgain) {
       run("audit opensubdiv-bfr bumpy:20 fan:1 --depth 2 --level quick --witnesses found --json -");
   EXPECT_EQ(o.code, 1) << o.err;
   int findings = 0;
-  for (const auto& row : Json::parse(o.out)["results"]) findings += row["status"] == "finding";
+  const Json report = Json::parse(o.out);
+  for (const auto& row : report["results"]) findings += row["status"] == "finding";
   EXPECT_EQ(expect_reproducible("found"), findings);
   EXPECT_GT(findings, 4);
 }
@@ -73,7 +75,8 @@ TEST_F(WitnessFiles, AreSmallAfterShrinking) {
 
 TEST_F(WitnessFiles, ReproductionOfAQuickAuditIsQuick) {
   const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 2 --level quick --json -");
-  for (const auto& row : Json::parse(o.out)["results"])
+  const Json report = Json::parse(o.out);
+  for (const auto& row : report["results"])
     if (row["status"] == "finding") {
       EXPECT_EQ(row["witness"]["reproduce"],
                 "limitcheck audit opensubdiv-bfr bumpy:20 --depth 2 --level quick");

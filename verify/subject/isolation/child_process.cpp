@@ -276,6 +276,8 @@ std::string ChildProcess::line(std::size_t longest) {
       throw protocol::Error(fmt::format("it wrote more than {} bytes without a line end: \"{}\"", longest,
                                         protocol::printable(left, 80)));
     if (end != std::string_view::npos) {
+      next_look_ = {};  // one look at least, however quick the answer came
+      watch_limits();
       std::string result(left.substr(0, end));
       taken_ += end + 1;
       return result;

@@ -16,7 +16,8 @@ namespace limitcheck::verify {
 /// apply. The schema: verify/audit/schema/audit.schema.json.
 std::string to_json(const Report& report);
 
-/// Writes text to a temporary name beside `file` and renames it; makes the folder. Throws std::runtime_error.
+/// Writes a text whole or not at all (mesh_output/atomic_file.h); makes the folder. Throws
+/// std::filesystem::filesystem_error or data::InputError FILE_CANNOT_WRITE.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace limitcheck::verify

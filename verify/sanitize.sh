@@ -50,7 +50,7 @@ case $kind in
     bash verify/build.sh release -DBUILD_TESTING=OFF
     for subject in row-stream:target={avx2,avx2/4,sse4,scalar} sliding-window opensubdiv-far:precision=double; do
       echo "$subject:"
-      valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite \
+      valgrind -q --error-exitcode=99 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
         build/release/limitcheck audit "$subject" icosahedron --depth 2 --level quick | tail -n 1
     done
     ;;

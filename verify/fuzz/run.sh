@@ -19,7 +19,7 @@ for target in "${targets[@]}"; do
   [[ $target == read_* ]] && seeds=(data/wellformed data/malformed)
   mkdir -p "build/fuzz/corpus/$target"
   echo "fuzz_$target, $seconds s:"
-  "$program" -max_total_time="$seconds" -malloc_limit_mb=512 -timeout=20 -max_len=8192 -print_final_stats=1 \
+  "$program" -max_total_time="$seconds" -malloc_limit_mb=512 -timeout=120 -max_len=8192 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/findings/$target-" "build/fuzz/corpus/$target" "${seeds[@]}" \
     >"build/fuzz/$target.log" 2>&1 || { status=1; tail -n 40 "build/fuzz/$target.log"; }
   grep -a ' cov: ' "build/fuzz/$target.log" | tail -n 1 || true

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "data/io/read.h"
 
+#include <fmt/core.h>
+
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -12,6 +15,9 @@
 
 namespace limitcheck::data {
 namespace {
+
+// The content is held in memory, and what is made of it takes up to twelve times as much.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;
 
 std::string whole_content(const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& why) {
@@ -28,9 +34,15 @@ std::string whole_content(const std::filesystem::path& file) {
   if (!stream) refuse(std::strerror(errno));
   std::string content;
   const auto size = std::filesystem::file_size(file, ignored);
+  const auto too_large = [&] {
+    throw InputError("FILE_TOO_LARGE", file.string(), 0,
+                     fmt::format("more than {} GiB, the largest file that is read", kMostBytes >> 30));
+  };
+  if (!ignored && size > kMostBytes) too_large();
   if (!ignored) content.reserve(size);
   char buffer[1 << 16];
   for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, stream.get())) > 0;) {
+    if (content.size() + count > kMostBytes) too_large();  // of a pipe
     content.append(buffer, count);
   }
   if (std::ferror(stream.get()) != 0) refuse(std::strerror(errno));

@@ -3,6 +3,7 @@
 //
 // Codes of InputError beside those of data/validate.h:
 //   FILE_CANNOT_OPEN      absent, unreadable, or not a file
+//   FILE_TOO_LARGE        more than 4 GiB
 //   FILE_UNKNOWN_FORMAT   neither .obj, .off, .ply nor .stl
 //   FILE_UNSUPPORTED      a part of the format that this program does not read, and that cannot be ignored
 //   FILE_SYNTAX           not of the form the format prescribes

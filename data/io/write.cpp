@@ -87,13 +87,17 @@ std::string mesh_content(const ControlMesh& mesh, FileFormat format, const Write
   return text;
 }
 
-void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options) {
-  const std::string content = mesh_content(mesh, io::format_of(file), options);
+void write_mesh(const std::filesystem::path& name, const ControlMesh& mesh, const WriteOptions& options) {
+  const std::string content = mesh_content(mesh, io::format_of(name), options);
   const auto refuse = [&](const std::string& why) {
-    throw InputError("FILE_CANNOT_WRITE", file.string(), 0, why);
+    throw InputError("FILE_CANNOT_WRITE", name.string(), 0, why);
   };
 
   std::error_code error;
+  // Through a link, as any program that opens it would, rather than in its place.
+  std::filesystem::path file = name;
+  if (std::filesystem::is_symlink(name, error))
+    if (auto target = std::filesystem::canonical(name, error); !error) file = std::move(target);
   const auto type = std::filesystem::status(file, error).type();
   if (type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::regular) {
     const std::string why = write_all(file, "wb", content);

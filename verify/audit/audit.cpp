@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
 
 namespace limitcheck::verify {
@@ -48,11 +50,46 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh,
                                  std::span<const std::int32_t> face_depth) {
+  std::vector<Result> results;
+  bool no_memory = false;
+  try {
+    if (interrupted() == 0) judge(audited, mesh, face_depth, results);
+  } catch (const Interrupted&) {
+  } catch (const std::bad_alloc&) {
+    cache_.clear();
+    no_memory = true;
+  }
+  if (interrupted() == 0 && !no_memory) return results;
+
+  // What there is no row of.
+  std::vector<std::string_view> missing{"tessellates"};
+  for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
+  if (level_ == Level::kThorough ||
+      (level_ == Level::kStandard && mesh.mesh.triangles.size() <= kRelationFaces))
+    missing.insert(missing.end(), relation_rows().begin(), relation_rows().end());
+  std::erase_if(missing, [&](std::string_view check) {
+    return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
+  });
+  if (!no_memory && !missing.empty()) gave_up_ = true;
+  for (const std::string_view check : missing) {
+    Result r;
+    r.subject = label(audited);
+    r.mesh = mesh.name;
+    r.check = check;
+    r.depth = depth_;
+    r.status = no_memory ? Status::kError : Status::kNotRun;
+    r.message = no_memory ? "out of memory" : "interrupted";
+    results.push_back(std::move(r));
+  }
+  return results;
+}
+
+void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
+                    std::span<const std::int32_t> face_depth, std::vector<Result>& results) {
   if (cached_mesh_ != mesh.name) cache_.clear();
   cached_mesh_ = mesh.name;
 
   const std::string name = label(audited);
-  std::vector<Result> results;
   const auto row = [&](std::string_view check, Status status, const std::string& message) {
     Result r;
     r.subject = name;
@@ -86,7 +123,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     for (const Check& check : checks()) rows(check, Status::kNotRun, "there is no tessellation");
     if (level_ != Level::kQuick)
       for (const std::string_view r : relation_rows()) row(r, Status::kNotRun, "there is no tessellation");
-    return results;
+    return;
   }
 
   // From here on a sample is the mesh.
@@ -137,6 +174,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   }
 
   for (const Check& check : checks()) {
+    if (interrupted() != 0) break;
     step(name, mesh.name, check.name);
     if (check.needs_reference && !no_reference.empty()) {
       rows(check, same_family ? Status::kError : Status::kNotSupported, no_reference);
@@ -148,8 +186,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
       rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
   }
-  if (level_ == Level::kThorough ||
-      (level_ == Level::kStandard && judged.triangles.size() <= kRelationFaces)) {
+  if (interrupted() == 0 && (level_ == Level::kThorough ||
+                             (level_ == Level::kStandard && judged.triangles.size() <= kRelationFaces))) {
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
     for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));
   }
@@ -158,7 +196,6 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   if (sample)
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = sample->faces()[r.witness->face];
-  return results;
 }
 
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,

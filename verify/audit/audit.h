@@ -53,17 +53,24 @@ class Auditor {
   ~Auditor();
 
   /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`.
-  /// A subject that refuses or fails gives rows, never an exception. `mesh` is valid (data/validate.h).
+  /// A subject that refuses or fails gives rows, never an exception; nor does an interrupt (interrupt.h) or a
+  /// lack of memory: what could not be looked at has rows that say so. `mesh` is valid (data/validate.h).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
 
   /// The same at one depth for each control face, 0 to the auditor's depth, or -1 (culled).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh,
                           std::span<const std::int32_t> face_depth);
 
+  /// Whether an interrupt left something out.
+  bool gave_up() const { return gave_up_; }
+
   /// All of them, results ordered by subject, then mesh.
   std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes);
 
  private:
+  // Adds rows to `results` as they come, so that an end in between leaves what there is.
+  void judge(const AuditSubject& subject, const AuditMesh& mesh, std::span<const std::int32_t> face_depth,
+             std::vector<Result>& results);
   ReferenceSurface& reference(const data::ControlMesh& rounded, lc_points points);
   void step(const std::string& subject, const std::string& mesh, std::string_view check);
 
@@ -71,6 +78,7 @@ class Auditor {
   std::function<void(const AuditStep&)> on_step_;
   Level level_;
   std::size_t done_ = 0, total_ = 1;
+  bool gave_up_ = false;
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>> cache_;  // of one mesh: by precision and kind of points
 };

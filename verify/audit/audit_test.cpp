@@ -7,12 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
+#include <map>
 #include <ostream>
 #include <set>
 
 #include "data/generators/named_mesh.h"
+#include "data/shapes.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/table.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/registry.h"
 
@@ -252,6 +256,31 @@ TEST(Audit, ResultsDoNotDependOnThreads) {
     EXPECT_EQ(one[k].bad, four[k].bad) << one[k].check;
     EXPECT_EQ(one[k].message, four[k].message) << one[k].check;
   }
+}
+
+TEST(Interrupt, KeepsWhatWasDoneAndSaysWhatWasNot) {
+  const InterruptGuard guard;
+  Auditor auditor(2, 1, [](const AuditStep& step) {
+    if (step.mesh == "icosahedron" && step.check == "normals") raise(SIGTERM);
+  });
+  const auto results = auditor.run(
+      {{find_subject("naive"), ""}},
+      {{"tetrahedron", data::tetrahedron()}, {"icosahedron", data::icosahedron()}, {"cube", data::cube()}});
+  EXPECT_TRUE(auditor.gave_up());
+  std::map<std::string, std::map<Status, int>> count;
+  for (const Result& r : results) {
+    ++count[r.mesh][r.status];
+    if (r.mesh == "icosahedron" && (r.check == "positions" || r.check == "normals")) {
+      EXPECT_EQ(r.status, Status::kHeld) << r.check << ": what was begun is ended";
+    }
+    if (r.status == Status::kNotRun) {
+      EXPECT_EQ(r.message, "interrupted") << r.mesh << " " << r.check;
+    }
+  }
+  EXPECT_EQ(count["tetrahedron"][Status::kNotRun], 0);
+  EXPECT_GT(count["icosahedron"][Status::kNotRun], 3);
+  EXPECT_EQ(count["cube"][Status::kHeld], 0);
+  EXPECT_EQ(count["cube"][Status::kNotRun], static_cast<int>(results.size()) / 3) << "a row for each check";
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 #include "verify/audit/json.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "verify/audit/table.h"
+#include "verify/mesh_output/atomic_file.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -60,7 +58,8 @@ std::string to_json(const Report& report, const std::string& level) {
            {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
            {"sample", text(report.sample)},
            {"seconds", report.seconds},
-           {"held", report.held()}};
+           {"held", report.held()},
+           {"incomplete", text(report.incomplete)}};
   out["subjects"] = report.subjects;
   out["meshes"] = Json::array();
   for (const auto& m : report.meshes)
@@ -89,19 +88,9 @@ std::string to_json(const Report& report, const std::string& level) {
 
 void write_text(const std::filesystem::path& file, const std::string& content) {
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  std::filesystem::path temporary = file;
-  temporary += fmt::format(".{}.tmp", ::getpid());
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out << content;
-    out.close();
-    if (!out) {
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
-      throw std::runtime_error("cannot write " + file.string());
-    }
-  }
-  std::filesystem::rename(temporary, file);
+  AtomicFile out(file);
+  out.stream() << content;
+  out.commit();
 }
 
 }  // namespace limitcheck::verify

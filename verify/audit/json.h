@@ -17,7 +17,8 @@ namespace limitcheck::verify {
 ///   level   of the audit, for the commands that repeat it
 std::string to_json(const Report& report, const std::string& level = "standard");
 
-/// Writes text to a temporary name beside `file` and renames it; makes the folder. Throws std::runtime_error.
+/// Writes a text whole or not at all (mesh_output/atomic_file.h); makes the folder. Throws
+/// std::filesystem::filesystem_error or data::InputError FILE_CANNOT_WRITE.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace limitcheck::verify

@@ -67,6 +67,12 @@ std::string outcome(const Result& r) {
 
 std::string to_junit(const Report& report) {
   std::string suites;
+  if (!report.incomplete.empty())
+    suites = fmt::format(
+        " <testsuite name=\"audit\" tests=\"1\" failures=\"0\" errors=\"1\" skipped=\"0\" time=\"0\">\n"
+        "  <testcase classname=\"audit\" name=\"complete\" time=\"0\"><error message=\"{}\"/></testcase>\n"
+        " </testsuite>\n",
+        escaped(report.incomplete));
   for (const std::string& subject : report.subjects) {
     int tests = 0, failures = 0, errors = 0, skipped = 0;
     std::string cases;

@@ -5,6 +5,7 @@
 
 #include "reference/refine.h"
 #include "reference/stam.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -44,6 +45,7 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   if (points_ == LC_POINTS_LIMIT) {
     if (!evaluator_->limit) evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_);
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
+      end_if_interrupted();
       const Lattice::Id id = wanted[k];
       const lc_provenance p = lattice_.provenance(id);
       // Dyadic fractions are exact doubles; thirds are not.

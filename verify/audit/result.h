@@ -74,8 +74,10 @@ struct Report {
   std::vector<std::string> subjects;
   std::vector<Result> results;
   double seconds = 0;
+  std::string incomplete;  // "interrupted by SIGINT": not all was looked at; empty: all was
 
   bool held() const {
+    if (!incomplete.empty()) return false;
     for (const Result& r : results)
       if (is_bad(r)) return false;
     return true;

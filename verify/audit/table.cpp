@@ -298,6 +298,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
   }
   out += fmt::format("\n{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
                      noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
+  if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <optional>
 #include <system_error>
 #include <tuple>
@@ -27,6 +28,7 @@
 #include "verify/cli/doors.h"
 #include "verify/cli/must_refuse.h"
 #include "verify/cli/progress.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
@@ -216,6 +218,7 @@ int audit(Arguments a) {
     report.subjects.push_back(s.options.empty() ? s.subject->name
                                                 : fmt::format("{}:{}", s.subject->name, s.options));
 
+  const verify::InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
   verify::Auditor auditor(
       a.depth, a.threads,
@@ -226,21 +229,31 @@ int audit(Arguments a) {
   report.results = a.must_refuse ? must_refuse(audited, meshes, a.threads) : auditor.run(audited, meshes);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
+  const int signal = auditor.gave_up() ? verify::interrupted() : 0;
+  if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   waive(a.output, audited, report);
-  write_junit(a.output, report);
-  write_witnesses(a.output, audited, meshes, report, a.threads);
 
+  // Files first: who reads the table may go away. And a file that cannot be written does not cost the table.
+  std::exception_ptr not_written;
+  try {
+    write_junit(a.output, report);
+    if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report, a.output.level));
+    if (main_job) {
+      verify::write_text(kReportFile, verify::to_json(report, a.output.level));
+      fmt::print(stderr, "report: {}\n", kReportFile);
+    }
+    write_witnesses(a.output, audited, meshes, report, a.threads);
+  } catch (const std::exception&) {
+    not_written = std::current_exception();
+  }
   if (a.json == "-") {
     fmt::print("{}", verify::to_json(report, a.output.level));
   } else {
     const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
     fmt::print("{}", verify::to_table(report, colour, a.each_mesh));
-    if (!a.json.empty()) verify::write_text(a.json, verify::to_json(report, a.output.level));
   }
-  if (main_job) {
-    verify::write_text(kReportFile, verify::to_json(report, a.output.level));
-    fmt::print(stderr, "report: {}\n", kReportFile);
-  }
+  if (not_written) std::rethrow_exception(not_written);
+  if (signal != 0) return kSignalled + signal;
   return report.held() ? kHeld : kFindings;
 }
 
@@ -294,7 +307,10 @@ void add_audit(CLI::App& app, int& exit_code) {
   add_door_options(*command, a->door);
   auto files = std::make_shared<FilesArguments>();
   add_files_options(*command, *files);
-  command->footer("Exit codes: 0 all held, 1 findings, 2 bad usage or input.");
+  command->footer(
+      "Exit codes: 0 all held, 1 findings, 2 bad usage or input. Ctrl-C ends with the report of what was "
+      "looked "
+      "at so far, marked as incomplete, and exit code 130 (SIGTERM 143, SIGHUP 129); a second one at once.");
   command->callback([a, files, &exit_code] {
     check_json(a->json);
     exit_code = files->given() ? audit_files(*files, a->json, a->threads) : audit(*a);

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/json.h"
@@ -15,6 +16,7 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
 #include "verify/files/audit_files.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 
@@ -75,11 +77,14 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
                                        : verify::Fit::kSimilarity;
 
   Progress progress;
+  const verify::InterruptGuard guard;
   const auto audit = verify::audit_files(files.control, control, std::move(tessellation), provenance, options,
                                          [&](const std::string& what, std::size_t done, std::size_t total) {
                                            progress.show(done, total, what);
+                                           verify::end_if_interrupted();
                                          });
   progress.clear();
+  const int signal = audit.gave_up ? verify::interrupted() : 0;
 
   verify::Report report;
   report.version = LIMITCHECK_VERSION;
@@ -88,16 +93,25 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
                            static_cast<std::int64_t>(control.triangles.size())});
   report.subjects.push_back(files.tessellation);
   report.results = audit.results;
+  if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!files.per_vertex.empty()) verify::write_text(files.per_vertex, audit.per_vertex);
+  // Files first: who reads the table may go away. And a file that cannot be written does not cost the table.
+  std::exception_ptr not_written;
+  try {
+    if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, audit.per_vertex);
+    if (!json.empty() && json != "-") verify::write_text(json, verify::to_json(report));
+  } catch (const std::exception&) {
+    not_written = std::current_exception();
+  }
   if (json == "-") {
     fmt::print("{}", verify::to_json(report));
   } else {
     const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
     for (const std::string& note : audit.notes) fmt::print("{}\n", note);
     fmt::print("{}{}", audit.notes.empty() ? "" : "\n", verify::to_table(report, colour, false));
-    if (!json.empty()) verify::write_text(json, verify::to_json(report));
   }
+  if (not_written) std::rethrow_exception(not_written);
+  if (signal != 0) return kSignalled + signal;
   return report.held() ? kHeld : kFindings;
 }
 

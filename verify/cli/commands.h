@@ -7,7 +7,12 @@
 namespace limitcheck::cli {
 
 /// The exit codes of every command: stable, scripts rely on them.
-enum ExitCode : int { kHeld = 0, kFindings = 1, kBadInput = 2 };
+enum ExitCode : int {
+  kHeld = 0,
+  kFindings = 1,
+  kBadInput = 2,    // and whatever keeps the program from doing its work: no memory, no room on the disk
+  kSignalled = 128  // plus the signal's number: an audit ended early, with a partial report
+};
 
 void add_claims(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);

@@ -1,12 +1,42 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <new>
 
 #include "verify/cli/commands.h"
 
-int main(int argc, char** argv) {
-  using namespace limitcheck::cli;
+namespace limitcheck::cli {
+namespace {
+
+// A standard stream that the caller has closed would become the next file that is opened, and what is meant
+// for the one would land in the other. Opened the wrong way round, so that its use is still an error.
+void occupy_standard_streams() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(fd, F_GETFD) < 0) (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+// Where there is no standard error either, nothing is left to be done.
+void complain(const std::string& text) {
+  std::fputs(fmt::format("limitcheck: {}\n", text).c_str(), stderr);
+}
+
+// What the buffer of standard output still holds may fail to be written: then nothing was held or found.
+int after_output(int exit_code) {
+  if (exit_code == kBadInput) return exit_code;  // it has been said
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  complain(fmt::format("standard output cannot be written{}{}", errno != 0 ? ": " : "",
+                       errno != 0 ? std::strerror(errno) : ""));
+  return kBadInput;
+}
+
+int run(int argc, char** argv) {
   CLI::App app{
       "limitcheck: is a Loop subdivision tessellator right, by how much is it not, and how fast is it?"};
   app.set_version_flag("--version", "limitcheck " LIMITCHECK_VERSION);
@@ -37,9 +67,20 @@ int main(int argc, char** argv) {
     return kBadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kHeld : kBadInput;
+  } catch (const std::bad_alloc&) {
+    std::fputs("limitcheck: out of memory\n", stderr);
+    return kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "limitcheck: {}\n", error.what());
+    complain(error.what());
     return kBadInput;
   }
   return exit_code;
+}
+
+}  // namespace
+}  // namespace limitcheck::cli
+
+int main(int argc, char** argv) {
+  limitcheck::cli::occupy_standard_streams();
+  return limitcheck::cli::after_output(limitcheck::cli::run(argc, argv));
 }

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "verify/cli/commands.h"
-#include "verify/cli/interrupt.h"
 #include "verify/cli/progress.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/proof/proof_report.h"
 #include "verify/proof/prove.h"
 
@@ -65,7 +65,7 @@ int run(const Request& request) {
   what.row_stream = request.kernel != "sliding-window";
   what.size = request.set == "full" ? verify::ProofSize::kFull : verify::ProofSize::kStandard;
   const verify::ProofSet set = verify::proof_set(what);
-  const Interrupt interrupt;
+  const verify::InterruptGuard guard;
   Progress progress;
   const auto start = std::chrono::steady_clock::now();
   const auto rows = verify::prove(
@@ -77,13 +77,14 @@ int run(const Request& request) {
                                   passed.count() * (1 - done.share) / done.share, done.latest->group,
                                   done.latest->neighbourhood.name));
       },
-      [&] { return interrupt.came(); });
+      [] { return verify::interrupted() != 0; });
   progress.clear();
   std::vector<verify::FloatKernel> kernels;
   if (what.sliding_window) kernels.push_back(verify::FloatKernel::kSlidingWindow);
   if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
   std::vector<verify::CertifiedLine> certified;
-  if (!interrupt.came()) certified = verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12);
+  if (verify::interrupted() == 0)
+    certified = verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12);
   const verify::ProofReport report(set, rows, std::move(certified));
   if (request.json) {
     fmt::print("{}\n", report.json());
@@ -91,7 +92,7 @@ int run(const Request& request) {
     fmt::print("{}", report.table(request.each));
   }
   if (!report.held()) return kFindings;
-  return report.complete() ? kHeld : kInterrupted;
+  return report.complete() ? kHeld : kSignalled + verify::interrupted();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "verify/files/diagnosis.h"
 #include "verify/files/hausdorff.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -47,13 +48,12 @@ std::string per_vertex(const FileEvidence& e) {
   return out;
 }
 
-}  // namespace
+using Step = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
 
-FilesAudit audit_files(
-    const std::string& control_name, const data::ControlMesh& control, FileTessellation tessellation,
-    const std::vector<ProvenanceRow>& provenance, const FilesOptions& options,
-    const std::function<void(const std::string& what, std::size_t done, std::size_t total)>& step) {
-  FilesAudit audit;
+// Adds to `audit` as it goes, so that an end in between leaves what there is.
+void judge(FilesAudit& audit, const std::string& control_name, const data::ControlMesh& control,
+           FileTessellation tessellation, const std::vector<ProvenanceRow>& provenance,
+           const FilesOptions& options, const Step& step) {
   audit.notes.push_back(what_it_is(tessellation));
   step("search structure", 0, 1);
   const ClosestPoint surface(control);
@@ -82,7 +82,9 @@ FilesAudit audit_files(
     audit.results.back().bad = audit.results.back().of =
         static_cast<std::int64_t>(tessellation.positions.size());
   }
+  step("coverage", 0, 1);
   append(audit.results, check_file_cover(e));
+  step("watertight", 0, 1);
   append(audit.results, check_file_watertight(e));
   step("Hausdorff distance", 0, 1);
   append(audit.results, check_file_hausdorff(e, options.hausdorff.value_or(-1)));
@@ -96,6 +98,33 @@ FilesAudit audit_files(
     }
   }
   audit.per_vertex = per_vertex(e);
+}
+
+}  // namespace
+
+FilesAudit audit_files(const std::string& control_name, const data::ControlMesh& control,
+                       FileTessellation tessellation, const std::vector<ProvenanceRow>& provenance,
+                       const FilesOptions& options, const Step& step) {
+  FilesAudit audit;
+  const std::string name = tessellation.name;
+  try {
+    judge(audit, control_name, control, std::move(tessellation), provenance, options, step);
+  } catch (const Interrupted&) {
+    audit.gave_up = true;
+    for (const char* check :
+         {"file-finite", provenance.empty() ? "file-distance" : "file-positions", "file-normals",
+          "file-orientation", "file-coverage", "file-watertight", "file-hausdorff"}) {
+      if (std::any_of(audit.results.begin(), audit.results.end(),
+                      [&](const Result& r) { return r.check == check; }))
+        continue;
+      Result r;
+      r.subject = name;
+      r.mesh = control_name;
+      r.check = check;
+      r.message = "interrupted";
+      audit.results.push_back(std::move(r));
+    }
+  }
   return audit;
 }
 

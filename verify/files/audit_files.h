@@ -26,6 +26,7 @@ struct FilesOptions {
 struct FilesAudit {
   std::vector<Result> results;
   std::vector<std::string> notes;  // sentences for people: what the file is, what it looks like
+  bool gave_up = false;            // an interrupt (interrupt.h) left rows out: they are not run
   std::string per_vertex;  // CSV: vertex, distance in diagonals, normal angle in degrees, face, l1, l2
 };
 

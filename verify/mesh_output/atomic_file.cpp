@@ -53,6 +53,9 @@ void disarm() {
 
 AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), buffer_(1 << 20) {
   std::error_code error;
+  // Through a link, as any program that opens it would, rather than in its place.
+  if (std::filesystem::is_symlink(file_, error))
+    if (auto target = std::filesystem::canonical(file_, error); !error) file_ = std::move(target);
   const auto type = std::filesystem::status(file_, error).type();
   if (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular) {
     temporary_ = file_.string() + fmt::format(".partial-{}", getpid());

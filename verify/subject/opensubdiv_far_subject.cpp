@@ -60,7 +60,7 @@ class FarSubject {
     errors.check();
     wide_ ? run<double>(request, depth, out) : run<float>(request, depth, out);
     if (!bare_) errors.check();  // with `bare`, what Limit() says is told as what it delivers: nothing
-    refiner_->Unrefine();  // half a gigabyte at 4000 faces, depth 5
+    refiner_->Unrefine();        // half a gigabyte at 4000 faces, depth 5
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include <exception>
 
+#include "verify/interrupt/interrupt.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify::detail {
@@ -20,6 +21,8 @@ void call(const lc_subject& subject, const char* function, Call&& function_call)
   try {
     status = function_call(&message);
   } catch (const SubjectDied&) {
+    throw;
+  } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {
     throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw: {}", subject.name, function, error.what()));

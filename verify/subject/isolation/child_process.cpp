@@ -16,6 +16,8 @@
 #include <fstream>
 #include <thread>
 
+#include "verify/interrupt/interrupt.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -196,6 +198,11 @@ void ChildProcess::ended() {
 }
 
 void ChildProcess::watch_limits() {
+  if (interrupted() != 0) {
+    kill_and_reap();
+    epitaph_ = "interrupted";
+    throw Interrupted();
+  }
   const auto now = Clock::now();
   if (now >= deadline_)
     fail(SubjectDied::Kind::kTimeout, fmt::format("no complete answer within {} s", limits_.seconds));

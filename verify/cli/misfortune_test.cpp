@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// What happens around the program goes wrong: no memory, a full disk, closed streams, signals, odd files.
+// Each has its exit code and one line that says so, and nothing that was done is lost.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+class Misfortune : public CommandTest {
+ protected:
+  /// A script for the shell, in which `limitcheck` is the program. Its output is .stdout and .stderr.
+  Outcome shell(const std::string& script) const {
+    write("script.sh", "limitcheck() { \"" LIMITCHECK_PROGRAM "\" \"$@\"; }\n" + script + "\n");
+    const int status = std::system(
+        ("cd '" + folder_.string() + "' && bash script.sh > .stdout 2> .stderr < /dev/null").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
+  }
+};
+
+constexpr const char* kQuickAudit = "limitcheck audit naive tetrahedron --depth 1 --level quick ";
+
+TEST_F(Misfortune, AFullDiskBehindStandardOutputIsAnError) {
+  for (const char* command : {"generate --list", "audit naive tetrahedron --depth 1 --level quick --json",
+                              "audit naive tetrahedron --depth 1 --level quick", "eval icosahedron 0 1/3 1/3",
+                              "tessellate icosahedron", "claims --errata", "--help", "--version"}) {
+    const Outcome o = shell(std::string("limitcheck ") + command + " > /dev/full");
+    EXPECT_EQ(o.code, 2) << command;
+    EXPECT_TRUE(o.err.starts_with("limitcheck: ")) << command << ": " << o.err;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << command << ": " << o.err;
+  }
+}
+
+TEST_F(Misfortune, ClosedStreamsDoNotLandInTheFiles) {
+  Outcome o = shell(kQuickAudit + std::string("--json report.json >&-"));
+  EXPECT_EQ(o.code, 2) << o.err;
+  EXPECT_TRUE(nlohmann::json::accept(read("report.json"))) << read("report.json");
+  o = shell("limitcheck eval no-such.obj 0 0 0 2>&-");
+  EXPECT_EQ(o.code, 2);
+  o = shell("limitcheck eval icosahedron 0 0 0 <&-");
+  EXPECT_EQ(o.code, 0) << o.err;
+}
+
+TEST_F(Misfortune, AReaderThatGoesAwayCostsNoReport) {
+  (void)shell(kQuickAudit + std::string("--json report.json --junit report.xml | true"));
+  EXPECT_TRUE(nlohmann::json::accept(read("report.json")));
+  EXPECT_NE(read("report.xml").find("</testsuites>"), std::string::npos);
+}
+
+TEST_F(Misfortune, AReportThroughAPipeOrALinkLeavesThePipeAndTheLink) {
+  Outcome o = shell("mkfifo pipe; cat pipe > got & " + std::string(kQuickAudit) +
+                    "--junit pipe > table; code=$?; wait; test -p pipe || exit 9; exit $code");
+  EXPECT_LE(o.code, 1) << o.err;
+  EXPECT_NE(read("got").find("</testsuites>"), std::string::npos);
+  for (const std::string& command : {std::string(kQuickAudit) + "--json link.obj.json > table",
+                                     std::string("limitcheck generate icosahedron -o link.obj"),
+                                     std::string("limitcheck tessellate icosahedron -o link.obj")}) {
+    o = shell("rm -f link.*; touch real; ln -s real link.obj; ln -s real link.obj.json; " + command +
+              "; test -L link.obj -a -L link.obj.json -a -s real && rm real");
+    EXPECT_EQ(o.code, 0) << command << o.err;
+  }
+}
+
+TEST_F(Misfortune, AReportWhereADirectoryIsLeavesNothingBehind) {
+  const Outcome o =
+      shell("mkdir report.json; " + std::string(kQuickAudit) + "--json report.json; code=$?; ls; exit $code");
+  EXPECT_EQ(o.code, 2) << o.err;
+  EXPECT_TRUE(o.out.ends_with("report.json\nscript.sh\n")) << o.out;
+  EXPECT_NE(o.out.find("positions"), std::string::npos) << "the table is there all the same";
+}
+
+// An address sanitizer needs more addresses than it is left here.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(Misfortune, NoMemoryIsOneLineAndExitCodeTwo) {
+  const Outcome o = shell(
+      "ulimit -v 200000; limitcheck tessellate bumpy:4000 --depth 7 -o out.ply; code=$?; ls; exit $code");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err, "limitcheck: out of memory\n");
+  EXPECT_EQ(o.out, "script.sh\n");
+}
+#endif
+
+TEST_F(Misfortune, FilesThatAreNoneAreRefused) {
+  for (const char* file : {"''", "/", ".", "/dev/zero", "folder.obj", "empty.obj", "/dev/null"}) {
+    const Outcome o =
+        shell(std::string("mkdir -p folder.obj; touch empty.obj; limitcheck eval ") + file + " 0 0 0");
+    EXPECT_EQ(o.code, 2) << file;
+    EXPECT_TRUE(o.err.starts_with("limitcheck: ")) << file << ": " << o.err;
+  }
+  const Outcome o =
+      shell("truncate -s 5G large.obj; limitcheck eval large.obj 0 0 0; code=$?; rm large.obj; exit $code");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("FILE_TOO_LARGE"), std::string::npos) << o.err;
+}
+
+TEST_F(Misfortune, NamesMayHaveSpacesQuotesAndOtherAlphabets) {
+  const Outcome o = shell(
+      "mkdir 'Größe \"ñ\" 网格'; cd 'Größe \"ñ\" 网格'; limitcheck generate icosahedron -o \"a b'ü.obj\" && "
+      "limitcheck audit opensubdiv-bfr \"a b'ü.obj\" --depth 1 --json 'r é.json' > table; test $? -le 1 && "
+      "sed -n 's/^ *limitcheck eval/limitcheck eval/p' table > again.sh && test -s again.sh && "
+      "while read -r line; do eval \"$line\" || exit 3; done < again.sh");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+}
+
+TEST_F(Misfortune, ASignalLeavesAPartialReportAndNoProcess) {
+  // Says what it can do, and is silent from then on.
+  write(
+      "mute.sh",
+      "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
+      "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
+      "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line\ntouch asked\nsleep 123456 &\n"
+      "echo $! > child\nwait\n");
+  for (const auto& [signal, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}, std::pair{"HUP", 129}}) {
+    const Outcome o = shell(
+        "rm -f asked\nenv --default-signal '" LIMITCHECK_PROGRAM
+        "' audit --program 'bash mute.sh' tetrahedron icosahedron --depth 1 --level quick --json r.json &\n"
+        "while [ ! -e asked ]; do sleep 0.05; done\nsleep 0.2\nkill -" +
+        std::string(signal) + " $!\nwait $!\ncode=$?\n" +
+        "for k in {1..100}; do kill -0 \"$(cat child)\" 2> /dev/null || exit $code; sleep 0.05; done\nexit "
+        "9");
+    EXPECT_EQ(o.code, code) << signal << o.err;
+    EXPECT_NE(o.out.find("INCOMPLETE: interrupted by SIG" + std::string(signal)), std::string::npos) << o.out;
+    const auto report = nlohmann::json::parse(read("r.json"));
+    EXPECT_EQ(report["incomplete"], "interrupted by SIG" + std::string(signal));
+    EXPECT_EQ(report["held"], false);
+    EXPECT_GT(report["results"].size(), 20U) << "a row for each check of both meshes";
+    for (const auto& row : report["results"]) EXPECT_EQ(row["status"], "not-run") << row;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

@@ -93,8 +93,8 @@ class Body {
     }
     const std::uint64_t bits = raw(type.bytes);
     if (type.kind == Type::Kind::kUnsigned) return static_cast<std::int64_t>(bits);
-    const int unused = static_cast<int>(64 - 8 * type.bytes);
-    return static_cast<std::int64_t>(bits << unused) >> unused;
+    const std::uint64_t sign = std::uint64_t{1} << (8 * type.bytes - 1);
+    return static_cast<std::int64_t>((bits ^ sign) - sign);
   }
 
   // How many numbers a list has; there are at least as many bytes left, so that a claim allocates nothing.

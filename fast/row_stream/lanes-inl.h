@@ -110,7 +110,7 @@ struct LaneNumber {
   template <int b>
   HWY_ATTR static HWY_INLINE auto block(hn::Vec<D> v) {
     const hn::CappedTag<Scalar, 4> quarter;
-    using Quarter = hn::Vec<decltype(quarter)>;
+    using Quarter [[maybe_unused]] = hn::Vec<decltype(quarter)>;
 #if HWY_TARGET == HWY_AVX3
     if constexpr (lanes == 16) return Quarter{_mm512_extractf32x4_ps(v.raw, b)};
 #endif

@@ -8,8 +8,9 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/row_stream/targets.cpp"
-// The baseline of x86-64 comes last in the list and is the plain scalar kernel below.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+// The baseline of x86-64 comes last in the list and is the plain scalar kernel below. Vectors of SVE have no
+// size at compile time and cannot be members.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -34,6 +35,8 @@ constexpr const char* target_name(int lanes) {
   return lanes == 16 ? "avx512" : lanes == 8 ? "avx512/8" : "avx512/4";
 #elif HWY_TARGET == HWY_AVX2
   return lanes == 8 ? "avx2" : "avx2/4";
+#elif HWY_ARCH_ARM
+  return lanes == 4 ? "neon" : "";
 #else
   return lanes == 4 ? "sse4" : "";
 #endif

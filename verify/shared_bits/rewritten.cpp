@@ -5,6 +5,12 @@
 
 namespace limitcheck::verify {
 
+data::ControlMesh rounded(data::ControlMesh mesh) {
+  for (auto& p : mesh.positions)
+    for (double& x : p) x = static_cast<double>(static_cast<float>(x));
+  return mesh;
+}
+
 namespace {
 
 std::vector<std::int32_t> shuffled(std::size_t count, data::SplitMix64& random) {

@@ -13,6 +13,9 @@
 
 namespace limitcheck::verify {
 
+/// The positions as a float subject sees them.
+data::ControlMesh rounded(data::ControlMesh mesh);
+
 /// Vertices renumbered, faces reordered, their corners rotated, all at random.
 struct Rewritten {
   data::ControlMesh mesh;

@@ -12,7 +12,6 @@
 #include <exception>
 #include <optional>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 #include "data/generators/named_mesh.h"
@@ -153,13 +152,10 @@ std::optional<Sampling> parse_sample(const std::string& text) {
   if (text.empty()) return std::nullopt;
   Sampling sampling;
   const char* last = text.data() + text.size();
-  auto [end, error] = std::from_chars(text.data(), last, sampling.faces);
-  if (error == std::errc() && end != last && *end == ':')
-    std::tie(end, error) = [&] {
-      const auto seed = std::from_chars(end + 1, last, sampling.seed);
-      return std::pair(seed.ptr, seed.ec);
-    }();
-  if (error != std::errc() || end != last || sampling.faces == 0)
+  std::from_chars_result read = std::from_chars(text.data(), last, sampling.faces);
+  if (read.ec == std::errc() && read.ptr != last && *read.ptr == ':')
+    read = std::from_chars(read.ptr + 1, last, sampling.seed);
+  if (read.ec != std::errc() || read.ptr != last || sampling.faces == 0)
     throw std::invalid_argument(fmt::format("--sample {}: FACES or FACES:SEED", text));
   return sampling;
 }

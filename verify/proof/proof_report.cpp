@@ -134,10 +134,9 @@ std::string ProofReport::table(bool each) const {
                         rows_.size());
   if (overall.bound)
     text += fmt::format(
-        "For no control mesh of these topologies in the unit box is a float coordinate off by more than "
-        "{:.2e} (depths {}); worst found {:.2e}.\n",
-        overall.bound->position_bound, range(overall.bound->first_depth, overall.bound->last_depth),
-        overall.bound->position_worst);
+        "For no control mesh of these topologies in the unit box, at the depths beside its bound, is a float "
+        "coordinate off by more than {:.2e}; worst found {:.2e}.\n",
+        overall.bound->position_bound, overall.bound->position_worst);
   for (const char* kernel : {"sliding-window", "row-stream"}) {
     const CertifiedLine* worst = nullptr;
     std::int64_t looked_at = 0;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "data/generators/named_mesh.h"
 #include "verify/subject/host.h"
@@ -235,6 +236,23 @@ TEST(OpenMesh, IsNotRunWhereItReadsOutOfBounds) {
   } catch (const SubjectError& error) {
     EXPECT_EQ(error.status(), LC_INVALID_INPUT);
     EXPECT_NE(std::string(error.what()).find("50 weights"), std::string::npos) << error.what();
+  }
+}
+
+// 20000 faces of 4^10 triangles: 10^10 vertices, and 10^11 bytes that nobody asks for.
+TEST(SubjectAdapters, RefuseMoreVerticesThanIndicesNameBeforeTheyAllocate) {
+  const auto mesh = data::named_mesh("sheet:100:100");
+  const std::vector<std::int32_t> depth(mesh.triangles.size(), 10);
+  for (const lc_subject* subject : {lc_subject_row_stream(), lc_subject_sliding_window()}) {
+    for (const char* options : {"output=strips", "output=indexed"}) {
+      Session session(*subject, mesh, options);
+      try {
+        session.tessellate(depth, 1);
+        ADD_FAILURE() << options;
+      } catch (const SubjectError& error) {
+        EXPECT_NE(std::string(error.what()).find("32-bit indices"), std::string::npos) << error.what();
+      }
+    }
   }
 }
 

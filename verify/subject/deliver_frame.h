@@ -32,10 +32,21 @@ Output<Real> deliver_vertices(const lc_request& request, lc_tessellation& out,
   return output;
 }
 
+/// Refuses, before anything is allocated, frames with more vertices than 32-bit indices name: a pair of 2 k^2
+/// triangles has at least (k + 1)^2. Faces that become fans have fewer and are counted as if they did not.
+inline void refuse_too_many_vertices(std::span<const std::int32_t> depth) {
+  std::int64_t triangles = 0;
+  for (const std::int32_t d : depth)
+    if (d >= 0) triangles += std::int64_t{1} << std::min(2 * d, 40);
+  if (triangles / 2 > std::int64_t{UINT32_MAX})
+    throw SubjectError(LC_NOT_SUPPORTED, "more vertices at these depths than 32-bit indices can name");
+}
+
 /// Runs one frame of a Tessellator<Real> or StreamTessellator, as one indexed mesh or as strips and fans.
 template <class Real, class Engine>
 void deliver_frame(Engine& engine, std::span<const std::int32_t> depth, bool indexed,
                    const lc_request& request, lc_tessellation& out) {
+  refuse_too_many_vertices(depth);
   std::size_t at = 0;
   if (indexed) {
     fast::IndexedMesh<Real> mesh;

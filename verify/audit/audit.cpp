@@ -59,13 +59,17 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     cache_.clear();
     no_memory = true;
   }
+  // Of a sample, however far it came: faces as the whole numbers them.
+  if (mesh.sample)
+    for (Result& r : results)
+      if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
   if (interrupted() == 0 && !no_memory) return results;
 
   // What there is no row of.
   std::vector<std::string_view> missing{"tessellates"};
   for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
-  if (level_ == Level::kThorough ||
-      (level_ == Level::kStandard && mesh.mesh.triangles.size() <= kRelationFaces))
+  const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
+  if (level_ == Level::kThorough || (level_ == Level::kStandard && judged.triangles.size() <= kRelationFaces))
     missing.insert(missing.end(), relation_rows().begin(), relation_rows().end());
   std::erase_if(missing, [&](std::string_view check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
@@ -193,9 +197,6 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
   }
   if (capabilities.points == LC_POINTS_LIMIT)
     for (Result& r : results) add_digits(r, evidence.mesh);
-  if (sample)
-    for (Result& r : results)
-      if (r.witness && r.witness->face >= 0) r.witness->face = sample->faces()[r.witness->face];
 }
 
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,

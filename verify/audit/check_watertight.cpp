@@ -227,7 +227,8 @@ void tell(const SurfaceReport& report, const Cracks& cracks, const Outline& outl
 
 std::vector<Result> check_watertight(const Evidence& e) {
   Result surface = e.result("watertight"), tees = e.result("t-vertices");
-  surface.unit = tees.unit = "edges";
+  surface.unit = "elements";  // points, edges and triangles
+  tees.unit = "edges";
   surface.bound = tees.bound = 0;
   if (e.tessellation.triangle_count() == 0) {
     surface.status = tees.status = Status::kNotRun;
@@ -238,7 +239,7 @@ std::vector<Result> check_watertight(const Evidence& e) {
   const SurfaceReport& ours = looked.report;
   const SurfaceJudgement& cgal = looked.judgement;
   const Cracks cracks = find_cracks(e, looked, outline);
-  surface.of = ours.edges;
+  surface.of = ours.elements() + cracks.missed;
   surface.witness = cracks.witness ? cracks.witness : not_manifold(e, looked);
   tell(ours, cracks, outline, surface);
 

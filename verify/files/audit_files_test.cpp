@@ -157,6 +157,20 @@ TEST(AuditFiles, EveryCheckSeesTheFaultItIsThereFor) {
   EXPECT_NE(across.find("file-watertight"), std::string::npos) << across;
 }
 
+// Found by fuzzing: a row said "5 of 3 edges".
+TEST(AuditFiles, NoRowHasMoreFaultsThanItLookedAt) {
+  const auto mesh = data::named_mesh("strip:2");
+  FileTessellation t = exact(mesh, 0);
+  for (const auto& fault : std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 1, 2}, {1, 0, 2}}) {
+    t.triangles.push_back(fault);
+    t.polygon.push_back(t.polygon.back() + 1);
+    ++t.polygons;
+  }
+  t.positions[0][0] = NAN;
+  t.left_out = 7;
+  for (const Result& r : audit(mesh, t).results) EXPECT_LE(r.bad, r.of) << r.check << ": " << r.message;
+}
+
 TEST(AuditFiles, ATriangleLessOfAnOpenMeshIsNoBoundary) {
   const auto mesh = data::named_mesh("sheet");
   FileTessellation t = exact(mesh, 2);

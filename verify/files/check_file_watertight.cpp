@@ -50,7 +50,7 @@ double widest(const FileEvidence& e, const std::vector<std::int32_t>& points) {
 
 std::vector<Result> check_file_watertight(const FileEvidence& e) {
   Result r = e.result("file-watertight");
-  r.unit = "edges";
+  r.unit = "elements";
   r.bound = 0;
   const auto& t = e.tessellation;
   if (t.triangles.empty()) {
@@ -83,7 +83,7 @@ std::vector<Result> check_file_watertight(const FileEvidence& e) {
       points.push_back(edge.from);
       points.push_back(edge.to);
     }
-  r.of = report.edges;
+  r.of = report.elements() + t.left_out;
   const auto part = [&](std::int64_t count, const char* what, bool bad = true) {
     if (count == 0) return;
     if (bad) r.bad += count;

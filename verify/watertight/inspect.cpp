@@ -168,6 +168,7 @@ std::int64_t count_loops(std::int64_t point_count, const std::vector<Edge>& open
 
 SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle> triangles) {
   SurfaceReport report;
+  report.points = point_count;
   report.triangles = static_cast<std::int64_t>(triangles.size());
 
   // The stars, laid out one after the other (counting sort by point).

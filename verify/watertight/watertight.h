@@ -33,7 +33,7 @@ struct SurfaceReport {
     std::int32_t triangle;  // the triangle that runs along it in this direction
   };
 
-  std::int64_t triangles = 0;
+  std::int64_t points = 0, triangles = 0;
   std::int64_t edges = 0;                 // undirected, of the triangles that are not degenerate
   std::int64_t degenerate_triangles = 0;  // two corners in one point, or a corner that is not finite
   std::int64_t duplicate_triangles = 0;   // the same three points as an earlier triangle, in any order
@@ -52,6 +52,8 @@ struct SurfaceReport {
   bool manifold() const {
     return degenerate_triangles + duplicate_triangles + crowded_edges + clashing_edges + bow_tie_points == 0;
   }
+  /// All that is looked at: no count of faults is larger.
+  std::int64_t elements() const { return points + edges + triangles; }
   bool closed() const { return manifold() && open_edges.empty(); }
 };
 

@@ -97,7 +97,7 @@ BasisAnswer basis(const Json& json) {
 }  // namespace
 
 std::filesystem::path known_answers_path() {
-  const std::filesystem::path in_source = LIMITCHECK_KNOWN_ANSWERS_IN_SOURCE;
+  std::filesystem::path in_source = LIMITCHECK_KNOWN_ANSWERS_IN_SOURCE;
   std::error_code ignored;
   if (std::filesystem::exists(in_source, ignored)) return in_source;
   return LIMITCHECK_KNOWN_ANSWERS_INSTALLED;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -37,7 +38,7 @@ N parse(std::string_view text) {
     if (text.find('/') == std::string_view::npos) {
       N value{};
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error == std::errc() && end == text.data() + text.size() && value - value == N(0)) return value;
+      if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return value;
     }
     const IntegerQuotient quotient = integer_quotient(text);
     N numerator{}, denominator{1};

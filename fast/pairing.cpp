@@ -104,7 +104,7 @@ class Greedy {
     for (int k = 0; k < 3; ++k) {
       const std::int32_t g = adjacency_.neighbour(f, k);
       if (!is_free(g)) continue;
-      const int set = nodes_[g].set;
+      const std::int8_t set = nodes_[g].set;
       const bool other_depth = options_.prefer_equal_depth && result_.depth[g] != result_.depth[f];
       const std::tuple<bool, bool, int, std::int32_t> rank{set != 0, other_depth, set, g};
       if (rank < best) {

@@ -30,12 +30,12 @@ void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std
   open_ = adjacency.on_boundary(v);
   const std::int32_t start = adjacency.outgoing(v);
   if (start < 0) return;
-  std::int32_t h = start, last = start;
+  std::int32_t next = start, last;
   do {
-    points_.push_back(to_point(mesh.positions[adjacency.target(h)]));
-    last = h;
-    h = adjacency.rotate(h);
-  } while (h >= 0 && h != start);
+    last = next;
+    points_.push_back(to_point(mesh.positions[adjacency.target(last)]));
+    next = adjacency.rotate(last);
+  } while (next >= 0 && next != start);
   if (open_) points_.push_back(to_point(mesh.positions[adjacency.origin(Adjacency::prev(last))]));
 }
 

@@ -27,7 +27,7 @@ struct LocalPoint {
 /// they coincide.
 template <class N, class Points>
 LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order order) {
-  const Vec3<N> origin = points[3];
+  const Vec3<N>& origin = points[3];
   std::array<Vec3<N>, 12> d;
   for (std::size_t i = 0; i < 12; ++i) d[i] = points[i] - origin;
   LocalPoint<N> s{};

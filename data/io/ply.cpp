@@ -93,6 +93,7 @@ class Body {
     }
     const std::uint64_t bits = raw(type.bytes);
     if (type.kind == Type::Kind::kUnsigned) return static_cast<std::int64_t>(bits);
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): every type has 1 to 8 bytes
     const std::uint64_t sign = std::uint64_t{1} << (8 * type.bytes - 1);
     return static_cast<std::int64_t>((bits ^ sign) - sign);
   }

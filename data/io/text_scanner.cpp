@@ -2,8 +2,8 @@
 #include "data/io/text_scanner.h"
 
 #include <fmt/core.h>
-#include <locale.h>
-#include <stdlib.h>
+#include <locale.h>  // NOLINT(modernize-deprecated-headers): newlocale is POSIX, not C++
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): strtod_l likewise
 
 #include <charconv>
 

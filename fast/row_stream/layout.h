@@ -89,7 +89,7 @@ constexpr int edge_work_size(int depth) {
   return 2 * 3 * 3 * ((1 << depth) + 2) + 6 + edge_input_size(depth);
 }
 constexpr int edge_output_size(int depth) {
-  return 6 * ((1 << depth) + 1);
+  return 6 * ((1 << depth) + 1);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
 }
 
 /// Of the five edges of a pair, those whose points are kept: A D, B C and A C, which cross the rows, and D C,

@@ -22,8 +22,10 @@
 #ifndef LIMITCHECK_SUBJECT_H
 #define LIMITCHECK_SUBJECT_H
 
+/* NOLINTBEGIN(modernize-deprecated-headers): this is C */
 #include <stddef.h>
 #include <stdint.h>
+/* NOLINTEND(modernize-deprecated-headers) */
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <optional>
@@ -15,12 +14,12 @@
 #include <utility>
 
 #include "data/generators/named_mesh.h"
-#include "data/splitmix64.h"
 #include "data/worst_cases.h"
 #include "fast/depth.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
+#include "verify/cli/audit_depths.h"
 #include "verify/cli/audit_files.h"
 #include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
@@ -91,57 +90,6 @@ std::string built_in_names() {
   return names;
 }
 
-// --depths: "uniform", "random", "random:SEED", "view", "file:FILE".
-struct Depths {
-  std::string kind;
-  std::optional<std::uint64_t> seed;
-};
-
-Depths parse_depths(const std::string& text) {
-  if (text == "uniform" || text == "view") return {text, std::nullopt};
-  if (text == "random") return {text, 1};
-  if (text.starts_with("random:")) {
-    std::uint64_t seed = 0;
-    const char* last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data() + 7, last, seed);
-    if (error == std::errc() && end == last) return {"random", seed};
-  }
-  if (text.starts_with("file:")) return {text, std::nullopt};
-  throw std::invalid_argument(
-      fmt::format("--depths {}: uniform, random, random:SEED, view or file:FILE", text));
-}
-
-// A view of the whole mesh from twice its size away, slanting: half of a closed mesh is culled, a flat one
-// seen. Triangles of 10 pixels, so that a mesh of a few hundred faces shows more than one depth.
-std::vector<std::int32_t> view_depths(const data::ControlMesh& mesh, int deepest) {
-  fast::Point3 low = fast::to_point(mesh.positions.at(0)), high = low;
-  for (const auto& p : mesh.positions) {
-    low = {std::min(low.x, p[0]), std::min(low.y, p[1]), std::min(low.z, p[2])};
-    high = {std::max(high.x, p[0]), std::max(high.y, p[1]), std::max(high.z, p[2])};
-  }
-  const double size = fast::length(high - low);
-  fast::Camera camera;
-  camera.target = .5 * (low + high);
-  camera.eye = camera.target + (2 * size / std::sqrt(14)) * fast::Point3{1, 2, 3};
-  camera.near = .01 * size;
-  fast::DepthOptions options;
-  options.strategy = fast::Strategy::kCombined;
-  options.target_pixels = 10;
-  const fast::Adjacency adjacency(mesh);
-  return fast::DepthHeuristics(mesh, adjacency, deepest).depths(options, camera);
-}
-
-std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {
-  if (depths.kind == "uniform") return {};
-  if (depths.kind == "view") return view_depths(mesh, deepest);
-  if (depths.kind.starts_with("file:")) return read_depths(depths.kind.substr(5), mesh, deepest);
-  data::SplitMix64 random(*depths.seed);
-  std::vector<std::int32_t> depth(mesh.triangles.size());
-  for (std::int32_t& d : depth)
-    d = static_cast<std::int32_t>(random.next() % (static_cast<std::uint64_t>(deepest) + 1));
-  return depth;
-}
-
 // --sample: "FACES" or "FACES:SEED".
 struct Sampling {
   std::size_t faces = 0;
@@ -201,6 +149,12 @@ int audit(Arguments a) {
     std::shared_ptr<const verify::MeshSample> sample;
     if (sampling && !a.must_refuse)
       sample = std::make_shared<verify::MeshSample>(mesh, sampling->faces, sampling->seed);
+    if (sample) {
+      const auto of_part = depth.empty() ? depth : sample->depths_of_part(depth);
+      refuse_too_many_points(name, sample->part(), of_part, a.depth);
+    } else if (!a.must_refuse) {
+      refuse_too_many_points(name, mesh, depth, a.depth);
+    }
     meshes.push_back({name, std::move(mesh), std::move(depth), std::move(sample)});
     report.meshes.push_back({name, static_cast<std::int64_t>(meshes.back().mesh.positions.size()),
                              static_cast<std::int64_t>(meshes.back().mesh.triangles.size())});

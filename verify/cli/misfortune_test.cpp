@@ -86,6 +86,14 @@ TEST_F(Misfortune, NoMemoryIsOneLineAndExitCodeTwo) {
 }
 #endif
 
+TEST_F(Misfortune, MorePointsThanMemoryAreRefusedBeforeHoursOfSwapping) {
+  const Outcome o = run("audit naive bumpy:4000 --depth 12");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.out, "");
+  EXPECT_NE(o.err.find("bumpy:4000: the audit of 3.36e+10 points needs some 11753 GB"), std::string::npos)
+      << o.err;
+}
+
 TEST_F(Misfortune, FilesThatAreNoneAreRefused) {
   for (const char* file : {"''", "/", ".", "/dev/zero", "folder.obj", "empty.obj", "/dev/null"}) {
     const Outcome o =

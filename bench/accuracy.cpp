@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
 #include "reference/stam.h"
 #include "verify/subject/host.h"
@@ -47,14 +48,6 @@ double angle(const Vector& a, const reference::Vec3<double>& b) {
   return std::atan2(std::hypot(x, y, z), a[0] * b.x + a[1] * b.y + a[2] * b.z);
 }
 
-double diagonal(const data::ControlMesh& mesh) {
-  Vector low = mesh.positions.at(0), high = low;
-  for (const auto& p : mesh.positions) {
-    for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
-  }
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
-
 void print_line(verify::Session& session, const reference::StamEvaluator<double>& limit, int depth) {
   const auto faces = static_cast<std::int64_t>(session.mesh().triangles.size());
   const std::int64_t n = std::int64_t{1} << depth, each = (n + 1) * (n + 2) / 2;
@@ -64,7 +57,7 @@ void print_line(verify::Session& session, const reference::StamEvaluator<double>
 
   const verify::Tessellation t = session.tessellate(depths);
   const auto count = static_cast<std::size_t>(t.vertex_count());
-  const double scale = diagonal(session.mesh());
+  const double scale = data::box_diagonal(session.mesh());
   std::vector<double> position(count), normal(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const auto at = static_cast<std::int64_t>(v);

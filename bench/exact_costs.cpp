@@ -87,9 +87,7 @@ void add_prepass(Costs& costs, const Shape& shape) {
   add("adjacency", bench::count_allocations([&] { adjacency.emplace(mesh); }));
   std::optional<rs::RowStream> stream;
   add("prepass/row-stream", bench::count_allocations([&] { stream.emplace(mesh, *adjacency); }));
-  std::vector<fast::Vec3<float>> positions;
-  for (const auto& p : mesh.positions)
-    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  const auto positions = fast::positions_of<float>(mesh);
   std::optional<fast::PreparedMesh<float>> prepared;
   add("prepass/sliding-window", bench::count_allocations([&] { prepared.emplace(*adjacency, positions); }));
 }

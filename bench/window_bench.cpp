@@ -31,10 +31,7 @@ template <class Real, bool Carry>
 void window(benchmark::State& state, int faces, int depth) {
   const auto& mesh = mesh_of(faces);
   const fast::Adjacency adjacency(mesh);
-  std::vector<fast::Vec3<Real>> positions;
-  for (const auto& p : mesh.positions)
-    positions.push_back({static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])});
-  const fast::PreparedMesh<Real> prepared(adjacency, positions);
+  const fast::PreparedMesh<Real> prepared(adjacency, fast::positions_of<Real>(mesh));
   const auto pairing = fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth));
   fast::SlidingWindow<Real, fast::LimitSurface<Real>, fast::NoCount, Carry> sliding(depth,
                                                                                     adjacency.max_valence());
@@ -76,10 +73,7 @@ void frame(benchmark::State& state, int faces, int depth, int threads) {
 void edges(benchmark::State& state, int faces, int depth) {
   const auto& mesh = mesh_of(faces);
   const fast::Adjacency adjacency(mesh);
-  std::vector<fast::Vec3<float>> positions;
-  for (const auto& p : mesh.positions)
-    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
-  const fast::PreparedMesh<float> prepared(adjacency, positions);
+  const fast::PreparedMesh<float> prepared(adjacency, fast::positions_of<float>(mesh));
   fast::EdgeStrip<float> strip(depth, adjacency.max_valence());
   std::vector<fast::SurfaceVertex<float>> out((std::size_t{1} << depth) + 1);
   for (auto _ : state) {

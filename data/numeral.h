@@ -28,8 +28,8 @@ IntegerQuotient integer_quotient(std::string_view text);
 
 /// The numeral as an `N`.
 ///   float, double, long double   decimals correctly rounded; fractions are one division of two rounded
-///   integers anything else                N(numerator) / N(denominator), N constructed from digit strings:
-///   exact in
+///                                integers
+///   anything else                N(numerator) / N(denominator), N made from digit strings: exact in
 ///                                rationals, one rounding in multiprecision floats wide enough for the digits
 /// Throws as integer_quotient does.
 template <class N>

@@ -18,9 +18,9 @@ namespace limitcheck::fast {
 ///             /  \                   h0 = outgoing(v)          v -> r0
 ///      prev  / f  \ next             h1 = rotate(h0)           v -> r1
 ///           /      \                 ...
-///          v ------> r0            Interior: after valence(v) steps h0 again. Boundary: h0 has no twin (the
-///          edge
-///              h0                  v -> r0 is the first boundary edge), every face is met, then comes -1.
+///          v ------> r0            Interior: after valence(v) steps h0 again.
+///              h0                  Boundary: h0 has no twin (the edge v -> r0 is the first boundary edge),
+///                                  every face is met, then comes -1.
 ///
 /// Time and space O(faces + vertices) for any input and valence (bench/setup_bench). Space: 9 ints per face
 /// and 2 per vertex.

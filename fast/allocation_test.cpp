@@ -61,19 +61,11 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
 namespace limitcheck::fast {
 namespace {
 
-template <class N>
-PreparedMesh<N> prepare(const data::ControlMesh& mesh, const Adjacency& adjacency) {
-  std::vector<Vec3<N>> positions;
-  for (const auto& p : mesh.positions)
-    positions.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});
-  return PreparedMesh<N>(adjacency, positions);
-}
-
 TEST(Sec4_SlidingWindow, AllocatesNothingAfterConstruction) {
   RecordProperty("claim", "C19");
   for (const auto& mesh : {tetrahedron(), bipyramid(130), grid_sheet(3, 4), wheel(5), fan(8)}) {
     const Adjacency adjacency(mesh);
-    const auto prepared = prepare<float>(mesh, adjacency);
+    const PreparedMesh<float> prepared(adjacency, positions_of<float>(mesh));
     SlidingWindow<float> window(5, adjacency.max_valence());
     EdgeStrip<float> strip(5, adjacency.max_valence());
     FanCentreEvaluator<float> centre(adjacency.max_valence());
@@ -93,7 +85,7 @@ TEST(Sec4_SlidingWindow, AllocatesNothingAfterConstruction) {
   }
   const auto mesh = single_triangle();
   const Adjacency adjacency(mesh);
-  const auto prepared = prepare<float>(mesh, adjacency);
+  const PreparedMesh<float> prepared(adjacency, positions_of<float>(mesh));
   TriangleLattice<float> lattice(5);
   double sum = 0;
   const long before = allocations;

@@ -14,12 +14,12 @@ namespace limitcheck::fast {
 
 /// The neighbours of a corner vertex, counter-clockwise from one that the caller chooses; neighbours are
 /// found by their slot in the ring, never by identity, since at valence 3 one slot plays two roles.
-///   ring[0 .. n-1]
-///   gap      no face lies between ring[gap] and ring[gap + 1] (indices modulo n); -1 at an interior vertex
-///   start    control vertices: the slot that sums begin with, the same neighbour from every face; -1: a
-///   point on
-///            a control edge, of valence 6 with the edge along slots 2 and 5, or on a boundary with four
-///            neighbours
+///   ring     of n neighbours
+///   gap      no face lies between ring[gap] and ring[gap + 1] (indices modulo n);
+///            -1 at an interior vertex
+///   start    control vertices: the slot that sums begin with, the same neighbour from every face;
+///            -1: a point on a control edge, of valence 6 with the edge along slots 2 and 5, or on a
+///            boundary with four neighbours
 template <class N, class Vertex>
 struct Corner {
   Vec3<N>* ring = nullptr;

@@ -16,13 +16,13 @@ namespace limitcheck::fast {
 /// Weights of the twelve control points of a regular triangle (4, 7, 8) at its centre, times 324. [C66]
 ///
 ///          1 --- 2                Rows as in Fig. 9. gamma = 1 at 4, alpha = 1 at 7, beta = 1 at 8.
-///         / \   / \               After one subdivision step 4, 7, 8 are the edge points of the face, 5, 3,
-///         11 its
-///        3 --- 4 --- 5            corners, and the others lie in its neighbours.
+///         / \   / \               .
+///        3 --- 4 --- 5
 ///       / \   / \   / \           .
 ///      6 --- 7 --- 8 --- 9
 ///       \   / \   / \   /
-///        10 -- 11 -- 12
+///        10 -- 11 -- 12           After one subdivision step 4, 7, 8 are the edge points of the face,
+///                                 5, 3, 11 its corners, and the others lie in its neighbours.
 inline constexpr std::array<int, 12> kCentrePosition{1, 1, 14, 92, 14, 1, 92, 92, 1, 1, 14, 1};
 /// The same for d/dalpha and d/dbeta, times 162; each sums to 0. [C68]
 inline constexpr std::array<int, 12> kCentreAlpha{-4, -5, 0, -78, -30, 4, 78, 0, -1, 5, 30, 1};

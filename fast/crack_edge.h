@@ -17,12 +17,12 @@ namespace limitcheck::fast {
 /// A strip of three rows along an edge needs nothing else to be subdivided but the rings of its two ends:
 ///
 ///        up[0]  up[1]  up[2]            Work O(2^depth + depth * valence), not O(4^depth). The operations
-///        are those /   \  /  \   /   \            of the sliding window, with the edge as axis: the points
-///        have the bits that
-///     line[0]-line[1]-line[2]-line[3]   a pair of that depth gives them, from either face. [D14]
-///        \   /  \  /   \   /
-///       down[0] down[1] down[2]         `up` lies in the face of the half-edge; `down` is missing on
-///                                   a boundary edge.
+///        /   \  /  \   /   \            are those of the sliding window, with the edge as axis: the points
+///     line[0]-line[1]-line[2]-line[3]   have the bits that a pair of that depth gives them, from either
+///        \   /  \  /   \   /            face. [D14]
+///       down[0] down[1] down[2]
+///                                       `up` lies in the face of the half-edge; `down` is missing on a
+///                                       boundary edge.
 ///
 /// Arrays are allocated once; one instance per thread.
 template <class N, class Surface = LimitSurface<N>>

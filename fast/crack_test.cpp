@@ -15,14 +15,6 @@ namespace limitcheck::fast {
 namespace {
 
 template <class N>
-PreparedMesh<N> prepare(const data::ControlMesh& mesh, const Adjacency& adjacency) {
-  std::vector<Vec3<N>> positions;
-  for (const auto& p : mesh.positions)
-    positions.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});
-  return PreparedMesh<N>(adjacency, positions);
-}
-
-template <class N>
 bool same_bits(const SurfaceVertex<N>& a, const SurfaceVertex<N>& b) {
   return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
@@ -31,7 +23,7 @@ bool same_bits(const SurfaceVertex<N>& a, const SurfaceVertex<N>& b) {
 template <class N>
 void expect_one_set_of_bits(const data::ControlMesh& mesh, int depth) {
   const Adjacency adjacency(mesh);
-  const auto prepared = prepare<N>(mesh, adjacency);
+  const PreparedMesh<N> prepared(adjacency, positions_of<N>(mesh));
   EdgeStrip<N> strip(depth, adjacency.max_valence());
   SlidingWindow<N> window(depth, adjacency.max_valence());
   const int k = 1 << depth;

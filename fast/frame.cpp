@@ -2,51 +2,25 @@
 #include "fast/frame.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
-#include "fast/draw_writer.h"
+#include "fast/frame_state.h"
 #include "fast/frame_worker.h"
-#include "fast/index_writer.h"
 
 namespace limitcheck::fast {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-struct Frame {
-  PairingResult pairing;
-  CrackPlan plan;
-  std::vector<Patch> patches;
-  int max_depth = 0;
-};
-
-}  // namespace
 
 template <class Real>
-struct Tessellator<Real>::State {
-  State(const data::ControlMesh& control, const TessellatorOptions& given)
-      : mesh(control), options(given), adjacency(mesh) {
-    if (options.threads < 0) throw std::invalid_argument("tessellator: a negative number of threads");
-    if (mesh.triangles.empty()) throw std::invalid_argument("tessellator: a mesh without faces");
+struct Tessellator<Real>::State : FrameState {
+  State(const data::ControlMesh& control, const TessellatorOptions& given) : FrameState(control, given) {
     prepared.emplace(adjacency, place());
-    // More threads than oneTBB has would only earn a warning on standard error.
-    const auto most =
-        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    arena.initialize(options.threads > 0 ? std::min(options.threads, most) : tbb::task_arena::automatic);
     for (std::int32_t f = 0; f < adjacency.face_count(); ++f)
       if (adjacency.neighbour(f, 0) < 0 && adjacency.neighbour(f, 1) < 0 && adjacency.neighbour(f, 2) < 0)
         isolated_faces = true;
@@ -61,7 +35,6 @@ struct Tessellator<Real>::State {
     std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
     for (const auto& p : mesh.positions) {
       for (std::size_t i = 0; i < 3; ++i) {
-        if (!std::isfinite(p[i])) throw std::invalid_argument("tessellator: a coordinate is not finite");
         low[i] = std::min(low[i], p[i]);
         high[i] = std::max(high[i], p[i]);
       }
@@ -104,57 +77,20 @@ struct Tessellator<Real>::State {
     return coarse;
   }
 
-  /// Pairing, crack plan, patches; workers deep enough.
+  /// Plans the frame; workers deep enough.
   FrameStats prepare(std::span<const std::int32_t> depth) {
-    FrameStats stats;
-    if (depth.size() != mesh.triangles.size())
-      throw std::invalid_argument("frame: " + std::to_string(depth.size()) + " depths for " +
-                                  std::to_string(mesh.triangles.size()) + " faces");
-    for (const std::int32_t d : depth)
-      if (d < kCulled || d > kDeepest)
-        throw std::invalid_argument("frame: depth " + std::to_string(d) + " is not in -1.." +
-                                    std::to_string(kDeepest));
-    auto start = Clock::now();
-    frame.pairing = pair_faces(adjacency, depth, options.pairing);
-    stats.seconds_pairing = seconds_since(start);
-    start = Clock::now();
-    frame.plan = plan_cracks(adjacency, frame.pairing.depth, options.cracks);
-    frame.patches.clear();
-    frame.max_depth = 0;
-    for (const Pair& pair : frame.pairing.pairs) {
-      frame.patches.push_back(Patch::of(adjacency, pair, frame.plan));
-      frame.max_depth = std::max(frame.max_depth, pair.depth);
-    }
-    for (const std::int8_t d : frame.plan.edge_depth) frame.max_depth = std::max<int>(frame.max_depth, d);
-    if (workers.empty() || frame.max_depth > worker_depth) {
+    FrameStats stats = plan_frame(depth, kDeepest);
+    const auto start = Clock::now();
+    if (workers.empty() || max_depth > worker_depth) {
       workers.clear();
-      worker_depth = frame.max_depth;
+      worker_depth = max_depth;
       for (int i = 0; i < arena.max_concurrency(); ++i)
         workers.push_back(
             std::make_unique<Worker<Real>>(worker_depth, adjacency.max_valence(), isolated_faces));
     }
-    stats.faces = adjacency.face_count();
-    stats.pairs = frame.pairing.pair_count;
-    stats.singletons = frame.pairing.singletons;
-    stats.fans = frame.plan.fans;
-    stats.stitched = frame.plan.stitched;
-    for (std::size_t f = 0; f < depth.size(); ++f) {
-      stats.culled += frame.pairing.depth[f] < 0 ? 1 : 0;
-      stats.revived += depth[f] < 0 && frame.pairing.depth[f] >= 0 ? 1 : 0;
-    }
-    for (const Patch& patch : frame.patches) {
-      stats.limit_points += limit_points_of(patch, frame.plan);
-      const DrawSize size = draw_size(patch, frame.plan);
-      stats.triangles += size.triangles;
-      stats.draws += size.draws;
-      stats.strips += size.draws;
-      for (const Half& half : patch.half)
-        if (!patch.full() && (half.show == Half::Show::kFan || half.show == Half::Show::kStitch))
-          --stats.strips;
-    }
     zero_normals_before = prepared->zero_normals();
     for (const auto& worker : workers) zero_normals_before -= worker->zero_normals();
-    stats.seconds_planning = seconds_since(start);
+    stats.seconds_planning += seconds_since(start);
     return stats;
   }
 
@@ -165,7 +101,7 @@ struct Tessellator<Real>::State {
       Worker<Real>& worker = *workers[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
       for (std::size_t i = from; i < to; ++i) {
         auto writer = make_writer(i, worker);
-        evaluate(*prepared, frame.patches[i], frame.plan, options.cracks.centre, worker, writer);
+        evaluate(*prepared, patches[i], plan, options.cracks.centre, worker, writer);
       }
     };
     arena.execute([&] {
@@ -176,45 +112,30 @@ struct Tessellator<Real>::State {
 
   /// Patches first .. last - 1 into a draw list, at the offsets of their sizes.
   void draw(std::size_t first, std::size_t last, DrawList<Real>& out) {
-    offsets.assign(1, {});
-    for (std::size_t i = first; i < last; ++i) {
-      const DrawSize size = draw_size(frame.patches[i], frame.plan);
-      offsets.push_back({offsets.back().vertices + size.vertices, offsets.back().draws + size.draws, 0});
-    }
-    out.vertices.resize(static_cast<std::size_t>(offsets.back().vertices));
-    out.draws.resize(static_cast<std::size_t>(offsets.back().draws));
-    out.provenance.resize(options.provenance ? out.vertices.size() : 0);
+    make_room(first, last, out, offsets);
     run(first, last, [&](std::size_t i, Worker<Real>& worker) {
       const DrawSize& at = offsets[i - first];
-      return DrawWriter<Real>(frame.patches[i], frame.plan, placement, out.vertices.data() + at.vertices,
+      return DrawWriter<Real>(patches[i], plan, placement, out.vertices.data() + at.vertices,
                               options.provenance ? out.provenance.data() + at.vertices : nullptr,
                               out.draws.data() + at.draws, at.vertices, worker.scratch);
     });
   }
 
   void index(IndexedMesh<Real>& out) {
-    const IndexLayout layout = IndexLayout::of(adjacency, frame.pairing.depth, frame.plan);
-    if (layout.vertex_count > std::numeric_limits<std::uint32_t>::max())
-      throw std::invalid_argument("frame: " + std::to_string(layout.vertex_count) +
-                                  " vertices are more than 32-bit indices reach");
-    out.vertices.resize(static_cast<std::size_t>(layout.vertex_count));
-    out.provenance.resize(options.provenance ? out.vertices.size() : 0);
-    out.triangles.resize(static_cast<std::size_t>(layout.triangle_count));
-    out.triangle_face.resize(out.triangles.size());
-    out.triangle_kind.resize(out.triangles.size());
+    const IndexLayout layout = make_room(out);
     for (std::size_t v = 0; v < layout.vertex.size(); ++v)
       if (layout.vertex[v] != IndexLayout::kUnused)
         out.vertices[static_cast<std::size_t>(layout.vertex[v])] =
             placement(prepared->limit(static_cast<std::int32_t>(v)));
     if (options.provenance) {
       for (std::int32_t f = adjacency.face_count() - 1; f >= 0; --f)
-        for (int k = 0; k < 3 && frame.pairing.depth[static_cast<std::size_t>(f)] >= 0; ++k)
+        for (int k = 0; k < 3 && pairing.depth[static_cast<std::size_t>(f)] >= 0; ++k)
           out.provenance[static_cast<std::size_t>(
               layout.vertex[static_cast<std::size_t>(adjacency.corner(f, k))])] = {f, k == 1 ? 1u : 0u,
                                                                                    k == 2 ? 1u : 0u, 1};
     }
-    run(0, frame.patches.size(), [&](std::size_t i, Worker<Real>&) {
-      return IndexWriter<Real>(adjacency, frame.patches[i], frame.plan, layout, placement, out);
+    run(0, patches.size(), [&](std::size_t i, Worker<Real>&) {
+      return IndexWriter<Real>(adjacency, patches[i], plan, layout, placement, out);
     });
   }
 
@@ -224,17 +145,11 @@ struct Tessellator<Real>::State {
     for (const auto& worker : workers) stats.zero_normals += worker->zero_normals();
   }
 
-  data::ControlMesh mesh;
-  TessellatorOptions options;
-  Adjacency adjacency;
   Placement<Real> placement;
   std::optional<PreparedMesh<Real>> prepared;
-  std::optional<DepthHeuristics> heuristics;
   bool isolated_faces = false;
-  tbb::task_arena arena;
   std::vector<std::unique_ptr<Worker<Real>>> workers;
   int worker_depth = 0;
-  Frame frame;
   std::vector<DrawSize> offsets;
   DrawList<Real> batch;
   std::int64_t zero_normals_before = 0;
@@ -256,11 +171,11 @@ const Adjacency& Tessellator<Real>::adjacency() const {
 }
 template <class Real>
 const PairingResult& Tessellator<Real>::last_pairing() const {
-  return state_->frame.pairing;
+  return state_->pairing;
 }
 template <class Real>
 const CrackPlan& Tessellator<Real>::last_plan() const {
-  return state_->frame.plan;
+  return state_->plan;
 }
 
 template <class Real>
@@ -268,7 +183,7 @@ FrameStats Tessellator<Real>::frame(std::span<const std::int32_t> depth, DrawLis
   const auto start = Clock::now();
   FrameStats stats = state_->prepare(depth);
   const auto evaluation = Clock::now();
-  state_->draw(0, state_->frame.patches.size(), out);
+  state_->draw(0, state_->patches.size(), out);
   stats.vertices = static_cast<std::int64_t>(out.vertices.size());
   stats.seconds_evaluation = seconds_since(evaluation);
   state_->finish(stats, start);
@@ -294,9 +209,9 @@ FrameStats Tessellator<Real>::frame(std::span<const std::int32_t> depth, DrawSin
   State& s = *state_;
   FrameStats stats = s.prepare(depth);
   const auto evaluation = Clock::now();
-  for (std::size_t first = 0, last = 0; first < s.frame.patches.size(); first = last) {
-    for (std::int64_t size = 0; last < s.frame.patches.size() && size < kBatch; ++last)
-      size += draw_size(s.frame.patches[last], s.frame.plan).vertices;
+  for (std::size_t first = 0, last = 0; first < s.patches.size(); first = last) {
+    for (std::int64_t size = 0; last < s.patches.size() && size < kBatch; ++last)
+      size += draw_size(s.patches[last], s.plan).vertices;
     s.draw(first, last, s.batch);
     for (const Draw& draw : s.batch.draws) {
       const auto at = static_cast<std::size_t>(draw.first), count = static_cast<std::size_t>(draw.count);
@@ -318,18 +233,8 @@ template <class Real>
 template <class Sink>
 FrameStats Tessellator<Real>::frame_by_strategy(const DepthOptions& strategy, const Camera& camera,
                                                 Sink& sink) {
-  const auto start = Clock::now();
-  State& s = *state_;
-  std::vector<std::int32_t> depth;
-  s.arena.execute([&] {
-    if (!s.heuristics) s.heuristics.emplace(s.mesh, s.adjacency, s.options.max_depth);
-    depth = s.heuristics->depths(strategy, camera);
-  });
-  const double heuristics = seconds_since(start);
-  FrameStats stats = frame(depth, sink);
-  stats.seconds_heuristics = heuristics;
-  stats.seconds_total += heuristics;
-  return stats;
+  return state_->by_strategy(strategy, camera,
+                             [&](std::span<const std::int32_t> depth) { return frame(depth, sink); });
 }
 
 template <class Real>

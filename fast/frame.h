@@ -40,9 +40,9 @@ struct FrameStats {
 
 /// Prepared once per control mesh (copied); then one frame per call. Real is float or double.
 ///   throws      std::invalid_argument: a mesh that Adjacency refuses or without faces, coordinates that are
-///   not
-///               finite, not one depth per face, a depth outside -1 .. kDeepest, a camera that makes no view,
-///               more vertices than 32-bit indices reach (indexed mesh)
+///               not finite, not one depth per face, a depth outside -1 .. kDeepest, a camera that makes no
+///               view, a negative number of threads, more vertices than 32-bit indices reach (indexed mesh),
+///               a mesh too large or too small for Real
 ///   precision   the control points are rounded to Real (exact if they are representable)
 /// Every point of a control edge or vertex comes out with the same bits from every face that touches it.
 /// [D14] One frame at a time per object; inside, pairs run in parallel.

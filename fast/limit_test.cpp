@@ -136,9 +136,7 @@ TEST(D12_VanishingNormals, AreThoseOfTheFacesWeightedByAreaAfterOneStep) {
   const V a{1, .2, .3}, b{-.1, .9, .4}, c{.3, -.8, .1}, d{.2, .5, 2};
   const data::ControlMesh mesh = without_first_harmonic(a, b, c, d);
   const Adjacency adjacency(mesh);
-  std::vector<V> positions;
-  for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
-  const PreparedMesh<double> prepared(adjacency, positions);
+  const PreparedMesh<double> prepared(adjacency, positions_of<double>(mesh));
   EXPECT_EQ(prepared.zero_normals(), 2);
   // The areas of a ring add up to n / 2 sum over k of sin(2 pi k / n) A_k x B_k, and a step multiplies the
   // k-th harmonic by 3/8 + cos(2 pi k / n) / 4.
@@ -162,9 +160,7 @@ TEST(D12_VanishingNormals, OfCollinearAndCoincidentRingsPointUpwards) {
       mesh.positions[i] = {.1 + .3 * t, .7 * t, .2 - .9 * t};  // not representable: collinear up to rounding
     }
     const Adjacency adjacency(mesh);
-    std::vector<V> positions;
-    for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
-    const PreparedMesh<double> prepared(adjacency, positions);
+    const PreparedMesh<double> prepared(adjacency, positions_of<double>(mesh));
     EXPECT_EQ(prepared.zero_normals(), 9);
     for (int v = 0; v < 9; ++v) EXPECT_EQ(prepared.limit(v).normal, (V{0, 0, 1})) << v;
   }

@@ -17,10 +17,10 @@ namespace limitcheck::fast {
 ///      /  1  \             .
 ///     a ----- b            face0: edge0 likewise; corner edge0 is a, corner edge0 + 1 is b
 ///      \  0  /
-///       \   /              Singleton: face1 = -1. Its dummy partner, read only and never displayed, is the
-///       face across
-///         y                edge0, namely twin(3 face0 + edge0) / 3; edge0 = edge1 = -1 if it has no
-///         neighbour at all.
+///       \   /
+///         y
+/// Singleton: face1 = -1. Its dummy partner, read only and never displayed, is the face across edge0, namely
+/// twin(3 face0 + edge0) / 3; edge0 = edge1 = -1 if it has no neighbour at all.
 struct Pair {
   std::int32_t face0 = -1;
   std::int32_t face1 = -1;

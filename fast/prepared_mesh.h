@@ -12,6 +12,15 @@
 
 namespace limitcheck::fast {
 
+/// The control points, rounded to N.
+template <class N>
+std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
+  std::vector<Vec3<N>> positions;
+  for (const auto& p : mesh.positions)
+    positions.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});
+  return positions;
+}
+
 /// Positions of the control vertices in N, their weights and their limit points, computed once per mesh in a
 /// canonical order: the ring from adjacency.outgoing(v). Every face that touches a vertex, at whatever depth,
 /// shows these very bits. [D14] Read-only afterwards, shared by all threads. Refers to the adjacency, which

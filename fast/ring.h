@@ -17,15 +17,15 @@ namespace limitcheck::fast {
 /// One subdivision step maps the ring of a vertex to the ring of the same vertex one level deeper, so that it
 /// can be repeated in place with two temporaries [claim C29]:
 ///
-///     r2 ---- r1                 inside     v' = (1 - a) v + a / n sum r_i,      r_i' = (3 v + 3 r_i +
-///     r_{i-1} + r_{i+1}) / 8
-///    /  \    /  \                boundary   v' = 3/4 v + (r_0 + r_K) / 8,        r_0' = (v + r_0) / 2, r_K'
-///    likewise,
-///   /    \  /    \                          the others as inside                                   [claims
-///   C10-C12, D1]
-///  r3 --- v ---- r0
-///   \    /  \    /               Memory is kept from vertex to vertex. All in double.
-///    r4 ---- r5
+///      r2 ---- r1        inside               v'   = (1 - a) v + a / n sum r_i
+///     /  \    /  \                            r_i' = (3 v + 3 r_i + r_{i-1} + r_{i+1}) / 8
+///    /    \  /    \      boundary             v'   = 3/4 v + (r_0 + r_K) / 8
+///   r3 --- v ---- r0                          r_0' = (v + r_0) / 2, r_K' likewise,
+///    \    /  \    /                           the others as inside
+///     \  /    \  /
+///      r4 ---- r5
+///
+/// Memory is kept from vertex to vertex. All in double. [C10-C12, D1]
 class Ring {
  public:
   /// Copies the neighbourhood of vertex v, starting from its canonical half-edge. A vertex without faces

@@ -26,20 +26,20 @@ struct PrintedOrder {
 ///
 ///           outtop[1] outtop[2]                  The pair: face0 = corner0, corner2, corner3 (upper left),
 ///              /   \   /   \                               face1 = corner0, corner1, corner2 (lower right).
-///   corner3  top[0]--top[1]--top[2]  corner2     Row j counts from the top, column i from the left. The apex
-///   over
-///            /  \    /  \    /                   the edge from top[i] is outtop[i + 1], the apex under the
-///            edge
-///   corner0 bot[0]--bot[1]--bot[2]   corner1     from bottom[i] is outbottom[i]; the slots left over hold
-///   the next
-///              \   /   \   /                     neighbour of the corner (outtop[0], outbottom[last]). [C47]
-///         outbottom[0] outbottom[1]
+///   corner3  top[0]--top[1]--top[2]  corner2     Row j counts from the top, column i from the left.
+///            /  \    /  \    /                   The apex over the edge from top[i] is outtop[i + 1], the
+///   corner0 bot[0]--bot[1]--bot[2]   corner1     apex under the edge from bottom[i] is outbottom[i]; the
+///              \   /   \   /                     slots left over hold the next neighbour of the corner
+///         outbottom[0] outbottom[1]              (outtop[0], outbottom[last]). [C47]
 ///
-///   N        number type (NumberTraits);  Surface  makes a vertex of a limit frame
-///   Count    NoCount or Counting
-///   Carry    true: a row's limit points are evaluated once and carried to the next strip; false: both rows
-///   of every
-///            strip are evaluated, as printed [C51]. The output is the same, bit by bit.
+///   N         number type (NumberTraits)
+///   Surface   makes a vertex of a limit frame
+///   Count     NoCount or Counting
+///   Carry     true: a row's limit points are evaluated once and carried to the next strip; false: both
+///             rows of every strip are evaluated, as printed [C51]. The output is the same,
+///             bit by bit.
+///   Order     of the arguments of the recursion
+///
 /// Nothing is allocated after construction; the mesh is only read.
 template <class N, class Surface = LimitSurface<N>, class Count = NoCount, bool Carry = true,
           class Order = PrintedOrder>
@@ -82,9 +82,9 @@ class SlidingWindow {
   Count& count() { return count_; }
 
   /// Tessellates the two faces on both sides of half-edge h0 (face0) and its twin (face1).
-  ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in row +
-  ///   1,
-  ///                      i = 0 .. 2^depth; as a triangle strip counter-clockwise from outside. Its first
+  ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in the
+  ///                      next, i = 0 .. 2^depth;
+  ///                      as a triangle strip counter-clockwise from outside. Its first
   ///                      2 (2^depth - row) - 1 triangles belong to face0, the last 2 row + 1 to face1. The
   ///                      array may be read and overwritten until the call returns (with Carry: read only).
   /// Throws std::invalid_argument: depth outside 0 .. max_depth(), no twin, a valence above max_valence().

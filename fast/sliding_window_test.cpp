@@ -9,14 +9,6 @@
 namespace limitcheck::fast {
 namespace {
 
-template <class N>
-std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
-  std::vector<Vec3<N>> out;
-  for (const auto& p : mesh.positions)
-    out.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});
-  return out;
-}
-
 /// Lattice (l1, l2) of (row, column) in the face left of half-edge h0 (upper left) or its twin (lower right).
 std::pair<int, int> lattice_of(std::int32_t h0, std::int32_t h1, int k, int row, int column, bool upper) {
   int weight[3];

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
 #include "reference/naive.h"
 #include "reference/refine.h"
@@ -13,15 +14,6 @@
 namespace limitcheck::reference {
 namespace {
 
-double diagonal(const data::ControlMesh& mesh) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    double low = mesh.positions[0][k], high = low;
-    for (const auto& p : mesh.positions) low = std::min(low, p[k]), high = std::max(high, p[k]);
-    sum += (high - low) * (high - low);
-  }
-  return std::sqrt(sum);
-}
 double distance(const Vec3<double>& a, const Vec3<double>& b) {
   return std::sqrt(dot(a - b, a - b));
 }
@@ -30,7 +22,7 @@ double distance(const Vec3<double>& a, const Vec3<double>& b) {
 /// seen.
 void compare(const std::string& name, int depth) {
   const data::ControlMesh mesh = data::named_mesh(name);
-  const double box = diagonal(mesh), size = 1 << depth;
+  const double box = data::box_diagonal(mesh), size = 1 << depth;
   const NaiveSubdivider<double> naive(mesh);
   const RefinedMesh<double> refined = refine<double>(mesh, depth);
   const auto limits = refined.limits();

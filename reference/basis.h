@@ -3,12 +3,12 @@
 //
 //          1 --- 2            The patch is triangle (4, 7, 8): gamma = 1 at 4, alpha = 1 at 7, beta = 1 at 8;
 //         / \   / \           gamma = 1 - alpha - beta.
-//        3 --- 4 --- 5        First misprint of the appendix: b1 = gamma^4 + 2 gamma^3 alpha, not alpha^3.
-//        [C69, C70]
+//        3 --- 4 --- 5
 //       / \   / \   / \       .
 //      6 --- 7 --- 8 --- 9
 //       \   / \   / \   /
 //       10 -- 11 --- 12
+// First misprint of the appendix: b1 = gamma^4 + 2 gamma^3 alpha, not alpha^3. [C69, C70]
 #pragma once
 
 #include <array>

@@ -29,13 +29,13 @@ class StamData;
 ///   construction  O(n + sum of squared valences)
 ///   threads       any number may evaluate at once
 ///   error         in double, measured against 50 and 100 digits on the known answers and the stock shapes:
-///   position <= 2
-///                 ulp of the largest control coordinate; d1, d2 <= 8 such ulp + 2^-52 |d1| log2(1 / distance
-///                 to the nearest extraordinary corner), 1e-13 relative at 1e-300; unit normal <= 2e-15
-///                 beside that of d1, d2. Second derivatives beyond 1e308 come out infinite
-///   parameters    l1, l2 >= 0, l1 + l2 <= 1. Corners, edges and every dyadic point are ordinary points. Two
-///   doubles whose
-///                 rounded sum is 1 lie on the far edge.
+///                 position <= 2 ulp of the largest control coordinate;
+///                 d1, d2 <= 8 such ulp + 2^-52 |d1| log2(1 / distance to the nearest extraordinary corner),
+///                 1e-13 relative at 1e-300; unit normal <= 2e-15 beside that of d1, d2.
+///                 Second derivatives beyond 1e308 come out infinite
+///   parameters    l1, l2 >= 0, l1 + l2 <= 1.
+///                 Corners, edges and every dyadic point are ordinary points.
+///                 Two doubles whose rounded sum is 1 lie on the far edge.
 template <class N>
 class StamEvaluator {
  public:

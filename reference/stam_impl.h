@@ -6,78 +6,22 @@
 #include <stdexcept>
 #include <string>
 
-#include "reference/parameter_exact.h"
-#include "reference/patch.h"
-#include "reference/refine.h"
 #include "reference/spider_impl.h"
 #include "reference/stam.h"
+#include "reference/stam_patches.h"
+#include "reference/stam_site.h"
 
 namespace limitcheck::reference {
 namespace detail {
-
-/// Where a point lies, decided on the parameters alone (P is double or Rational).
-template <class P>
-struct Site {
-  int subface;          ///< 0..2 at a corner, 3 the middle
-  P u, v;               ///< coordinates in the sub-face: towards its second and third corner
-  Placement placement;  ///< of (u, v)
-};
-
-template <class P>
-Site<P> locate(P l1, P l2) {
-  if (!(l1 >= 0) || !(l2 >= 0) || !(l1 + l2 <= 1))
-    throw std::invalid_argument("l1, l2 must be >= 0 and l1 + l2 <= 1");
-  if (l2 > 1 - l1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);  // the sum was rounded to 1
-  const P half = P(1) / P(2);
-  // Differences from 1 are exact in double where it matters: next to the corner they are measured from.
-  if (l1 >= half) return {1, 2 * l2, 2 * ((1 - l1) - l2), {0, 1, -1, -1, 1}};
-  if (l2 >= half) return {2, 2 * ((1 - l2) - l1), 2 * l1, {-1, -1, 1, 0, 1}};
-  if (l1 + l2 <= half) return {0, 2 * l1, 2 * l2, {1, 0, 0, 1, 1}};
-  return {3, 2 * (l1 + l2) - 1, 1 - 2 * l1, {1, 1, -1, 0, 1}};
-}
-
-/// Smallest J >= 0 with 2^J (u + v) > 1/2, for 0 < u + v <= 1: the point is in the ring of sub-triangles that
-/// step J + 1 of the corner's sector adds.
-inline long steps_to_corner(double u, double v) {
-  const double sum = u + v;
-  int exponent;
-  const double mantissa = std::frexp(sum, &exponent);  // sum = mantissa 2^exponent, mantissa in [1/2, 1)
-  return std::max(0L, static_cast<long>(mantissa == 0.5 ? 1 - exponent : -exponent));
-}
-inline long steps_to_corner(const Rational& u, const Rational& v) {
-  const Rational sum = u + v;
-  long steps = static_cast<long>(msb(denominator(sum))) - static_cast<long>(msb(numerator(sum))) - 2;
-  if (steps < 0) steps = 0;
-  while (numerator(sum) << static_cast<unsigned long>(steps + 1) <= denominator(sum)) ++steps;
-  return steps;
-}
-inline double scaled(double a, long e) {
-  return std::ldexp(a, static_cast<int>(e));
-}
-inline Rational scaled(const Rational& a, long e) {
-  return Rational(numerator(a) << static_cast<unsigned long>(e), denominator(a));
-}
-
-template <class N>
-N number_from(double a) {
-  return NumberTraits<N>::from_double(a);
-}
-template <class N>
-N number_from(const Rational& a) {
-  if constexpr (std::is_same_v<N, double>)
-    return a.convert_to<double>();
-  else
-    return NumberTraits<N>::from_rational(a);
-}
 
 template <class N>
 class StamData {
  public:
   StamData(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles)
-      : topology_(positions.size(), triangles), control_(std::move(positions)) {
-    refine();
+      : topology_(positions.size(), triangles),
+        control_(std::move(positions)),
+        refined_(topology_, control_) {
     make_spiders();
-    make_patches();
   }
 
   std::size_t face_count() const { return topology_.triangles().size(); }
@@ -109,130 +53,27 @@ class StamData {
   }
 
  private:
-  using Patch = std::array<std::int32_t, 12>;
-
-  const Vec3<N>& point(std::int32_t id) const { return points_[static_cast<std::size_t>(id)]; }
-  std::int32_t edge_point(std::int32_t edge) const {
-    return static_cast<std::int32_t>(topology_.vertex_count()) + edge;
-  }
-
-  /// Points after one step: vertex points, edge points, then two ghosts per boundary edge, over its halves at
-  /// a and b.
-  void refine() {
-    points_ = refine_once(topology_, control_);
-    ghost_of_.assign(topology_.edges().size(), -1);
-    for (std::size_t f = 0; f < face_count(); ++f)
-      for (int k = 0; k < 3; ++k) {
-        const std::int32_t e = topology_.edge(f, k);
-        if (!topology_.edges()[static_cast<std::size_t>(e)].on_boundary()) continue;
-        ghost_of_[static_cast<std::size_t>(e)] = static_cast<std::int32_t>(points_.size());
-        const Triangle& t = topology_.triangles()[f];
-        const auto a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
-        points_.push_back(
-            ghost_point(point(a), point(edge_point(e)), point(edge_point(topology_.edge(f, (k + 2) % 3)))));
-        points_.push_back(
-            ghost_point(point(edge_point(e)), point(b), point(edge_point(topology_.edge(f, (k + 1) % 3)))));
-      }
-  }
-
-  bool is_regular(std::int32_t v) const {
-    return topology_.ring(v).size() == (topology_.on_boundary(v) ? 4U : 6U);
-  }
-
   void make_spiders() {
     spider_of_.assign(topology_.vertex_count(), -1);
     std::vector<Vec3<N>> r, q, p;
     for (std::size_t id = 0; id < topology_.vertex_count(); ++id) {
       const auto v = static_cast<std::int32_t>(id);
-      if (topology_.ring(v).empty() || is_regular(v)) continue;
+      if (topology_.ring(v).empty() || is_regular(topology_, v)) continue;
       r.clear(), q.clear(), p.clear();
-      for (const std::int32_t spoke : topology_.spokes(v)) r.push_back(point(edge_point(spoke)));
-      for (const std::int32_t neighbour : topology_.ring(v)) p.push_back(point(neighbour));
+      for (const std::int32_t spoke : topology_.spokes(v))
+        r.push_back(refined_.point(refined_.edge_point(spoke)));
+      for (const std::int32_t neighbour : topology_.ring(v)) p.push_back(refined_.point(neighbour));
       for (const std::int32_t f : topology_.faces(v)) {
         if (f < 0) continue;
         const Triangle& t = topology_.triangles()[static_cast<std::size_t>(f)];
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-        q.push_back(point(edge_point(topology_.edge(static_cast<std::size_t>(f), (k + 1) % 3))));
+        q.push_back(
+            refined_.point(refined_.edge_point(topology_.edge(static_cast<std::size_t>(f), (k + 1) % 3))));
       }
       const std::pair key(static_cast<int>(q.size()), topology_.on_boundary(v));
       const auto kind = kinds_.try_emplace(key, key.first, key.second).first;
       spider_of_[id] = static_cast<std::int32_t>(spiders_.size());
-      spiders_.emplace_back(kind->second, point(v), r, q, p);
-    }
-  }
-
-  /// Six neighbours of a vertex point after one step, from corner k's first neighbour in face f; regular
-  /// vertices only.
-  std::array<std::int32_t, 6> vertex_ring(std::size_t f, int k) const {
-    const std::int32_t v = topology_.triangles()[f][static_cast<std::size_t>(k)];
-    const auto spokes = topology_.spokes(v);
-    std::array<std::int32_t, 6> ring;
-    for (std::size_t i = 0; i < spokes.size(); ++i) ring[i] = edge_point(spokes[i]);
-    if (topology_.on_boundary(v)) {
-      ring[4] = ghost(v, spokes[3]);
-      ring[5] = ghost(v, spokes[0]);
-    }
-    std::rotate(ring.begin(), ring.begin() + topology_.sector(f, k), ring.end());
-    return ring;
-  }
-  std::int32_t ghost(std::int32_t v, std::int32_t e) const {
-    return ghost_of_[static_cast<std::size_t>(e)] +
-           (topology_.edges()[static_cast<std::size_t>(e)].a == v ? 0 : 1);
-  }
-  /// Six neighbours of the edge point of side k, from corner k + 1 on, as in ringed_face.h.
-  std::array<std::int32_t, 6> edge_ring(std::size_t f, int k) const {
-    const Triangle& t = topology_.triangles()[f];
-    const auto a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
-    const std::int32_t e = topology_.edge(f, k);
-    std::array<std::int32_t, 6> ring{
-        b, edge_point(topology_.edge(f, (k + 1) % 3)), edge_point(topology_.edge(f, (k + 2) % 3)), a, 0, 0};
-    if (topology_.edges()[static_cast<std::size_t>(e)].on_boundary()) {
-      ring[4] = ghost(a, e);
-      ring[5] = ghost(b, e);
-    } else {
-      const auto beside = [&](std::int32_t v, int at) {
-        const auto spokes = topology_.spokes(v);
-        const auto n = static_cast<int>(spokes.size());
-        return edge_point(spokes[static_cast<std::size_t>((at + n) % n)]);
-      };
-      ring[4] = beside(a, topology_.sector(f, k) - 1);
-      ring[5] = beside(b, topology_.sector(f, (k + 1) % 3) + 2);
-    }
-    return ring;
-  }
-
-  void make_patches() {
-    patches_.resize(4 * face_count());
-    const auto assemble = [](const std::array<std::int32_t, 6>& a, const std::array<std::int32_t, 6>& b,
-                             int b_from, const std::array<std::int32_t, 6>& c, int c_from) {
-      const auto at = [](const std::array<std::int32_t, 6>& ring, int i) {
-        return ring[static_cast<std::size_t>(i % 6)];
-      };
-      // Rings of points 4, 7, 8: (7 8 5 2 1 3), (8 4 3 6 10 11), (4 7 11 12 9 5).
-      return Patch{a[4],
-                   a[3],
-                   a[5],
-                   at(c, c_from),
-                   a[2],
-                   at(b, b_from + 3),
-                   a[0],
-                   a[1],
-                   at(c, c_from + 4),
-                   at(b, b_from + 4),
-                   at(b, b_from + 5),
-                   at(c, c_from + 3)};
-    };
-    for (std::size_t f = 0; f < face_count(); ++f) {
-      const std::array<std::array<std::int32_t, 6>, 3> edges{edge_ring(f, 0), edge_ring(f, 1),
-                                                             edge_ring(f, 2)};
-      for (int k = 0; k < 3; ++k)
-        if (is_regular(topology_.triangles()[f][static_cast<std::size_t>(k)]))
-          patches_[4 * f + static_cast<std::size_t>(k)] =
-              assemble(vertex_ring(f, k), edges[static_cast<std::size_t>(k)], 2,
-                       edges[static_cast<std::size_t>((k + 2) % 3)], 0);
-      std::array<std::int32_t, 6> first = edges[0];
-      std::rotate(first.begin(), first.begin() + 1, first.end());
-      patches_[4 * f + 3] = assemble(first, edges[1], 1, edges[2], 1);
+      spiders_.emplace_back(kind->second, refined_.point(v), r, q, p);
     }
   }
 
@@ -240,13 +81,13 @@ class StamData {
   void evaluate_regular(std::size_t f, const Site<P>& site, Order order, SurfacePoint<N>& result) const {
     Basis<N> basis;
     evaluate_basis(basis, number_from<N>(site.u), number_from<N>(site.v), order);
-    const Patch& patch = patches_[4 * f + static_cast<std::size_t>(site.subface)];
     struct Gather {
-      const StamData& data;
-      const Patch& patch;
-      const Vec3<N>& operator[](std::size_t i) const { return data.point(patch[i]); }
+      const RefinedPatches<N>& refined;
+      const typename RefinedPatches<N>::Patch& patch;
+      const Vec3<N>& operator[](std::size_t i) const { return refined.point(patch[i]); }
     };
-    const LocalPoint<N> s = evaluate_patch<N>(Gather{*this, patch}, basis, order);
+    const LocalPoint<N> s =
+        evaluate_patch<N>(Gather{refined_, refined_.patch(f, site.subface)}, basis, order);
     result.position = s.position;
     place(result, s, site.placement, N(2), N(4), order);
   }
@@ -371,11 +212,11 @@ class StamData {
   }
 
   Topology topology_;
-  std::vector<Vec3<N>> control_, points_;
-  std::vector<std::int32_t> ghost_of_, spider_of_;
+  std::vector<Vec3<N>> control_;
+  RefinedPatches<N> refined_;
+  std::vector<std::int32_t> spider_of_;
   std::map<std::pair<int, bool>, SpiderKind<N>> kinds_;
   std::vector<Spider<N>> spiders_;
-  std::vector<Patch> patches_;  ///< four per face; unset at extraordinary corners
 };
 
 }  // namespace detail

@@ -23,10 +23,10 @@ enum class Order : std::uint8_t { kPosition, kFirst, kSecond };
 /// A point of the limit surface at (face, l1, l2), l0 = 1 - l1 - l2 being the weight of corner 0.
 ///   position       the limit point
 ///   d1, d2         partial derivatives with respect to l1 and l2. Where `first_exist` is false (an
-///   extraordinary
-///                  corner itself) they are the tangent masks' directions instead, ordered so that d1 x d2 is
-///                  the outward normal: interior vertex, towards the face's own edges; boundary vertex, along
-///                  x across
+///                  extraordinary corner itself) they are the tangent masks' directions instead, ordered so
+///                  that d1 x d2 is the outward normal:
+///                  interior vertex, towards the face's own edges;
+///                  boundary vertex, along x across
 ///   d11, d12, d22  second partial derivatives, zero where `second_exist` is false: not asked for, or at an
 ///                  extraordinary corner
 ///   normal         unit length, d1 x d2 direction, never NaN

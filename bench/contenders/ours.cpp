@@ -117,7 +117,7 @@ class Window : public Contender {
         threads_(threads),
         adjacency_(mesh),
         pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs),
-        prepared_(adjacency_, rounded(mesh)) {}
+        prepared_(adjacency_, fast::positions_of<float>(mesh)) {}
 
   void run() override {
     in_parallel(pairs_.size(), threads_, [&](std::size_t first, std::size_t last) {
@@ -133,12 +133,6 @@ class Window : public Contender {
 
  private:
   using Sliding = fast::SlidingWindow<float, fast::LimitSurface<float>, fast::NoCount, true>;
-  static std::vector<fast::Vec3<float>> rounded(const data::ControlMesh& mesh) {
-    std::vector<fast::Vec3<float>> positions;
-    for (const auto& p : mesh.positions)
-      positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
-    return positions;
-  }
 
   int depth_, threads_;
   fast::Adjacency adjacency_;

@@ -8,6 +8,7 @@
 #include "bench/reproduction/base64.h"
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
+#include "data/bounding_box.h"
 #include "data/generators/bumpy_sphere.h"
 #include "fast/frame.h"
 #include "reference/stam.h"
@@ -17,24 +18,15 @@ namespace limitcheck::bench {
 
 nlohmann::ordered_json model() {
   const auto mesh = data::bumpy_sphere(200, kSphereSeed);
-  fast::TessellatorOptions options;
-  options.provenance = true;
-  fast::Tessellator<float> engine(mesh, options);
-  fast::DrawList<float> frame;
   fast::DepthOptions depth;
   depth.strategy = fast::Strategy::kCombined;
   depth.cull = false;
-  engine.frame(depth, viewer(0), frame);
+  const auto frame = frame_seen(mesh, depth);
 
   const verify::Lattice lattice(mesh, 5);
   const reference::StamEvaluator<double> surface(mesh);
   const auto scale = static_cast<double>(lattice.scale());
-  const double diagonal = [&] {
-    std::array<double, 3> low = mesh.positions[0], high = low;
-    for (const auto& p : mesh.positions)
-      for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
-    return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-  }();
+  const double diagonal = data::box_diagonal(mesh);
 
   std::vector<float> positions, normals, position_error, normal_error;
   std::vector<int> depths, kinds;

@@ -14,15 +14,10 @@ namespace limitcheck::bench {
 namespace {
 
 fast::DrawList<float> uniform(const data::ControlMesh& mesh, int depth) {
-  fast::TessellatorOptions options;
-  options.provenance = true;
-  fast::Tessellator<float> engine(mesh, options);
-  fast::DrawList<float> out;
   fast::DepthOptions strategy;
   strategy.strategy = fast::Strategy::kUniform;
   strategy.depth = depth;
-  engine.frame(strategy, viewer(0), out);
-  return out;
+  return frame_seen(mesh, strategy);
 }
 
 /// A flat sheet in the plane z = 0, seen from 4 above its middle.

@@ -9,6 +9,7 @@
 
 #include "fast/camera.h"
 #include "fast/depth.h"
+#include "fast/frame.h"
 
 namespace limitcheck::bench {
 
@@ -22,6 +23,22 @@ inline fast::Camera viewer(double turn) {
   const double angle = 2 * std::numbers::pi * turn;
   camera.eye = {4 * std::sin(angle), 1, 4 * std::cos(angle)};
   return camera;
+}
+
+/// One frame for the viewer, with provenance.
+inline fast::DrawList<float> frame_seen(const data::ControlMesh& mesh, const fast::DepthOptions& depth,
+                                        fast::TessellatorOptions options = {}) {
+  options.provenance = true;
+  fast::DrawList<float> frame;
+  fast::Tessellator<float>(mesh, options).frame(depth, viewer(0), frame);
+  return frame;
+}
+
+/// The coordinates of all vertices, three by three.
+inline std::vector<float> coordinates(const fast::IndexedMesh<float>& mesh) {
+  std::vector<float> list;
+  for (const auto& v : mesh.vertices) list.insert(list.end(), {v.position.x, v.position.y, v.position.z});
+  return list;
 }
 
 struct NamedStrategy {

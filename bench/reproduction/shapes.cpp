@@ -24,13 +24,10 @@ nlohmann::ordered_json shapes(const std::vector<std::string>& names) {
       fast::Tessellator<float> engine(mesh);
       fast::IndexedMesh<float> out;
       engine.frame(depth, viewer(0), out);
-      std::vector<float> positions;
-      for (const auto& v : out.vertices)
-        positions.insert(positions.end(), {v.position.x, v.position.y, v.position.z});
       std::vector<std::uint32_t> corners;
       for (const auto& t : out.triangles) corners.insert(corners.end(), t.begin(), t.end());
       list[name] = {{"depth", depth.depth},
-                    {"positions", base64(positions)},
+                    {"positions", base64(coordinates(out))},
                     {"triangles", base64(corners)},
                     {"face", base64(out.triangle_face)}};
     } catch (const std::exception& error) {

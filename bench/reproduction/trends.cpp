@@ -111,12 +111,8 @@ Json matched_error(const Json& matched, const std::string& strategy) {
 
 /// Points that several faces share, over a frame: how many of them have not the same bits in all.
 std::int64_t differing_bits(const data::ControlMesh& mesh, const fast::DepthOptions& depth) {
-  fast::TessellatorOptions options;
-  options.provenance = true;
-  fast::Tessellator<float> engine(mesh, options);
-  fast::DrawList<float> out;
-  engine.frame(depth, viewer(0), out);
-  const verify::Lattice lattice(mesh, options.max_depth);
+  const auto out = frame_seen(mesh, depth);
+  const verify::Lattice lattice(mesh, fast::TessellatorOptions{}.max_depth);
   std::unordered_map<verify::Lattice::Id, fast::SurfaceVertex<float>> known;
   std::unordered_set<verify::Lattice::Id> different;
   for (std::size_t v = 0; v < out.vertices.size(); ++v) {
@@ -161,9 +157,7 @@ std::int64_t open_edges(const data::ControlMesh& mesh, const fast::DepthOptions&
   fast::Tessellator<float> engine(mesh);
   fast::IndexedMesh<float> out;
   engine.frame(depth, viewer(0), out);
-  std::vector<float> positions;
-  for (const auto& v : out.vertices)
-    positions.insert(positions.end(), {v.position.x, v.position.y, v.position.z});
+  const std::vector<float> positions = coordinates(out);
   const auto merged = verify::merge_identical(std::span<const float>(positions));
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (const auto& t : out.triangles)
@@ -199,15 +193,11 @@ Json fan_centre() {
   const PixelErrorMeter meter(mesh, 5);
   const auto error = [&](fast::FanCentre centre) {
     fast::TessellatorOptions options;
-    options.provenance = true;
     options.cracks.centre = centre;
-    fast::Tessellator<float> engine(mesh, options);
-    fast::DrawList<float> out;
     fast::DepthOptions depth;
     depth.strategy = fast::Strategy::kRandom;
     depth.depth = 4;
-    engine.frame(depth, viewer(0), out);
-    return meter.measure(out, viewer(0), 40000, fast::Kind::kFan).mean;
+    return meter.measure(frame_seen(mesh, depth, options), viewer(0), 40000, fast::Kind::kFan).mean;
   };
   const double limit = error(fast::FanCentre::kLimit), flat = error(fast::FanCentre::kFlatControl);
   return trend(

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bench/reproduction/turning.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -39,24 +37,9 @@ Frame sliding_window(const data::ControlMesh& mesh, int threads, fast::Repair re
 }
 
 Frame row_stream(const data::ControlMesh& mesh, int threads) {
-  struct Engine {
-    Engine(const data::ControlMesh& m, int t)
-        : stream(m, options(t)),
-          heuristics(m, stream.adjacency()),
-          arena(t > 0 ? t : tbb::task_arena::automatic) {}
-    fast::row_stream::StreamTessellator stream;
-    fast::DepthHeuristics heuristics;
-    tbb::task_arena arena;  // of the heuristics, which run in their caller's
-  };
-  auto engine = std::make_shared<Engine>(mesh, threads);
+  auto engine = std::make_shared<fast::row_stream::StreamTessellator>(mesh, options(threads));
   return [engine](const auto& depth, const auto& camera, auto& out) {
-    const auto start = Clock::now();
-    const auto depths = engine->arena.execute([&] { return engine->heuristics.depths(depth, camera); });
-    const double heuristics = since(start);
-    fast::FrameStats stats = engine->stream.frame(depths, out);
-    stats.seconds_heuristics = heuristics;
-    stats.seconds_total += heuristics;
-    return stats;
+    return engine->frame(depth, camera, out);
   };
 }
 

@@ -1,34 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
 
 #include "data/error.h"
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/named_mesh.h"
+#include "data/generators/test_hash.h"
 #include "data/io/write.h"
 #include "data/shapes.h"
 #include "data/validate.h"
 
 namespace limitcheck::data {
 namespace {
-
-// FNV-1a over the bits of all positions and indices.
-std::uint64_t hash(const ControlMesh& mesh) {
-  std::uint64_t value = 0xcbf29ce484222325u;
-  const auto add = [&](std::uint64_t word) {
-    for (int i = 0; i < 8; ++i) value = (value ^ (word >> 8 * i & 0xff)) * 0x100000001b3u;
-  };
-  for (const auto& p : mesh.positions) {
-    for (const double x : p) add(std::bit_cast<std::uint64_t>(x));
-  }
-  for (const auto& t : mesh.triangles) {
-    for (const std::int32_t v : t) add(static_cast<std::uint32_t>(v));
-  }
-  return value;
-}
 
 std::string code_of(const std::string& specification) {
   try {

@@ -23,7 +23,7 @@ namespace {
 
 // Every way that a run can lie across cache lines, in pieces of all sizes.
 TEST(LineStream, WritesItsBytesAndNoOthersWhateverTheAlignment) {
-  SplitMix random(1);
+  data::SplitMix64 random(1);
   std::vector<std::byte> source(1024);
   for (auto& b : source) b = static_cast<std::byte>(random.next());
   alignas(64) std::array<std::byte, 1536> memory;
@@ -33,7 +33,7 @@ TEST(LineStream, WritesItsBytesAndNoOthersWhateverTheAlignment) {
       LineStream lines;
       lines.start(memory.data() + offset);
       for (std::size_t done = 0; done < size;) {
-        const std::size_t piece = std::min(size - done, 4 * random.below(60));
+        const std::size_t piece = std::min(size - done, 4 * below(random, 60));
         lines.append(source.data() + done, piece);
         done += piece;
       }
@@ -80,7 +80,7 @@ TEST(RowStreamOutput, StreamedIsWholeByteForByteAndCompactIsItsCompaction) {
 
 // Normals all over the sphere, on the octahedron's edges and corners too.
 std::vector<Vertex> normals() {
-  SplitMix random(3);
+  data::SplitMix64 random(3);
   std::vector<Vertex> all;
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {

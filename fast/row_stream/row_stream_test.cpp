@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fast/row_stream/row_stream.h"
+#include "data/bounding_box.h"
 
 #include <gtest/gtest.h>
 
@@ -38,16 +39,8 @@ std::vector<NamedMesh> open_meshes() {
           {"fan 4", shaken(fan(4), .1, 7)},         {"fan 5", shaken(fan(5), .1, 8)}};
 }
 
-double diagonal(const data::ControlMesh& mesh) {
-  std::array<double, 3> low = mesh.positions[0], high = low;
-  for (const auto& p : mesh.positions) {
-    for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
-  }
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
-
 double shortest_edge(const data::ControlMesh& mesh) {
-  double shortest = diagonal(mesh);
+  double shortest = data::box_diagonal(mesh);
   for (const auto& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const auto &a = mesh.positions[t[k]], &b = mesh.positions[t[(k + 1) % 3]];
@@ -72,7 +65,7 @@ Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const K
   stream.whole(pairs, depth, workspace, out.data());
 
   const auto expected = slow_limit(mesh, depth);
-  const double scale = diagonal(mesh);
+  const double scale = data::box_diagonal(mesh);
   Worst worst;
   const auto raise = [&](double& most, double error, std::size_t p, int i, int j) {
     if (error <= most) return;
@@ -105,7 +98,7 @@ void expect_the_limit_surface(const std::vector<NamedMesh>& meshes) {
     for (int depth = 0; depth <= 5; ++depth) {
       const Worst worst = worst_against_refinement(single, depth, kernels().front());
       EXPECT_LE(worst.position, 1.2e-7) << name << " depth " << depth << " " << worst.where;
-      const double bound = 2.4e-7 * (1 << depth) * diagonal(mesh) / shortest_edge(mesh);
+      const double bound = 2.4e-7 * (1 << depth) * data::box_diagonal(mesh) / shortest_edge(mesh);
       EXPECT_LE(worst.normal, bound) << name << " depth " << depth << " " << worst.where;
       all.position = std::max(all.position, worst.position);
       all.normal = std::max(all.normal, worst.normal);

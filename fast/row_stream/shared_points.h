@@ -11,31 +11,20 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/splitmix64.h"
 #include "fast/row_stream/lattice.h"
 #include "fast/row_stream/row_stream.h"
 
 namespace limitcheck::fast::row_stream {
 
-/// Seeded numbers that are the same everywhere.
-class SplitMix {
- public:
-  explicit SplitMix(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
-  double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-
- private:
-  std::uint64_t state_;
-};
+/// Uniform in 0 .. n - 1, near enough.
+inline std::size_t below(data::SplitMix64& random, std::size_t n) {
+  return static_cast<std::size_t>(random.next() % n);
+}
 
 /// Moves every vertex by up to `amount`, rounded to float.
 inline data::ControlMesh shaken(data::ControlMesh mesh, double amount, std::uint64_t seed) {
-  SplitMix random(seed);
+  data::SplitMix64 random(seed);
   for (auto& p : mesh.positions) {
     for (double& x : p) x = static_cast<float>(x + amount * (2 * random.unit() - 1));
   }
@@ -46,18 +35,18 @@ inline data::ControlMesh shaken(data::ControlMesh mesh, double amount, std::uint
 /// of each.
 inline data::ControlMesh renumbered(const data::ControlMesh& mesh, std::uint64_t seed,
                                     std::vector<std::int32_t>& number) {
-  SplitMix random(seed);
+  data::SplitMix64 random(seed);
   number.resize(mesh.positions.size());
   for (std::size_t v = 0; v < number.size(); ++v) number[v] = static_cast<std::int32_t>(v);
-  for (std::size_t v = number.size(); v > 1; --v) std::swap(number[v - 1], number[random.below(v)]);
+  for (std::size_t v = number.size(); v > 1; --v) std::swap(number[v - 1], number[below(random, v)]);
   data::ControlMesh out{mesh.positions, mesh.triangles};
   for (std::size_t v = 0; v < number.size(); ++v) out.positions[number[v]] = mesh.positions[v];
   for (auto& t : out.triangles) {
-    const std::size_t turn = random.below(3);
+    const std::size_t turn = below(random, 3);
     t = {number[t[turn]], number[t[(turn + 1) % 3]], number[t[(turn + 2) % 3]]};
   }
   for (std::size_t f = out.triangles.size(); f > 1; --f)
-    std::swap(out.triangles[f - 1], out.triangles[random.below(f)]);
+    std::swap(out.triangles[f - 1], out.triangles[below(random, f)]);
   return out;
 }
 

@@ -28,11 +28,11 @@ class StreamTessellator {
   StreamTessellator& operator=(StreamTessellator&&) noexcept;
 
   const Adjacency& adjacency() const;
-  const RowStream& stream() const;
 
   FrameStats frame(std::span<const std::int32_t> depth, DrawList<float>& out);
   FrameStats frame(std::span<const std::int32_t> depth, IndexedMesh<float>& out);
   /// Depths by a strategy of section 4.1, at most options.max_depth.
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, DrawList<float>& out);
   FrameStats frame(const DepthOptions& strategy, const Camera& camera, IndexedMesh<float>& out);
 
   /// The depths of the last frame after pairing, one per face, and its pairs.

@@ -18,10 +18,10 @@ namespace limitcheck::fast::row_stream {
 namespace {
 
 std::vector<std::int32_t> random_depths(std::size_t faces, int most, std::uint64_t seed) {
-  SplitMix random(seed);
+  data::SplitMix64 random(seed);
   std::vector<std::int32_t> depth;
   for (std::size_t f = 0; f < faces; ++f)
-    depth.push_back(static_cast<std::int32_t>(random.below(static_cast<std::size_t>(most) + 2)) - 1);
+    depth.push_back(static_cast<std::int32_t>(below(random, static_cast<std::size_t>(most) + 2)) - 1);
   return depth;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "data/bounding_box.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/digits.h"
 #include "verify/audit/relation_row.h"
@@ -156,17 +157,12 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
   }
 
   // The checks.
-  Vector low = session->mesh().positions.at(0), high = low;  // of the whole
-  double magnitude = 0;
-  for (const Vector& p : session->mesh().positions)
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-      magnitude = std::max(magnitude, std::abs(p[axis]));
-    }
+  double magnitude = 0;  // of the whole
+  for (const Vector& p : session->mesh().positions) magnitude = std::max(magnitude, largest(p));
+  const double diagonal = data::box_diagonal(session->mesh());
   const Evidence evidence{
-      name,  mesh.name,         capabilities,     judged,   asked, *tessellation, truth.lattice(),
-      truth, std::move(points), norm(high - low), magnitude};
+      name,  mesh.name,         capabilities, judged,   asked, *tessellation, truth.lattice(),
+      truth, std::move(points), diagonal,     magnitude};
   // The subject is done, and may still break down while it cleans up.
   try {
     session->close();

@@ -18,6 +18,7 @@
 #include "verify/audit/table.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/faulty_subjects.h"
+#include "verify/audit/test_rows.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -29,14 +30,6 @@ const char* const kBaseOptions = "precision=double";
 std::vector<Result> run(const lc_subject* subject, const std::string& options, const std::string& mesh,
                         int depth) {
   return Auditor(depth, 1).run({subject, options}, {mesh, data::named_mesh(mesh)});
-}
-
-const Result& row(const std::vector<Result>& results, const std::string& check) {
-  static const Result none;
-  const auto found =
-      std::find_if(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
-  EXPECT_NE(found, results.end()) << check;
-  return found == results.end() ? none : *found;
 }
 
 std::set<std::string> red(const std::vector<Result>& results) {

@@ -39,13 +39,11 @@ std::vector<Result> check_continuity(const Evidence& e) {
     if (std::isnan(j)) j = std::numeric_limits<double>::infinity();
   }
   const Statistics s = summarise(jump, 1);
-  r.bad = s.bad;
-  r.of = s.of;
-  r.worst = s.worst;
-  r.rms = s.rms;
-  r.p99 = s.p99;
-  r.status = s.bad > 0 ? Status::kFinding : t.vertex_count() == 0 ? Status::kNotRun : Status::kHeld;
-  if (s.of == 0) r.message = "every shared point is delivered once";
+  take(r, s);
+  if (s.of == 0) {
+    r.message = "every shared point is delivered once";
+    if (t.vertex_count() > 0) r.status = Status::kHeld;
+  }
   if (s.worst_at >= 0) {
     const Vector got = t.position(s.worst_at), expected = t.position(first[e.point[s.worst_at]]);
     r.witness = e.at_vertex(s.worst_at);

@@ -10,19 +10,6 @@
 #include "verify/audit/statistics.h"
 
 namespace limitcheck::verify {
-namespace {
-
-void take(Result& r, const Statistics& s) {
-  r.bad = s.bad;
-  r.of = s.of;
-  r.worst = s.worst;
-  r.rms = s.rms;
-  r.p99 = s.p99;
-  r.status = s.of == 0 ? Status::kNotRun : s.bad > 0 ? Status::kFinding : Status::kHeld;
-}
-
-}  // namespace
-
 std::vector<Result> check_normals(const Evidence& e) {
   Result angle = e.result("normals"), length = e.result("normal-length");
   const Tessellation& t = e.tessellation;

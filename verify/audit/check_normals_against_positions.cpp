@@ -75,12 +75,7 @@ std::vector<Result> check_normals_against_positions(const Evidence& e) {
     excess[v] = std::isfinite(got) ? std::max(0.0, std::abs(got - expected) - turn * kDegrees) : got;
   }
   const Statistics s = summarise(excess, *r.bound);
-  r.bad = s.bad;
-  r.of = s.of;
-  r.worst = s.worst;
-  r.rms = s.rms;
-  r.p99 = s.p99;
-  r.status = s.of == 0 ? Status::kNotRun : s.bad > 0 ? Status::kFinding : Status::kHeld;
+  take(r, s);
   if (s.worst_at >= 0) {
     const Vector got = t.normal(s.worst_at), facets = delivered[e.point[s.worst_at]].sum;
     const double length = norm(facets);

@@ -41,12 +41,7 @@ std::vector<Result> check_positions(const Evidence& e) {
   r.bound = position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal);
   r.unit = "diagonal";
   const Statistics s = summarise(error, *r.bound);
-  r.bad = s.bad;
-  r.of = s.of;
-  r.worst = s.worst;
-  r.rms = s.rms;
-  r.p99 = s.p99;
-  r.status = s.of == 0 ? Status::kNotRun : s.bad > 0 ? Status::kFinding : Status::kHeld;
+  take(r, s);
   if (s.worst_at >= 0) {
     const Vector expected = e.reference.position(e.point[s.worst_at]), got = t.position(s.worst_at);
     r.witness = e.at_vertex(s.worst_at);

@@ -9,18 +9,11 @@
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
+#include "verify/audit/test_rows.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
 namespace {
-
-const Result& row(const std::vector<Result>& results, const std::string& check) {
-  static const Result none;
-  const auto found =
-      std::find_if(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
-  EXPECT_NE(found, results.end()) << check;
-  return found == results.end() ? none : *found;
-}
 
 std::vector<Result> audit(const char* subject, const std::string& options, const std::string& mesh,
                           int depth) {

@@ -24,15 +24,6 @@ Json text(const std::string& s) {
   return s.empty() ? Json(nullptr) : Json(s);
 }
 
-// JSON has no NaN: a witness for one says so in words.
-Json numbers(const std::vector<double>& list) {
-  if (list.empty()) return nullptr;
-  Json out = Json::array();
-  for (const double x : list)
-    out.push_back(std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x));
-  return out;
-}
-
 Json witness(const Report& report, const Result& r, const std::string& level) {
   const std::optional<Witness>& w = r.witness;
   if (!w) return nullptr;
@@ -49,6 +40,14 @@ Json witness(const Report& report, const Result& r, const std::string& level) {
 }
 
 }  // namespace
+
+Json numbers(const std::vector<double>& list) {
+  if (list.empty()) return nullptr;
+  Json out = Json::array();
+  for (const double x : list)
+    out.push_back(std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x));
+  return out;
+}
 
 std::string to_json(const Report& report, const std::string& level) {
   Json out{{"program", "limitcheck audit"},

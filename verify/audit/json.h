@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "verify/audit/result.h"
 
@@ -16,6 +18,9 @@ namespace limitcheck::verify {
 /// apply. The schema: verify/audit/schema/audit.schema.json.
 ///   level   of the audit, for the commands that repeat it
 std::string to_json(const Report& report, const std::string& level = "standard");
+
+/// An array, null for an empty list. JSON has no NaN: a witness for one says "nan", "inf", "-inf" in words.
+nlohmann::ordered_json numbers(const std::vector<double>& list);
 
 /// Writes a text whole or not at all (mesh_output/atomic_file.h); makes the folder. Throws
 /// std::filesystem::filesystem_error or data::InputError FILE_CANNOT_WRITE.

@@ -17,8 +17,8 @@ namespace limitcheck::verify {
 /// shared points once. A point has an id:
 ///   0 .. V-1                   control vertices
 ///   then n-1 for each edge     by ascending (smaller vertex, larger vertex), counted from the smaller vertex
-///   then (n-1)(n-2)/2 + 1      for each face: its interior lattice points row by row in l2, then its centre
-///   (1/3, 1/3)
+///   then (n-1)(n-2)/2 + 1      for each face: its interior lattice points row by row in l2, then its
+///                              centre (1/3, 1/3)
 /// An adjacency of its own: it must not depend on anything it helps to judge.
 class Lattice {
  public:

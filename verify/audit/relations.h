@@ -24,7 +24,7 @@ namespace limitcheck::verify {
 ///   extreme-scale        times 2^40 and 2^-40
 ///   degenerate-geometry  all control points on a line, or the same: finite, normals of unit length
 ///   rejected-inputs      meshes that are no manifold: refused; one without faces: refused, or nothing
-///   delivered
+///                        delivered
 /// The rows from face-order to extreme-scale hold if positions and normals differ by at most twice what one
 /// result may be off; a difference in bits beneath that is a quality warning where the numbers handed in are
 /// the same ones.

@@ -34,4 +34,13 @@ Statistics summarise(const std::vector<double>& errors, double bound) {
   return s;
 }
 
+void take(Result& row, const Statistics& statistics) {
+  row.bad = statistics.bad;
+  row.of = statistics.of;
+  row.worst = statistics.worst;
+  row.rms = statistics.rms;
+  row.p99 = statistics.p99;
+  row.status = statistics.of == 0 ? Status::kNotRun : statistics.bad > 0 ? Status::kFinding : Status::kHeld;
+}
+
 }  // namespace limitcheck::verify

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "verify/audit/result.h"
+
 namespace limitcheck::verify {
 
 /// Of a list of errors >= 0. An infinite entry is something that could not be measured (a NaN where a number
@@ -20,5 +22,8 @@ struct Statistics {
 /// Summed in order, so that the result does not depend on threads. p99: the smallest entry that at least 99 %
 /// of the finite entries do not exceed.
 Statistics summarise(const std::vector<double>& errors, double bound);
+
+/// Counts, worst, rms and p99 into a row, and its status: not run if nothing was looked at.
+void take(Result& row, const Statistics& statistics);
 
 }  // namespace limitcheck::verify

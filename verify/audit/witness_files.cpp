@@ -2,7 +2,6 @@
 #include "verify/audit/witness_files.h"
 
 #include <cctype>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -23,14 +22,6 @@ std::string plain(const std::string& text) {
     out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' ? c : '_';
   constexpr std::size_t kLongest = 60;
   return out.size() > kLongest ? out.substr(out.size() - kLongest) : out;
-}
-
-Json numbers(const std::vector<double>& list) {
-  if (list.empty()) return nullptr;
-  Json out = Json::array();
-  for (const double x : list)
-    out.push_back(std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x));
-  return out;
 }
 
 // The limit surface at the witness, on the mesh as the subject gets it.

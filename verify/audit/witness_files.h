@@ -12,10 +12,10 @@ namespace limitcheck::verify {
 /// Makes the folder `folder`/SUBJECT-CHECK-MESH with
 ///   control.obj    the control mesh, bit for bit as the audit had it
 ///   depths.txt     the depth of each face, if they had depths of their own
-///   witness.json   subject, check, face and parameter; expected and got as in the report; `limit_position`
-///   and
-///                  `limit_normal` there to 40 digits, for the mesh rounded to the subject's precision; and
-///                  two commands: `eval` prints the expected value again, `audit` the finding
+///   witness.json   subject, check, face and parameter; expected and got as in the report;
+///                  `limit_position` and `limit_normal` there to 40 digits, for the mesh rounded to the
+///                  subject's precision; and two commands: `eval` prints the expected value again, `audit`
+///                  the finding
 /// The commands name control.obj as `folder` does, so they run where the audit ran. Each file appears whole
 /// or not at all. `report` is the one the result is of, `level` how much was looked at. Returns the folder
 /// made. Throws std::runtime_error, data::InputError: a file cannot be written.

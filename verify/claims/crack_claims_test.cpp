@@ -241,14 +241,6 @@ TEST(Sec5_CenterWeights, EqualTheStamBasisAtOneThird) {
   EXPECT_NEAR(frame.dv.y, 1, 1e-14);
 }
 
-template <class Real>
-PreparedMesh<Real> prepare(const data::ControlMesh& mesh, const Adjacency& adjacency) {
-  std::vector<fast::Vec3<Real>> positions;
-  for (const auto& p : mesh.positions)
-    positions.push_back({static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])});
-  return PreparedMesh<Real>(adjacency, positions);
-}
-
 V vector(const reference::Vec3<double>& p) {
   return {p.x, p.y, p.z};
 }
@@ -262,7 +254,7 @@ TEST(Sec5_Centre, IsExactAfterOneStepAlsoAtBoundaries) {
         data::triangle(), data::triangle_pair(), data::strip(6), data::sheet(3, 3), data::ragged_disc(),
         data::wheel(3), data::wheel(40), data::fan(5), data::holes()}) {
     const Adjacency adjacency(mesh);
-    const auto prepared = prepare<double>(mesh, adjacency);
+    const PreparedMesh<double> prepared(adjacency, fast::positions_of<double>(mesh));
     FanCentreEvaluator<double> centre(adjacency.max_valence());
     const reference::StamEvaluator<double> truth(mesh);
     const auto third = reference::Parameter::fraction(1, 3);
@@ -303,7 +295,7 @@ TEST(Sec5_Centre, OnTheLimitSurfaceDeviatesLessThanFlat) {
   RecordProperty("claim", "C62");
   const data::ControlMesh mesh = data::bumpy_sphere(400, 1);
   const Adjacency adjacency(mesh);
-  const auto prepared = prepare<double>(mesh, adjacency);
+  const PreparedMesh<double> prepared(adjacency, fast::positions_of<double>(mesh));
   FanCentreEvaluator<double> centre(adjacency.max_valence());
   EdgeStrip<double> strip(3, adjacency.max_valence());
   SlidingWindow<double> window(4, adjacency.max_valence());

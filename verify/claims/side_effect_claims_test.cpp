@@ -26,9 +26,7 @@ TEST(Sec5_Centre, NeedsNoPointOfItsStepThatTheLimitPointsOfTheFirstBorderStepDoN
   double worst = 0;
   for (const auto& mesh : {data::icosahedron(), data::bumpy_sphere(200, 1)}) {
     const fast::Adjacency adjacency(mesh);
-    std::vector<V> positions;
-    for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
-    const fast::PreparedMesh<double> prepared(adjacency, positions);
+    const fast::PreparedMesh<double> prepared(adjacency, fast::positions_of<double>(mesh));
     const auto finer = reference::refine<double>(mesh, 1);
     for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
       // In the refined mesh: the three corners and three edge points of the face, and all that the limit

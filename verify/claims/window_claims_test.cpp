@@ -54,13 +54,6 @@ struct CountedSurface {
 
 namespace {
 
-template <class N, class Surface>
-PreparedMesh<N, Surface> prepare(const data::ControlMesh& mesh, const Adjacency& adjacency) {
-  std::vector<Vec3<N>> positions;
-  for (const auto& p : mesh.positions) positions.push_back({N(p[0]), N(p[1]), N(p[2])});
-  return PreparedMesh<N, Surface>(adjacency, positions);
-}
-
 using CountingWindow = SlidingWindow<Counted, CountedSurface, Counting, false>;
 using CarryingWindow = SlidingWindow<Counted, CountedSurface, Counting, true>;
 
@@ -74,7 +67,7 @@ struct CountedRun {
 template <class Window>
 CountedRun run(const data::ControlMesh& mesh, int depth) {
   const Adjacency adjacency(mesh);
-  const auto prepared = prepare<Counted, CountedSurface>(mesh, adjacency);
+  const PreparedMesh<Counted, CountedSurface> prepared(adjacency, fast::positions_of<Counted>(mesh));
   Window window(depth, adjacency.max_valence());
   const std::int64_t before = Counted::stores;
   window.run(prepared, 0, depth, [](int, const SurfaceVertex<Counted>*) {});
@@ -221,7 +214,7 @@ struct Exchanged {
 template <class Order>
 double departure(const data::ControlMesh& mesh) {
   const Adjacency adjacency(mesh);
-  const auto prepared = prepare<double, LimitSurface<double>>(mesh, adjacency);
+  const PreparedMesh<double> prepared(adjacency, fast::positions_of<double>(mesh));
   SlidingWindow<double> right(3, adjacency.max_valence());
   SlidingWindow<double, LimitSurface<double>, NoCount, true, Order> other(3, adjacency.max_valence());
   std::vector<SurfaceVertex<double>> expected;

@@ -14,15 +14,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-void take(Result& r, const Statistics& s) {
-  r.bad = s.bad;
-  r.of = s.of;
-  r.worst = s.worst;
-  r.rms = s.rms;
-  r.p99 = s.p99;
-  r.status = s.of == 0 ? Status::kNotRun : s.bad > 0 ? Status::kFinding : Status::kHeld;
-}
-
 std::vector<double> list(const Vector& v) {
   return {v.begin(), v.end()};
 }
@@ -69,10 +60,7 @@ std::vector<Result> check_file_finite(const FileEvidence& e) {
 
 std::vector<Result> check_file_distance(const FileEvidence& e) {
   const FileTessellation& t = e.tessellation;
-  if (!e.claimed.empty()) {
-    std::vector<Result> rows = check_file_positions(e);
-    return rows;
-  }
+  if (!e.claimed.empty()) return check_file_positions(e);
   std::vector<double> error(t.positions.size(), -1);
   for (std::size_t v = 0; v < error.size(); ++v)
     if (t.used[v]) {

@@ -37,8 +37,8 @@ OutputFormat output_format(const std::filesystem::path& file);
 /// Writes positions, unit normals and triangles; shared vertices stay shared, so that the file is as
 /// watertight as the mesh.
 ///   PLY   binary little endian, floats bit for bit; colours on the faces
-///   OBJ   shortest decimals that read back as the same float; one `usemtl` per class, colours in a .mtl file
-///   beside it GLB   floats bit for bit; one primitive and one material per class, all on the same vertices
+///   OBJ   shortest decimals that read back as the same float; a `usemtl` per class, colours in a .mtl beside
+///   GLB   floats bit for bit; one primitive and one material per class, all on the same vertices
 /// Each file appears whole or not at all (AtomicFile). Throws data::InputError FILE_CANNOT_WRITE, or
 /// FILE_UNSUPPORTED if a GLB would exceed the 4 GiB its header can express.
 void write_tessellation(const std::filesystem::path& file, const fast::IndexedMesh<float>& mesh,

@@ -5,21 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "data/bounding_box.h"
 #include "reference/stam.h"
 #include "verify/projection/newton.h"
 
 namespace limitcheck::verify {
 namespace {
-
-double diagonal_of(const data::ControlMesh& mesh) {
-  Vector low = mesh.positions.at(0), high = low;
-  for (const Vector& p : mesh.positions)
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  return norm(high - low);
-}
 
 // Of the pieces of the surface, not of the flat triangles.
 std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
@@ -38,7 +29,7 @@ ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces)
       lattice_(mesh, SurfaceLattice::depth_for(mesh.triangles.size(), pieces)),
       surface_(std::make_unique<const reference::StamEvaluator<double>>(mesh)),
       tree_(boxes(lattice_)),
-      diagonal_(diagonal_of(mesh)) {}
+      diagonal_(data::box_diagonal(mesh)) {}
 
 ClosestPoint::~ClosestPoint() = default;
 

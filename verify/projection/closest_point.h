@@ -32,14 +32,14 @@ class ClosestPoint {
   ~ClosestPoint();
 
   /// The closest point of the surface to p, which must be finite.
-  ///   method   all pieces whose proved bound lets them hold a nearer point, by rising distance; from each,
-  ///   Newton's
-  ///            iteration on the exact evaluator over the whole domain (across face borders, along
-  ///            boundaries), line searches making it descend, and a pattern search where it cannot
-  ///   error    foot and distance as the evaluator's, that is about 2e-16 of the mesh, for points nearer than
-  ///   the
-  ///            smallest radius of curvature; see the test for measurements. Where several points are
-  ///            nearest, one
+  ///   method   all pieces whose proved bound lets them hold a nearer point, by rising distance;
+  ///            from each, Newton's iteration on the exact evaluator over the whole domain (across face
+  ///            borders, along boundaries), line searches making it descend, and a pattern search where it
+  ///            cannot
+  ///   error    foot and distance as the evaluator's, that is about 2e-16 of the mesh,
+  ///            for points nearer than the smallest radius of curvature;
+  ///            see the test for measurements.
+  ///            Where several points are nearest, one
   Foot closest(const Vector& p) const;
 
   /// The surface at a point of the domain: `distance` and the rest as if p projected there.

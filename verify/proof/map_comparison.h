@@ -15,9 +15,9 @@ namespace limitcheck::verify {
 
 /// Compares points one by one and keeps the first that differs.
 ///   position   every weight equals the reference's; the weights sum to 1, none is negative         [C24]
-///   tangents   du = a d1 + b d2 and dv = c d1 + d d2 for every control point, with a d > b c: the same plane
-///   and
-///              side for any geometry, whichever two tangents either side prefers; the weights sum to 0
+///   tangents   du = a d1 + b d2 and dv = c d1 + d d2 for every control point, with a d > b c: the same
+///              plane and side for any geometry, whichever two tangents either side prefers;
+///              the weights sum to 0
 template <class C>
 class MapComparison {
  public:

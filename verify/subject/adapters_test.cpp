@@ -126,7 +126,7 @@ TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
       EXPECT_EQ(vertices.size(), 1u);
       // Three steps, each rounding to float once: 3 * sqrt(3) * 2^-24 of the largest coordinate.
       EXPECT_LE(distance(in_float.position(vertices[0]), exact.position(expected.at(place)[0])),
-                1e-6 * box_diagonal(mesh));
+                1e-6 * data::box_diagonal(mesh));
     }
   }
 }

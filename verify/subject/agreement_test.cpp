@@ -55,7 +55,7 @@ Worst against_stam(const char* subject, const char* options, const std::string& 
   Session session(*find_subject(subject), mesh, options);
   const Tessellation t = session.tessellate(depth, 2);
   const reference::StamEvaluator<double> stam(session.mesh());
-  const double unit = box_diagonal(mesh);
+  const double unit = data::box_diagonal(mesh);
   Worst worst;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
     const lc_provenance& p = t.provenance()[static_cast<std::size_t>(v)];

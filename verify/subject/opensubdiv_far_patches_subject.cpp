@@ -20,17 +20,9 @@ namespace {
 
 using namespace limitcheck::verify;
 namespace Far = OpenSubdiv::Far;
-using Patches = Far::PatchTableFactory;
-
-// What PrimvarRefiner interpolates, and the patches combine.
 template <class Real>
-struct Vector {
-  std::array<Real, 3> x;
-  void Clear(void* = nullptr) { x = {}; }
-  void AddWithWeight(const Vector& v, Real weight) {
-    for (std::size_t c = 0; c < 3; ++c) x[c] += weight * v.x[c];
-  }
-};
+using Vector = OpenSubdivVector<Real>;
+using Patches = Far::PatchTableFactory;
 
 // The patches over one face after another.
 template <class Real>

@@ -17,16 +17,8 @@ namespace {
 
 using namespace limitcheck::verify;
 namespace Far = OpenSubdiv::Far;
-
-// What PrimvarRefiner interpolates.
 template <class Real>
-struct Vector {
-  std::array<Real, 3> x;
-  void Clear(void* = nullptr) { x = {}; }
-  void AddWithWeight(const Vector& v, Real weight) {
-    for (std::size_t c = 0; c < 3; ++c) x[c] += weight * v.x[c];
-  }
-};
+using Vector = OpenSubdivVector<Real>;
 
 // Where the three corners of a refined face lie on its control face, in units of 2^-level.
 struct Lattice {

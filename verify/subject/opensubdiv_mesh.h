@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the two OpenSubdiv adapters share. Private to them: the only header that shows OpenSubdiv's types.
+// What the OpenSubdiv adapters share. Private to them.
 #pragma once
 
 #include <opensubdiv/far/error.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,16 @@ class OpenSubdivErrors {
   static std::string& text() {
     thread_local std::string message;
     return message;
+  }
+};
+
+/// What PrimvarRefiner interpolates.
+template <class Real>
+struct OpenSubdivVector {
+  std::array<Real, 3> x;
+  void Clear(void* = nullptr) { x = {}; }
+  void AddWithWeight(const OpenSubdivVector& v, Real weight) {
+    for (std::size_t c = 0; c < 3; ++c) x[c] += weight * v.x[c];
   }
 };
 

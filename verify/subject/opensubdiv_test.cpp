@@ -49,7 +49,7 @@ Deviation deviation(const char* subject, const char* options, const data::Contro
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
     const Ring& ring = expected.at(place(mesh, t.provenance()[static_cast<std::size_t>(v)]));
     worst.position =
-        std::max(worst.position, distance(t.position(v), limit_position(ring)) / box_diagonal(mesh));
+        std::max(worst.position, distance(t.position(v), limit_position(ring)) / data::box_diagonal(mesh));
     if (ring.open && (ring.points.size() > 4 || (ring.points.size() == 2 && !one_face))) continue;
     const double a = angle(t.normal(v), ring.open ? boundary_normal(ring, false) : interior_normal(ring));
     double& normal = ring.open ? worst.boundary_normal : worst.interior_normal;

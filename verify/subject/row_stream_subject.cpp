@@ -11,6 +11,7 @@
 
 #include "fast/row_stream/stream_frame.h"
 #include "verify/subject/adapter.h"
+#include "verify/subject/control_mesh.h"
 #include "verify/subject/deliver_frame.h"
 #include "verify/subject/registry.h"
 
@@ -39,15 +40,6 @@ struct Settings {
   fast::TessellatorOptions tessellator;
   const rs::Kernel* kernel = nullptr;
 };
-
-data::ControlMesh control_mesh(const lc_mesh& mesh) {
-  data::ControlMesh out;
-  for (std::int64_t v = 0; v < mesh.vertex_count; ++v)
-    out.positions.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
-  for (std::int64_t f = 0; f < mesh.triangle_count; ++f)
-    out.triangles.push_back({mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]});
-  return out;
-}
 
 class RowStreamSubject {
  public:

@@ -10,6 +10,7 @@
 
 #include "fast/frame.h"
 #include "verify/subject/adapter.h"
+#include "verify/subject/control_mesh.h"
 #include "verify/subject/deliver_frame.h"
 #include "verify/subject/registry.h"
 
@@ -36,15 +37,6 @@ struct Settings {
   bool wide = false, indexed = false;
   fast::TessellatorOptions tessellator;
 };
-
-data::ControlMesh control_mesh(const lc_mesh& mesh) {
-  data::ControlMesh out;
-  for (std::int64_t v = 0; v < mesh.vertex_count; ++v)
-    out.positions.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
-  for (std::int64_t f = 0; f < mesh.triangle_count; ++f)
-    out.triangles.push_back({mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]});
-  return out;
-}
 
 class SlidingWindowSubject {
  public:

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
 #include "verify/subject/host.h"
 
@@ -71,17 +72,6 @@ inline std::map<Place, std::vector<std::int64_t>> places(const data::ControlMesh
     result[place(mesh, t.provenance()[static_cast<std::size_t>(v)])].push_back(v);
   }
   return result;
-}
-
-/// Diagonal of the bounding box, as lengths are compared with.
-inline double box_diagonal(const data::ControlMesh& mesh) {
-  double sum = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    double low = mesh.positions[0][c], high = low;
-    for (const auto& p : mesh.positions) low = std::min(low, p[c]), high = std::max(high, p[c]);
-    sum += (high - low) * (high - low);
-  }
-  return std::sqrt(sum);
 }
 
 inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {

@@ -10,8 +10,8 @@
 namespace limitcheck::verify {
 
 /// Which vertices are one point.
-///   point_of   for each vertex the number of its point, numbered by first appearance; -1 for a vertex that
-///   is not finite vertex_of  for each point its first vertex
+///   point_of   for each vertex the number of its point, by first appearance; -1: a vertex that is not finite
+///   vertex_of  for each point its first vertex
 struct MergedPoints {
   std::vector<std::int32_t> point_of;
   std::vector<std::int32_t> vertex_of;

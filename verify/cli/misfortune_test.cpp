@@ -75,8 +75,8 @@ TEST_F(Misfortune, AReportWhereADirectoryIsLeavesNothingBehind) {
   EXPECT_NE(o.out.find("positions"), std::string::npos) << "the table is there all the same";
 }
 
-// An address sanitizer needs more addresses than it is left here.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// A sanitizer needs more addresses than it is left here.
+#if !LIMITCHECK_SANITIZED
 TEST_F(Misfortune, NoMemoryIsOneLineAndExitCodeTwo) {
   const Outcome o = shell(
       "ulimit -v 200000; limitcheck tessellate bumpy:4000 --depth 7 -o out.ply; code=$?; ls; exit $code");

@@ -16,9 +16,9 @@
 #include "data/shapes.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/table.h"
+#include "verify/audit/test_rows.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/faulty_subjects.h"
-#include "verify/audit/test_rows.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -34,8 +34,6 @@ struct BoundaryRingAnswer {
   int faces = 0;  ///< K
   Numeral3 center;
   std::vector<Numeral3> ring;
-  Numeral cross_center;             ///< weights of the tangent across the boundary: of the centre
-  std::vector<Numeral> cross_ring;  ///< and of r_0..r_K
   Numeral3 limit_position;
   Numeral3 along;   ///< r_0 - r_K
   Numeral3 across;  ///< points into the surface
@@ -48,7 +46,6 @@ struct SurfaceSample {
   Numeral3 position;
   Numeral3 d_dl1, d_dl2;
   Numeral3 unit_normal;
-  int steps_until_regular = 0;  ///< subdivisions until the point lies in a regular patch
 };
 
 /// A small mesh and samples on one of its faces (corners c0, c1, c2 = faces[face]).

@@ -58,9 +58,8 @@ TEST(KnownAnswers, AllCasesAreLoaded) {
   EXPECT_EQ(answers.basis.size(), 6u);
   for (const auto& ring : answers.interior_rings)
     EXPECT_EQ(ring.ring.size(), static_cast<std::size_t>(ring.valence));
-  for (const auto& ring : answers.boundary_rings) {
+  for (const auto& ring : answers.boundary_rings)
     EXPECT_EQ(ring.ring.size(), static_cast<std::size_t>(ring.faces) + 1);
-  }
 }
 
 TEST(KnownAnswers, EveryMeshIsValid) {

@@ -76,7 +76,7 @@ TEST_F(Misfortune, AReportWhereADirectoryIsLeavesNothingBehind) {
 }
 
 // A sanitizer needs more addresses than it is left here.
-#if !LIMITCHECK_SANITIZED
+#ifndef LIMITCHECK_SANITIZED
 TEST_F(Misfortune, NoMemoryIsOneLineAndExitCodeTwo) {
   const Outcome o = shell(
       "ulimit -v 200000; limitcheck tessellate bumpy:4000 --depth 7 -o out.ply; code=$?; ls; exit $code");

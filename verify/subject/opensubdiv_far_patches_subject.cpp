@@ -20,9 +20,10 @@ namespace {
 
 using namespace limitcheck::verify;
 namespace Far = OpenSubdiv::Far;
+using Patches = Far::PatchTableFactory;
+
 template <class Real>
 using Vector = OpenSubdivVector<Real>;
-using Patches = Far::PatchTableFactory;
 
 // The patches over one face after another.
 template <class Real>

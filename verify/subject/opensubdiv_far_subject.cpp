@@ -17,6 +17,7 @@ namespace {
 
 using namespace limitcheck::verify;
 namespace Far = OpenSubdiv::Far;
+
 template <class Real>
 using Vector = OpenSubdivVector<Real>;
 

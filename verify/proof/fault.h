@@ -7,7 +7,7 @@
 namespace limitcheck::verify {
 
 /// While one of these lives, stencils of its thread compute one operation wrongly: the `at`-th of its sort.
-class PlantedFault {
+class StencilFault {
  public:
   enum class Kind : std::uint8_t {
     kFactor,    ///< a wrong coefficient: a product with a factor that is 2^-20 too large
@@ -16,12 +16,12 @@ class PlantedFault {
     kNeighbour  ///< a wrong index: a sum with the second term of the sum before in place of its own
   };
 
-  PlantedFault(Kind kind, std::int64_t at) : kind_(kind), left_(at) { active_ = this; }
-  ~PlantedFault() { active_ = nullptr; }
-  PlantedFault(const PlantedFault&) = delete;
-  PlantedFault& operator=(const PlantedFault&) = delete;
+  StencilFault(Kind kind, std::int64_t at) : kind_(kind), left_(at) { active_ = this; }
+  ~StencilFault() { active_ = nullptr; }
+  StencilFault(const StencilFault&) = delete;
+  StencilFault& operator=(const StencilFault&) = delete;
 
-  static PlantedFault* active() { return active_; }
+  static StencilFault* active() { return active_; }
   Kind kind() const { return kind_; }
   bool is_product() const { return kind_ == Kind::kFactor; }
   /// Counts one operation of the fault's sort; true for the one to spoil.
@@ -31,7 +31,7 @@ class PlantedFault {
   std::int64_t left() const { return left_; }
 
  private:
-  static inline thread_local PlantedFault* active_ = nullptr;
+  static inline thread_local StencilFault* active_ = nullptr;
   Kind kind_;
   std::int64_t left_;
 };

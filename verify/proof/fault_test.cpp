@@ -42,7 +42,7 @@ bool same(const Frame& a, const Frame& b) {
   return same(a.position.x, b.position.x) && same(a.du.x, b.du.x) && same(a.dv.x, b.dv.x);
 }
 
-std::string name(PlantedFault::Kind kind) {
+std::string name(StencilFault::Kind kind) {
   constexpr std::array<const char*, 4> kNames{"factor", "dropped", "doubled", "neighbour"};
   return kNames[static_cast<std::size_t>(kind)];
 }
@@ -55,12 +55,12 @@ void expect_caught(const char* kernel, const Neighbourhood& pair, Run&& run) {
   std::vector<Frame> clean;
   run(pair.mesh, points, [&](const fast::LatticePoint&, const Frame& f) { clean.push_back(f); });
   int planted = 0, visible = 0;
-  using Kind = PlantedFault::Kind;
+  using Kind = StencilFault::Kind;
   for (const Kind kind : {Kind::kFactor, Kind::kDropped, Kind::kDoubled, Kind::kNeighbour}) {
     constexpr std::int64_t kFar = std::int64_t{1} << 40;
     std::int64_t operations = 0;
     {
-      const PlantedFault counter(kind, kFar);
+      const StencilFault counter(kind, kFar);
       run(pair.mesh, points, [](const fast::LatticePoint&, const Frame&) {});
       operations = kFar - counter.left();
     }
@@ -73,7 +73,7 @@ void expect_caught(const char* kernel, const Neighbourhood& pair, Run&& run) {
       Maps maps(pair.mesh);
       std::size_t index = 0;
       bool differs = false;
-      const PlantedFault fault(kind, at);
+      const StencilFault fault(kind, at);
       const ProofRow row = detail::compare<Residue>(pair, kernel, kOptions, maps, [&](int, auto&& visit) {
         run(pair.mesh, points, [&](const fast::LatticePoint& p, const Frame& f) {
           differs = differs || !same(f, clean[index++]);
@@ -84,7 +84,7 @@ void expect_caught(const char* kernel, const Neighbourhood& pair, Run&& run) {
       visible += differs ? 1 : 0;
       EXPECT_EQ(row.map.equal, !differs) << kernel << ' ' << name(kind) << " at operation " << at;
       if (!row.map.witness) continue;
-      const Witness& w = *row.map.witness;
+      const MapWitness& w = *row.map.witness;
       EXPECT_GE(w.control_point, 0) << w.quantity;
       EXPECT_FALSE(w.point.empty());
     }

@@ -35,7 +35,7 @@ class MapComparison {
   }
 
   std::int64_t points() const { return points_; }
-  const std::optional<Witness>& witness() const { return witness_; }
+  const std::optional<MapWitness>& witness() const { return witness_; }
   /// Largest difference of two weights that are equal to within the tolerance.
   double largest_difference() const { return worst_; }
 
@@ -47,7 +47,7 @@ class MapComparison {
   }
   bool fail(const char* quantity, std::size_t point, const C& found, const C& expected) {
     witness_ =
-        Witness{"", quantity, static_cast<int>(point), K::approximate(found), K::approximate(expected)};
+        MapWitness{"", quantity, static_cast<int>(point), K::approximate(found), K::approximate(expected)};
     return false;
   }
   bool equal(const C& a, const C& b) {
@@ -59,7 +59,7 @@ class MapComparison {
     C sum(0);
     for (const auto& entry : s.entries()) sum += entry.weight;
     if (equal(sum, C(expected)) && K::is_zero(s.constant())) return true;
-    witness_ = Witness{"", quantity, -1, K::approximate(sum), static_cast<double>(expected)};
+    witness_ = MapWitness{"", quantity, -1, K::approximate(sum), static_cast<double>(expected)};
     return false;
   }
 
@@ -120,14 +120,14 @@ class MapComparison {
         if (std::abs(determinant(e, p, q)) < 1e-9) continue;
         const Frame frame = solve(du, dv, e, p, q);
         std::size_t wrong = 0;
-        std::optional<Witness> first;
+        std::optional<MapWitness> first;
         for (std::size_t k = 0; k < n; ++k) {
           const C u = combine(frame.a, frame.b, e, k), v = combine(frame.c, frame.d, e, k);
           const bool u_held = K::equal(du[k], u);
           if (u_held && K::equal(dv[k], v)) continue;
           if (++wrong == 1)
-            first = Witness{"", "tangents", static_cast<int>(k), K::approximate(u_held ? dv[k] : du[k]),
-                            K::approximate(u_held ? v : u)};
+            first = MapWitness{"", "tangents", static_cast<int>(k), K::approximate(u_held ? dv[k] : du[k]),
+                               K::approximate(u_held ? v : u)};
         }
         if (wrong < fewest && first) fewest = wrong, witness_ = first;
       }
@@ -137,7 +137,7 @@ class MapComparison {
 
   std::int64_t points_ = 0;
   double worst_ = 0;
-  std::optional<Witness> witness_;
+  std::optional<MapWitness> witness_;
 };
 
 }  // namespace limitcheck::verify

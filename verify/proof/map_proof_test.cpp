@@ -23,7 +23,7 @@ double expect_equal(const Neighbourhood& pair, const MapOptions& options) {
     EXPECT_TRUE(row.map.equal) << row.topology << ' ' << row.kernel;
     EXPECT_GT(row.points, 0);
     if (!row.map.witness) continue;
-    const Witness& w = *row.map.witness;
+    const MapWitness& w = *row.map.witness;
     ADD_FAILURE() << w.point << ": " << w.quantity << " of control point " << w.control_point << " is "
                   << w.found << ", not " << w.expected;
   }

@@ -54,7 +54,7 @@ std::string range(int first, int last) {
   return first == last ? fmt::format("{}", last) : fmt::format("{}-{}", first, last);
 }
 
-std::string describe(const Witness& w) {
+std::string describe(const MapWitness& w) {
   const std::string point = w.control_point < 0   ? ""
                             : w.control_point < 4 ? fmt::format(", control point {} (corner {})",
                                                                 w.control_point, "ABCD"[w.control_point])
@@ -170,7 +170,7 @@ std::string ProofReport::json() const {
       j["arithmetic"] = row.map.arithmetic;
       j["digits"] = std::isfinite(row.map.digits) ? nlohmann::ordered_json(row.map.digits) : nullptr;
       if (row.map.witness) {
-        const Witness& w = *row.map.witness;
+        const MapWitness& w = *row.map.witness;
         j["witness"] = {{"point", w.point},
                         {"quantity", w.quantity},
                         {"control_point", w.control_point},

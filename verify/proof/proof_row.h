@@ -9,7 +9,7 @@
 namespace limitcheck::verify {
 
 /// The weight that is wrong, and where.
-struct Witness {
+struct MapWitness {
   std::string point;       ///< "depth 3, face 0 at (1/8, 5/8)"
   std::string quantity;    ///< position, tangents, sum, negative, centre, ..
   int control_point = -1;  ///< vertex of the neighbourhood's mesh; 0 1 2 3 are the corners A B C D
@@ -21,7 +21,7 @@ struct MapProof {
   bool equal = false;
   std::string arithmetic;  ///< "exact": rationals and sqrt(3); "residues": modulo two primes; "digits"
   double digits = 0;       ///< of the largest difference; infinite if there is none
-  std::optional<Witness> witness;
+  std::optional<MapWitness> witness;
 };
 
 /// Rounding of a float32 kernel over all control meshes in the unit box.

@@ -15,7 +15,7 @@ int main() {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       for (const ProofRow& row : prove_map(pairs[k], {Arithmetic::kResidues, 0, k < 2 ? 4 : 2})) {
         if (!row.map.witness) continue;
-        const Witness& w = *row.map.witness;
+        const MapWitness& w = *row.map.witness;
         fmt::print("{} on {}, {}: {} of control point {} is {}, not {}\n", row.kernel, row.topology, w.point,
                    w.quantity, w.control_point, w.found, w.expected);
         return 1;

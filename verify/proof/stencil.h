@@ -110,20 +110,20 @@ class Stencil {
   /// a + b, a - b, or what a planted fault makes of it.
   template <bool kMinus>
   static Stencil sum(const Stencil& a, const Stencil& b) {
-    PlantedFault* fault = PlantedFault::active();
+    StencilFault* fault = StencilFault::active();
     if (fault == nullptr || fault->is_product() || b.entries_.empty()) return merged<kMinus>(a, b);
     static thread_local Stencil before;
     const Stencil instead = before;
     before = b;
     if (!fault->strikes()) return merged<kMinus>(a, b);
-    if (fault->kind() == PlantedFault::Kind::kDropped) return a;
-    if (fault->kind() == PlantedFault::Kind::kDoubled) return merged<kMinus>(merged<kMinus>(a, b), b);
+    if (fault->kind() == StencilFault::Kind::kDropped) return a;
+    if (fault->kind() == StencilFault::Kind::kDoubled) return merged<kMinus>(merged<kMinus>(a, b), b);
     return merged<kMinus>(a, instead);
   }
 
   Stencil scaled(C factor) const {
     Stencil s;
-    if (PlantedFault* fault = PlantedFault::active();
+    if (StencilFault* fault = StencilFault::active();
         fault != nullptr && fault->is_product() && !entries_.empty() && fault->strikes())
       factor *= K::ratio((1 << 20) + 1, 1 << 20);
     if (K::is_zero(factor)) return s;

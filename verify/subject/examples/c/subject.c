@@ -15,12 +15,14 @@ static lc_status capabilities(const char* options, lc_capabilities* out, const c
 
 static lc_status create(const lc_mesh* mesh, const char* options, void** instance, const char** message) {
   (void)options;
+  if (mesh->vertex_count == 0 || mesh->triangle_count == 0)
+    return *message = "there are no triangles", LC_INVALID_INPUT;
   Mesh m = mesh_allocate(mesh->vertex_count, mesh->triangle_count), *kept = malloc(sizeof *kept);
   memcpy(m.p, mesh->positions, (size_t)m.vertices * sizeof(Vec));
   memcpy(m.from, mesh->triangles, (size_t)m.halves * sizeof(int32_t));
   for (int32_t h = 0; h < m.halves; ++h) m.at[h][0] = h % 3 == 1, m.at[h][1] = h % 3 == 2;
   *kept = m;
-  *message = m.halves == 0 ? "there are no triangles" : mesh_connect(kept);
+  *message = mesh_connect(kept);
   if (*message == NULL) return *instance = kept, LC_OK;
   mesh_free(m), free(kept);
   return LC_INVALID_INPUT;

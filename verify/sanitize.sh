@@ -5,7 +5,8 @@
 #   verify/sanitize.sh tsan[-clang] [ctest arguments]         data races: the tests of the folders that use threads
 #   verify/sanitize.sh valgrind [--gtest_filter=...]          memcheck: the tests of the libraries, and quick audits
 # Left out, and why: under asan the subject that writes where it must not, on purpose; under tsan data/ and reference/,
-# which use no threads; under valgrind AVX-512, which 3.19 lacks, and the test that counts allocations by an operator new of its own, which valgrind puts its own before.
+# which use no threads; under valgrind AVX-512, which 3.19 lacks, and the test that counts allocations by an operator
+# new of its own, which valgrind puts its own before.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 kind=${1:?asan-ubsan, asan-ubsan-clang, tsan, tsan-clang or valgrind}

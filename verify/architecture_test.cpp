@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The house rules: arrows point down only, and the reference and the fast engine have nothing in common but
-// the control mesh. Read from the sources and from the symbols of the libraries.
+// The house rules: arrows point down only, the reference and the fast engine have nothing in common but the
+// control mesh, and no two types have one name. Read from the sources and from the symbols of the libraries.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -109,6 +109,65 @@ TEST(House, TheScannerSeesWhatItIsThereFor) {
                          "#include \"fast/masks.h\"\n#include <vector>\n#include \"data/control_mesh.h\"\n")
                   .empty());
   EXPECT_TRUE(violations("verify/watertight/a.cpp", "#include <CGAL/Surface_mesh.h>\n").empty());
+}
+
+// Types that a file defines in a named namespace, with their namespaces; clang-format indents no namespace.
+Names types_of(const std::string& text) {
+  static const std::regex opens("^(?:inline )?namespace ?([A-Za-z_:]*) ?\\{[^}]*$");
+  static const std::regex closes("^\\}  // namespace.*");
+  static const std::regex type(
+      "^(?:struct|class|union|enum(?: class| struct)?) (?:alignas\\([^)]*\\) )?([A-Za-z_0-9]+)"
+      "(?![A-Za-z_0-9<]|::)(?:[^;]*|[^;{]*\\{.*)$");
+  std::vector<std::string> open;
+  Names found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, opens)) {
+      open.push_back(match[1]);
+    } else if (std::regex_match(line, closes) && !open.empty()) {
+      open.pop_back();
+    } else if (std::regex_match(line, match, type)) {
+      std::string name;
+      bool unnamed = false;
+      for (const std::string& space : open) {
+        unnamed = unnamed || space.empty();
+        name += space + "::";
+      }
+      if (!unnamed && !open.empty()) found.insert(name + match[1].str());
+    }
+  }
+  return found;
+}
+
+// Two types of one name in two files of one program are undefined behaviour that no linker reports: the
+// functions of one run on objects of the other.
+TEST(House, NoTypeIsDefinedTwice) {
+  std::map<std::string, std::string> defined_in;
+  for (const auto& [folder, rules] : may_include())
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(LIMITCHECK_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      const std::string path = entry.path().lexically_relative(LIMITCHECK_SOURCE_DIR);
+      for (const std::string& type : types_of(read(entry.path()))) {
+        const auto [other, is_new] = defined_in.emplace(type, path);
+        EXPECT_TRUE(is_new) << type << " is defined in " << other->second << " and in " << path;
+      }
+    }
+  EXPECT_GT(defined_in.size(), 200U);
+}
+
+TEST(House, TheScannerOfTypesKnowsNamespacesAndDefinitions) {
+  EXPECT_EQ(
+      types_of("namespace a::b {\nstruct S {\n};\nenum class E : int { kOne };\n}  // namespace a::b\n"),
+      (Names{"a::b::S", "a::b::E"}));
+  EXPECT_EQ(types_of("namespace a {\ntemplate <class T>\nclass C : public B<T> {\n};\nclass D final\n    : "
+                     "public B {};\n}  // namespace a\n"),
+            (Names{"a::C", "a::D"}));
+  EXPECT_TRUE(
+      types_of("namespace a {\nnamespace {\nstruct S {};\n}  // namespace\n}  // namespace a\n").empty());
+  EXPECT_TRUE(types_of("namespace a {\nstruct S;\nstruct S::Impl {\n};\ntemplate <>\nstruct T<int> {};\n}  "
+                       "// namespace a\n")
+                  .empty());
 }
 
 // Names of a static library that other objects can see, demangled; `defined` or mentioned at all.

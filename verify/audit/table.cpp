@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace limitcheck::verify {
 namespace {
@@ -248,6 +251,23 @@ std::string audit_command(const Report& report, const Result& result, const std:
   return command;
 }
 
+namespace {
+
+// Why meshes were not tessellated at all though nothing is wrong: each reason once.
+std::string reasons(const Report& report, const std::string& subject) {
+  std::map<std::string, std::vector<std::string>> meshes;
+  for (const Result& r : report.results)
+    if (r.subject == subject && r.check == "tessellates" && r.status == Status::kNotSupported)
+      meshes[r.message].push_back(r.mesh);
+  std::string out;
+  for (const auto& [reason, names] : meshes)
+    out += fmt::format("  not supported: {}{}: {}\n", names.front(),
+                       names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "", reason);
+  return out;
+}
+
+}  // namespace
+
 std::string to_table(const Report& report, bool colour, bool all) {
   std::string out;
   std::int64_t faces = 0;
@@ -280,6 +300,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
                  fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()), colour);
       if (line.bad_meshes > 0) findings.push_back(std::move(line));
     }
+    out += reasons(report, subject);
   }
   if (!findings.empty())
     out +=

@@ -27,6 +27,7 @@
 #include "verify/cli/must_refuse.h"
 #include "verify/cli/progress.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/subject/coordinate_range.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
@@ -144,6 +145,7 @@ int audit(Arguments a) {
   for (const std::string& name : a.meshes) {
     progress.show(0, 1, "mesh " + name);
     data::ControlMesh mesh = a.must_refuse ? open_broken_mesh(name) : data::open_mesh(name);
+    if (!a.must_refuse) verify::require_range(name, mesh, true);
     std::vector<std::int32_t> depth;
     if (!a.must_refuse) depth = face_depths(depths, mesh, a.depth);
     std::shared_ptr<const verify::MeshSample> sample;

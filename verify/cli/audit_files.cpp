@@ -17,6 +17,7 @@
 #include "verify/cli/progress.h"
 #include "verify/files/audit_files.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/subject/coordinate_range.h"
 
 namespace limitcheck::cli {
 
@@ -62,6 +63,7 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
       static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()));
   const auto start = std::chrono::steady_clock::now();
   const data::ControlMesh control = data::open_mesh(files.control);
+  verify::require_range(files.control, control, true);
   verify::FileTessellation tessellation = verify::read_tessellation(files.tessellation);
   std::vector<verify::ProvenanceRow> provenance;
   if (!files.provenance.empty())

@@ -37,6 +37,36 @@ TEST_F(Misfortune, AFullDiskBehindStandardOutputIsAnError) {
   }
 }
 
+// Beyond the range of the numbers nobody is right: such meshes are refused before a subject is blamed.
+TEST_F(Misfortune, AMeshOfAbsurdSizeIsRefusedOrNotJudged) {
+  const auto tetrahedron = [&](const std::string& e) {
+    write(e + ".obj", "v 1" + e + " 1" + e + " 1" + e + "\nv -1" + e + " -1" + e + " 1" + e + "\nv -1" + e +
+                          " 1" + e + " -1" + e + "\nv 1" + e + " -1" + e + " -1" + e +
+                          "\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  };
+  for (const std::string size : {"e200", "e-200"}) {
+    tetrahedron(size);
+    for (const std::string& command :
+         {"audit row-stream " + size + ".obj", "audit naive " + size + ".obj", "tessellate " + size + ".obj",
+          "audit --control " + size + ".obj --tessellation " + size + ".obj"}) {
+      const Outcome o = run(command);
+      EXPECT_EQ(o.code, 2) << command;
+      EXPECT_TRUE(
+          o.err.starts_with("limitcheck: " + size + ".obj: the largest coordinate is 1" + size.substr(0, 1)))
+          << o.err;
+    }
+    EXPECT_EQ(run("eval " + size + ".obj 0 1/3 1/3").code, 0) << "the exact evaluator has no such limit";
+  }
+  tetrahedron("e35");
+  const std::string table = run("audit row-stream e35.obj --depth 1").out;
+  EXPECT_NE(table.find("not supported: e35.obj: the largest coordinate is 1e+35: with single precision"),
+            std::string::npos)
+      << table;
+  EXPECT_EQ(run("audit opensubdiv-far:precision=double e35.obj --depth 1 --level quick")
+                .out.find("not supported: "),
+            std::string::npos);
+}
+
 TEST_F(Misfortune, ClosedStreamsDoNotLandInTheFiles) {
   Outcome o = shell(kQuickAudit + std::string("--json report.json >&-"));
   EXPECT_EQ(o.code, 2) << o.err;

@@ -21,6 +21,7 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
 #include "verify/mesh_output/mesh_output.h"
+#include "verify/subject/coordinate_range.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -199,6 +200,7 @@ int tessellate(const Arguments& a) {
   Timings timings;
   progress.show(0, 3, "reading " + a.mesh);
   const data::ControlMesh mesh = data::open_mesh(a.mesh);
+  verify::require_range(a.mesh, mesh, false);
   timings.read = lap();
 
   progress.clear();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "verify/subject/coordinate_range.h"
 #include "verify/subject/host_memory.h"
 #include "verify/subject/subject_call.h"
 
@@ -40,18 +41,18 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
       options_(std::move(options)),
       capabilities_(verify::capabilities(subject, options_)),
       mesh_(mesh) {
+  for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
+    if (!std::ranges::all_of(mesh_.positions[v], [](double x) { return std::isfinite(x); }))
+      throw SubjectError(LC_INVALID_INPUT, fmt::format("vertex {} has no finite position", v));
+  const bool single = capabilities_.precision == LC_FLOAT32;
+  if (const std::string reason = out_of_range(mesh_, !single); !reason.empty())
+    throw SubjectError(LC_NOT_SUPPORTED, reason);
   positions_.reserve(3 * mesh_.positions.size());
-  for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-    for (double& x : mesh_.positions[v]) {
-      if (capabilities_.precision == LC_FLOAT32) x = static_cast<double>(static_cast<float>(x));
-      if (!std::isfinite(x)) {
-        throw SubjectError(
-            LC_INVALID_INPUT,
-            fmt::format("vertex {} has no finite position in the precision of {}", v, subject_.name));
-      }
+  for (auto& position : mesh_.positions)
+    for (double& x : position) {
+      if (single) x = static_cast<double>(static_cast<float>(x));
       positions_.push_back(x);
     }
-  }
   triangles_.reserve(3 * mesh_.triangles.size());
   for (const auto& t : mesh_.triangles) triangles_.insert(triangles_.end(), t.begin(), t.end());
 

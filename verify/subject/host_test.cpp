@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "data/shapes.h"
 #include "verify/subject/faulty_subjects.h"
@@ -93,14 +94,33 @@ TEST(Host, RoundsTheControlMeshToThePrecisionOfTheSubject) {
   EXPECT_EQ(wide.label(), "opensubdiv-far:precision=double");
 }
 
-TEST(Host, RefusesCoordinatesThatAreNotFiniteInThePrecisionOfTheSubject) {
+TEST(Host, RefusesCoordinatesThatAreNotFinite) {
   auto mesh = octahedron();
-  mesh.positions[0][0] = 1e300;
-  EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh); }), LC_INVALID_INPUT);
-  EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh, "precision=double"); }), LC_OK);
   mesh.positions[0][0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh); }), LC_INVALID_INPUT);
   EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh, "precision=double"); }),
             LC_INVALID_INPUT);
+}
+
+TEST(Host, JudgesNoMeshWhoseSizeLeavesTheRangeOfThePrecision) {
+  for (const auto& [size, single, twice] : {std::tuple{1e-29, LC_OK, LC_OK},
+                                            {1e29, LC_OK, LC_OK},
+                                            {1e-31, LC_NOT_SUPPORTED, LC_OK},
+                                            {1e31, LC_NOT_SUPPORTED, LC_OK},
+                                            {1e-72, LC_NOT_SUPPORTED, LC_OK},
+                                            {1e72, LC_NOT_SUPPORTED, LC_OK},
+                                            {1e-73, LC_NOT_SUPPORTED, LC_NOT_SUPPORTED},
+                                            {1e73, LC_NOT_SUPPORTED, LC_NOT_SUPPORTED}}) {
+    auto mesh = octahedron();
+    for (auto& p : mesh.positions)
+      for (double& x : p) x *= size;
+    EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh); }), single) << size;
+    EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh, "precision=double"); }), twice)
+        << size;
+  }
+  auto mesh = octahedron();
+  for (auto& p : mesh.positions) p = {0, 0, 0};
+  EXPECT_EQ(status_of([&] { Session(*lc_subject_opensubdiv_far(), mesh); }), LC_OK);
 }
 
 TEST(Host, RefusesUnknownOptionsAndValues) {

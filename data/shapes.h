@@ -8,8 +8,8 @@
 
 namespace limitcheck::data {
 
-// All throw InputError (NAME_BAD_PARAMETER) for a parameter outside the stated range or beyond 10 million
-// faces.
+// All throw InputError (NAME_BAD_PARAMETER) for a parameter
+// outside the stated range or beyond 10 million faces.
 
 // Closed.
 
@@ -34,8 +34,8 @@ ControlMesh cube();
 /// not touch the boundary.
 ControlMesh wheel(int n, int rings = 3);
 
-/// Half of a wheel: a boundary vertex (vertex 0) with k >= 1 faces, k sectors of `rings` >= 1 rings. [D1, D2,
-/// D5]
+/// Half of a wheel: a boundary vertex (vertex 0) with k >= 1 faces, k sectors of `rings` >= 1 rings.
+/// [D1, D2, D5]
 ControlMesh fan(int k, int rings = 3);
 
 /// A regular sheet of nx x ny squares, each cut along the same diagonal: all interior vertices regular.

@@ -12,8 +12,8 @@
 
 namespace limitcheck::data {
 
-/// What can be wrong. The elements of a finding are vertices and faces counted from 0, in the order given
-/// here.
+/// What can be wrong. The elements of a finding are vertices
+/// and faces counted from 0, in the order given here.
 enum class MeshFault {
   kEmpty,     ///< no vertices or no faces.                                           elements: none
   kTooLarge,  ///< more vertices or half-edges than 32-bit indices name.               elements: vertex and

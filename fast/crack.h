@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Crack prevention between faces of different depth.                                    [mueller2000, section
-// 5]
+// Crack prevention between faces of different depth.
+// [mueller2000, section 5]
 #pragma once
 
 #include <cstdint>

@@ -37,8 +37,8 @@ std::string_view name(Strategy strategy);
 /// Throws std::invalid_argument and lists the names.
 Strategy parse_strategy(std::string_view text);
 
-/// By the limit normals N and limit positions L of the three corners; a corner faces away if N . (L - eye) >=
-/// 0.
+/// By the limit normals N and limit positions L of the three
+/// corners; a corner faces away if N . (L - eye) >= 0.
 enum class Facing : std::int8_t { kFront, kSilhouette, kBack };
 
 /// A strategy and its parameters.
@@ -83,8 +83,8 @@ class DepthHeuristics {
   /// that sphere, at least camera.near. [decision in claims.md E; C25]
   std::int32_t project_sphere(std::int32_t face, const Camera& camera, double target_pixels) const;
 
-  /// The smallest cosine between the limit normal of vertex v and the triangles round it after l steps in
-  /// place.
+  /// The smallest cosine between the limit normal of vertex
+  /// v and the triangles round it after l steps in place.
   double cone_cosine(std::int32_t v, int l) const;
   /// Smallest l in 0 .. max_depth at which all of them lie in the cone: cosine >= cos_angle; else max_depth.
   ///                                                                               [erratum 4; C27, decision

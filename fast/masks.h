@@ -104,8 +104,8 @@ auto loop_a(int n) {
   return T::ratio(5, 8) - T::ratio(1, 64) * b * b;
 }
 
-/// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}).      [eq. 1;
-/// C10]
+/// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}).
+/// [eq. 1; C10]
 template <class N>
 struct VertexWeights {
   using Scalar = typename NumberTraits<typename NumberTraits<N>::Wide>::Scalar;

@@ -192,8 +192,8 @@ class Greedy {
     for (const std::int32_t h : touched) {
       if (nodes_[h].set == 2 || nodes_[h].set == 1) move(h, 0);
     }
-    // "All triangles from S2 with neighbours in S0, S1 or S2": such a neighbour is new only beside one that
-    // moved.
+    // "All triangles from S2 with neighbours in S0, S1 or S2":
+    // such a neighbour is new only beside one that moved.
     for (std::size_t i = 0; i < count; ++i) {
       for (int e = 0; e < 3; ++e) {
         const std::int32_t neighbour = adjacency_.neighbour(moved[i], e);

@@ -65,8 +65,8 @@ class Ring {
   bool open_ = false;
 };
 
-/// Loop's weight a(n) = 5/8 - (3 + 2 cos(2 pi/n))^2 / 64.                                          [claim
-/// C11]
+/// Loop's weight a(n) = 5/8 - (3 + 2 cos(2 pi/n))^2 / 64.
+/// [claim C11]
 double loop_alpha(int n);
 
 }  // namespace limitcheck::fast

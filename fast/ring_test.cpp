@@ -114,8 +114,8 @@ TEST(Ring, OneStepInPlaceEqualsOneStepOfTheWholeMesh) {
   expect_same_ring(single_triangle());
 }
 
-// 60 steps shrink the ring to 1e-17 of its size inside and to 1e-18 on the boundary: the point itself is the
-// limit.
+// 60 steps shrink the ring to 1e-17 of its size inside and
+// to 1e-18 on the boundary: the point itself is the limit.
 TEST(Ring, LimitPositionIsWhereManyStepsEnd) {
   RecordProperty("claim", "C14");
   for (const bool open : {false, true}) {

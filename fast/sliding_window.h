@@ -74,8 +74,8 @@ class SlidingWindow {
 
   int max_depth() const { return max_depth_; }
   int max_valence() const { return max_valence_; }
-  /// 3D vectors held: sum over the levels of 5 (2^l + 1) + 6 n_max, and 2 * 2 (2^m + 1) for the strip. [C48,
-  /// C49]
+  /// 3D vectors held: sum over the levels of 5 (2^l + 1) + 6 n_max, and 2 * 2 (2^m + 1) for the strip.
+  /// [C48, C49]
   std::size_t allocated_vectors() const { return storage_.size() + 2 * strip_.size(); }
   /// Normals that came from the rule for vanishing tangents, in all runs so far. [D12]
   std::int64_t zero_normals() const { return zero_normals_; }

@@ -47,8 +47,8 @@ const CircleTable<N>& circle_table(long m) {
   return *tables[index];
 }
 
-/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.      [section 3.1;
-/// C11]
+/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.
+/// [section 3.1; C11]
 template <class N>
 N loop_a(int n) {
   if (n == 6) return N(3) / N(8);  // by far the most frequent
@@ -56,8 +56,8 @@ N loop_a(int n) {
   return N(5) / N(8) - s * s / N(64);
 }
 
-/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i.                               [equation 1;
-/// C10]
+/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i.
+/// [equation 1; C10]
 ///
 ///         a/n
 ///    a/n   |  a/n
@@ -74,8 +74,8 @@ Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   return v + sum * (loop_a<N>(n) / N(n));
 }
 
-/// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).                  [equation 2;
-/// C12]
+/// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).
+/// [equation 2; C12]
 ///
 ///        1/8
 ///       /   \        .
@@ -106,8 +106,8 @@ Vec3<N> ghost_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c) {
 }
 
 /// Limit of an interior vertex: weights (3n / 8a) : 1 .. 1, that is
-/// (3 v + (8a / n) sum v_i) / (3 + 8a).                                                        [equation 3;
-/// C14]
+/// (3 v + (8a / n) sum v_i) / (3 + 8a).
+/// [equation 3; C14]
 template <class N>
 Vec3<N> interior_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   const auto n = static_cast<int>(ring.size());

@@ -47,8 +47,8 @@ LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order 
   return s;
 }
 
-/// Sets the derivatives of `result` by the chain rule; `first`, `second` are factors beside those of the
-/// placement.
+/// Sets the derivatives of `result` by the chain rule; `first`,
+/// `second` are factors beside those of the placement.
 template <class N>
 void place(SurfacePoint<N>& result, const LocalPoint<N>& s, const Placement& at, const N& first,
            const N& second, Order order) {

@@ -12,8 +12,8 @@
 
 namespace limitcheck::reference {
 
-/// One step: the new vertex points, in the order of the vertices, then the edge points, in the order of the
-/// edges.
+/// One step: the new vertex points, in the order of the
+/// vertices, then the edge points, in the order of the edges.
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions);
 
@@ -47,8 +47,8 @@ class RefinedMesh {
   }
   const Topology& topology() const { return topology_; }
 
-  /// Limit positions and unit normals of all vertices.                                       [C14, D1, D2,
-  /// D12]
+  /// Limit positions and unit normals of all vertices.
+  /// [C14, D1, D2, D12]
   struct Limits {
     std::vector<Vec3<N>> positions, normals;
     std::vector<NormalKind> kinds;

@@ -91,8 +91,8 @@ struct SpiderPower {
   N half;            ///< 2^-J, for the Jordan block of K = 6, 12, ..
 };
 
-/// Everything about a vertex of one kind but the points: `count` = valence n, or number of faces K on the
-/// boundary.
+/// Everything about a vertex of one kind but the points:
+/// `count` = valence n, or number of faces K on the boundary.
 template <class N>
 class SpiderKind {
  public:

@@ -48,8 +48,8 @@ class StamEvaluator {
   StamEvaluator& operator=(StamEvaluator&&) noexcept;
 
   int face_count() const;
-  /// Throws std::out_of_range for a face that is not there, std::invalid_argument for parameters outside the
-  /// triangle.
+  /// Throws std::out_of_range for a face that is not there,
+  /// std::invalid_argument for parameters outside the triangle.
   SurfacePoint<N> evaluate(int face, double l1, double l2, Order order = Order::kSecond) const;
   SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
                            Order order = Order::kSecond) const;

@@ -12,8 +12,8 @@ namespace limitcheck::reference {
 /// Vertex indices, counter-clockwise.
 using Triangle = std::array<std::int32_t, 3>;
 
-/// An edge from a to b; `left` is opposite in the face that runs a -> b, `right` in the other face, -1 on the
-/// boundary.
+/// An edge from a to b; `left` is opposite in the face that
+/// runs a -> b, `right` in the other face, -1 on the boundary.
 struct Edge {
   std::int32_t a, b, left, right;
   bool on_boundary() const { return right < 0; }

@@ -28,8 +28,8 @@ struct Segment {
   fast::Point3 from, to;
 };
 
-/// One picture after the other in memory of its own. Throws std::runtime_error if the graphics library
-/// refuses.
+/// One picture after the other in memory of its own. Throws
+/// std::runtime_error if the graphics library refuses.
 class Renderer {
  public:
   /// samples: per pixel, 1 for speed.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does what the paper says of its figures hold? The trends that a reproduction must show.          [claims.md
-// F]
+// Does what the paper says of its figures hold? The trends that a reproduction must show.    [T1-T10]
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -36,8 +36,8 @@ Turn turn(const Frame& frame, const fast::DepthOptions& depth, int frames, doubl
 
 /// Means per frame: triangles, strips, fans, pairs, singletons, culled share, limit points.
 nlohmann::ordered_json counts(const Turn& turn);
-/// Frames per second, and the shares of the stages in the whole time: heuristics, pairing, cracks, window,
-/// drawing.
+/// Frames per second, and the shares of the stages in the
+/// whole time: heuristics, pairing, cracks, window, drawing.
 nlohmann::ordered_json timing(const Turn& turn);
 
 /// The errors of three views, 120 degrees apart: the worst of each, and the mean of the means.

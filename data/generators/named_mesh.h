@@ -9,9 +9,9 @@
 
 namespace limitcheck::data {
 
-/// The mesh of a specification NAME[:PARAMETER...], parameters separated by colons, as `named_meshes` lists
-/// them. Throws InputError: NAME_UNKNOWN, or NAME_BAD_PARAMETER (too few, too many, not a number, out of
-/// range).
+/// The mesh of a specification NAME[:PARAMETER...], parameters separated by
+/// colons, as `named_meshes` lists them. Throws InputError: NAME_UNKNOWN,
+/// or NAME_BAD_PARAMETER (too few, too many, not a number, out of range).
 ControlMesh named_mesh(const std::string& specification);
 
 /// One line of the list: `name` is "wheel:N[:RINGS]".
@@ -21,8 +21,8 @@ struct NamedMesh {
 };
 std::vector<NamedMesh> named_meshes();
 
-/// Specifications of the small shapes that an audit runs on: every interior valence class, every boundary
-/// situation.
+/// Specifications of the small shapes that an audit runs on:
+/// every interior valence class, every boundary situation.
 std::vector<std::string> stock_shapes();
 
 /// What a user may write where a mesh is expected: an existing file is read, anything else is a

@@ -67,8 +67,8 @@ class EdgeStrip {
     return LimitRow<N>(down_[k], line_[k], up_[k] - 3 * L, centre_, unit_, out, lane_stride);
   }
 
-  // Window of an end at a level: three entries and `first` more on either side, the middle one along the
-  // edge.
+  // Window of an end at a level: three entries and `first`
+  // more on either side, the middle one along the edge.
   Scalar* window(int end, int entry) { return block_[end] + (CornerBlock::kWindow + 3 * entry) * L; }
 
   HWY_ATTR static void copy(const Scalar* from, Scalar* to) {

@@ -3,8 +3,8 @@
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Same bits on every target: where the hardware has no fused multiply-add, std::fma takes its place, lane by
-/// lane.
+/// Same bits on every target: where the hardware has no fused
+/// multiply-add, std::fma takes its place, lane by lane.
 template <class D>
 struct LaneNumber {
   using Scalar = hn::TFromD<D>;

@@ -15,8 +15,8 @@ struct FacePoint {
   int i, j;
 };
 
-/// Point (column, row) of a pair of 2^depth = size, on the upper left member if row >= column, else the
-/// other.
+/// Point (column, row) of a pair of 2^depth = size, on the
+/// upper left member if row >= column, else the other.
 ///   face0   corners edge0 = A (0, 0), edge0 + 1 = C (size, size), edge0 + 2 = D (0, size)
 ///   face1   corners edge1 = C, edge1 + 1 = A, edge1 + 2 = B (size, 0)
 inline FacePoint face_point(const Pair& pair, int size, int column, int row, bool upper) {

@@ -11,8 +11,8 @@ namespace limitcheck::fast::row_stream {
 inline constexpr int kMaxDepth = 10;
 inline constexpr int kMaxLanes = 16;
 
-/// A pair on its lattice, N = 2^depth. Neighbours of (i, j): E (i+1, j), NE (i+1, j+1), NW (i, j+1), W, SW,
-/// SE.
+/// A pair on its lattice, N = 2^depth. Neighbours of (i,
+/// j): E (i+1, j), NE (i+1, j+1), NW (i, j+1), W, SW, SE.
 ///
 ///        D (0,N) ---- C (N,N)      Upper left triangle A C D: face0 of the Pair; corner edge0 is A.
 ///          |        /   |          Lower right triangle C A B: face1.
@@ -74,8 +74,8 @@ constexpr int border_offset(int depth) {
   return rows_offset(depth + 1);
 }
 
-/// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of
-/// three.
+/// Likewise for a control edge: two corner blocks, whose
+/// windows have the edge in the middle of a core of three.
 constexpr int edge_window_width(int depth) {
   return 3 + 2 * depth;
 }

@@ -26,9 +26,9 @@ namespace limitcheck::fast::row_stream {
 /// where dx, dy are the derivatives of the limit by column / 2^d and row / 2^d of the pair, the unit of the
 /// points' own coordinates; at control vertices the tangents of RingWeights, slant = along.
 ///
-/// Double (DoubleStream): positions within 5e-16 of the mesh's extent from the exact limit (measured: 1e-16),
-/// normals within 1e-12 (measured: 1e-14, depth 5). Exact T: exact, as long as the cosines of the valences
-/// are.
+/// Double (DoubleStream): positions within 5e-16 of the mesh's extent from
+/// the exact limit (measured: 1e-16), normals within 1e-12 (measured: 1e-14,
+/// depth 5). Exact T: exact, as long as the cosines of the valences are.
 template <class N>
 class NumberStream {
  public:

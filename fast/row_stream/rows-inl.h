@@ -12,8 +12,8 @@ HWY_ATTR HWY_INLINE void choose_origin(const typename N::Scalar* p, const typena
   }
 }
 
-/// A corner block with `width` entries of its window from number `first` on, seen from the origin. May be in
-/// place.
+/// A corner block with `width` entries of its window from
+/// number `first` on, seen from the origin. May be in place.
 template <class N, class V>
 HWY_ATTR void take_block(const typename N::Scalar* from, int first, int width, const V* origin, bool relative,
                          typename N::Scalar* to) {

@@ -96,9 +96,9 @@ class Stream {
     for (int c = 0; c < 3; ++c) N::store(N::load(from + c * L), to_row + (3 * i + c) * L);
   }
 
-  // Points next to the corners come from their rings, whose valence is the corner's own. B and D first: with
-  // 2^level = 1 they share entries with A and C, and only those have the whole truth beside a singleton's
-  // diagonal.
+  // Points next to the corners come from their rings, whose valence is the
+  // corner's own. B and D first: with 2^level = 1 they share entries with A
+  // and C, and only those have the whole truth beside a singleton's diagonal.
   HWY_ATTR void take_border(int level, int j) const {
     const int size = 1 << level;
     Scalar* r = row(level, j);

@@ -14,10 +14,10 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// As fast::Tessellator<float>, with the points from row streaming: pairs of one depth together in the lanes
-/// of a vector, edges between unequal depths evaluated at the edge's own depth, which gives the bits that a
-/// pair of that depth has there. Depths 0..10. Results do not depend on the number of threads nor on the
-/// kernel.
+/// As fast::Tessellator<float>, with the points from row streaming: pairs of one
+/// depth together in the lanes of a vector, edges between unequal depths evaluated at
+/// the edge's own depth, which gives the bits that a pair of that depth has there.
+/// Depths 0..10. Results do not depend on the number of threads nor on the kernel.
 ///   throws   std::invalid_argument, as fast::Tessellator
 class StreamTessellator {
  public:

@@ -116,8 +116,8 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
   for (const Lattice::Id id : e.point)
     if (id != Lattice::kNone) named[id] = true;
 
-  // By provenance: an open edge is a step of the boundary, once, or a crack, perhaps with a lattice point
-  // inside.
+  // By provenance: an open edge is a step of the boundary,
+  // once, or a crack, perhaps with a lattice point inside.
   Cracks c;
   const auto& steps = outline.steps();
   const auto step_of = [&](const OpenEdge& edge) {

@@ -18,8 +18,8 @@ std::vector<Result> check_finite(const Evidence&);
 /// `positions`: distance from the exact limit point; `refined-positions`: from the vertex of the refined
 /// control mesh, for subjects that deliver no limit points (their `positions` is not supported).
 std::vector<Result> check_positions(const Evidence&);
-/// `normals`: angle from the exact normal, where the surface has one; `normal-length`: distance from unit
-/// length.
+/// `normals`: angle from the exact normal, where the surface
+/// has one; `normal-length`: distance from unit length.
 std::vector<Result> check_normals(const Evidence&);
 /// `normals-against-positions`: the normals fit the facets as well as the exact ones do.
 std::vector<Result> check_normals_against_positions(const Evidence&);

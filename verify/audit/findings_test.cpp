@@ -46,8 +46,8 @@ TEST(Findings, TheNaiveSubdividerIsRightOnEveryShapeButNotBitwise) {
   RecordProperty("worst_position", fmt::format("{:.2e} of the box on {}", worst, worst_mesh));
 }
 
-// Bound 1e-14 of the box (the check's own); boundary shapes included, where only OpenSubdiv's tangents are at
-// fault.
+// Bound 1e-14 of the box (the check's own); boundary shapes
+// included, where only OpenSubdiv's tangents are at fault.
 TEST(Findings, OpenSubdivsUniformRefinementInDoubleHasTheRightPositionsOnEveryShape) {
   std::vector<std::string> meshes = data::stock_shapes();
   meshes.insert(meshes.end(), {"bumpy:200", "bumpy:800", "bumpy:4000"});

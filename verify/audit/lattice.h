@@ -32,8 +32,8 @@ class Lattice {
         corner;  // in each face, the corner at which the edge begins (counter-clockwise)
   };
 
-  /// l1 = i / scale(), l2 = j / scale(): coordinates fine enough for every lattice point, the centre
-  /// included.
+  /// l1 = i / scale(), l2 = j / scale(): coordinates fine
+  /// enough for every lattice point, the centre included.
   struct Coordinates {
     std::int64_t i, j;
   };

@@ -33,8 +33,8 @@ class ReferenceSurface {
   const Vector& position(Lattice::Id id) const { return position_[id]; }
   /// Unit normal; limit points only.
   const Vector& normal(Lattice::Id id) const { return normal_[id]; }
-  /// False where the surface has no normal (D12: zero by the masks; D5: boundary vertices without a tangent
-  /// plane).
+  /// False where the surface has no normal (D12: zero by the
+  /// masks; D5: boundary vertices without a tangent plane).
   bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
 
  private:

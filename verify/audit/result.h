@@ -37,8 +37,8 @@ struct Witness {
   std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
 };
 
-/// One row. `worst` and `bound` are in `unit`; so are rms and p99, which run over everything that was
-/// compared.
+/// One row. `worst` and `bound` are in `unit`; so are rms
+/// and p99, which run over everything that was compared.
 struct Result {
   std::string subject, mesh, check;
   int depth = 0;

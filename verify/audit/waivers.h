@@ -32,8 +32,8 @@ std::vector<Waiver> parse_waivers(const std::string& json);
 void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
                    const std::map<std::string, std::string>& versions, const std::string& today);
 
-/// The first number with a point in a description: "OpenSubdiv 3.5 Far: ..." gives "3.5"; "" if there is
-/// none.
+/// The first number with a point in a description: "OpenSubdiv
+/// 3.5 Far: ..." gives "3.5"; "" if there is none.
 std::string version_in(const std::string& description);
 
 }  // namespace limitcheck::verify

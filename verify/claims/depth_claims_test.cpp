@@ -33,8 +33,8 @@ double cosine(double degrees) {
   return std::cos(degrees * std::numbers::pi / 180);
 }
 
-/// N . N^(l) of each corner of each face and level 0 .. levels, the face's own sub-triangle only: [3 f +
-/// k][l].
+/// N . N^(l) of each corner of each face and level 0 ..
+/// levels, the face's own sub-triangle only: [3 f + k][l].
 std::vector<std::vector<double>> corner_cosines(const Scene& scene, int levels) {
   std::vector<std::vector<double>> result(3 * scene.mesh.triangles.size());
   fast::Ring ring;
@@ -69,8 +69,8 @@ TEST(Sec41_Depth, TakesSevenValuesOfWhichTheDeepestIs1024Triangles) {
   EXPECT_EQ(std::pow(4, *met.rbegin()), 1024);
 }
 
-// "The minimal l with N . N^(l) < cos alpha": read literally, a corner is outside the cone at first or never
-// again.
+// "The minimal l with N . N^(l) < cos alpha": read literally,
+// a corner is outside the cone at first or never again.
 TEST(Sec41_ConeFormula, WithThePrintedInequalityHoldsAtDepthZeroOrNeverAndWithTheReversedOneAtSomeDepth) {
   RecordProperty("claim", "C27");
   constexpr int kLevels = 10;

@@ -44,8 +44,8 @@ struct Scene {
   Evaluator truth;
 };
 
-/// Limit positions and normals of a face on the lattice of a depth: row j from corner 0 to corner 2, i within
-/// it.
+/// Limit positions and normals of a face on the lattice of
+/// a depth: row j from corner 0 to corner 2, i within it.
 struct Lattice {
   int n;
   std::vector<Point3> position, normal;

@@ -173,9 +173,9 @@ TEST(Sec42_Step3, AFaceBesideBothMembersGoesFromS3ToS0) {
   EXPECT_GT(cases, 0);
 }
 
-// Shares over ten seeds per size. What is asserted is far from what is seen: the standard error of a mean is
-// about a tenth of it at 4000 faces; at 200 one pair of singletons more or less is a whole percent of one
-// mesh.
+// Shares over ten seeds per size. What is asserted is far from what is seen:
+// the standard error of a mean is about a tenth of it at 4000 faces; at 200
+// one pair of singletons more or less is a whole percent of one mesh.
 TEST(Sec42_Singletons, AreUnderOnePercentWithTheCorrectedRuleAndTwiceAsManyAndMoreWithThePrintedOne) {
   RecordProperty("claim", "C39, C41");
   for (const int faces : kSizes) {
@@ -201,8 +201,8 @@ TEST(Sec42_Singletons, AreUnderOnePercentWithTheCorrectedRuleAndTwiceAsManyAndMo
   }
 }
 
-// Culled faces left out, the rest has holes and an optimum above zero. Shares of all faces and of the visible
-// ones.
+// Culled faces left out, the rest has holes and an optimum
+// above zero. Shares of all faces and of the visible ones.
 TEST(Sec42_Singletons, WithoutTheCulledFacesStayNearTheOptimumOfAMaximumMatching) {
   RecordProperty("claim", "C41");
   for (const int faces : kSizes) {

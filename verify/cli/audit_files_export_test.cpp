@@ -101,8 +101,8 @@ TEST_F(ExportedFiles, OurOwnGlbComesBackAsItWas) {
   EXPECT_EQ(run("audit --control cage.obj --tessellation torn.glb").code, 2);
 }
 
-// Every face has vertices of its own, pairs of triangles are quads, there are no normals, the unit is
-// another.
+// Every face has vertices of its own, pairs of triangles
+// are quads, there are no normals, the unit is another.
 TEST_F(ExportedFiles, AGameEnginesExportHoldsOnceScaleAndOffsetAreFittedAway) {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> from;  // directed edge -> face
   for (std::size_t f = 0; f < good_.faces.size(); ++f)

@@ -18,8 +18,8 @@ struct OutputArguments {
 void add_output_options(CLI::App& command, OutputArguments& arguments);
 verify::Level level(const OutputArguments& arguments);
 
-/// Prints what --explain asks for; false if it does not. Throws std::invalid_argument: there is no such
-/// check.
+/// Prints what --explain asks for; false if it does not.
+/// Throws std::invalid_argument: there is no such check.
 bool explained(const OutputArguments& arguments);
 
 /// Applies --waivers to the report. Throws std::invalid_argument: the file cannot be read or understood.

@@ -23,8 +23,8 @@ struct DoorArguments {
 
 void add_door_options(CLI::App& command, DoorArguments& arguments);
 
-/// With --program there is no SUBJECT among the positional arguments: what was taken for one is the first
-/// mesh.
+/// With --program there is no SUBJECT among the positional
+/// arguments: what was taken for one is the first mesh.
 void take_program(const DoorArguments& arguments, std::string& subject, std::vector<std::string>& meshes);
 
 /// The subjects of one audit; owns those that run in processes of their own.

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// limitcheck-NAME beside this program, in bench/ of a build tree, or where it is installed. Empty: not
-/// built.
+/// limitcheck-NAME beside this program, in bench/ of a
+/// build tree, or where it is installed. Empty: not built.
 fs::path find_program(const std::string& name) {
   std::error_code ignored;
   const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();

@@ -28,8 +28,8 @@ bool on_boundary(const FileEvidence& e, std::int32_t a, std::int32_t b) {
   return false;
 }
 
-// How far the points of the cracks are from the nearest other one, at most: what welding would have to
-// bridge.
+// How far the points of the cracks are from the nearest
+// other one, at most: what welding would have to bridge.
 double widest(const FileEvidence& e, const std::vector<std::int32_t>& points) {
   std::vector<BoxTree::Box> boxes;
   for (const std::int32_t p : points) boxes.push_back(BoxTree::around({e.position(p)}));

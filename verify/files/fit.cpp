@@ -83,8 +83,8 @@ std::vector<Eigen::Matrix3d> orientations(Fit kind) {
   return list;
 }
 
-// One step on the distances along the normals: d + n . (x' delta) for an infinitesimal scaling, turning and
-// shift.
+// One step on the distances along the normals: d + n . (x'
+// delta) for an infinitesimal scaling, turning and shift.
 Similarity normal_step(const std::vector<Vector>& points, const std::vector<Foot>& foot,
                        const Similarity& map, Fit kind, const Vector& centre, double size) {
   const int unknowns = kind == Fit::kScale ? 4 : 7;

@@ -31,8 +31,8 @@ inline Barycentric within(const std::array<Barycentric, 3>& t, double area, cons
           determinant(t[0], t[1], u) / area};
 }
 
-// The common part of two triangles of the domain: Sutherland and Hodgman's clipping of `a` along the sides of
-// `b`.
+// The common part of two triangles of the domain: Sutherland
+// and Hodgman's clipping of `a` along the sides of `b`.
 inline void clip(const std::array<Barycentric, 3>& a, const std::array<Barycentric, 3>& b,
                  std::vector<Barycentric>& part) {
   const double area = determinant(b[0], b[1], b[2]);

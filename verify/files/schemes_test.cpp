@@ -32,8 +32,8 @@ struct Primvar {
   }
 };
 
-// OpenSubdiv's Catmull-Clark on the triangles: refined `steps` times, the last level moved to the limit if
-// asked.
+// OpenSubdiv's Catmull-Clark on the triangles: refined
+// `steps` times, the last level moved to the limit if asked.
 std::vector<Vector> opensubdiv(const data::ControlMesh& mesh, int steps, bool limit) {
   using namespace OpenSubdiv;
   const std::vector<int> counts(mesh.triangles.size(), 3);

@@ -36,8 +36,8 @@ class Domain {
   /// coordinates are compared with 0 exactly. False otherwise.
   bool express(const FacePoint& point, std::int32_t face, FacePoint& result) const;
 
-  /// Goes from `from` by `step` (the sum of which is 0), across interior edges, up to its end or to the
-  /// boundary.
+  /// Goes from `from` by `step` (the sum of which is 0),
+  /// across interior edges, up to its end or to the boundary.
   FacePoint walk(FacePoint from, std::array<double, 3> step) const;
 
  private:

@@ -15,8 +15,8 @@ struct Minimum {
   bool stationary = false;
 };
 
-/// Descends from `start` to a local minimum of |s - p|. `scale`: the size of the mesh, for what counts as
-/// rounding.
+/// Descends from `start` to a local minimum of |s - p|.
+/// `scale`: the size of the mesh, for what counts as rounding.
 Minimum descend(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
                 const FacePoint& start, double scale);
 

@@ -37,8 +37,8 @@ struct CornerBounds {
   std::vector<double> outer;   // of the other three pieces that a step leaves; [0] is not used
 };
 
-/// Bounds for the triangles at a vertex of a refined mesh of depth >= 2 that was a vertex of the control
-/// mesh.
+/// Bounds for the triangles at a vertex of a refined mesh
+/// of depth >= 2 that was a vertex of the control mesh.
 CornerBounds corner_bounds(const reference::Topology& topology,
                            std::span<const reference::Vec3<double>> positions, std::int32_t vertex);
 

@@ -48,8 +48,8 @@ FacePoint random_point(data::SplitMix64& random, std::size_t faces) {
   return p;
 }
 
-// 1e-15 everywhere but next to the corner of a boundary face without neighbours, where d1 and d2 become
-// parallel.
+// 1e-15 everywhere but next to the corner of a boundary
+// face without neighbours, where d1 and d2 become parallel.
 TEST(Projection, APointOfTheSurfaceIsItsOwnFoot) {
   double worst = 0;
   for (const std::string& name : meshes()) {

@@ -50,8 +50,8 @@ class SurfaceLattice {
   double deviation(std::size_t index) const { return deviation_[index]; }
   double largest_deviation() const;
 
-  /// The four sub-pieces: at the corners, in order, then the middle. Their corners come from the exact
-  /// evaluator.
+  /// The four sub-pieces: at the corners, in order, then the
+  /// middle. Their corners come from the exact evaluator.
   std::array<Piece, 4> split(const Piece& piece, const reference::StamEvaluator<double>& surface) const;
 
  private:

@@ -157,8 +157,8 @@ TEST(SharedBits, AreEqualAcrossEdgesOfUnequalDepthsForAnyNumberOfThreads) {
   }
 }
 
-// Planted faults: the table sees one bit in any of the six numbers, at any place and depth, and the sign of a
-// zero.
+// Planted faults: the table sees one bit in any of the six
+// numbers, at any place and depth, and the sign of a zero.
 TEST(SharedBits, OneBitIsSeenWhereverItIs) {
   const auto mesh = data::named_mesh("ragged-disc");
   std::int64_t planted = 0;

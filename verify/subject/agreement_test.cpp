@@ -88,8 +88,8 @@ TEST(Agreement, OfTheNaiveSubdividerWithStamsEvaluator) {
   }
 }
 
-// Vertices are merged where they agree in every bit and nowhere else: the triangles are those of the
-// subdivider.
+// Vertices are merged where they agree in every bit and
+// nowhere else: the triangles are those of the subdivider.
 TEST(Naive, HandsOnEveryBitOfTheSubdivider) {
   Session session(*lc_subject_naive(), data::named_mesh("bumpy:200"));
   const Tessellation t = session.tessellate(3);

@@ -50,8 +50,8 @@ namespace detail {
 class Memory;
 }
 
-/// What a subject delivered for one request. Owns its memory and outlives the session. Thread-safe for
-/// reading.
+/// What a subject delivered for one request. Owns its memory
+/// and outlives the session. Thread-safe for reading.
 ///
 /// If the arrays cannot be trusted as memory (negative count, missing, foreign, too small, overlapping), the
 /// defect is recorded and vertex_count() = triangle_count() = 0: reading is always safe. Contents are handed

@@ -13,8 +13,8 @@ class Memory {
  public:
   static constexpr std::size_t kAlignment = 64;
   static constexpr std::size_t kGuard = 1024;  // bytes on each side; writes beyond it are not seen
-  /// Refuses (NULL) what would take the sum over this many bytes: a count gone wild must not take the machine
-  /// down.
+  /// Refuses (NULL) what would take the sum over this many
+  /// bytes: a count gone wild must not take the machine down.
   static constexpr std::size_t kLimit = std::size_t{16} << 30;
 
   struct Block {
@@ -25,8 +25,8 @@ class Memory {
   /// The callback of lc_request: `host` is the Memory. Never throws.
   static void* allocate(void* host, std::size_t bytes) noexcept;
 
-  /// The block that holds `pointer`, or nullptr. A pointer to the end of a block belongs to it (an empty
-  /// array).
+  /// The block that holds `pointer`, or nullptr. A pointer
+  /// to the end of a block belongs to it (an empty array).
   const Block* find(const void* pointer) const;
   const std::vector<Block>& blocks() const { return blocks_; }
 

@@ -30,9 +30,9 @@ class OpenMeshMesh {
         throw SubjectError(LC_INVALID_INPUT, "OpenMesh drops face " + std::to_string(f));
       }
     }
-    // LoopT::smooth() reads weights_[valence] of a 50-entry table: undefined behaviour from valence 50 on.
-    // Its results there mean nothing and the run must go on, so the mesh is refused here, in the library's
-    // place.
+    // LoopT::smooth() reads weights_[valence] of a 50-entry table: undefined
+    // behaviour from valence 50 on. Its results there mean nothing and the
+    // run must go on, so the mesh is refused here, in the library's place.
     for (const auto v : mesh_.vertices()) {
       if (!mesh_.is_boundary(v) && mesh_.valence(v) >= 50) {
         throw SubjectError(LC_INVALID_INPUT, "vertex " + std::to_string(v.idx()) + " has valence " +

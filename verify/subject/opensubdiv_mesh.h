@@ -51,8 +51,8 @@ struct OpenSubdivVector {
   }
 };
 
-/// The refiner of a control mesh: Loop's scheme, boundary vertices on the B-spline curve, none of them a
-/// corner.
+/// The refiner of a control mesh: Loop's scheme, boundary
+/// vertices on the B-spline curve, none of them a corner.
 inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const lc_mesh& mesh) {
   using namespace OpenSubdiv;
   const OpenSubdivErrors errors;

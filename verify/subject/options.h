@@ -23,8 +23,8 @@ class Options {
   int choice(const std::string& key, const std::vector<std::string_view>& choices);
   /// Any text.
   std::string value(const std::string& key, const std::string& fallback);
-  /// All that nobody has read yet, as "key=value,key=value", and counts as read: for a subject that wraps
-  /// another.
+  /// All that nobody has read yet, as "key=value,key=value",
+  /// and counts as read: for a subject that wraps another.
   std::string rest();
 
   void finish() const;

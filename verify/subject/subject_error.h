@@ -10,8 +10,8 @@ namespace limitcheck::verify {
 
 /// A subject says no, or the host does not even ask (depths beyond its capabilities, another interface).
 ///   status   LC_NOT_SUPPORTED, LC_INVALID_INPUT or LC_FAILED, never LC_OK
-/// Thrown by the host (verify/subject/host.h); an adapter that throws it makes the door return status and
-/// text.
+/// Thrown by the host (verify/subject/host.h); an adapter
+/// that throws it makes the door return status and text.
 class SubjectError : public std::runtime_error {
  public:
   SubjectError(lc_status status, const std::string& message) : std::runtime_error(message), status_(status) {}

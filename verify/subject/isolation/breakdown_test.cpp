@@ -216,8 +216,8 @@ TEST_F(Breakdown, ProgramsThatBreakTheProtocolAreFindings) {
   }
 }
 
-// The text payload, spoken by a program that knows the octahedron only: its limit is 24/55 of the control
-// point.
+// The text payload, spoken by a program that knows the
+// octahedron only: its limit is 24/55 of the control point.
 TEST_F(Breakdown, AProgramMaySpeakText) {
   write("text.py", R"(import json, sys
 def answer(**a): print(json.dumps({'limitcheck': 1, 'status': 'ok', **a}), flush=True)

@@ -26,11 +26,11 @@ struct ProcessLimits {
 /// reserved, and interpreters, sanitizers and threads reserve far more than they use. So a process can be
 /// beyond its limit for that long; what one machine can fill in 20 ms is some tens of MiB.
 ///
-/// A child process in a process group of its own; its standard input, output and error are pipes. Any
-/// failure, of whatever kind, kills the whole group and leaves no zombie; then every further call throws the
-/// same SubjectDied again. An interrupt (interrupt.h) ends it likewise, with Interrupted. If this process
-/// ends, the kernel ends the child (so the thread that made it must not end before). Needs Linux: prctl,
-/// /proc.
+/// A child process in a process group of its own; its standard input, output and error
+/// are pipes. Any failure, of whatever kind, kills the whole group and leaves no zombie;
+/// then every further call throws the same SubjectDied again. An interrupt (interrupt.h)
+/// ends it likewise, with Interrupted. If this process ends, the kernel ends the child
+/// (so the thread that made it must not end before). Needs Linux: prctl, /proc.
 class ChildProcess : public protocol::Source {
  public:
   /// Throws SubjectError(LC_FAILED) if the system cannot start another process. A program that does not exist

@@ -26,8 +26,8 @@ class Header {
   /// The index of the value among `choices`.
   int choice(const char* key, std::initializer_list<std::string_view> choices) const;
   const nlohmann::json& at(const char* key) const;
-  /// "status": "ok" returns; "not-supported", "invalid-input" and "failed" become SubjectErrors with
-  /// "message".
+  /// "status": "ok" returns; "not-supported", "invalid-input"
+  /// and "failed" become SubjectErrors with "message".
   void refuse_unless_ok() const;
 
  private:

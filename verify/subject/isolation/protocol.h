@@ -34,8 +34,8 @@ class Source {
   virtual ~Source() = default;
   /// Exactly so many bytes.
   virtual void read(std::span<std::byte> to) = 0;
-  /// Up to the line end, which is taken and not returned. Throws Error if there is none within `longest`
-  /// bytes.
+  /// Up to the line end, which is taken and not returned.
+  /// Throws Error if there is none within `longest` bytes.
   virtual std::string line(std::size_t longest) = 0;
 };
 

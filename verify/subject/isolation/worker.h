@@ -9,10 +9,10 @@
 
 namespace limitcheck::verify {
 
-/// Loads a shared library and asks its entry symbol for the subject; the library stays loaded. Throws
-/// SubjectError(LC_INVALID_INPUT): no such file, not a library, a library it needs is missing, no entry
-/// symbol, another interface, an incomplete table. Runs the library's initialisers: for a process that may
-/// crash.
+/// Loads a shared library and asks its entry symbol for the subject; the library
+/// stays loaded. Throws SubjectError(LC_INVALID_INPUT): no such file, not a
+/// library, a library it needs is missing, no entry symbol, another interface, an
+/// incomplete table. Runs the library's initialisers: for a process that may crash.
 const lc_subject& load_subject(const std::string& file);
 
 /// Serves one host on standard input and output until the input ends; returns the exit status. `load` is

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -150,7 +151,7 @@ TEST(Proof_Set, IsReportedAsStoppedWhereItWas) {
   request.depth = 0;
   ProofSet set = proof_set(request);
   set.tasks.resize(6);
-  std::size_t done = 0;
+  std::atomic<std::size_t> done = 0;  // it is asked by any thread whether to stop
   const auto rows = prove(
       set.tasks, [&](const ProofProgress& progress) { done = progress.tasks; }, [&] { return done >= 2; });
   const auto proved = std::ranges::count_if(rows, [](const auto& r) { return !r.empty(); });

@@ -19,7 +19,7 @@ struct ProofProgress {
 /// Runs the tasks on all cores, begun in their order. The rows of task t are result[t], whatever the number
 /// of threads.
 ///   progress   called from one thread at a time after every task
-///   stop       asked between the steps of every task: once true, tasks that are not done have no rows
+///   stop       asked by any thread between the steps of its task: once true, tasks not done have no rows
 std::vector<std::vector<ProofRow>> prove(const std::vector<ProofTask>& tasks,
                                          const std::function<void(const ProofProgress&)>& progress = {},
                                          const std::function<bool()>& stop = {});

@@ -5,10 +5,10 @@
 #   verify/sanitize.sh tsan[-clang] [ctest arguments]         data races: the tests of the folders that use threads
 #   verify/sanitize.sh valgrind [--gtest_filter=...]          memcheck: the tests of the libraries, and quick audits
 # Left out, and why: under asan and tsan the subject that writes where it must not, on purpose, and with it into the
-# sanitizer's own memory; under tsan data/ and reference/, which use no threads, the tests that sample the running
-# program by a timer's signals, which tsan holds back, and ten million points, which take it over ten minutes; under
-# valgrind AVX-512, which 3.19 lacks, and the test that counts allocations by an operator new of its own, which
-# valgrind puts its own before.
+# sanitizer's own memory. Under tsan data/ and reference/, which use no threads, the tests that sample the running
+# program by a timer's signals, which tsan holds back, and ten million points, which take it some ten minutes. Under
+# valgrind AVX-512, which 3.19 lacks. Under tsan and valgrind the test that counts allocations by an operator new of
+# its own, where they have theirs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 kind=${1:?asan-ubsan, asan-ubsan-clang, tsan, tsan-clang or valgrind}

@@ -67,7 +67,8 @@ template <class T, int tangent_number>
 struct LinearNumber : ScalarNumber<T> {
   static constexpr bool kLinear = true;
   static constexpr bool kHasSeed = false;  // no length is known, and none asked for
-  template <class X>  // T, or the number a ring is summed in
+  // X: T, or the number a ring is summed in.
+  template <class X>
   static const X& tangent(const X& first, const X& second) {
     if constexpr (tangent_number == 0)
       return first;

@@ -86,8 +86,8 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   append(audit.results, check_file_cover(e));
   step("watertight", 0, 1);
   append(audit.results, check_file_watertight(e));
-  step("Hausdorff distance", 0, 1);
-  append(audit.results, check_file_hausdorff(e, options.hausdorff.value_or(-1)));
+  append(audit.results,
+         check_file_hausdorff(e, options.hausdorff.value_or(-1), [&] { step("Hausdorff distance", 0, 1); }));
   if (!tessellation.triangles.empty()) audit.notes.push_back(audit.results.back().message);
 
   Result& distance = audit.results[1];

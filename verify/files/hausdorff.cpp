@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "reference/stam.h"
 #include "verify/files/overlap.h"
@@ -18,11 +19,13 @@ constexpr int kSplits = 5,
               kCornerSplits = 14;  // towards an extraordinary vertex, where the bounds fall slowly
 constexpr Barycentric kMiddles[] = {{1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
 constexpr int kLooseSplits = 3;
+constexpr double kNoArea = 1e-14;    // of a face, in its parameters
 constexpr std::size_t kExact = 400;  // places at which the distance is computed
 
 class Measurer {
  public:
-  explicit Measurer(const FileEvidence& e) : e_(e), over_(e.control.triangles.size()) {
+  Measurer(const FileEvidence& e, std::function<void()> tick)
+      : e_(e), tick_(std::move(tick)), over_(e.control.triangles.size()) {
     const auto& list = e.tessellation.triangles;
     corners_.resize(list.size());
     std::vector<BoxTree::Box> boxes;
@@ -40,6 +43,7 @@ class Measurer {
   }
 
   Hausdorff run(double tightness) {
+    tick_();
     Hausdorff result;
     result.loose = static_cast<std::int64_t>(loose_.size());
     const SurfaceLattice& lattice = e_.surface.lattice();
@@ -66,11 +70,19 @@ class Measurer {
       for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
       std::sort(order.begin(), order.end(),
                 [&](std::size_t x, std::size_t y) { return value(bounds_[x]) > value(bounds_[y]); });
-      for (std::size_t k = 0; k < std::min(kExact, order.size()); ++k)
-        exact(bounds_[order[k]], lattice.piece(order[k]), forwards, bracket);
-
+      for (std::size_t k = 0; k < std::min(kExact, order.size()); ++k) {
+        const Bound& bound = bounds_[order[k]];
+        if (forwards && (bound.triangle < 0 || reach(bound.triangle) <= enough_for(bracket, tightness)))
+          continue;
+        tick_();
+        exact(bound, lattice.piece(order[k]), forwards, bracket);
+      }
       if (forwards)
-        for (const std::int32_t t : loose_) sample(corners_[t], bracket);
+        for (const std::int32_t t : loose_) {
+          if (reach(t) <= enough_for(bracket, tightness)) continue;
+          tick_();
+          sample(corners_[t], bracket);
+        }
 
       // From the largest on, until what is left cannot raise the result.
       bracket.at_most = bracket.at_least;
@@ -81,16 +93,19 @@ class Measurer {
           bracket.at_most = std::max(bracket.at_most, std::min(bound, enough));
           break;
         }
+        tick_();
         const Piece piece = lattice.piece(k);
         const double most = refine(piece, near(piece, over_[static_cast<std::size_t>(piece.face)]), forwards,
                                    tightness, bracket, 0);
         bracket.at_most = std::max(bracket.at_most, most);
       }
       if (forwards)
-        for (const std::int32_t t : loose_)
+        for (const std::int32_t t : loose_) {
+          const double enough = std::max(enough_for(bracket, tightness), bracket.at_most), bound = reach(t);
+          if (bound > enough) tick_();
           bracket.at_most =
-              std::max(bracket.at_most,
-                       at_most(corners_[t], std::max(enough_for(bracket, tightness), bracket.at_most), 0));
+              std::max(bracket.at_most, bound <= enough ? bound : at_most(corners_[t], enough, 0));
+        }
       bracket.at_most = std::max(bracket.at_most, bracket.at_least);
     }
     return result;
@@ -117,8 +132,9 @@ class Measurer {
 
   // Over its face, and over the faces beyond the edges it crosses.
   void lay(std::int32_t triangle, const PlacedTriangle& placed) {
-    if (placed.face < 0 || placed.crosses) loose_.push_back(triangle);
-    if (placed.face < 0) return;
+    const bool flat = std::abs(placed.area) < kNoArea;
+    if (placed.face < 0 || placed.crosses || flat) loose_.push_back(triangle);
+    if (placed.face < 0 || flat) return;
     over_[placed.face].push_back({triangle, placed.l});
     if (!placed.crosses) return;
     const Domain& domain = e_.surface.domain();
@@ -161,7 +177,7 @@ class Measurer {
     std::vector<Barycentric> part;
     for (const Over& o : over) {
       const double o_area = determinant(o.l[0], o.l[1], o.l[2]);
-      if (std::abs(o_area) < 1e-14) continue;
+      if (std::abs(o_area) < kNoArea) continue;
       clip(o.l, piece.at, part);
       if (part.size() < 3) continue;
       left -= area_of(part);
@@ -226,7 +242,7 @@ class Measurer {
   // The distance itself at the place where the bound is taken, and in the middle of the triangle or the
   // piece, where it tends to be largest.
   void exact(const Bound& bound, const Piece& piece, bool forwards, Bracket& bracket) const {
-    if (forwards && bound.triangle >= 0) sample(corners_[bound.triangle], bracket);
+    if (forwards) sample(corners_[bound.triangle], bracket);
     for (const Barycentric& weight : kMiddles) {
       if (forwards) break;
       raise(bracket, piece.parameter(weight));
@@ -257,15 +273,25 @@ class Measurer {
     }
   }
 
-  // Of such a triangle: no point of it is farther from its nearest corner than 1 / sqrt 3 of its longest
-  // side, and the distance to the surface changes no faster than the place.
+  // No point of a triangle is farther from its nearest corner than 1 / sqrt 3 of its longest side, and the
+  // distance to the surface changes no faster than the place. What is known of the corners costs nothing;
+  // where much is equally near, as to a small file amid the surface, each search for a nearest point is long.
+  double reach(std::int32_t t) const {
+    double corner = 0;
+    for (const std::int32_t v : e_.tessellation.triangles[t])
+      corner = std::max(corner, e_.foot[e_.point_of(v)].distance);
+    return corner + longest_side(corners_[t]) / std::sqrt(3.0);
+  }
+
+  static double longest_side(const std::array<Vector, 3>& t) {
+    return std::max({norm(t[0] - t[1]), norm(t[1] - t[2]), norm(t[2] - t[0])});
+  }
+
+  // The same of a triangle that is not over one face, cut smaller.
   double at_most(const std::array<Vector, 3>& t, double enough, int level) const {
-    double corner = 0, side = 0;
-    for (int k = 0; k < 3; ++k) {
-      corner = std::max(corner, e_.surface.closest(t[k]).distance);
-      side = std::max(side, norm(t[k] - t[(k + 1) % 3]));
-    }
-    const double bound = corner + side / std::sqrt(3.0);
+    double corner = 0;
+    for (const Vector& p : t) corner = std::max(corner, e_.surface.closest(p).distance);
+    const double bound = corner + longest_side(t) / std::sqrt(3.0);
     if (bound <= enough || level == kLooseSplits) return bound;
     const std::array<Vector, 3> m{.5 * (t[0] + t[1]), .5 * (t[1] + t[2]), .5 * (t[2] + t[0])};
     double most = 0;
@@ -283,21 +309,23 @@ class Measurer {
   }
 
   const FileEvidence& e_;
+  std::function<void()> tick_;
   std::vector<std::vector<Over>> over_;         // of each face
   std::vector<std::array<Vector, 3>> corners_;  // of each triangle
   std::vector<std::int32_t> boxed_;             // triangles with finite corners
   std::unique_ptr<BoxTree> tree_;
   std::vector<Bound> bounds_;
-  std::vector<std::int32_t> loose_;  // triangles not wholly over one face
+  std::vector<std::int32_t> loose_;  // triangles not wholly over one face, or over no part of it
 };
 
 }  // namespace
 
-Hausdorff hausdorff(const FileEvidence& evidence, double tightness) {
-  return Measurer(evidence).run(tightness);
+Hausdorff hausdorff(const FileEvidence& evidence, const std::function<void()>& tick, double tightness) {
+  return Measurer(evidence, tick).run(tightness);
 }
 
-std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound) {
+std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
+                                         const std::function<void()>& tick) {
   Result r = e.result("file-hausdorff");
   r.unit = "diagonal";
   if (e.tessellation.triangles.empty()) {
@@ -305,7 +333,7 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound) {
     r.message = "the file has no faces";
     return {r};
   }
-  const Hausdorff h = hausdorff(e);
+  const Hausdorff h = hausdorff(e, tick);
   const double size = e.surface.diagonal();
   const bool forwards = h.from_triangles.at_least >= h.from_surface.at_least;
   const Bracket& larger = forwards ? h.from_triangles : h.from_surface;
@@ -323,7 +351,8 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound) {
   if (bound < 0) r.message += "; the bound is that of one triangle per control face";
   if (h.loose > 0)
     r.message += fmt::format(
-        "; {} triangles reach over several control faces, which makes the upper ends large", h.loose);
+        "; {} triangles reach over several control faces or cover none, which makes the upper ends large",
+        h.loose);
   if (*r.worst > *r.bound) {
     r.status = Status::kFinding;
     r.bad = 1;

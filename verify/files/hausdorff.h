@@ -2,6 +2,7 @@
 // The two-sided Hausdorff distance between a tessellation and the limit surface, between proved bounds.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "verify/files/file_evidence.h"
@@ -17,7 +18,7 @@ struct Bracket {
 struct Hausdorff {
   Bracket from_triangles;        // max over the triangles of the distance to the surface
   Bracket from_surface;          // max over the surface of the distance to the triangles
-  std::int64_t loose = 0;        // triangles that reach over several control faces
+  std::int64_t loose = 0;        // triangles that reach over several control faces, or cover none
   double one_triangle_each = 0;  // at most so far is the surface from one triangle per control face
 };
 
@@ -32,11 +33,14 @@ struct Hausdorff {
 /// extraordinary vertex. There the upper bound stays too large: a triangle laid over the domain is shifted
 /// along the surface against the piece it is compared with. Triangles over several faces are bounded by the
 /// distances of their corners and their size, split three times.
+///   tick   called now and then from this thread; may throw to end it
 ///   error  rounding, 1e-15 of the mesh, is not accounted for
-Hausdorff hausdorff(const FileEvidence& evidence, double tightness = .02);
+Hausdorff hausdorff(
+    const FileEvidence& evidence, const std::function<void()>& tick = [] {}, double tightness = .02);
 
 /// The row `file-hausdorff`; `bound` in diagonals, negative: one triangle per control face, and the
 /// tolerance of positions.
-std::vector<Result> check_file_hausdorff(const FileEvidence& evidence, double bound);
+std::vector<Result> check_file_hausdorff(const FileEvidence& evidence, double bound,
+                                         const std::function<void()>& tick);
 
 }  // namespace limitcheck::verify

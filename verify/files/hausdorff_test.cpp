@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "data/generators/named_mesh.h"
 #include "reference/refine.h"
@@ -130,6 +131,28 @@ TEST(Hausdorff, DenseSamplesOfBothSidesAreWithinTheBrackets) {
     EXPECT_LE(h.from_triangles.at_most, 6 * h.from_triangles.at_least) << name;
     EXPECT_EQ(h.loose, 0) << name;
   }
+}
+
+// A file in another unit, amid the surface: every point of it is as far as the middle is, 0.23 diagonals.
+TEST(Hausdorff, OfATinyFileIsTheDistanceFromTheMiddle) {
+  for (const double scale : {1e-6, 1e-54}) {
+    Case c("icosahedron", 2, 4096);
+    for (Vector& p : c.t.positions) p = scale * p;
+    const Hausdorff h = c.run();
+    const double middle = c.surface.closest({0, 0, 0}).distance;
+    EXPECT_NEAR(h.from_triangles.at_least, middle, .02 * middle) << scale;
+    EXPECT_LE(h.from_triangles.at_most, 1.05 * middle) << scale;
+  }
+}
+
+TEST(Hausdorff, IsEndedByTheOneWhoWaits) {
+  Case c("icosahedron", 2, 4096);
+  place_points(c.e, {}, [](std::size_t, std::size_t) {});
+  EXPECT_THROW(hausdorff(c.e,
+                         [calls = 0]() mutable {
+                           if (++calls > 3) throw std::runtime_error("enough");
+                         }),
+               std::runtime_error);
 }
 
 }  // namespace

@@ -145,9 +145,11 @@ int audit(Arguments a) {
   for (const std::string& name : a.meshes) {
     progress.show(0, 1, "mesh " + name);
     data::ControlMesh mesh = a.must_refuse ? open_broken_mesh(name) : data::open_mesh(name);
-    if (!a.must_refuse) verify::require_range(name, mesh, true);
     std::vector<std::int32_t> depth;
-    if (!a.must_refuse) depth = face_depths(depths, mesh, a.depth);
+    if (!a.must_refuse) {
+      verify::require_range(name, mesh, true);
+      depth = face_depths(depths, mesh, a.depth);
+    }
     std::shared_ptr<const verify::MeshSample> sample;
     if (sampling && !a.must_refuse)
       sample = std::make_shared<verify::MeshSample>(mesh, sampling->faces, sampling->seed);

@@ -136,7 +136,7 @@ lc_capabilities capabilities(const lc_subject& subject, const std::string& optio
 class Session {
  public:
   /// Rounds the positions to the subject's precision and calls create(). `mesh` is valid (data/validate.h).
-  /// Throws SubjectError: the subject refuses, or a coordinate is not finite after rounding.
+  /// Throws SubjectError: the subject refuses, a coordinate is not finite, or coordinate_range.h refuses.
   Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {});
   ~Session();
   /// destroy(), once. Throws SubjectError: the subject breaks down while it cleans up.

@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -24,10 +22,8 @@ class CommandTest : public testing::Test {
  protected:
   void SetUp() override {
     const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    std::string name =
-        "limitcheck-" + std::to_string(getpid()) + "-" + test.test_suite_name() + "-" + test.name();
-    std::replace(name.begin(), name.end(), '/', '-');
-    folder_ = std::filesystem::temp_directory_path() / name;
+    folder_ = std::filesystem::temp_directory_path() /
+              ("limitcheck-" + std::string(test.test_suite_name()) + "-" + test.name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }

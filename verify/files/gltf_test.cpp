@@ -3,7 +3,6 @@
 // nodes; and files that are broken.
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -22,7 +21,7 @@ namespace fs = std::filesystem;
 class Gltf : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("limitcheck-gltf-" + std::to_string(getpid()) + "-" +
+    folder_ = fs::temp_directory_path() / (std::string("limitcheck-gltf-") +
                                            testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
     model_.asset.version = "2.0";

@@ -17,8 +17,7 @@ const std::vector<Explanation>& explanations() {
        "It must, unless it says that it does not support what was asked.", "verify/subject/subject.h"},
       {"written",
        "The arrays lie in the host's memory, are as long as announced, overlap nowhere, were filled to the "
-       "last "
-       "byte and not beyond; indices are in range; the control mesh was left alone.",
+       "last byte and not beyond; indices are in range; the control mesh was left alone.",
        kNone, "guard zones and 0xFF fill of the host (verify/subject/host.h)"},
       {"finite", "No position or normal is NaN or infinite.", kNone, "IEEE 754"},
       {"positions", "Distance of each vertex from the exact limit point that its provenance names.",
@@ -99,8 +98,7 @@ const std::vector<Explanation>& explanations() {
        "areas in the domain of the control faces, from the closest points of the corners"},
       {"file-watertight",
        "Merging equal positions, every edge inside has two triangles, and the boundary is that of the "
-       "control "
-       "mesh.",
+       "control mesh.",
        kNone, "counted by our own code and by CGAL"},
       {"file-hausdorff",
        "The larger of the distances from the triangles to the surface and from the surface to the triangles.",

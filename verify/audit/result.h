@@ -2,6 +2,7 @@
 // What an audit says: one row for each subject, mesh and check.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -76,6 +77,12 @@ struct Report {
   double seconds = 0;
   std::string incomplete;  // "interrupted by SIGINT": not all was looked at; empty: all was
 
+  /// Whether anything was looked at: if nothing asked for is supported, nothing was.
+  bool looked() const {
+    return std::any_of(results.begin(), results.end(), [](const Result& r) {
+      return r.status != Status::kNotSupported && r.status != Status::kNotRun;
+    });
+  }
   bool held() const {
     if (!incomplete.empty()) return false;
     for (const Result& r : results)

@@ -305,8 +305,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
   if (!findings.empty())
     out +=
         "\nFindings, each at its worst. (Meshes above: held on so many of so many. Expected values are those "
-        "of the "
-        "control mesh rounded to the subject's precision.)\n";
+        "of the control mesh rounded to the subject's precision.)\n";
   for (std::size_t k = 0; k < findings.size(); ++k) add_finding(out, static_cast<int>(k) + 1, findings[k]);
 
   if (report.subjects.size() > 1) out += matrix(report, colour);

@@ -54,10 +54,8 @@ std::vector<std::filesystem::path> claim_programs(const std::filesystem::path& f
 std::string errata() {
   std::string out =
       "# Errata\n\nK. Müller and S. Havemann, \"Subdivision Surface Tessellation on the Fly using a "
-      "versatile "
-      "Mesh Data\nStructure\", 2000. Written by `limitcheck claims --errata` from the register of claims; "
-      "each "
-      "line has tests\nthat re-derive it (`limitcheck claims ID`).\n";
+      "versatile Mesh Data\nStructure\", 2000. Written by `limitcheck claims --errata` from the register of "
+      "claims; each line has tests\nthat re-derive it (`limitcheck claims ID`).\n";
   const struct {
     const char *verdict, *title, *column;
   } sections[]{{"misprint", "Wrong as printed", "correction"},

@@ -184,7 +184,10 @@ int audit(Arguments a) {
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
   const int signal = auditor.gave_up() ? verify::interrupted() : 0;
-  if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
+  if (signal != 0)
+    report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
+  else if (!report.looked())
+    report.incomplete = "nothing was looked at: nothing that was asked for is supported";
   waive(a.output, audited, report);
 
   // Files first: who reads the table may go away. And a file that cannot be written does not cost the table.
@@ -208,6 +211,7 @@ int audit(Arguments a) {
   }
   if (not_written) std::rethrow_exception(not_written);
   if (signal != 0) return kSignalled + signal;
+  if (!report.looked()) return kBadInput;
   return report.held() ? kHeld : kFindings;
 }
 
@@ -262,9 +266,9 @@ void add_audit(CLI::App& app, int& exit_code) {
   auto files = std::make_shared<FilesArguments>();
   add_files_options(*command, *files);
   command->footer(
-      "Exit codes: 0 all held, 1 findings, 2 bad usage or input. Ctrl-C ends with the report of what was "
-      "looked "
-      "at so far, marked as incomplete, and exit code 130 (SIGTERM 143, SIGHUP 129); a second one at once.");
+      "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or nothing asked for is supported. Ctrl-C "
+      "ends with the report of what was looked at so far, marked as incomplete, and exit code 130 (SIGTERM "
+      "143, SIGHUP 129); a second one at once.");
   command->callback([a, files, &exit_code] {
     check_json(a->json);
     exit_code = files->given() ? audit_files(*files, a->json, a->threads) : audit(*a);

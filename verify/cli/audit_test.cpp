@@ -107,10 +107,12 @@ TEST_F(AuditCommand, WithoutRepairWatertightIsRedAtRandomAndAtViewDependentDepth
   }
 }
 
-TEST_F(AuditCommand, ASubjectWithoutADepthPerFaceIsNotSupportedAndNoFault) {
+TEST_F(AuditCommand, ASubjectWithoutADepthPerFaceIsNotSupportedAndNoFinding) {
   const Outcome o = run("audit cgal icosahedron --depths random --json -");
-  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.code, 2) << "nothing was looked at, so nothing held: " << o.err;
   const auto report = nlohmann::json::parse(o.out);
+  EXPECT_EQ(report["held"], false);
+  EXPECT_NE(report["incomplete"].get<std::string>().find("nothing was looked at"), std::string::npos);
   EXPECT_EQ(report["results"][0]["check"], "tessellates");
   EXPECT_EQ(report["results"][0]["status"], "not-supported");
   EXPECT_NE(report["results"][0]["message"].get<std::string>().find("one depth for the whole mesh"),

@@ -167,8 +167,7 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   if (apart < wrong)
     say(fmt::format(
         "they are nearer to averages of the triangles around (weighted by area: {:.2g} degrees rms) than to "
-        "the "
-        "normals of the limit surface ({:.2g} rms)",
+        "the normals of the limit surface ({:.2g} rms)",
         std::sqrt(apart / static_cast<double>(s.of)), std::sqrt(wrong / static_cast<double>(s.of))));
   return {r};
 }

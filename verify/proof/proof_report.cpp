@@ -148,8 +148,7 @@ std::string ProofReport::table(bool each) const {
     if (worst != nullptr)
       text += fmt::format(
           "Certified: at {} points of the stock shapes {} is within {:.2e} of the diagonal of the true "
-          "surface "
-          "({}, depth {}).\n",
+          "surface ({}, depth {}).\n",
           looked_at, kernel, worst->errors.position, worst->mesh, worst->depth);
   }
   return text;

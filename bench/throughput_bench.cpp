@@ -22,7 +22,6 @@
 namespace {
 
 using namespace limitcheck;
-using bench::Contender;
 using bench::Route;
 
 const data::ControlMesh& mesh_of(int faces) {

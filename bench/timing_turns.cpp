@@ -5,9 +5,8 @@
 //   timing_turns --serve  reads "REPETITIONS CASE" lines; answers each with the nanoseconds of processor
 //                         time per run, one number per repetition of about two milliseconds, or "? CASE"
 //                         if there is no such case
-#include <time.h>
-
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <iostream>
 #include <map>

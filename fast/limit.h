@@ -141,7 +141,7 @@ WideVec3<N> substitute_normal(const Vec3<N>& centre, std::span<WideVec3<N>> ring
   const Vec3<W> control = area_normal<W>(v, ring, open, tolerance);
   for (int step = 0; step < 3; ++step) {
     subdivide_in_place<W>(v, ring, open);
-    const Vec3<W> normal = area_normal<W>(v, ring, open, tolerance);
+    Vec3<W> normal = area_normal<W>(v, ring, open, tolerance);
     if (normal != Vec3<W>{}) return normal;
   }
   return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};

@@ -27,6 +27,7 @@ cppcheck --quiet --std=c++20 --language=c++ --enable=warning,portability --error
 cmake --preset release -DBUILD_TESTING=ON >/dev/null
 folders='data|reference|fast|verify|bench'
 [[ ${1:-} == --libraries ]] && folders='data|reference|fast'
-mapfile -t sources < <(git ls-files '*.cpp' ':!*_test.cpp' ':!*_fuzz.cpp' | grep -E "^($folders)/")
+mapfile -t sources < <(git ls-files '*.cpp' ':!*_test.cpp' ':!*_fuzz.cpp' ':!verify/package/consumers' \
+  ':!verify/subject/examples' | grep -E "^($folders)/")
 printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" \
   clang-tidy -quiet -p build/release -extra-arg=-Wno-unknown-warning-option 2>/dev/null

@@ -49,7 +49,7 @@ class Pool {
 };
 
 /// Adjacency, uniform pairing, rings and vertex limits; then rows or whole pairs.
-class RowStreaming : public Contender {
+class RowStreaming final : public Contender {
  public:
   enum class Form { kRows, kWhole, kStreamed, kCompact };
 

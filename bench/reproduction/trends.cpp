@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
@@ -112,14 +114,14 @@ Json matched_error(const Json& matched, const std::string& strategy) {
 std::int64_t differing_bits(const data::ControlMesh& mesh, const fast::DepthOptions& depth) {
   const auto out = frame_seen(mesh, depth);
   const verify::Lattice lattice(mesh, fast::TessellatorOptions{}.max_depth);
-  std::unordered_map<verify::Lattice::Id, fast::SurfaceVertex<float>> known;
+  using Bits = std::array<std::uint32_t, 6>;
+  std::unordered_map<verify::Lattice::Id, Bits> known;
   std::unordered_set<verify::Lattice::Id> different;
   for (std::size_t v = 0; v < out.vertices.size(); ++v) {
     const auto& p = out.provenance[v];
     const auto id = lattice.id({p.face, p.i, p.j, p.denominator});
-    const auto [first, fresh] = known.emplace(id, out.vertices[v]);
-    if (!fresh && std::memcmp(&first->second, &out.vertices[v], sizeof(out.vertices[v])) != 0)
-      different.insert(id);
+    const auto [first, fresh] = known.emplace(id, std::bit_cast<Bits>(out.vertices[v]));
+    if (!fresh && first->second != std::bit_cast<Bits>(out.vertices[v])) different.insert(id);
   }
   return static_cast<std::int64_t>(different.size());
 }

@@ -24,7 +24,7 @@ fs::path find_program(const std::string& name) {
   std::error_code ignored;
   const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   for (const char* folder : {".", "bench", "../libexec/limitcheck"}) {
-    const fs::path path = here / folder / ("limitcheck-" + name);
+    fs::path path = here / folder / ("limitcheck-" + name);
     if (access(path.c_str(), X_OK) == 0) return path;
   }
   return {};

@@ -185,7 +185,7 @@ std::string to_string(const Similarity& map) {
   std::string text = fmt::format("scale {}", map.scale);
   const Eigen::AngleAxisd turn(rotation_of(map));
   if (std::abs(turn.angle()) > 1e-12) {
-    const Eigen::Vector3d a = turn.axis();
+    const Eigen::Vector3d& a = turn.axis();
     text += fmt::format(", turned by {:.6f} degrees about ({:.6f}, {:.6f}, {:.6f})",
                         turn.angle() * 57.295779513082320877, a[0], a[1], a[2]);
   }

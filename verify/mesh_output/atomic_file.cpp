@@ -2,12 +2,12 @@
 #include "verify/mesh_output/atomic_file.h"
 
 #include <fmt/core.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <utility>
 
@@ -33,7 +33,7 @@ extern "C" void remove_and_go_on(int signal) {
 
 void arm(const std::filesystem::path& file) {
   if (file.native().size() >= doomed_name.size()) return;
-  std::strcpy(doomed_name.data(), file.c_str());
+  std::memcpy(doomed_name.data(), file.c_str(), file.native().size() + 1);
   doomed = true;
   struct sigaction action {};
   action.sa_handler = remove_and_go_on;

@@ -50,6 +50,7 @@ struct Counted {
   friend Counted fused(const Counted& a, const Counted& b, const Counted& c) {
     return ++counted.fused, Counted(std::fma(a.value, b.value, c.value));
   }
+  // NOLINTNEXTLINE(modernize-use-nullptr): there is no pointer
   friend auto operator<=>(const Counted&, const Counted&) = default;
 };
 

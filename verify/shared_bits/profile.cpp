@@ -2,13 +2,13 @@
 #include "verify/shared_bits/profile.h"
 
 #include <dlfcn.h>
-#include <signal.h>
 #include <sys/time.h>
 #include <ucontext.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

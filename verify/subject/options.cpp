@@ -63,7 +63,8 @@ std::string Options::rest() {
   std::string joined;
   for (const auto& [key, text] : values_) {
     if (read_.contains(key)) continue;
-    joined += (joined.empty() ? "" : ",") + key + "=" + text;
+    if (!joined.empty()) joined += ',';
+    joined.append(key).append("=").append(text);
   }
   return joined;
 }

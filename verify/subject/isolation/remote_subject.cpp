@@ -31,7 +31,7 @@ struct RemoteDoor {
 
   // What goes wrong with a process, and refusals, in the words of the door.
   template <class Work>
-  static lc_status answer(RemoteSubject& s, ChildProcess& child, const char** message, Input input,
+  static lc_status answer(RemoteSubject& s, ChildProcess& child, const char** message, const Input& input,
                           Work&& work) {
     static thread_local std::string text;
     const auto died = [&](const SubjectDied& e) {

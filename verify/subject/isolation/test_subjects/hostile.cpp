@@ -83,7 +83,7 @@ void misbehave(const std::string& what) {
   if (what == "leak") {
     void* volatile lost = std::malloc(std::size_t{64} << 20);
     std::memset(lost, 1, std::size_t{64} << 20);
-  }
+  }  // NOLINTNEXTLINE(clang-analyzer-unix.Malloc): lost on purpose
   if (what == "memory")
     for (;;) {  // ten gigabytes, if it is let
       static std::vector<char*> taken;

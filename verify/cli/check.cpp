@@ -22,7 +22,7 @@ struct Arguments {
   bool json = false;
 };
 
-// "3: 8, 4: 6"; a long list is cut in the middle.
+// "8 of 3, 6 of 4"; of a long list the middle is left out.
 std::string histogram(const std::map<int, std::int64_t>& counts) {
   constexpr std::size_t kMost = 12;
   std::string text;
@@ -33,7 +33,7 @@ std::string histogram(const std::map<int, std::int64_t>& counts) {
       if (k == counts.size() - 1) text += ", ...";
       continue;
     }
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, count);
+    text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", count, key);
   }
   return text.empty() ? "none" : text;
 }
@@ -54,8 +54,7 @@ void line(const std::string& what, const std::string& text) {
 
 void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s) {
   line("vertices", fmt::format("{}", soup.positions.size()));
-  line("faces",
-       fmt::format("{} (corners: how many; {})", soup.polygon_end.size(), histogram(face_sizes(soup))));
+  line("faces", fmt::format("{}; by corners: {}", soup.polygon_end.size(), histogram(face_sizes(soup))));
   line("components", fmt::format("{}", s.components));
   line("boundary", s.boundary_edges == 0
                        ? "none: the mesh is closed"
@@ -68,9 +67,9 @@ void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s
     line("coincident vertices", fmt::format("{} lie exactly where another one does", s.coincident_vertices));
   if (s.zero_area_faces > 0)
     line("zero area", fmt::format("{} faces; the surface may have no normal at them", s.zero_area_faces));
-  line("valence inside", fmt::format("(neighbours: vertices; {})", histogram(s.valence)));
+  line("inner vertices", fmt::format("by neighbours: {}", histogram(s.valence)));
   if (!s.boundary_faces.empty())
-    line("at the boundary", fmt::format("(faces: vertices; {})", histogram(s.boundary_faces)));
+    line("boundary vertices", fmt::format("by faces: {}", histogram(s.boundary_faces)));
   line("box", fmt::format("diagonal {:.6g}, largest coordinate {:.6g}, shortest edge {:.3g}", s.diagonal,
                           s.largest, s.shortest_edge));
   line("float",

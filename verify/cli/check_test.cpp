@@ -68,13 +68,13 @@ TEST_F(CheckCommand, RefusesWhatIsNoMesh) {
 
 TEST_F(RepairCommand, MakesAMeshThatAnAuditTakes) {
   write("broken.obj", kBroken);
-  ASSERT_EQ(run("audit naive broken.obj --depth 1 --level quick").code, 2);
+  ASSERT_EQ(run("audit row-stream broken.obj --depth 1 --level quick").code, 2);
   const Outcome o = run("repair broken.obj -o fixed.obj");
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_NE(o.out.find("dropped 1 face that named a vertex which does not exist"), std::string::npos)
       << o.out;
   EXPECT_EQ(run("check fixed.obj").code, 0);
-  EXPECT_EQ(run("audit naive fixed.obj --depth 1 --level quick").code, 0);
+  EXPECT_EQ(run("audit row-stream fixed.obj --depth 1 --level quick").code, 0);
   EXPECT_EQ(run("repair fixed.obj -o again.obj").out.substr(0, 7), "nothing");
 }
 

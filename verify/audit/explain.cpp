@@ -83,6 +83,8 @@ const std::vector<Explanation>& explanations() {
 
       // Of finished tessellations (--tessellation).
       {"file-finite", "No position or normal in the file is NaN or infinite.", kNone, "IEEE 754"},
+      {"file-unused", "Vertices that no face names: a warning. Only whether they are finite is looked at.",
+       kNone, "the faces of the file"},
       {"file-distance", "Distance of each vertex from the closest point of the exact limit surface.",
        "--tolerance, in diagonals of the control mesh.", kFile},
       {"file-positions",
@@ -90,15 +92,26 @@ const std::vector<Explanation>& explanations() {
        "--tolerance, in diagonals of the control mesh.", "verify/files; truth: Stam's evaluator in double"},
       {"file-normals", "Angle between each normal of the file and the surface's at the closest point.",
        "1e-3 rad, as of a float engine at depth 5.", kFile},
+      {"file-normal-length", "Distance of the length of the file's normals from 1.",
+       "1e-3: the vector is then no farther from the exact one than a direction that is off by the bound of "
+       "file-normals.",
+       "shading scales with the length; four decimals round to 9e-5"},
       {"file-orientation", "Triangles face outwards, and run counter-clockwise on their control face.", kNone,
        kFile},
       {"file-coverage",
        "The triangles over each control face have its area: nothing is missing, nothing is there twice.",
        "1e-4 of a face; 1e-2 of all where triangles cross the borders of control faces.",
        "areas in the domain of the control faces, from the closest points of the corners"},
+      {"file-degenerate",
+       "Triangles without area that the control mesh does not cause. Triangles that name a vertex twice, as "
+       "joints of strips do, are a warning.",
+       "No area: lower than four roundings of the coordinates in double. The control mesh causes it where "
+       "the "
+       "exact surface, at the file's resolution, is thinner than the tolerance.",
+       "the positions in the file; Stam's evaluator"},
       {"file-watertight",
        "Merging equal positions, every edge inside has two triangles, and the boundary is that of the "
-       "control mesh.",
+       "control mesh: of its limit surface, or refined a number of times.",
        kNone, "counted by our own code and by CGAL"},
       {"file-hausdorff",
        "The larger of the distances from the triangles to the surface and from the surface to the triangles.",

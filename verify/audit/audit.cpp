@@ -11,6 +11,7 @@
 #include "data/bounding_box.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/digits.h"
+#include "verify/audit/recognise.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
@@ -186,6 +187,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
       rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
   }
+  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && (level_ == Level::kThorough ||
                              (level_ == Level::kStandard && judged.triangles.size() <= kRelationFaces))) {
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };

@@ -11,6 +11,7 @@
 #include "data/bounding_box.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/digits.h"
+#include "verify/audit/recognise.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
@@ -190,6 +191,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
       rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
   }
+  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.triangles.size())) {
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
     for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));

@@ -11,9 +11,9 @@
 #include "data/generators/named_mesh.h"
 #include "reference/refine.h"
 #include "verify/audit/explain.h"
+#include "verify/audit/schemes.h"
 #include "verify/files/audit_files.h"
 #include "verify/files/hausdorff.h"
-#include "verify/files/schemes.h"
 #include "verify/files/test_files.h"
 
 namespace limitcheck::verify {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "verify/audit/bounds.h"
+#include "verify/audit/normal_origin.h"
 #include "verify/audit/statistics.h"
 #include "verify/files/file_evidence.h"
 
@@ -99,31 +100,16 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   if (undefined > 0) r.message = fmt::format("{} more where the surface has no normal", undefined);
   if (s.bad == 0) return {r, length_row(e)};
 
-  // What else could they be?
-  const auto opposite = std::count_if(angle.begin(), angle.end(), [](double a) { return a > 179; });
-  const auto say = [&](const std::string& what) { r.message += (r.message.empty() ? "" : "; ") + what; };
-  if (2 * opposite > s.of) say("most of them point the other way");
-  const auto& t = e.tessellation;
-  std::vector<Vector> mean(e.merged.vertex_of.size(), Vector{});
-  for (const auto& triangle : t.triangles) {
-    std::array<std::int32_t, 3> p{};
-    for (int c = 0; c < 3; ++c) p[c] = e.point_of(triangle[c]);
-    if (std::min({p[0], p[1], p[2]}) < 0) continue;
-    const Vector n = cross(e.position(p[1]) - e.position(p[0]), e.position(p[2]) - e.position(p[0]));
-    for (const std::int32_t k : p) mean[k] = mean[k] + n;
-  }
-  double apart = 0, wrong = 0;
+  const FileTessellation& t = e.tessellation;
+  std::vector<DeliveredNormal> delivered;
   for (std::size_t k = 0; k < normals.size(); ++k) {
     if (angle[k] < 0 || !std::isfinite(angle[k])) continue;
-    const double from_mean = angle_degrees(normals[k].direction, mean[e.point_of(normals[k].vertex)]);
-    apart += from_mean * from_mean;
-    wrong += angle[k] * angle[k];
+    const FacePoint& at = e.foot[e.point_of(normals[k].vertex)].at;
+    delivered.push_back({normals[k].vertex, normals[k].direction, expected[k], at.face, at.l[1], at.l[2]});
   }
-  if (apart < wrong)
-    say(fmt::format(
-        "they are nearer to averages of the triangles around (weighted by area: {:.2g} degrees rms) than to "
-        "the normals of the limit surface ({:.2g} rms)",
-        std::sqrt(apart / static_cast<double>(s.of)), std::sqrt(wrong / static_cast<double>(s.of))));
+  const std::string origin =
+      origin_of_normals(delivered, e.control, t.positions, t.triangles, e.merged.point_of);
+  if (!origin.empty()) r.message += (r.message.empty() ? "" : "; ") + origin;
   return {r, length_row(e)};
 }
 

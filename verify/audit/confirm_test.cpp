@@ -84,25 +84,24 @@ TEST(Confirm, WhereThereIsNothingToJudgeNothingIsFound) {
   EXPECT_EQ(std::count(a.error.begin(), a.error.end(), -1.0), 13);
 }
 
-// A flat sheet of unit squares is its own limit, away from the boundary: the derivatives are the sides.
+// A flat sheet of 4 x 4 rectangles is its own limit, and the derivatives are the sides: in the middle those
+// of the triangle (0, 0) (1, 0) (1, h), of length 1 and sqrt(1 + h^2) with an area vector of length h.
 TEST(Condition, IsThatOfTheTangents) {
-  data::ControlMesh mesh = data::sheet(6, 6);
-  const auto side = [&](int k, std::int32_t f) {
-    const auto& t = mesh.triangles[f];
-    return mesh.positions[t[k]] - mesh.positions[t[0]];
-  };
-  for (const double flatter : {1.0, 1e-3}) {
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      const auto row = static_cast<double>(v / 7), column = static_cast<double>(v % 7);
-      mesh.positions[v] = {column, row * flatter, 0};
-    }
+  for (const double h : {1.0, 1e-3}) {
+    data::ControlMesh mesh;
+    for (int y = 0; y <= 4; ++y)
+      for (int x = 0; x <= 4; ++x) mesh.positions.push_back({static_cast<double>(x), y * h, 0});
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x) {
+        const int v = 5 * y + x;
+        mesh.triangles.push_back({v, v + 1, v + 6});
+        mesh.triangles.push_back({v, v + 6, v + 5});
+      }
     ReferenceSurface surface(mesh, 1, LC_POINTS_LIMIT);
-    const auto face = static_cast<std::int32_t>(mesh.triangles.size() / 2 - 6);  // in the middle
-    const Lattice::Id id = surface.lattice().id({face, 1, 1, 2});
+    const Lattice::Id id = surface.lattice().id({2 * (4 * 1 + 1), 1, 1, 2});
     surface.prepare({&id, 1});
-    const Vector a = side(1, face), b = side(2, face);
-    const double expected = (norm(a) + norm(b)) / norm(cross(a, b));
-    EXPECT_NEAR(surface.normal_condition(id), expected, 1e-12 * expected) << flatter;
+    const double expected = (1 + std::sqrt(1 + h * h)) / h;
+    EXPECT_NEAR(surface.normal_condition(id), expected, 1e-11 * expected) << h;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "reference/refine.h"
@@ -79,12 +80,12 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
       position_[id] = vector(point.position);
       normal_[id] = vector(point.normal);
       state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
-      if (point.first_exist) {
-        condition_[id] = condition(point);
-      } else {  // a corner: i and j are 0 or the denominator, which is 1
+      condition_[id] = condition(point);
+      if (lattice_.is_vertex(id)) {  // of which i and j are 0 or the denominator, which is 1
         const double step = 0.5 / static_cast<double>(lattice_.n());
         const double l1 = p.i == 1 ? 1 - 2 * step : step, l2 = p.j == 1 ? 1 - 2 * step : step;
-        condition_[id] = condition(limit.evaluate(p.face, l1, l2, reference::Order::kFirst));
+        const double near = condition(limit.evaluate(p.face, l1, l2, reference::Order::kFirst));
+        condition_[id] = std::isfinite(condition_[id]) ? std::max(condition_[id], near) : near;
       }
     });
     return;

@@ -42,8 +42,8 @@ class ReferenceSurface {
   bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
   /// Where there is a normal: (|t1| + |t2|) / |t1 x t2|, t1 and t2 the derivatives by l1 and l2. An error of
   /// e in both tangents turns the normal by e times this, in radians. Infinite if t1 x t2 vanishes in double.
-  /// At an extraordinary corner, where derivatives need not exist, that of the point half a lattice step
-  /// along l1 and l2 stands for it: the tangents of the finest facets.
+  /// At a control vertex, that of the middle of the opposite side of the finest facet if it is larger, and in
+  /// any case where the derivatives vanish: a control vertex that is extraordinary need not have any.
   double normal_condition(Lattice::Id id) const { return condition_[id]; }
 
   /// The same surface in certified arithmetic.

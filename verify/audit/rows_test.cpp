@@ -158,7 +158,7 @@ TEST(Rows, TheFirstVertexMayBeTheWitness) {
   for (double& x : flipped.normals[0]) x *= -1;
   moved.positions[0][1] += 1e-3;
   const auto first = [](const Script& s, const char* check) {
-    const Result& r = row(look(s), check);
+    const Result r = row(look(s), check);
     EXPECT_EQ(r.status, Status::kFinding) << check;
     return r.witness ? r.witness->vertex : -1;
   };
@@ -166,7 +166,7 @@ TEST(Rows, TheFirstVertexMayBeTheWitness) {
   EXPECT_EQ(first(flipped, "normals"), 0);
   EXPECT_EQ(first(flipped, "normals-against-positions"), 0);
   EXPECT_EQ(first(moved, "positions"), 0);
-  const Result& r = row(look(longer), "normal-length");
+  const Result r = row(look(longer), "normal-length");
   EXPECT_NEAR(*r.worst, 0.5, 1e-15);
 }
 

@@ -176,7 +176,8 @@ TEST(Seams, DoNotHideACrackInAnEdgeInside) {
       const auto cracked =
           Auditor(2, 1).run({lc_subject_faulty(), faulty_options("one_ulp_crack", base)}, mesh);
       EXPECT_EQ(row(cracked, "watertight").status, Status::kFinding) << base << " / " << mesh.name;
-      EXPECT_EQ(row(cracked, "watertight").bad, 4)
+      EXPECT_NE(row(cracked, "watertight").message.find("4 open edges that are no boundary"),
+                std::string::npos)
           << "two edges, from both sides: " << row(cracked, "watertight").message;
     }
 }

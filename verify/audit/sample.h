@@ -37,8 +37,6 @@ class MeshSample {
   data::ControlMesh part_with(const data::ControlMesh& positions) const;
 
  private:
-  void cut_out(const data::ControlMesh& whole);
-
   data::ControlMesh part_;
   std::vector<std::int32_t> faces_, part_of_;
   std::vector<std::int32_t> vertices_;  // for each vertex of the part, that of the whole

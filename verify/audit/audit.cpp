@@ -16,6 +16,7 @@
 #include "verify/audit/vector.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
+#include "verify/subject/weights_option.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -35,12 +36,13 @@ void Auditor::step(const std::string& subject, const std::string& mesh, std::str
   if (on_step_) on_step_({subject, mesh, std::string(check), done_, total_});
 }
 
-ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, lc_points points) {
+ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, const lc_capabilities& capabilities) {
+  const reference::Weights weights = family(capabilities.weights);
   for (const auto& kept : cache_)
-    if (kept->points() == points && kept->mesh().positions == rounded.positions &&
-        kept->mesh().triangles == rounded.triangles)
+    if (kept->points() == capabilities.points && kept->weights() == weights &&
+        kept->mesh().positions == rounded.positions && kept->mesh().triangles == rounded.triangles)
       return *kept;
-  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth_, points));
+  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth_, capabilities.points, weights));
   return *cache_.back();
 }
 
@@ -143,17 +145,13 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
   // The truth at every point the subject names.
   const lc_capabilities& capabilities = session->capabilities();
   step(name, mesh.name, "reference");
-  ReferenceSurface& truth = reference(judged, capabilities.points);
+  ReferenceSurface& truth = reference(judged, capabilities);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
-  const bool same_family = capabilities.weights == LC_WEIGHTS_LOOP;
-  std::string no_reference =
-      same_family ? "" : "declares another family of weights than Loop's: another surface";
-  if (same_family) {
-    try {
-      truth.prepare(points);
-    } catch (const std::exception& error) {
-      no_reference = fmt::format("the reference failed: {}", error.what());
-    }
+  std::string no_reference;
+  try {
+    truth.prepare(points);
+  } catch (const std::exception& error) {
+    no_reference = fmt::format("the reference failed: {}", error.what());
   }
 
   // The checks.
@@ -177,7 +175,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
     if (interrupted() != 0) break;
     step(name, mesh.name, check.name);
     if (check.needs_reference && !no_reference.empty()) {
-      rows(check, same_family ? Status::kError : Status::kNotSupported, no_reference);
+      rows(check, Status::kError, no_reference);
       continue;
     }
     try {

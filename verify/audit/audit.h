@@ -71,7 +71,7 @@ class Auditor {
   // Adds rows to `results` as they come, so that an end in between leaves what there is.
   void judge(const AuditSubject& subject, const AuditMesh& mesh, std::span<const std::int32_t> face_depth,
              std::vector<Result>& results);
-  ReferenceSurface& reference(const data::ControlMesh& rounded, lc_points points);
+  ReferenceSurface& reference(const data::ControlMesh& rounded, const lc_capabilities& capabilities);
   void step(const std::string& subject, const std::string& mesh, std::string_view check);
 
   int depth_, threads_;
@@ -80,7 +80,8 @@ class Auditor {
   std::size_t done_ = 0, total_ = 1;
   bool gave_up_ = false;
   std::string cached_mesh_;
-  std::vector<std::unique_ptr<ReferenceSurface>> cache_;  // of one mesh: by precision and kind of points
+  std::vector<std::unique_ptr<ReferenceSurface>>
+      cache_;  // of one mesh: by precision, kind of points and weights
 };
 
 }  // namespace limitcheck::verify

@@ -22,8 +22,13 @@ struct ReferenceSurface::Evaluator {
   std::unique_ptr<reference::RefinedMesh<double>> refined;
 };
 
-ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points)
-    : mesh_(mesh), lattice_(mesh_, depth), points_(points), evaluator_(std::make_unique<Evaluator>()) {
+ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
+                                   reference::Weights weights)
+    : mesh_(mesh),
+      lattice_(mesh_, depth),
+      points_(points),
+      weights_(weights),
+      evaluator_(std::make_unique<Evaluator>()) {
   const auto size = static_cast<std::size_t>(lattice_.size());
   position_.resize(size);
   if (points_ == LC_POINTS_LIMIT) normal_.resize(size);
@@ -43,7 +48,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   if (wanted.empty()) return;
 
   if (points_ == LC_POINTS_LIMIT) {
-    if (!evaluator_->limit) evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_);
+    if (!evaluator_->limit)
+      evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_, weights_);
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
       end_if_interrupted();
       const Lattice::Id id = wanted[k];
@@ -64,8 +70,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   }
 
   if (!evaluator_->refined)
-    evaluator_->refined =
-        std::make_unique<reference::RefinedMesh<double>>(reference::refine<double>(mesh_, lattice_.depth()));
+    evaluator_->refined = std::make_unique<reference::RefinedMesh<double>>(
+        reference::refine<double>(mesh_, lattice_.depth(), weights_));
   for (const Lattice::Id id : wanted) {
     const lc_provenance p = lattice_.provenance(id);
     const auto scale =

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/weights.h"
+
 namespace limitcheck::verify {
 
 enum class Status {
@@ -44,6 +46,7 @@ struct Result {
   std::string subject, mesh, check;
   int depth = 0;
   bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
+  reference::Weights weights = reference::Weights::kLoop;  // the family that the subject declares
   Status status = Status::kNotRun;
   std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
   std::optional<double> worst, bound, rms, p99;

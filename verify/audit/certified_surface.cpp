@@ -30,8 +30,8 @@ struct CertifiedSurface::State {
   std::unordered_map<Lattice::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
 };
 
-CertifiedSurface::CertifiedSurface(const Lattice& lattice)
-    : lattice_(lattice), state_(std::make_unique<State>()) {}
+CertifiedSurface::CertifiedSurface(const Lattice& lattice, reference::Weights weights)
+    : lattice_(lattice), weights_(weights), state_(std::make_unique<State>()) {}
 CertifiedSurface::~CertifiedSurface() = default;
 
 const ExactPoint* CertifiedSurface::at(Lattice::Id id) const {
@@ -39,7 +39,7 @@ const ExactPoint* CertifiedSurface::at(Lattice::Id id) const {
   const auto [place, is_new] = state_->kept.try_emplace(id);
   std::optional<ExactPoint>& point = place->second;
   if (is_new) try {
-      if (!state_->evaluator) state_->evaluator.emplace(lattice_.mesh());
+      if (!state_->evaluator) state_->evaluator.emplace(lattice_.mesh(), weights_);
       const lc_provenance p = lattice_.provenance(id);
       const auto exact =
           state_->evaluator->evaluate(p.face, reference::Parameter::fraction(p.i, p.denominator),

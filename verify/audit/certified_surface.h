@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/weights.h"
 #include "verify/audit/lattice.h"
 #include "verify/audit/vector.h"
 
@@ -22,7 +23,7 @@ struct ExactPoint {
 class CertifiedSurface {
  public:
   /// `lattice` outlives this. Nothing is computed yet: an audit without a finding never needs any of it.
-  explicit CertifiedSurface(const Lattice& lattice);
+  CertifiedSurface(const Lattice& lattice, reference::Weights weights);
   ~CertifiedSurface();
 
   /// The point, kept for whoever asks again; nullptr where the evaluator cannot say. Some milliseconds each.
@@ -32,6 +33,7 @@ class CertifiedSurface {
  private:
   struct State;
   const Lattice& lattice_;
+  reference::Weights weights_;
   std::unique_ptr<State> state_;
 };
 

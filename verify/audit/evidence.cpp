@@ -16,6 +16,7 @@ Result Evidence::result(std::string check) const {
   r.check = std::move(check);
   r.depth = lattice.depth();
   r.in_float = capabilities.precision == LC_FLOAT32;
+  r.weights = reference.weights();
   r.status = Status::kHeld;
   return r;
 }

@@ -36,12 +36,14 @@ struct ReferenceSurface::Evaluator {
   std::unique_ptr<reference::RefinedMesh<double>> refined;
 };
 
-ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points)
+ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
+                                   reference::Weights weights)
     : mesh_(mesh),
       lattice_(mesh_, depth),
       points_(points),
+      weights_(weights),
       evaluator_(std::make_unique<Evaluator>()),
-      certified_(lattice_) {
+      certified_(lattice_, weights) {
   const auto size = static_cast<std::size_t>(lattice_.size());
   position_.resize(size);
   if (points_ == LC_POINTS_LIMIT) {
@@ -64,7 +66,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   if (wanted.empty()) return;
 
   if (points_ == LC_POINTS_LIMIT) {
-    if (!evaluator_->limit) evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_);
+    if (!evaluator_->limit)
+      evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_, weights_);
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
       end_if_interrupted();
       const Lattice::Id id = wanted[k];
@@ -92,8 +95,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   }
 
   if (!evaluator_->refined)
-    evaluator_->refined =
-        std::make_unique<reference::RefinedMesh<double>>(reference::refine<double>(mesh_, lattice_.depth()));
+    evaluator_->refined = std::make_unique<reference::RefinedMesh<double>>(
+        reference::refine<double>(mesh_, lattice_.depth(), weights_));
   for (const Lattice::Id id : wanted) {
     const lc_provenance p = lattice_.provenance(id);
     const auto scale =

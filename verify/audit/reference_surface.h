@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "reference/weights.h"
 #include "verify/audit/certified_surface.h"
 #include "verify/audit/lattice.h"
 #include "verify/audit/vector.h"
@@ -22,12 +23,14 @@ namespace limitcheck::verify {
 class ReferenceSurface {
  public:
   /// `mesh` is copied. `depth` is that of the lattice.
-  ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points);
+  ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
+                   reference::Weights weights = reference::Weights::kLoop);
   ~ReferenceSurface();
 
   const data::ControlMesh& mesh() const { return mesh_; }
   const Lattice& lattice() const { return lattice_; }
   lc_points points() const { return points_; }
+  reference::Weights weights() const { return weights_; }
 
   /// Evaluates what is missing among these points (kNone is skipped), in parallel. Not to be called at the
   /// same time as anything else.
@@ -56,6 +59,7 @@ class ReferenceSurface {
   data::ControlMesh mesh_;
   Lattice lattice_;
   lc_points points_;
+  reference::Weights weights_;
   std::unique_ptr<Evaluator> evaluator_;
   CertifiedSurface certified_;
   std::vector<Vector> position_, normal_;

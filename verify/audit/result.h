@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/weights.h"
+
 namespace limitcheck::verify {
 
 enum class Status {
@@ -52,6 +54,7 @@ struct Result {
   int depth = 0;               // of the deepest face
   std::string depths, sample;  // how the faces got theirs, and "FACES:SEED": as --depths, --sample take it
   bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
+  reference::Weights weights = reference::Weights::kLoop;  // the family that the subject declares
   Status status = Status::kNotRun;
   std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
   std::optional<double> worst, bound, rms, p99;

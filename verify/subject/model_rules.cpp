@@ -31,6 +31,8 @@ std::span<const Mutation> mutations() {
       {"none", "nothing: right in every check", ""},
       // Subdivision.
       {"warren_weights", "a(n) = 3/8 for n > 3, as Warren has it", "positions"},
+      {"warren_declared", "declares Warren's weights and has Loop's", "positions"},
+      {"warren_limit_of_loop", "Warren's weights, declared, but the limit mask of Loop's", "positions"},
       {"weight_1e-6_at_valence_5", "a(5) is 1e-6 too large, and nothing else", "positions"},
       {"square_forgotten", "a(n) = 5/8 - (3 + 2 cos)/64", "positions"},
       {"half_angle", "a(n) with cos(pi/n)", "positions"},
@@ -102,7 +104,8 @@ double ModelRules::alpha(int n) const {
   if (is("half_angle")) return 5. / 8 - s * s / 64;
   if (is("valence_one_less") && n > 3) return reference::loop_a<double>(n - 1);
   if (is("vertices_stay")) return 0;
-  return reference::loop_a<double>(n) + (n == 5 && is("weight_1e-6_at_valence_5") ? 1e-6 : 0);
+  const auto weights = is("warren_declared") ? reference::Weights::kLoop : weights_;
+  return reference::ring_weight<double>(n, weights) + (n == 5 && is("weight_1e-6_at_valence_5") ? 1e-6 : 0);
 }
 
 V ModelRules::vertex_point(const Topology& topology, const std::vector<V>& points, std::int32_t v) const {
@@ -164,7 +167,8 @@ V ModelRules::limit(const Topology& topology, const std::vector<V>& points, std:
   }
   const auto n = static_cast<double>(ring.size());
   if (!is("limit_mask_of_six") && !is("limit_weight_misread"))
-    return reference::interior_limit<double>(p, ring);
+    return reference::interior_limit<double>(
+        p, ring, is("warren_declared") || is("warren_limit_of_loop") ? reference::Weights::kLoop : weights_);
   const double weight =
       is("limit_mask_of_six") ? n : 3 * n / 8 * reference::loop_a<double>(static_cast<int>(n));
   V sum = p * weight;

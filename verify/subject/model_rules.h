@@ -8,6 +8,7 @@
 
 #include "reference/topology.h"
 #include "reference/vec3.h"
+#include "reference/weights.h"
 
 namespace limitcheck::verify {
 
@@ -21,10 +22,12 @@ struct Mutation {
 std::span<const Mutation> mutations();
 
 /// The rules under one mutation, in double. Points are those of a mesh at some level.
+///   weights   the family that the subject declares
 class ModelRules {
  public:
   using V = reference::Vec3<double>;
-  explicit ModelRules(std::string_view mutation) : mutation_(mutation) {}
+  ModelRules(std::string_view mutation, reference::Weights weights)
+      : mutation_(mutation), weights_(weights) {}
 
   bool is(std::string_view name) const { return mutation_ == name; }
 
@@ -40,6 +43,7 @@ class ModelRules {
                const reference::Edge& edge) const;
 
   std::string_view mutation_;
+  reference::Weights weights_;
 };
 
 }  // namespace limitcheck::verify

@@ -3,6 +3,9 @@
 // the deepest level asked for, every point once; uneven faces become fans round their centre.
 //
 //   options   mutation=NAME (default none)
+//             weights=loop|warren (default loop)
+//             points=limit|refined (default limit); refined points come without normals, at one depth for all
+//             faces
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -20,6 +23,7 @@
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/model_rules.h"
 #include "verify/subject/registry.h"
+#include "verify/subject/weights_option.h"
 
 namespace {
 
@@ -35,6 +39,10 @@ std::vector<std::string_view> names() {
   return list;
 }
 
+std::string_view mutation_option(Options& options) {
+  return names()[static_cast<std::size_t>(options.choice("mutation", names()))];
+}
+
 struct Vertex {
   V position, normal;
   lc_provenance place;
@@ -43,12 +51,17 @@ struct Vertex {
 class ModelSubject {
  public:
   static lc_capabilities capabilities(Options& options) {
-    (void)options.choice("mutation", names());
-    return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
+    const std::string_view mutation = mutation_option(options);
+    lc_weights weights = weights_option(options);
+    if (mutation == "warren_declared" || mutation == "warren_limit_of_loop") weights = LC_WEIGHTS_WARREN;
+    if (options.choice("points", {"limit", "refined"}) == 1)
+      return {LC_FLOAT64, weights, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, kDeepest, 0, 0, 1};
+    return {LC_FLOAT64, weights, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
   }
 
   ModelSubject(const lc_mesh& mesh, Options& options)
-      : rules_(names()[static_cast<std::size_t>(options.choice("mutation", names()))]),
+      : capabilities_(capabilities(options)),
+        rules_(mutation_option(options), family(capabilities_.weights)),
         mesh_(control_mesh(mesh)) {
     try {
       const reference::Topology topology(mesh_.positions.size(), mesh_.triangles);
@@ -103,7 +116,9 @@ class ModelSubject {
     }
     for (std::size_t v = 0; v < level.points.size(); ++v) {
       const auto k = static_cast<std::int32_t>(v);
-      level.limits.push_back(rules_.limit(level.mesh.topology(), level.points, k));
+      level.limits.push_back(capabilities_.points == LC_POINTS_REFINED
+                                 ? level.points[v]
+                                 : rules_.limit(level.mesh.topology(), level.points, k));
       level.normals.push_back(rules_.normal(level.mesh.topology(), level.points, k));
     }
     return level;
@@ -147,7 +162,8 @@ class ModelSubject {
       if (deeper == 0) {
         strips(level, f, d);
       } else {
-        if (!limits_ready) surface_ = std::make_unique<reference::StamEvaluator<double>>(mesh_);
+        if (!limits_ready)
+          surface_ = std::make_unique<reference::StamEvaluator<double>>(mesh_, family(capabilities_.weights));
         limits_ready = true;
         fan(level, topology, f, edge);
       }
@@ -252,13 +268,14 @@ class ModelSubject {
   void deliver(const lc_request& request, lc_tessellation& out) const {
     const auto output =
         allocate_output<double>(request, out, static_cast<std::int64_t>(vertices_.size()),
-                                static_cast<std::int64_t>(triangles_.size()), /*normals=*/true);
+                                static_cast<std::int64_t>(triangles_.size()), capabilities_.normals != 0);
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
       const auto& [p, n, place] = vertices_[v];
       std::size_t at = 3 * v;
       for (const double x : {p.x, p.y, p.z}) output.positions[at++] = x;
       at = 3 * v;
-      for (const double x : {n.x, n.y, n.z}) output.normals[at++] = x;
+      if (capabilities_.normals != 0)
+        for (const double x : {n.x, n.y, n.z}) output.normals[at++] = x;
       output.provenance[v] = place;
     }
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -269,6 +286,7 @@ class ModelSubject {
     if (rules_.is("buffer_as_printed")) out.vertex_count += 5 + 6 * 50;
   }
 
+  lc_capabilities capabilities_;
   ModelRules rules_;
   data::ControlMesh mesh_;
   double size_ = 0;
@@ -285,6 +303,7 @@ class ModelSubject {
 extern "C" const lc_subject* lc_subject_model() {
   static const lc_subject subject =
       make_subject<ModelSubject>("model", "a plain tessellator that is right, or wrong in one stated way",
-                                 "mutation=NAME (default none)");
+                                 "mutation=NAME (default none), weights=loop|warren (default loop), "
+                                 "points=limit|refined (default limit)");
   return &subject;
 }

@@ -268,7 +268,7 @@ void ChildProcess::ask(std::string_view request) {
   check_alive();
   start_clock();
   looked_ = false;
-  refuse_more_output();
+  if (answered_) refuse_more_output();  // before that, what it says is its first answer
   while (!request.empty()) {
     const ssize_t n = write_quietly(pipe_[kIn], request);
     if (n > 0) {

@@ -172,9 +172,9 @@ Part = collections.namedtuple("Part", "title make files needs", defaults=((),))
 
 
 def parts():
-    yield "spheres", Part("frame rates, counts and errors on bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
-    yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"], ["spheres"])
-    yield "trends", Part("trends T1 to T10", lambda shop: shop.reproduction("trends"), ["trends.json"], ["spheres", "matched"])
+    yield "spheres", Part("frame rates, counts and pictures of bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
+    yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"])
+    yield "timings", Part("what the text says of time", lambda shop: shop.reproduction("timings"), ["timings.json"], ["spheres"])
     for name, title in (("figure-11", "frames per second"), ("figure-12", "triangles and culled faces")):
         yield name, Part(f"{name}: {title}", chart(name, "spheres", "rows"), [f"{name}.svg"], ["spheres"])
     yield "error", Part("error against triangles", chart("error", "matched", "curves"), ["error.svg"], ["matched"])

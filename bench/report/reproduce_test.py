@@ -84,7 +84,7 @@ class Reproduce(unittest.TestCase):
 
     def test_without_node_the_report_lacks_only_what_needs_it_and_says_so(self):
         self.assertEqual(self.run_it(), 1)
-        self.assertEqual(self.sections(), ["trends", "tables", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
+        self.assertEqual(self.sections(), ["sentences", "tables", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
         for part in ("figure-11", "figure-12", "error", "view"):
             self.says(f"({part}): node is not installed (apt-get install nodejs npm)")
         self.assertFalse("<script" in self.page)
@@ -105,7 +105,7 @@ class Reproduce(unittest.TestCase):
 
     def test_what_needs_a_part_that_failed_says_which(self):
         self.run_it(BREAKS="spheres")
-        self.says("(trends): needs spheres, matched, which could not be made")
+        self.says("(timings): needs spheres, which could not be made")
 
     def test_an_interrupted_run_keeps_what_it_made_and_says_what_is_missing(self):
         with self.start(HANGS="prove") as process:
@@ -114,7 +114,7 @@ class Reproduce(unittest.TestCase):
             process.communicate(timeout=30)
         self.assertEqual(process.returncode, 1)
         self.page = (self.out / "index.html").read_text()
-        self.assertEqual(self.sections(), ["trends", "tables", "matched", "pictures", "claims", "audit"])
+        self.assertEqual(self.sections(), ["sentences", "tables", "matched", "pictures", "claims", "audit"])
         self.says("(proofs): interrupted")
         self.says("(throughput): not made: the run was interrupted before it")
         self.assertFalse(list(self.out.glob("*.partial")))
@@ -131,10 +131,10 @@ class Reproduce(unittest.TestCase):
         self.says("(claims): interrupted")
 
     def test_one_part_alone_makes_what_it_needs_and_nothing_else(self):
-        self.assertEqual(self.run_it("--only", "trends"), 0)
-        self.assertEqual(sorted(p.name for p in self.out.glob("*.json")), ["matched.json", "reproduction.json", "spheres.json", "trends.json"])
+        self.assertEqual(self.run_it("--only", "timings"), 0)
+        self.assertEqual(sorted(p.name for p in self.out.glob("*.json")), ["reproduction.json", "spheres.json", "timings.json"])
         before = (self.out / "spheres.json").stat().st_mtime_ns
-        self.run_it("--only", "trends")
+        self.run_it("--only", "timings")
         self.assertEqual((self.out / "spheres.json").stat().st_mtime_ns, before)
 
     def test_a_program_that_is_not_built_is_named(self):

@@ -54,14 +54,14 @@ class Workshop:
         self.run([self.bench / "reproduction" / "reproduction", "-o", self.folder, *arguments, *(["--quick"] if self.quick else [])])
 
     def node(self):
-        """Node.js with the packages, installed on first use."""
+        """Node.js with the packages, installed on first use: those of package-lock.json, none of whose scripts is run."""
         for program in ("node", "npm"):
             if not shutil.which(program):
                 raise PartError(NO_NODE.format(program))
         needed = json.loads((HERE / "package.json").read_text(encoding="utf-8"))["dependencies"]
         if not all((HERE / "node_modules" / name / "package.json").is_file() for name in needed):
             try:
-                self.run(["npm", "install", "--prefix", HERE, "--omit=dev", "--no-audit", "--no-fund", "--no-package-lock",
+                self.run(["npm", "ci", "--prefix", HERE, "--ignore-scripts", "--omit=dev", "--no-audit", "--no-fund",
                           "--fetch-retries=1", "--fetch-retry-mintimeout=1000", "--fetch-timeout=30000"])
             except PartError as error:
                 raise PartError(f"npm could not install {', '.join(needed)} (is there a network?): {error}") from error

@@ -97,6 +97,20 @@ class Reproduce(unittest.TestCase):
         self.says("network request failed")
         self.assertIn("tables", self.sections())
 
+    def test_packages_are_those_of_the_lock_file_and_their_scripts_are_not_run(self):
+        self.program(self.bin / "node", "#!/bin/sh\nexit 0\n")
+        self.program(self.bin / "npm", "#!/bin/sh\necho \"npm was asked for: $*\" >&2\nexit 1\n")
+        self.run_it("--only", "figure-11")
+        asked = self.page.partition("npm was asked for: ")[2].partition("<")[0]
+        self.assertTrue(asked.startswith("ci "), asked)
+        self.assertIn("--ignore-scripts", asked)
+        folder = TOP / "bench" / "report"
+        wanted = json.loads((folder / "package.json").read_text())
+        locked = json.loads((folder / "package-lock.json").read_text())["packages"]
+        for name, version in {**wanted["dependencies"], **wanted["devDependencies"]}.items():
+            self.assertEqual(locked[f"node_modules/{name}"]["version"], version)
+        self.assertEqual([n for n, p in locked.items() if n and not p.get("integrity")], [], "each package has its hash")
+
     def test_a_part_that_fails_leaves_the_others(self):
         self.assertEqual(self.run_it(BREAKS="audit"), 1)
         self.says("something went wrong here")

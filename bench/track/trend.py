@@ -132,7 +132,7 @@ def specification(panels, order):
 
 def draw(spec):
     if not (REPORT / "node_modules").is_dir():
-        raise measure.MeasureError(f"drawing needs Vega-Lite: npm install --prefix {REPORT}")
+        raise measure.MeasureError(f"drawing needs Vega-Lite: npm ci --ignore-scripts --prefix {REPORT}")
     with tempfile.NamedTemporaryFile("w", suffix=".vl.json") as file:
         json.dump(spec, file)
         file.flush()

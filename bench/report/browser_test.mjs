@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opens the report in headless Chromium as a reader would: node browser_test.mjs INDEX.html FOLDER
-// (npm install in this folder first; Debian's chromium). Fails on a console error, a request to anywhere, a dead button or key,
+// (npm ci --ignore-scripts in this folder first; Debian's chromium). Fails on a console error, a request to anywhere, a dead button or key,
 // sideways scrolling on a telephone; leaves screenshots and a PDF in FOLDER.
 import { chromium } from "playwright-core";
 import path from "node:path";

@@ -5,6 +5,7 @@ import json
 import pathlib
 import re
 
+import sentences
 import tables
 from parts import PARTS
 from record import write_whole
@@ -108,7 +109,7 @@ def gaps_of(folder, record, loaded, broken):
 def write(folder, record):
     """index.html of everything in the folder; returns what is missing in it."""
     broken, sections = [], []
-    names = ("claims", "audit", "proofs", "spheres", "matched", "trends", "throughput", "shapes", "witnesses")
+    names = ("claims", "audit", "proofs", "spheres", "matched", "timings", "throughput", "shapes", "witnesses")
     loaded = {name: load(folder, name + ".json", broken) for name in names}
 
     def section(name, title, *pieces):
@@ -119,7 +120,8 @@ def write(folder, record):
     def result(name, show, *more):
         return show(loaded[name], *more) + origin(name, record) if loaded[name] else ""
     shown = lambda some: "".join(figure(folder, n, *about, record) for n, about in some.items())  # noqa: E731
-    section("trends", "Does what the text says of its figures hold?", result("trends", tables.trends))
+    section("sentences", "What the text says, and what came out", sentences.sentences(loaded["claims"], loaded["timings"]),
+            origin("timings" if loaded["timings"] else "claims", record) if loaded["claims"] or loaded["timings"] else "")
     section("tables", "Tables and diagrams", NO_NUMBERS if loaded["spheres"] else "", shown(CHARTS), result("spheres", tables.spheres))
     section("matched", "At equal error", result("matched", tables.matched), figure(
         folder, "error", "Error", "Error on the screen against triangles drawn, each strategy from coarse to fine settings: lower and "

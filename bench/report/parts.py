@@ -54,14 +54,14 @@ class Workshop:
         self.run([self.bench / "reproduction" / "reproduction", "-o", self.folder, *arguments, *(["--quick"] if self.quick else [])])
 
     def node(self):
-        """Node.js with the packages, installed on first use."""
+        """Node.js with the packages, installed on first use: those of package-lock.json, none of whose scripts is run."""
         for program in ("node", "npm"):
             if not shutil.which(program):
                 raise PartError(NO_NODE.format(program))
         needed = json.loads((HERE / "package.json").read_text(encoding="utf-8"))["dependencies"]
         if not all((HERE / "node_modules" / name / "package.json").is_file() for name in needed):
             try:
-                self.run(["npm", "install", "--prefix", HERE, "--omit=dev", "--no-audit", "--no-fund", "--no-package-lock",
+                self.run(["npm", "ci", "--prefix", HERE, "--ignore-scripts", "--omit=dev", "--no-audit", "--no-fund",
                           "--fetch-retries=1", "--fetch-retry-mintimeout=1000", "--fetch-timeout=30000"])
             except PartError as error:
                 raise PartError(f"npm could not install {', '.join(needed)} (is there a network?): {error}") from error
@@ -172,9 +172,9 @@ Part = collections.namedtuple("Part", "title make files needs", defaults=((),))
 
 
 def parts():
-    yield "spheres", Part("frame rates, counts and errors on bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
-    yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"], ["spheres"])
-    yield "trends", Part("trends T1 to T10", lambda shop: shop.reproduction("trends"), ["trends.json"], ["spheres", "matched"])
+    yield "spheres", Part("frame rates, counts and pictures of bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
+    yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"])
+    yield "timings", Part("what the text says of time", lambda shop: shop.reproduction("timings"), ["timings.json"], ["spheres"])
     for name, title in (("figure-11", "frames per second"), ("figure-12", "triangles and culled faces")):
         yield name, Part(f"{name}: {title}", chart(name, "spheres", "rows"), [f"{name}.svg"], ["spheres"])
     yield "error", Part("error against triangles", chart("error", "matched", "curves"), ["error.svg"], ["matched"])

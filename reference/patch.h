@@ -2,6 +2,7 @@
 // A regular patch at a point, and how its parameters lie on the control face.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "reference/basis.h"
@@ -21,12 +22,14 @@ struct Placement {
 template <class N>
 struct LocalPoint {
   Vec3<N> position, a, b, aa, ab, bb;
+  N a_terms{}, b_terms{};  ///< of a and b, see Tangents
 };
 
 /// The twelve points in the order of Appendix A, weighted, as differences from the fourth: exact zeros where
 /// they coincide.
+///   size   the largest coordinate that the points were computed from, if not their own
 template <class N, class Points>
-LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order order) {
+LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order order, N size = N(0)) {
   const Vec3<N>& origin = points[3];
   std::array<Vec3<N>, 12> d;
   for (std::size_t i = 0; i < 12; ++i) d[i] = points[i] - origin;
@@ -38,6 +41,15 @@ LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order 
     s.a += d[i] * basis.da[i];
     s.b += d[i] * basis.db[i];
   }
+  if constexpr (kRounds<N>) {
+    for (std::size_t i = 0; i < 12; ++i) {
+      size = std::max(size, magnitude(points[i]));
+      s.a_terms += magnitude(basis.da[i]);
+      s.b_terms += magnitude(basis.db[i]);
+    }
+    s.a_terms *= N(2) * size;  // both ends of each difference
+    s.b_terms *= N(2) * size;
+  }
   if (order == Order::kFirst) return s;
   for (std::size_t i = 0; i < 12; ++i) {
     s.aa += d[i] * basis.daa[i];
@@ -48,7 +60,7 @@ LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order 
 }
 
 /// Sets the derivatives of `result` by the chain rule; `first`,
-/// `second` are factors beside those of the placement.
+/// `second` are positive factors beside those of the placement.
 template <class N>
 void place(SurfacePoint<N>& result, const LocalPoint<N>& s, const Placement& at, const N& first,
            const N& second, Order order) {
@@ -56,12 +68,29 @@ void place(SurfacePoint<N>& result, const LocalPoint<N>& s, const Placement& at,
   const N a1(at.a1), a2(at.a2), b1(at.b1), b2(at.b2);
   result.d1 = (s.a * a1 + s.b * b1) * first;
   result.d2 = (s.a * a2 + s.b * b2) * first;
+  if constexpr (kRounds<N>) {
+    result.d1_terms = (s.a_terms * magnitude(a1) + s.b_terms * magnitude(b1)) * first;
+    result.d2_terms = (s.a_terms * magnitude(a2) + s.b_terms * magnitude(b2)) * first;
+  }
   result.first_exist = true;
   if (order == Order::kFirst) return;
   result.d11 = (s.aa * (a1 * a1) + s.ab * (N(2) * a1 * b1) + s.bb * (b1 * b1)) * second;
   result.d12 = (s.aa * (a1 * a2) + s.ab * (a1 * b2 + a2 * b1) + s.bb * (b1 * b2)) * second;
   result.d22 = (s.aa * (a2 * a2) + s.ab * (N(2) * a2 * b2) + s.bb * (b2 * b2)) * second;
   result.second_exist = true;
+}
+
+/// The normal of a point whose derivatives are set, from these or from others in their place.
+template <class N>
+void set_normal(SurfacePoint<N>& point, const Tangents<N>& tangents, const Vec3<N>& fallback) {
+  const Normal<N> normal = unit_normal(tangents, fallback);
+  point.normal = normal.direction;
+  point.normal_kind = normal.kind;
+  point.normal_condition = normal.condition;
+}
+template <class N>
+Tangents<N> tangents_of(const SurfacePoint<N>& point) {
+  return {point.d1, point.d2, point.d1_terms, point.d2_terms};
 }
 
 /// At an extraordinary corner. d1, d2 are not partial derivatives there (first_exist stays false): inside,
@@ -76,12 +105,21 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
   result.position = limit.position;
   result.normal = limit.normal.direction;
   result.normal_kind = limit.normal.kind;
-  const Vec3<N>&c = limit.tangents.first, &s = limit.tangents.second;
+  result.normal_condition = limit.normal.condition;
+  // The masks' sums over a regular polygon, or half of one, of radius 1: n / 2 inside and across, 2 along.
+  const auto entries = static_cast<int>(ring.size());
+  const N half = N(1) / N(2), share = on_boundary ? N(2) / N(std::max(2, entries - 1)) : N(2) / N(entries);
+  const N first_share = on_boundary ? half : share;
+  const Vec3<N> c = limit.tangents.first * first_share, s = limit.tangents.second * share;
+  const N c_terms = limit.tangents.first_terms * first_share, s_terms = limit.tangents.second_terms * share;
   if (on_boundary) {
     result.d1 = c;
     result.d2 = s;
+    result.d1_terms = c_terms;
+    result.d2_terms = s_terms;
     return result;
   }
+  result.d1_terms = result.d2_terms = c_terms + s_terms;
   const auto& circle = circle_table<N>(static_cast<long>(ring.size()));
   const auto towards = [&](int i) {
     const auto k = 2 * static_cast<std::size_t>(i) % circle.cosine.size();

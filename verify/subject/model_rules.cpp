@@ -233,7 +233,7 @@ V ModelRules::normal(const Topology& topology, const std::vector<V>& points, std
     const double length = std::sqrt(dot(c, c));
     if (!std::isfinite(static_cast<float>(length) * static_cast<float>(length))) return {};
   }
-  V result = reference::unit_normal<double>(t.first, t.second, facets).direction;
+  V result = reference::unit_normal<double>(t, facets).direction;
   if (is("tilted_normals")) {
     const V aside = cross(result, std::abs(result.x) < .5 ? V{1, 0, 0} : V{0, 1, 0});
     result = reference::unit(result + aside * (1e-3 / std::sqrt(dot(aside, aside))));

@@ -38,7 +38,7 @@ const std::vector<Explanation>& explanations() {
        "1e-3 rad in float, 1e-9 rad in double; doubling with each level beyond 5. More where the tangents "
        "t1, t2 "
        "are so short or so nearly parallel that rounding alone turns the normal farther, by "
-       "10 * 2^depth u M (|t1| + |t2|) / |t1 x t2|: the row says at how many points.",
+       "4 * 2^depth u M (|t1| + |t2|) / |t1 x t2|: the row says at how many points.",
        "differences of points 2^-depth apart lose a bit with each level; measured on float engines "
        "(verify/audit/bounds.h)"},
       {"normal-length", "Distance of the normals' length from 1.", "8 unit roundoffs.",

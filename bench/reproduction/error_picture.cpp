@@ -45,7 +45,7 @@ fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
 
 Image error_beside_control_mesh() {
   Studio studio = bumpy(200);
-  const fast::Camera front = camera_at(20, 3.7);
+  const fast::Camera front = camera_at(20, 4.3);
   fast::TessellatorOptions options;
   options.provenance = true;
   fast::Tessellator<float> engine(studio.mesh(), options);
@@ -61,7 +61,7 @@ Image error_beside_control_mesh() {
       painted.vertices.push_back(frame.vertices[static_cast<std::size_t>(error.draw->first + v)]);
     painted.draws.push_back(
         {first, 3, 1, error.draw->face_of(error.triangle), -1, fast::DrawMode::kTriangles});
-    colour[first] = heat(1 + std::log10(std::max(error.position, 1e-12) / most) / 4);
+    colour[first] = heat(1 + std::log10(std::max(error.position, 1e-12) / most) / 2);
   });
   Appearance control, map;
   control.wireframe = true;

@@ -12,6 +12,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import page  # noqa: E402
+import parts  # noqa: E402
 from parts import PARTS  # noqa: E402
 from record import Record  # noqa: E402
 
@@ -96,7 +97,7 @@ class Page(unittest.TestCase):
     def test_every_part_has_its_section(self):
         self.draw_all()
         self.assertEqual(self.made().sections,
-                         ["sentences", "tables", "matched", "pictures", "view", "claims", "audit", "proofs", "throughput"])
+                         ["summary", "sentences", "tables", "matched", "pictures", "view", "claims", "audit", "proofs", "throughput"])
         self.assertEqual(self.gaps, [])
 
     def test_every_table_and_figure_names_the_command_that_makes_it_alone(self):
@@ -106,6 +107,36 @@ class Page(unittest.TestCase):
         self.assertEqual(sorted(named), sorted(PARTS))
         for block in re.findall(r"<figure.*?</figure>|<section.*?</section>", self.text, re.DOTALL):
             self.assertIn("limitcheck reproduce --only", block)
+
+    def test_pictures_and_the_view_have_one_palette(self):
+        source = (pathlib.Path(__file__).resolve().parents[1] / "reproduction" / "studio.h").read_text()
+        scale = source.partition("constexpr Colour scale[] = {")[2].partition("};")[0]
+        colours = [[float(x.strip().rstrip("f")) for x in c.split(",")] for c in re.findall(r"\{([^{}]*)\}", scale + "}")]
+        self.assertEqual(len(colours), 6)
+        for ours, theirs in zip(page.DEPTH_COLOURS, colours):
+            for k, part in zip((1, 3, 5), theirs):
+                self.assertLessEqual(abs(int(ours[k:k + 2], 16) - 255 * part), 1, (ours, theirs))
+
+    def test_the_summary_says_what_came_out(self):
+        self.made(("claims",))
+        short = self.text.partition("<section id=summary>")[2].partition("</section>")[0]
+        for words in ("3 claims of the paper", "8.6 % are off.", "project-sphere", "Figures that are not reproduced: 1, 2, 9"):
+            self.assertIn(words, short)
+
+    def test_what_the_subject_delivered_goes_with_its_witness(self):
+        witness = {"got": [1.0, 2.0, 3.0]}
+        self.assertEqual(parts.delivered({"check": "positions", "witness": witness}), {"got_position": [1.0, 2.0, 3.0]})
+        self.assertEqual(parts.delivered({"check": "normals", "witness": witness}), {"got_normal": [1.0, 2.0, 3.0]})
+        self.assertEqual(parts.delivered({"check": "holes", "witness": {"got": None}}), {})
+
+    def test_throughput_sets_our_variants_apart_from_others(self):
+        runs = [{"name": f"{route}/steady/bumpy/faces:4000/depth:3/threads:1/real_time", "points/s": rate, "real_time": 1.0, "time_unit": "ms"}
+                for route, rate in (("row-stream/avx2", 6e6), ("row-stream/compact", 4e6), ("far/uniform", 2e6))]
+        (self.folder / "throughput.json").write_text(json.dumps({"benchmarks": runs}))
+        self.made(())
+        ours, _, others = self.text.partition("<table class=bars>")[2].partition("</table>")[0].partition(">others")
+        self.assertIn("row-stream/compact", ours)
+        self.assertIn("far/uniform", others)
 
     def test_it_opens_from_disk_with_nothing_beside_it(self):
         (self.folder / "figure-3.png").write_bytes(b"png")
@@ -171,8 +202,7 @@ class Page(unittest.TestCase):
 
     def test_the_headline_counts_conclusions_and_tests_apart(self):
         self.made(("claims",))
-        self.assertIn("3 claims of the paper: 1 confirmed, 1 not checkable, 1 depends. Our tests: 1 green, 1 red, 0 not run; "
-                      "1 claims have none.", self.text)
+        self.assertIn("3 claims of the paper: confirmed 1, not checkable 1, depends 1. Our tests: green 1, red 1, not run 0, none 1.", self.text)
 
     def test_what_could_not_be_measured_is_said_and_no_verdict(self):
         self.made(("timings",))

@@ -84,7 +84,7 @@ class Reproduce(unittest.TestCase):
 
     def test_without_node_the_report_lacks_only_what_needs_it_and_says_so(self):
         self.assertEqual(self.run_it(), 1)
-        self.assertEqual(self.sections(), ["sentences", "tables", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
+        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
         for part in ("figure-11", "figure-12", "error", "view"):
             self.says(f"({part}): node is not installed (apt-get install nodejs npm)")
         self.assertFalse("<script" in self.page)
@@ -128,7 +128,7 @@ class Reproduce(unittest.TestCase):
             process.communicate(timeout=30)
         self.assertEqual(process.returncode, 1)
         self.page = (self.out / "index.html").read_text()
-        self.assertEqual(self.sections(), ["sentences", "tables", "matched", "pictures", "claims", "audit"])
+        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "matched", "pictures", "claims", "audit"])
         self.says("(proofs): interrupted")
         self.says("(throughput): not made: the run was interrupted before it")
         self.assertFalse(list(self.out.glob("*.partial")))

@@ -9,7 +9,8 @@
 
 namespace limitcheck::bench {
 
-/// figure-3, figure-6, figure-7, figure-8, figure-10, figure-13, figure-14.
+/// figure-3, figure-6, figure-7, figure-8, figure-10, figure-13, figure-14; picture-cracks and picture-error,
+/// for the README.
 const std::vector<std::string>& picture_names();
 
 /// One of these as NAME.png in the folder.

@@ -54,7 +54,7 @@ Json adaptive_is_faster(const Json& spheres) {
   }
   return {{"id", "T4"},
           {"outcome", all_of(outcomes)},
-          {"figures", fmt::format("repetitions differed by a factor of up to {:.2f}", widest)},
+          {"figures", fmt::format("Repetitions differed by a factor of up to {:.2f}", widest)},
           {"series", Json::array({series("frames per second of project-sphere over those of uniform depth 3",
                                          "faces", faces, ratios)})}};
 }
@@ -91,7 +91,7 @@ Json time_per_point(bool quick) {
       {"id", "T6"},
       {"outcome", outcome(1.25 * *least / *most, 1, widest)},
       {"figures",
-       fmt::format("asked for: depths 5, 6 and 7 within 25 %; they lie within {:.0f} %; the median of the "
+       fmt::format("Asked for: depths 5, 6 and 7 within 25 %; they lie within {:.0f} %; the median of the "
                    "repetitions was up to {:.0f} % above the least",
                    100 * (*most / *least - 1), 100 * (widest - 1))},
       {"series", Json::array({series("nanoseconds per limit point", "depth", depths, nanoseconds)})}};
@@ -107,7 +107,7 @@ Json ten_frames(const Json& spheres) {
         {"id", "T7"},
         {"outcome", outcome(fps, 10, drawn["spread"].get<double>())},
         {"figures",
-         fmt::format("{:.0f} triangles; {:.3g} frames per second of processor time drawn by {}, {:.3g} not "
+         fmt::format("{:.0f} triangles; {:.0f} frames per second of processor time drawn by {}, {:.0f} not "
                      "drawn",
                      triangles, fps, spheres["renderer"].get<std::string>(),
                      row["sliding_window"]["frames_per_second"].get<double>())},

@@ -118,12 +118,12 @@ std::string to_table(const std::vector<ClaimResult>& results) {
   }
   std::string conclusions;
   for (const auto& [verdict, count] : verdicts(results))
-    if (count > 0) conclusions += fmt::format("{}{} {}", conclusions.empty() ? "" : ", ", count, verdict);
+    if (count > 0) conclusions += fmt::format("{}{} {}", conclusions.empty() ? "" : ", ", verdict, count);
   Coverage c = coverage(results);
-  out += fmt::format(
-      "\n{} claims of the paper: {}\nour tests: {} green, {} red, {} not run; {} claims have none\n",
-      c.claims, conclusions, c.outcomes[ClaimOutcome::kHeld], c.outcomes[ClaimOutcome::kNotHeld],
-      c.outcomes[ClaimOutcome::kNotRun], c.outcomes[ClaimOutcome::kNotCheckable]);
+  out +=
+      fmt::format("\n{} claims of the paper: {}\nour tests: green {}, red {}, not run {}, none {}\n",
+                  c.claims, conclusions, c.outcomes[ClaimOutcome::kHeld], c.outcomes[ClaimOutcome::kNotHeld],
+                  c.outcomes[ClaimOutcome::kNotRun], c.outcomes[ClaimOutcome::kNotCheckable]);
   return out;
 }
 

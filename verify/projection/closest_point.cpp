@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "data/bounding_box.h"
 #include "reference/stam.h"
 #include "verify/projection/newton.h"
+#include "verify/projection/triangle.h"
 
 namespace limitcheck::verify {
 namespace {
+
+constexpr int kCuts = 12;  // as dear as one descent, about
 
 // Of the pieces of the surface, not of the flat triangles.
 std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
@@ -20,6 +24,17 @@ std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
     list[t] = BoxTree::around({c[0], c[1], c[2]}, lattice.deviation(t));
   }
   return list;
+}
+
+// Whether the surface over a piece may be nearer to p than `distance`, as far as so many cuts tell.
+bool may_be_nearer(const SurfaceLattice& lattice, const reference::StamEvaluator<double>& surface,
+                   const Piece& piece, const Vector& p, double distance, int& cuts) {
+  if (closest_on_triangle(p, piece.corner).distance - piece.deviation >= distance) return false;
+  if (cuts-- <= 0) return true;
+  const auto children = lattice.split(piece, surface);
+  return std::any_of(children.begin(), children.end(), [&](const Piece& child) {
+    return may_be_nearer(lattice, surface, child, p, distance, cuts);
+  });
 }
 
 }  // namespace
@@ -46,19 +61,21 @@ Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
   return foot;
 }
 
-Foot ClosestPoint::closest(const Vector& p) const {
+Foot ClosestPoint::closest(const Vector& p, double enough) const {
   // A nearer point that could only be nearer by rounding is not worth looking for.
   const double rounding = 1e-16 * diagonal_;
   Minimum best;
   best.distance = std::numeric_limits<double>::infinity();
   double at_least = best.distance;
   int descents = 0;
+  std::optional<std::size_t> settled;  // the piece of a foot that is near enough
   tree_.near(p, [&](std::size_t index) {
     const auto corners = lattice_.corners(index);
     const OnTriangle flat = closest_on_triangle(p, corners);
     const double bound = flat.distance - lattice_.deviation(index);
     at_least = std::min(at_least, bound);
     if (bound >= best.distance - rounding) return best.distance - rounding;
+    if (settled && lattice_.touch(*settled, index)) return best.distance - rounding;
 
     const Piece piece = lattice_.piece(index);
     for (int k = 0; k < 3; ++k) {  // where Newton's iteration may be slow: at extraordinary vertices
@@ -68,10 +85,14 @@ Foot ClosestPoint::closest(const Vector& p) const {
       best = {corner, corners[k], d, false};
     }
     if (best.distance <= rounding) return 0.0;
+    int cuts = best.stationary ? kCuts : 0;
+    if (!may_be_nearer(lattice_, *surface_, piece, p, best.distance - rounding, cuts))
+      return best.distance - rounding;
     if (descents++ < 256) {
       const Minimum found = descend(*surface_, domain_, p, piece.parameter(flat.weight), diagonal_);
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
         best = found;
+      if (best.stationary && best.distance <= enough) settled = lattice_.piece_at(best.at);
     }
     return best.distance - rounding;
   });

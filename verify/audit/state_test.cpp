@@ -21,8 +21,8 @@ struct Forgetful {
   void* inner;
   std::int64_t faces;
   int calls = 0;
-  std::int32_t deepest = 0;  // of all requests so far
-  int destroyed = 0;         // other instances, before this was made
+  std::int32_t deepest = -1, last = -1;  // depths of the requests so far
+  int destroyed = 0;                     // other instances, before this was made
 };
 std::string fault;            // of the subject under test
 int alive = 0;                // instances
@@ -35,7 +35,8 @@ const lc_subject& good() {
 bool goes_wrong(Forgetful& self, const lc_request& request) {
   std::int32_t depth = 0;
   for (std::int64_t f = 0; f < self.faces; ++f) depth = std::max(depth, request.face_depth[f]);
-  const bool wrong = (fault == "after_another_depth" && self.deepest > 0 && depth != self.deepest) ||
+  const bool wrong = (fault == "after_a_smaller_depth" && self.last >= 0 && self.last < depth) ||
+                     (fault == "after_a_greater_depth" && self.deepest > depth) ||
                      (fault == "beside_another" && alive > 1) ||
                      (fault == "after_another_mesh" && last_faces != 0 && last_faces != self.faces) ||
                      (fault == "after_another_was_destroyed" && destroyed > self.destroyed) ||
@@ -43,6 +44,7 @@ bool goes_wrong(Forgetful& self, const lc_request& request) {
                      (fault == "eight_threads" && request.threads == 8);
   ++self.calls;
   self.deepest = std::max(self.deepest, depth);
+  self.last = depth;
   last_faces = self.faces;
   return wrong;
 }
@@ -112,8 +114,9 @@ TEST_P(Remembers, IsAFindingOfStateAndNotOfDeterminism) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachWay, Remembers,
-                         testing::Values("after_another_depth", "beside_another", "after_another_mesh",
-                                         "after_another_was_destroyed", "eighth_call", "eight_threads"),
+                         testing::Values("after_a_smaller_depth", "after_a_greater_depth", "beside_another",
+                                         "after_another_mesh", "after_another_was_destroyed", "eighth_call",
+                                         "eight_threads"),
                          [](const auto& of) { return std::string(of.param); });
 
 // A point that is no number is `finite`'s business: it is the same one each time.

@@ -73,7 +73,7 @@ void take_program(const DoorArguments& a, std::string& subject, std::vector<std:
 const lc_subject* Doors::remote(Kind kind, const std::string& what, bool in_turns) {
   remote_.push_back(std::make_unique<verify::RemoteSubject>(
       kind, what,
-      verify::IsolationSettings{arguments_.limits, "/proc/self/exe", in_turns, arguments_.witness_folder}));
+      verify::IsolationSettings{arguments_.limits, "/proc/self/exe", arguments_.witness_folder, in_turns}));
   return &remote_.back()->subject();
 }
 

@@ -2,6 +2,7 @@
 #include "verify/subject/in_turns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -12,6 +13,8 @@
 
 namespace limitcheck::verify {
 namespace {
+
+constexpr double kMany = 16384;  // triangles that nobody looks at
 
 const lc_subject* inner = nullptr;  // the functions of a subject are not told whose they are
 
@@ -132,6 +135,10 @@ struct Turns {
       case 4:
         other->destroy();
         return LC_OK;
+      case 5:
+        if (deepest >= max_depth || std::ldexp(static_cast<double>(mine->faces()), 2 * deepest + 2) > kMany)
+          return LC_OK;
+        return mine->disturb(deepest + 1, message);
       case 7: {
         mine->destroy();
         lc_status status = other->create(message);

@@ -12,12 +12,12 @@ namespace limitcheck::verify {
 /// nothing more.
 inline constexpr std::array<const char*, 8> kTurns{
     "after another mesh",
-    "after another depth",
+    "after a smaller depth",
     "after another mesh that is alive beside it",
     "beside another mesh of as many vertices and faces, with 8 threads",
     "after the other mesh was destroyed",
-    "for the seventh time since it was made",
-    "for the eighth time since it was made",
+    "after a greater depth, where that is not many triangles",
+    "for the eighth time",
     "made again after another mesh"};
 
 /// Behind the door of `inner`: create() first makes another mesh and tessellates it, then the one that is

@@ -10,7 +10,6 @@
 
 #include "data/bounding_box.h"
 #include "verify/audit/checks.h"
-#include "verify/audit/digits.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
@@ -191,8 +190,6 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
     for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));
   }
-  if (capabilities.points == LC_POINTS_LIMIT)
-    for (Result& r : results) add_digits(r, evidence.mesh);
 }
 
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,

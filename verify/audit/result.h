@@ -38,6 +38,13 @@ struct Witness {
   std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
 };
 
+/// The points of a row that have a bound of their own, because the surface's tangents there are so short or
+/// so nearly parallel that rounding alone may turn the normal farther than elsewhere.
+struct IllConditioned {
+  std::int64_t count = 0;
+  double bound = 0, worst = 0;  // the largest of their bounds and of their errors, in the row's unit
+};
+
 /// One row. `worst` and `bound` are in `unit`; so are rms
 /// and p99, which run over everything that was compared.
 struct Result {
@@ -50,6 +57,7 @@ struct Result {
   std::string unit;
   std::optional<double> worst_absolute;  // positions: in the mesh's own unit ...
   std::optional<double> worst_ulps;      // ... and in units in the last place of the subject's precision
+  std::optional<IllConditioned> ill_conditioned;  // normals: if there are any
   std::optional<Witness> witness;
   std::string message;  // one sentence, may be empty
 };

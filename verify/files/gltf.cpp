@@ -18,6 +18,7 @@
 #include "data/error.h"
 #include "data/io/text_scanner.h"
 #include "data/io/whole_content.h"
+#include "data/json_nesting.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -33,26 +34,6 @@ std::string lower_extension(const std::filesystem::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-// How deep brackets nest in a JSON text.
-std::size_t nesting(std::string_view json) {
-  std::size_t depth = 0, deepest = 0;
-  bool in_text = false;
-  for (std::size_t k = 0; k < json.size(); ++k) {
-    const char c = json[k];
-    if (in_text) {
-      if (c == '\\') ++k;
-      in_text = c != '"';
-    } else if (c == '"') {
-      in_text = true;
-    } else if (c == '[' || c == '{') {
-      deepest = std::max(deepest, ++depth);
-    } else if ((c == ']' || c == '}') && depth > 0) {
-      --depth;
-    }
-  }
-  return deepest;
 }
 
 // A GLB file is a header of 12 bytes, then the length and the kind of the first chunk, then that: the JSON.
@@ -113,7 +94,7 @@ class Reader {
     loader.SetFsCallbacks({&is_beside, &tinygltf::ExpandFilePath, &read_beside, nullptr, nullptr});
     const std::string content = data::io::whole_content(file);
     const bool binary = lower_extension(file) == ".glb";
-    if (const std::size_t depth = nesting(json_of(content, binary)); depth > kDeepestJson)
+    if (const std::size_t depth = data::json_nesting(json_of(content, binary)); depth > kDeepestJson)
       refuse("FILE_UNSUPPORTED", fmt::format("its JSON nests {} deep; {} are read", depth, kDeepestJson));
     if (content.size() > std::numeric_limits<unsigned>::max()) refuse("FILE_TOO_LARGE", "more than 4 GiB");
     const auto size = static_cast<unsigned>(content.size());

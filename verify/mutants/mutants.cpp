@@ -82,7 +82,8 @@ const std::vector<Mutant>& mutants() {
     for (const Mutation& m : mutations())
       if (m.name != "none")
         all.push_back({std::string(m.name), std::string(m.description), kBase,
-                       fmt::format("mutation={}", m.name), std::string(m.check), std::string(m.claim)});
+                       fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
+                       std::string(m.check), std::string(m.claim)});
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
                    faulty_options("wrong_edge_mask", "cgal"), "refined-positions", ""});
     return all;

@@ -62,7 +62,13 @@ class FaultySubject {
   };
 
   FaultySubject(const lc_mesh& mesh, const Inner& inner)
-      : lent_(mesh), fault_(inner.fault), session_(inner.subject, control_mesh(mesh), inner.options) {}
+      : lent_(mesh), fault_(inner.fault), session_(inner.subject, taken(mesh, inner.fault), inner.options) {}
+
+  static data::ControlMesh taken(const lc_mesh& mesh, std::size_t fault) {
+    data::ControlMesh result = control_mesh(mesh);
+    if (const auto take = planted_faults<double>()[fault].take) take(result);
+    return result;
+  }
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) {

@@ -28,11 +28,19 @@ template <class Real>
 struct PlantedFault {
   Fault fault;
   void (*plant)(const data::ControlMesh&, Copy<Real>&);
+  void (*take)(data::ControlMesh&) = nullptr;  // what the subject makes of the mesh before it begins
 };
 
 /// Throws SubjectError(LC_NOT_SUPPORTED) from plant() where there is nothing to plant the fault in.
 /// Instantiated for float and double.
 template <class Real>
 const std::vector<PlantedFault<Real>>& planted_faults();
+
+/// Those among them that only some control meshes bring out. On all others plant() does nothing.
+template <class Real>
+std::vector<PlantedFault<Real>> mesh_faults();
+
+/// The control vertex that a vertex lies at, or -1.
+std::int32_t control_vertex(const data::ControlMesh& mesh, const lc_provenance& place);
 
 }  // namespace limitcheck::verify

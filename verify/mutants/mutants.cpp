@@ -70,7 +70,7 @@ const std::map<std::string, Meant>& meant() {
       {"flat_box", {"finite"}},
       {"edge_without_length", {"finite"}},
       {"unmoved_vertices", {"refined-positions", "cgal"}},
-      {"indices_of_16_bits", {"positions", "naive"}},  // the model refines the whole of a large mesh
+      {"indices_of_16_bits", {"positions", "row-stream"}},  // the model refines the whole of a large mesh
   };
   return table;
 }

@@ -2,25 +2,21 @@
 // The faults that the subject `faulty` plants. Private to it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "verify/subject/delivered_copy.h"
 #include "verify/subject/faulty_subjects.h"
 
 namespace limitcheck::verify {
 
-/// What a subject delivered, in vectors, so that vertices and triangles can be added and removed.
+/// What a subject delivered, so that vertices and triangles can be added and removed.
 template <class Real>
-struct Copy {
-  std::vector<std::array<Real, 3>> positions, normals;
-  std::vector<lc_provenance> provenance;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::int32_t> triangle_face;
+struct Copy : DeliveredCopy<Real> {
   // Faults of the memory: planted when it is handed over.
-  std::optional<std::int64_t> announced_vertices;
+  std::optional<std::int64_t> announced_vertices = std::nullopt;
   bool foreign_normals = false, overlap = false, overrun = false, underrun = false, modify_mesh = false;
 };
 

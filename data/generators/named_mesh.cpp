@@ -7,6 +7,7 @@
 #include <span>
 
 #include "data/error.h"
+#include "data/generators/awkward_meshes.h"
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/random_mesh.h"
 #include "data/io/read.h"
@@ -65,6 +66,25 @@ const std::vector<Entry>& entries() {
        [](Parameters p) { return random_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}); }},
       {"two-components", "two-components", "a tetrahedron and a wheel of valence 5", 0, 0,
        [](Parameters) { return two_components(); }},
+      {"three-components", "three-components", "these two and an octahedron", 0, 0,
+       [](Parameters) { return three_components(); }},
+      {"touching-components", "touching-components", "two octahedra with a vertex at the same place", 0, 0,
+       [](Parameters) { return touching_components(); }},
+      {"handles", "handles:G", "a closed irregular block with G holes through it", 1, 1,
+       [](Parameters p) { return handles(as_int(p[0])); }},
+      {"stellated", "stellated", "an octahedron with a vertex of valence 3 above each face", 0, 0,
+       [](Parameters) { return stellated(); }},
+      {"flat", "flat", "a wheel of valence 5 in a plane", 0, 0, [](Parameters) { return flat(); }},
+      {"needles", "needles", "a sheet of triangles 16384 times as long as wide", 0, 0,
+       [](Parameters) { return needles(); }},
+      {"zero-edge", "zero-edge", "an icosahedron with an edge of length 0", 0, 0,
+       [](Parameters) { return zero_edge(); }},
+      {"far-box", "far-box", "a cube some 100 times its side away from the origin", 0, 0,
+       [](Parameters) { return far_box(); }},
+      {"tiny-box", "tiny-box", "a cube of about 1e-25", 0, 0, [](Parameters) { return tiny_box(); }},
+      {"huge-box", "huge-box", "a cube of about 1e20", 0, 0, [](Parameters) { return huge_box(); }},
+      {"crowd", "crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number", 1,
+       1, [](Parameters p) { return crowd(as_int(p[0])); }},
   };
   return all;
 }

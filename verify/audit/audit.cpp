@@ -35,26 +35,25 @@ void Auditor::step(const std::string& subject, const std::string& mesh, std::str
   if (on_step_) on_step_({subject, mesh, std::string(check), done_, total_});
 }
 
-ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, lc_points points) {
+bool Auditor::related(const AuditMesh& mesh, std::size_t faces) const {
+  return mesh.relations &&
+         (level_ == Level::kThorough || (level_ == Level::kStandard && faces <= kRelationFaces));
+}
+
+ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, int depth, lc_points points) {
   for (const auto& kept : cache_)
-    if (kept->points() == points && kept->mesh().positions == rounded.positions &&
-        kept->mesh().triangles == rounded.triangles)
+    if (kept->points() == points && kept->lattice().depth() == depth &&
+        kept->mesh().positions == rounded.positions && kept->mesh().triangles == rounded.triangles)
       return *kept;
-  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth_, points));
+  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth, points));
   return *cache_.back();
 }
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
-  if (!mesh.face_depth.empty()) return run(audited, mesh, mesh.face_depth);
-  return run(audited, mesh, std::vector<std::int32_t>(mesh.mesh.triangles.size(), depth_));
-}
-
-std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh,
-                                 std::span<const std::int32_t> face_depth) {
   std::vector<Result> results;
   bool no_memory = false;
   try {
-    if (interrupted() == 0) judge(audited, mesh, face_depth, results);
+    if (interrupted() == 0) judge(audited, mesh, results);
   } catch (const Interrupted&) {
   } catch (const std::bad_alloc&) {
     cache_.clear();
@@ -64,13 +63,21 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   if (mesh.sample)
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
-  if (interrupted() == 0 && !no_memory) return results;
+  if (interrupted() != 0 || no_memory) add_missing(audited, mesh, no_memory, results);
+  for (Result& r : results) {
+    r.depth = depth_of(mesh);
+    r.depths = mesh.depths;
+    if (mesh.sample) r.sample = mesh.sample->text();
+  }
+  return results;
+}
 
-  // What there is no row of.
+void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool no_memory,
+                          std::vector<Result>& results) {
   std::vector<std::string_view> missing{"tessellates"};
   for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
   const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
-  if (level_ == Level::kThorough || (level_ == Level::kStandard && judged.triangles.size() <= kRelationFaces))
+  if (related(mesh, judged.triangles.size()))
     missing.insert(missing.end(), relation_rows().begin(), relation_rows().end());
   std::erase_if(missing, [&](std::string_view check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
@@ -81,16 +88,13 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     r.subject = label(audited);
     r.mesh = mesh.name;
     r.check = check;
-    r.depth = depth_;
     r.status = no_memory ? Status::kError : Status::kNotRun;
     r.message = no_memory ? "out of memory" : "interrupted";
     results.push_back(std::move(r));
   }
-  return results;
 }
 
-void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
-                    std::span<const std::int32_t> face_depth, std::vector<Result>& results) {
+void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vector<Result>& results) {
   if (cached_mesh_ != mesh.name) cache_.clear();
   cached_mesh_ = mesh.name;
 
@@ -100,7 +104,6 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
     r.subject = name;
     r.mesh = mesh.name;
     r.check = check;
-    r.depth = depth_;
     r.status = status;
     r.message = message;
     results.push_back(std::move(r));
@@ -111,7 +114,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
 
   // Tessellate: the whole mesh, of which all but a sample is culled.
   const MeshSample* sample = mesh.sample.get();
-  std::vector<std::int32_t> asked(face_depth.begin(), face_depth.end());
+  std::vector<std::int32_t> asked = mesh.face_depth;
+  if (asked.empty()) asked.assign(mesh.mesh.triangles.size(), depth_of(mesh));
   if (sample) asked = sample->cull(std::move(asked));
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
@@ -126,7 +130,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
     results.back().of = 1;
     results.back().bad = is_bad(results.back());
     for (const Check& check : checks()) rows(check, Status::kNotRun, "there is no tessellation");
-    if (level_ != Level::kQuick)
+    if (level_ != Level::kQuick && mesh.relations)
       for (const std::string_view r : relation_rows()) row(r, Status::kNotRun, "there is no tessellation");
     return;
   }
@@ -143,7 +147,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
   // The truth at every point the subject names.
   const lc_capabilities& capabilities = session->capabilities();
   step(name, mesh.name, "reference");
-  ReferenceSurface& truth = reference(judged, capabilities.points);
+  ReferenceSurface& truth = reference(judged, depth_of(mesh), capabilities.points);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
   const bool same_family = capabilities.weights == LC_WEIGHTS_LOOP;
   std::string no_reference =
@@ -186,8 +190,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh,
       rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
   }
-  if (interrupted() == 0 && (level_ == Level::kThorough ||
-                             (level_ == Level::kStandard && judged.triangles.size() <= kRelationFaces))) {
+  if (interrupted() == 0 && related(mesh, judged.triangles.size())) {
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
     for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));
   }

@@ -4,30 +4,15 @@
 
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "verify/audit/audit_case.h"
 #include "verify/audit/reference_surface.h"
 #include "verify/audit/result.h"
-#include "verify/audit/sample.h"
-#include "verify/subject/subject.h"
 
 namespace limitcheck::verify {
-
-struct AuditMesh {
-  std::string name;  // as `limitcheck eval` understands it
-  data::ControlMesh mesh;
-  std::vector<std::int32_t> face_depth =
-      {};  // 0 .. the auditor's depth or -1 (culled); empty: all that depth
-  std::shared_ptr<const MeshSample> sample = nullptr;  // if given, only this part of the mesh is looked at
-};
-
-struct AuditSubject {
-  const lc_subject* subject;
-  std::string options;  // "key=value,key=value" or empty
-};
 
 /// What is being done now, for a progress display.
 struct AuditStep {
@@ -43,11 +28,11 @@ enum class Level {
 };
 inline constexpr std::size_t kRelationFaces = 200;
 
-/// Audits subjects on control meshes, no deeper than one depth; keeps the reference of the last mesh for the
-/// next subject.
+/// Audits subjects on control meshes; keeps the reference of the last mesh for the next subject.
 class Auditor {
  public:
-  /// depth >= 0; threads >= 1 are handed to the subjects (the checks use oneTBB's arena).
+  /// depth >= 0, of the meshes that have none of their own; threads >= 1 are handed to the subjects (the
+  /// checks use oneTBB's arena).
   Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step = {},
           Level level = Level::kQuick);
   ~Auditor();
@@ -57,10 +42,6 @@ class Auditor {
   /// lack of memory: what could not be looked at has rows that say so. `mesh` is valid (data/validate.h).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
 
-  /// The same at one depth for each control face, 0 to the auditor's depth, or -1 (culled).
-  std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh,
-                          std::span<const std::int32_t> face_depth);
-
   /// Whether an interrupt left something out.
   bool gave_up() const { return gave_up_; }
 
@@ -69,9 +50,14 @@ class Auditor {
 
  private:
   // Adds rows to `results` as they come, so that an end in between leaves what there is.
-  void judge(const AuditSubject& subject, const AuditMesh& mesh, std::span<const std::int32_t> face_depth,
-             std::vector<Result>& results);
-  ReferenceSurface& reference(const data::ControlMesh& rounded, lc_points points);
+  void judge(const AuditSubject& subject, const AuditMesh& mesh, std::vector<Result>& results);
+  // A row for all that there is no row of: out of memory, or interrupted.
+  void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool no_memory,
+                   std::vector<Result>& results);
+  // Whether the relations are looked at, too, where so many faces are judged.
+  bool related(const AuditMesh& mesh, std::size_t faces) const;
+  int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
+  ReferenceSurface& reference(const data::ControlMesh& rounded, int depth, lc_points points);
   void step(const std::string& subject, const std::string& mesh, std::string_view check);
 
   int depth_, threads_;

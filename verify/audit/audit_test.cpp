@@ -181,10 +181,10 @@ TEST(Audit, TheBoundaryOfTheControlMeshIsTheOnlyBoundaryAllowed) {
 
 // The recursive subdivider does nothing about cracks, so it shows what differing depths do without.
 TEST(Audit, DifferingDepthsWithoutRepairAreTiledButNotTight) {
-  const AuditMesh mesh{"bumpy:60", data::named_mesh("bumpy:60")};
-  std::vector<std::int32_t> depth(mesh.mesh.triangles.size());
-  for (std::size_t f = 0; f < depth.size(); ++f) depth[f] = static_cast<std::int32_t>(f % 4);
-  const auto results = Auditor(3, 1).run({find_subject("naive"), ""}, mesh, depth);
+  AuditMesh mesh{"bumpy:60", data::named_mesh("bumpy:60")};
+  for (std::size_t f = 0; f < mesh.mesh.triangles.size(); ++f)
+    mesh.face_depth.push_back(static_cast<std::int32_t>(f % 4));
+  const auto results = Auditor(3, 1).run({find_subject("naive"), ""}, mesh);
   EXPECT_EQ(row(results, "positions").status, Status::kHeld) << describe(results);
   EXPECT_EQ(row(results, "coverage").status, Status::kHeld) << describe(results);
   EXPECT_EQ(row(results, "orientation").status, Status::kHeld) << describe(results);
@@ -194,9 +194,9 @@ TEST(Audit, DifferingDepthsWithoutRepairAreTiledButNotTight) {
 
 TEST(Audit, TheRimOfCulledFacesIsABoundaryThatIsAllowed) {
   const AuditMesh mesh{"tetrahedron",
-                       data::named_mesh("tetrahedron")};  // bit-symmetric: the naive points do agree
-  const auto results =
-      Auditor(2, 1).run({find_subject("naive"), ""}, mesh, std::vector<std::int32_t>{2, -1, 2, 2});
+                       data::named_mesh("tetrahedron"),  // bit-symmetric: the naive points do agree
+                       {2, -1, 2, 2}};
+  const auto results = Auditor(2, 1).run({find_subject("naive"), ""}, mesh);
   for (const char* check : {"coverage", "watertight", "positions"})
     EXPECT_EQ(row(results, check).status, Status::kHeld) << describe(results);
 }

@@ -24,7 +24,7 @@ Json text(const std::string& s) {
   return s.empty() ? Json(nullptr) : Json(s);
 }
 
-Json witness(const Report& report, const Result& r, const std::string& level) {
+Json witness(const Result& r, const std::string& level) {
   const std::optional<Witness>& w = r.witness;
   if (!w) return nullptr;
   return {{"face", index(w->face)},
@@ -36,7 +36,7 @@ Json witness(const Report& report, const Result& r, const std::string& level) {
           {"got", numbers(w->got)},
           {"expected_digits", w->expected_digits.empty() ? Json(nullptr) : Json(w->expected_digits)},
           {"command", text(eval_command(r))},
-          {"reproduce", is_bad(r) ? Json(audit_command(report, r, level)) : Json(nullptr)}};
+          {"reproduce", is_bad(r) ? Json(audit_command(r, level)) : Json(nullptr)}};
 }
 
 }  // namespace
@@ -68,6 +68,8 @@ std::string to_json(const Report& report, const std::string& level) {
     out["results"].push_back({{"subject", r.subject},
                               {"mesh", r.mesh},
                               {"depth", r.depth},
+                              {"depths", text(r.depths)},
+                              {"sample", text(r.sample)},
                               {"precision", r.in_float ? "float" : "double"},
                               {"check", r.check},
                               {"status", word(r.status)},
@@ -81,7 +83,7 @@ std::string to_json(const Report& report, const std::string& level) {
                               {"worst_absolute", number(r.worst_absolute)},
                               {"worst_ulps", number(r.worst_ulps)},
                               {"message", text(r.message)},
-                              {"witness", witness(report, r, level)}});
+                              {"witness", witness(r, level)}});
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

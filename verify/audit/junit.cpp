@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include "verify/audit/case_names.h"
 #include "verify/audit/table.h"
 
 namespace limitcheck::verify {
@@ -84,7 +85,7 @@ std::string to_junit(const Report& report) {
       errors += body.starts_with("<error");
       skipped += body.starts_with("<skipped");
       cases += fmt::format("  <testcase classname=\"{}.{}\" name=\"{}\" time=\"0\">{}</testcase>\n",
-                           escaped(subject), escaped(r.mesh), escaped(r.check), body);
+                           escaped(subject), escaped(case_name(report, r)), escaped(r.check), body);
     }
     suites += fmt::format(
         " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"0\">\n{} "

@@ -42,7 +42,8 @@ struct Witness {
 /// and p99, which run over everything that was compared.
 struct Result {
   std::string subject, mesh, check;
-  int depth = 0;
+  int depth = 0;               // of the deepest face
+  std::string depths, sample;  // how the faces got theirs, and "FACES:SEED": as --depths, --sample take it
   bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
   Status status = Status::kNotRun;
   std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
@@ -68,7 +69,8 @@ struct Report {
   };
   std::string version;
   int depth = 0;                      // the largest
-  std::string depths = "uniform";     // how the faces got theirs: uniform, random, view; file: unknown
+  std::string depths = "uniform";     // how the faces got theirs (face_depths.h); "plan": one way after the
+                                      // other (default_plan.h); "file": unknown
   std::optional<std::uint64_t> seed;  // of random
   std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at
   std::vector<Mesh> meshes;

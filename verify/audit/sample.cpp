@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/sample.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
@@ -48,7 +50,9 @@ class Union {
 }  // namespace
 
 MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_t seed)
-    : part_of_(whole.triangles.size(), -1), in_patch_(whole.triangles.size(), false) {
+    : text_(fmt::format("{}:{}", faces, seed)),
+      part_of_(whole.triangles.size(), -1),
+      in_patch_(whole.triangles.size(), false) {
   const FacesAround around(whole);
   data::SplitMix64 random(seed);
   faces = std::min(faces, whole.triangles.size());

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -20,6 +21,9 @@ class MeshSample {
   /// At least `faces` faces (or all), around vertices drawn at random. `whole` is valid (data/validate.h).
   /// Time and memory O(vertices + faces of the whole).
   MeshSample(const data::ControlMesh& whole, std::size_t faces, std::uint64_t seed);
+
+  /// As it was asked for: "FACES:SEED".
+  const std::string& text() const { return text_; }
 
   /// The patches and their surroundings, a valid control mesh. Where the surroundings touch themselves in a
   /// vertex only, they are cut apart.
@@ -39,6 +43,7 @@ class MeshSample {
  private:
   void cut_out(const data::ControlMesh& whole);
 
+  std::string text_;
   data::ControlMesh part_;
   std::vector<std::int32_t> faces_, part_of_;
   std::vector<std::int32_t> vertices_;  // for each vertex of the part, that of the whole

@@ -53,7 +53,10 @@ class Shrinker {
         fails_(fails),
         end_(std::chrono::steady_clock::now() +
              std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                 std::chrono::duration<double>(seconds))) {}
+                 std::chrono::duration<double>(seconds))) {
+    best_.mesh.depth = -1;  // the one that is tried
+    best_.mesh.depths.clear();
+  }
 
   Shrunk run(std::int64_t face) {
     if (best_.mesh.face_depth.empty()) {

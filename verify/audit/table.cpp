@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "verify/audit/case_names.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -131,21 +133,23 @@ std::string numbers(const std::vector<double>& list) {
   return fmt::format("{}", fmt::join(words, "  "));
 }
 
-std::string where(const Result& r) {
+std::string where(const Report& report, const Result& r) {
   if (!r.witness) return "";
+  const std::string mesh = case_name(report, r);
   if (!r.witness->l1.empty())
-    return fmt::format("{} face {} ({}, {})", r.mesh, r.witness->face, r.witness->l1, r.witness->l2);
-  if (r.witness->triangle >= 0) return fmt::format("{} triangle {}", r.mesh, r.witness->triangle);
-  return r.mesh;
+    return fmt::format("{} face {} ({}, {})", mesh, r.witness->face, r.witness->l1, r.witness->l2);
+  if (r.witness->triangle >= 0) return fmt::format("{} triangle {}", mesh, r.witness->triangle);
+  return mesh;
 }
 
-void add_line(std::string& out, const Result& r, const std::string& meshes, bool colour) {
+void add_line(std::string& out, const Report& report, const Result& r, const std::string& meshes,
+              const std::string& depths, bool colour) {
   const bool has_worst = r.worst.has_value() || r.rms.has_value();
   const std::string count = r.of > 0 ? fmt::format("{}/{}", r.bad, r.of) : "-";
-  out += fmt::format("  {:<25} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", r.check,
+  out += fmt::format("  {:<25} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", r.check,
                      painted(r.status, colour), meshes, count,
                      has_worst ? (r.worst ? amount(r.worst) : "nan") : "-", has_worst ? amount(r.bound) : "-",
-                     has_worst ? amount(r.p99) : "-", r.unit, where(r));
+                     has_worst ? amount(r.p99) : "-", r.unit, depths, where(report, r));
 }
 
 // What a process that broke down leaves behind, each command on a line of its own, to be copied.
@@ -156,11 +160,11 @@ std::string in_lines(std::string message) {
   return message;
 }
 
-void add_finding(std::string& out, int number, const Line& line) {
+void add_finding(std::string& out, const Report& report, int number, const Line& line) {
   const Result& r = *line.shown;
   out += fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
   if (is_breakdown(r.status)) {
-    out += fmt::format("{}: {}\n", r.mesh, in_lines(r.message));
+    out += fmt::format("{}: {}\n", case_name(report, r), in_lines(r.message));
     return;
   }
   out += r.of > 0 ? fmt::format("{} of {}", r.bad, r.of) : fmt::format("{}", r.bad);
@@ -170,10 +174,10 @@ void add_finding(std::string& out, int number, const Line& line) {
     out += r.bound == 0 ? " differ" : fmt::format(" beyond {:.2e} {}", r.bound.value_or(0), r.unit);
     out += r.worst ? fmt::format(", worst {:.3e} {}", *r.worst, r.unit) : ", worst not finite";
   }
-  out += fmt::format("\n     on {}", r.mesh);
+  out += fmt::format("\n     on {}", case_name(report, r));
   std::vector<std::string> others;
   for (const Result* other : line.results)
-    if (other != &r && is_bad(*other)) others.push_back(other->mesh);
+    if (other != &r && is_bad(*other)) others.push_back(case_name(report, *other));
   constexpr std::size_t kNamed = 5;
   const std::size_t more = others.size() - std::min(others.size(), kNamed);
   others.resize(others.size() - more);
@@ -239,15 +243,13 @@ std::string eval_command(const Result& result) {
                      result.witness->l1, result.witness->l2, result.in_float ? " --precision float" : "");
 }
 
-std::string audit_command(const Report& report, const Result& result, const std::string& level) {
+std::string audit_command(const Result& result, const std::string& level) {
   std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
-                                    quoted(result.mesh), report.depth);
+                                    quoted(result.mesh), result.depth);
   if (level != "standard") command += fmt::format(" --level {}", level);
-  if (report.seed)
-    command += fmt::format(" --depths {}:{}", report.depths, *report.seed);
-  else if (report.depths != "uniform")
-    command += fmt::format(" --depths {}", quoted(report.depths));
-  if (!report.sample.empty()) command += " --sample " + report.sample;
+  if (!result.depths.empty() && result.depths != "uniform")
+    command += fmt::format(" --depths {}", quoted(result.depths));
+  if (!result.sample.empty()) command += " --sample " + result.sample;
   return command;
 }
 
@@ -258,7 +260,7 @@ std::string reasons(const Report& report, const std::string& subject) {
   std::map<std::string, std::vector<std::string>> meshes;
   for (const Result& r : report.results)
     if (r.subject == subject && r.check == "tessellates" && r.status == Status::kNotSupported)
-      meshes[r.message].push_back(r.mesh);
+      meshes[r.message].push_back(case_name(report, r));
   std::string out;
   for (const auto& [reason, names] : meshes)
     out += fmt::format("  not supported: {}{}: {}\n", names.front(),
@@ -273,8 +275,11 @@ std::string to_table(const Report& report, bool colour, bool all) {
   std::int64_t faces = 0;
   for (const auto& m : report.meshes) faces += m.faces;
   std::string depth = fmt::format("depth {}", report.depth);
+  const bool plan = report.depths == "plan";
   if (report.depths == "file")
     depth = "a finished tessellation";
+  else if (plan)
+    depth = fmt::format("depths 0 to {}", report.depth);
   else if (report.depths != "uniform")
     depth += fmt::format(" at most, {}", report.depths);
   if (report.seed) depth += fmt::format(" (seed {})", *report.seed);
@@ -284,29 +289,37 @@ std::string to_table(const Report& report, bool colour, bool all) {
       report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),
       faces);
   const auto row = [&](auto... cell) {
-    return fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}\n", cell...);
+    return fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", cell...);
+  };
+  const auto depths = [&](std::span<const Result* const> results) {
+    return plan ? fmt::format("{:<9} ", depths_in_short(results)) : "";
   };
 
   std::vector<Line> findings;
   for (const std::string& subject : report.subjects) {
     out += "\n" + subject + "\n" +
-           row("check", "verdict", "meshes", "bad/looked at", "worst", "bound", "99 %", "unit", "where");
+           row("check", "verdict", plan ? "cases" : "meshes", "bad/looked at", "worst", "bound", "99 %",
+               "unit", plan ? "depths    " : "", "where");
     for (Line& line : lines_of(report, subject)) {
       if (all)
         for (const Result* r : line.results)
-          add_line(out, *r, r->status == Status::kHeld ? "1/1" : "0/1", colour);
+          add_line(out, report, *r, r->status == Status::kHeld ? "1/1" : "0/1", depths({&r, 1}), colour);
       else
-        add_line(out, *line.shown,
-                 fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()), colour);
+        add_line(out, report, *line.shown,
+                 fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()),
+                 depths(line.results), colour);
       if (line.bad_meshes > 0) findings.push_back(std::move(line));
     }
+    if (plan) out += fmt::format("  depths looked at: {}\n", depths_in_full(report, subject));
     out += reasons(report, subject);
   }
   if (!findings.empty())
-    out +=
-        "\nFindings, each at its worst. (Meshes above: held on so many of so many. Expected values are those "
-        "of the control mesh rounded to the subject's precision.)\n";
-  for (std::size_t k = 0; k < findings.size(); ++k) add_finding(out, static_cast<int>(k) + 1, findings[k]);
+    out += fmt::format(
+        "\nFindings, each at its worst. ({} above: held on so many of so many. Expected values are those "
+        "of the control mesh rounded to the subject's precision.)\n",
+        plan ? "Cases" : "Meshes");
+  for (std::size_t k = 0; k < findings.size(); ++k)
+    add_finding(out, report, static_cast<int>(k) + 1, findings[k]);
 
   if (report.subjects.size() > 1) out += matrix(report, colour);
 

@@ -16,8 +16,8 @@ std::string to_table(const Report& report, bool colour, bool all = false);
 /// What to type to see the expected value of a result's witness, or "" if it names no point.
 std::string eval_command(const Result& result);
 
-/// What to type to see a result again: subject, mesh, depth and depths as in the report.
+/// What to type to see a result again: its subject and mesh at its depths.
 ///   level   of the audit: quick, standard, thorough
-std::string audit_command(const Report& report, const Result& result, const std::string& level);
+std::string audit_command(const Result& result, const std::string& level);
 
 }  // namespace limitcheck::verify

@@ -7,6 +7,7 @@
 
 #include "data/io/write.h"
 #include "reference/certified.h"
+#include "verify/audit/case_names.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
 
@@ -43,21 +44,19 @@ void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
 std::filesystem::path write_witness(const std::filesystem::path& folder, const Report& report,
                                     const Result& result, const AuditMesh& mesh, const std::string& level) {
   const std::filesystem::path place =
-      folder / (plain(result.subject) + "-" + plain(result.check) + "-" + plain(result.mesh));
+      folder / (plain(result.subject) + "-" + plain(result.check) + "-" + plain(case_name(report, result)));
   std::filesystem::create_directories(place);
   const std::filesystem::path control = place / "control.obj";
   data::write_mesh(control, mesh.mesh);
-  Report how = report;
+  Result here = result;
+  here.mesh = control.string();
   if (!mesh.face_depth.empty()) {
     std::string lines;
     for (const std::int32_t depth : mesh.face_depth) lines += std::to_string(depth) + "\n";
     write_text(place / "depths.txt", lines);
-    how.depths = "file:" + (place / "depths.txt").string();
-    how.seed.reset();
+    here.depths = "file:" + (place / "depths.txt").string();
   }
 
-  Result here = result;
-  here.mesh = control.string();
   Json json{{"subject", result.subject},
             {"check", result.check},
             {"status", word(result.status)},
@@ -82,7 +81,7 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
       json["eval"] = command + " --digits 40";
     }
   }
-  json["audit"] = audit_command(how, here, level);
+  json["audit"] = audit_command(here, level);
   write_text(place / "witness.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   return place;
 }

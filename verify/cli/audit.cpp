@@ -15,8 +15,9 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/worst_cases.h"
-#include "fast/depth.h"
 #include "verify/audit/audit.h"
+#include "verify/audit/default_plan.h"
+#include "verify/audit/face_depths.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
 #include "verify/cli/audit_depths.h"
@@ -42,6 +43,7 @@ struct Arguments {
   int depth = 4;
   std::string depths = "uniform";
   std::string sample;
+  bool plan = true;  // what is to be looked at is not said: neither meshes nor depths
   int threads = 0;
   std::string json;
   bool each_mesh = false, must_refuse = false;
@@ -117,22 +119,64 @@ void check_json(const std::string& json) {
                     json));
 }
 
+// The meshes of the command line, or those that are tried first, each as it says.
+std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify::Depths& depths,
+                                                const std::optional<Sampling>& sampling, Progress& progress) {
+  std::vector<std::string> names = a.meshes;
+  if (names.empty()) {
+    if (a.output.level != "quick") names = data::worst_case_meshes();
+    names.emplace_back("bumpy:800");
+    for (std::string& shape : data::stock_shapes()) names.push_back(std::move(shape));
+  }
+  std::vector<verify::AuditMesh> meshes;
+  for (const std::string& name : names) {
+    progress.show(0, 1, "mesh " + name);
+    verify::AuditMesh m{name, a.must_refuse ? open_broken_mesh(name) : data::open_mesh(name)};
+    m.depth = a.depth;
+    m.depths = depths.text();
+    if (!a.must_refuse) {
+      verify::require_range(name, m.mesh, true);
+      m.face_depth = verify::face_depths(depths, m.mesh, a.depth);
+      if (sampling) m.sample = std::make_shared<verify::MeshSample>(m.mesh, sampling->faces, sampling->seed);
+      refuse_too_many_points(m);
+    }
+    meshes.push_back(std::move(m));
+  }
+  return meshes;
+}
+
+// The header of the report.
+verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
+                            const std::optional<Sampling>& sampling,
+                            const std::vector<verify::AuditSubject>& subjects,
+                            const std::vector<verify::AuditMesh>& meshes) {
+  verify::Report report;
+  report.version = LIMITCHECK_VERSION;
+  report.depths = a.plan ? "plan" : depths.kind == "file" ? depths.text() : depths.kind;
+  report.seed = depths.seed;
+  if (sampling) report.sample = fmt::format("{}:{}", sampling->faces, sampling->seed);
+  for (const auto& s : subjects)
+    report.subjects.push_back(s.options.empty() ? s.subject->name
+                                                : fmt::format("{}:{}", s.subject->name, s.options));
+  for (const verify::AuditMesh& m : meshes) {
+    report.depth = std::max(report.depth, m.depth);
+    if (std::none_of(report.meshes.begin(), report.meshes.end(),
+                     [&](const auto& before) { return before.name == m.name; }))
+      report.meshes.push_back({m.name, static_cast<std::int64_t>(m.mesh.positions.size()),
+                               static_cast<std::int64_t>(m.mesh.triangles.size())});
+  }
+  return report;
+}
+
 int audit(Arguments a) {
   if (explained(a.output)) return kHeld;
-  const Depths depths = parse_depths(a.depths);
+  const verify::Depths depths = verify::parse_depths(a.depths);
   const std::optional<Sampling> sampling = parse_sample(a.sample);
-  if (depths.kind == "view" && a.depth > fast::kDeepest)
-    throw std::invalid_argument(fmt::format("--depths view: --depth {} at most", fast::kDeepest));
   take_program(a.door, a.subject, a.meshes);
   const bool main_job = a.subject.empty();
   if (main_job) a.subject = "all";
   if (a.must_refuse && (main_job || a.meshes.empty()))
     throw std::invalid_argument("--must-refuse needs a subject and the files of broken meshes");
-  if (a.meshes.empty()) {
-    if (a.output.level != "quick") a.meshes = data::worst_case_meshes();
-    a.meshes.emplace_back("bumpy:800");
-    for (std::string& shape : data::stock_shapes()) a.meshes.push_back(std::move(shape));
-  }
   if (a.threads <= 0) a.threads = tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(a.threads));
@@ -140,37 +184,10 @@ int audit(Arguments a) {
   Doors doors(a.door);
   const std::vector<verify::AuditSubject> audited = subjects(a, doors);
   Progress progress;
-  std::vector<verify::AuditMesh> meshes;
-  verify::Report report;
-  for (const std::string& name : a.meshes) {
-    progress.show(0, 1, "mesh " + name);
-    data::ControlMesh mesh = a.must_refuse ? open_broken_mesh(name) : data::open_mesh(name);
-    std::vector<std::int32_t> depth;
-    if (!a.must_refuse) {
-      verify::require_range(name, mesh, true);
-      depth = face_depths(depths, mesh, a.depth);
-    }
-    std::shared_ptr<const verify::MeshSample> sample;
-    if (sampling && !a.must_refuse)
-      sample = std::make_shared<verify::MeshSample>(mesh, sampling->faces, sampling->seed);
-    if (sample) {
-      const auto of_part = depth.empty() ? depth : sample->depths_of_part(depth);
-      refuse_too_many_points(name, sample->part(), of_part, a.depth);
-    } else if (!a.must_refuse) {
-      refuse_too_many_points(name, mesh, depth, a.depth);
-    }
-    meshes.push_back({name, std::move(mesh), std::move(depth), std::move(sample)});
-    report.meshes.push_back({name, static_cast<std::int64_t>(meshes.back().mesh.positions.size()),
-                             static_cast<std::int64_t>(meshes.back().mesh.triangles.size())});
-  }
-  report.version = LIMITCHECK_VERSION;
-  report.depth = a.depth;
-  report.depths = depths.kind;
-  report.seed = depths.seed;
-  if (sampling) report.sample = fmt::format("{}:{}", sampling->faces, sampling->seed);
-  for (const auto& s : audited)
-    report.subjects.push_back(s.options.empty() ? s.subject->name
-                                                : fmt::format("{}:{}", s.subject->name, s.options));
+  a.plan = a.plan && a.meshes.empty();
+  const std::vector<verify::AuditMesh> meshes =
+      a.plan ? verify::default_plan(level(a.output)) : meshes_asked_for(a, depths, sampling, progress);
+  verify::Report report = begin_report(a, depths, sampling, audited, meshes);
 
   const verify::InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
@@ -229,23 +246,28 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->add_option(
       "MESH", a->meshes,
       "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "
-      "bumpy:800 and the stock shapes)");
-  command
-      ->add_option("--depth", a->depth,
-                   "Subdivision depth of every face; otherwise than with uniform depths, the largest")
-      ->check(CLI::Range(0, 12))
-      ->capture_default_str();
-  command
-      ->add_option("--depths", a->depths,
-                   "uniform, random[:SEED] (0 .. depth), view (by size on the screen and curvature, back "
-                   "faces culled) or file:FILE (one per face, -1 is culled)")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--sample", a->sample,
-          "Look at about so many faces of each mesh only, in patches around random vertices, and have "
-          "the others culled: for meshes of millions of faces")
-      ->type_name("FACES[:SEED]");
+      "bumpy:800 and the stock shapes; where no depth is given either, at depths 0, 1 and 4, and small "
+      "meshes at other depths, at unequal ones and with culled faces)");
+  CLI::Option* depth =
+      command
+          ->add_option("--depth", a->depth,
+                       "Subdivision depth of every face; otherwise than with uniform depths, the largest")
+          ->check(CLI::Range(0, 12))
+          ->capture_default_str();
+  CLI::Option* depths =
+      command
+          ->add_option("--depths", a->depths,
+                       "uniform, random[:SEED[:visible]] (-1, which is culled, to depth; none is culled with "
+                       "visible), view (by size on the screen, back faces culled), face0-culled, all-culled "
+                       "or file:FILE (one per face, -1 is culled)")
+          ->capture_default_str();
+  CLI::Option* sample =
+      command
+          ->add_option(
+              "--sample", a->sample,
+              "Look at about so many faces of each mesh only, in patches around random vertices, and have "
+              "the others culled: for meshes of millions of faces")
+          ->type_name("FACES[:SEED]");
   command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
       ->take_all()
       ->expected(1);
@@ -269,8 +291,9 @@ void add_audit(CLI::App& app, int& exit_code) {
       "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or nothing asked for is supported. Ctrl-C "
       "ends with the report of what was looked at so far, marked as incomplete, and exit code 130 (SIGTERM "
       "143, SIGHUP 129); a second one at once.");
-  command->callback([a, files, &exit_code] {
+  command->callback([=, &exit_code] {
     check_json(a->json);
+    a->plan = depth->count() + depths->count() + sample->count() == 0;
     exit_code = files->given() ? audit_files(*files, a->json, a->threads) : audit(*a);
   });
 }

@@ -95,13 +95,21 @@ void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& su
 
 namespace {
 
+// What a result is about; nullptr if it is none of these.
+const verify::AuditMesh* case_of(const verify::Result& r, const std::vector<verify::AuditMesh>& meshes) {
+  for (const verify::AuditMesh& m : meshes)
+    if (m.name == r.mesh && m.depth == r.depth && m.depths == r.depths &&
+        (m.sample ? m.sample->text() : "") == r.sample)
+      return &m;
+  return nullptr;
+}
+
 // One finding of each subject and check: the one on the smallest mesh.
 std::vector<const verify::Result*> smallest(const std::vector<verify::AuditMesh>& meshes,
                                             const verify::Report& report) {
   const auto faces = [&](const verify::Result& r) {
-    for (const auto& m : meshes)
-      if (m.name == r.mesh) return m.mesh.triangles.size();
-    return std::size_t{0};
+    const verify::AuditMesh* m = case_of(r, meshes);
+    return m == nullptr ? 0 : m->mesh.triangles.size();
   };
   std::vector<const verify::Result*> chosen;
   for (const verify::Result& r : report.results) {
@@ -132,28 +140,25 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       if (verify::is_bad(r)) findings.push_back(&r);
   }
   for (const verify::Result* finding : findings) {
-    const auto mesh = std::find_if(meshes.begin(), meshes.end(),
-                                   [&](const verify::AuditMesh& m) { return m.name == finding->mesh; });
+    const verify::AuditMesh* mesh = case_of(*finding, meshes);
     const auto subject = std::find(report.subjects.begin(), report.subjects.end(), finding->subject);
-    if (mesh == meshes.end() || subject == report.subjects.end()) continue;
+    if (mesh == nullptr || subject == report.subjects.end()) continue;
     if (a.shrink_seconds <= 0) {
       verify::write_witness(folder, report, *finding, *mesh, a.level);
       continue;
     }
     const auto& audited = subjects[static_cast<std::size_t>(subject - report.subjects.begin())];
     const verify::Shrunk small =
-        verify::shrink(audited, *mesh, report.depth, threads, *finding, a.shrink_seconds);
+        verify::shrink(audited, *mesh, finding->depth, threads, *finding, a.shrink_seconds);
     const auto& relations = verify::relation_rows();
     const bool related = std::find(relations.begin(), relations.end(), finding->check) != relations.end();
-    verify::Report again = report;
-    again.depth = small.depth;
     for (const verify::Result& r :
          verify::Auditor(small.depth, threads, {}, related ? verify::Level::kThorough : verify::Level::kQuick)
              .run(audited, small.mesh)) {
       if (r.check != finding->check || !verify::is_bad(r)) continue;
-      const auto place = verify::write_witness(folder, again, r, small.mesh, related ? "thorough" : "quick");
+      const auto place = verify::write_witness(folder, report, r, small.mesh, related ? "thorough" : "quick");
       fmt::print(stderr, "{} / {}: {} faces at depth {} shrunk to {} at depth {} ({} attempts): {}\n",
-                 r.subject, r.check, mesh->mesh.triangles.size(), report.depth,
+                 r.subject, r.check, mesh->mesh.triangles.size(), finding->depth,
                  small.mesh.mesh.triangles.size(), small.depth, small.attempts, place.string());
     }
   }

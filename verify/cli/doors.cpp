@@ -102,22 +102,4 @@ std::pair<const lc_subject*, std::string> Doors::open(const std::string& text) {
       name, known, name));
 }
 
-std::vector<std::int32_t> read_depths(const std::string& file, const data::ControlMesh& mesh, int deepest) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::invalid_argument(fmt::format("--depths: cannot read {}", file));
-  std::vector<std::int32_t> depths;
-  for (std::string word; in >> word;) {
-    std::int32_t depth = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), depth);
-    if (error != std::errc{} || end != word.data() + word.size() || depth < -1 || depth > deepest)
-      throw std::invalid_argument(
-          fmt::format("--depths: {}: '{}' is no depth from -1 to {} (--depth)", file, word, deepest));
-    depths.push_back(depth);
-  }
-  if (depths.size() != mesh.triangles.size())
-    throw std::invalid_argument(
-        fmt::format("--depths: {}: {} depths for {} faces", file, depths.size(), mesh.triangles.size()));
-  return depths;
-}
-
 }  // namespace limitcheck::cli

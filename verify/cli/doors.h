@@ -3,13 +3,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "data/control_mesh.h"
 #include "verify/subject/isolation/remote_subject.h"
 
 namespace limitcheck::cli {
@@ -45,8 +43,5 @@ class Doors {
   DoorArguments arguments_;
   std::vector<std::unique_ptr<verify::RemoteSubject>> remote_;
 };
-
-/// One depth for each face, from -1 to `deepest`, separated by white space. Throws std::invalid_argument.
-std::vector<std::int32_t> read_depths(const std::string& file, const data::ControlMesh& mesh, int deepest);
 
 }  // namespace limitcheck::cli

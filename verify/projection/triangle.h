@@ -8,10 +8,6 @@
 
 namespace limitcheck::verify {
 
-inline Vector operator*(double s, const Vector& a) {
-  return {s * a[0], s * a[1], s * a[2]};
-}
-
 struct OnTriangle {
   std::array<double, 3> weight;  // >= 0, sum 1
   Vector point;

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/default_plan.h"
+
+#include <algorithm>
+#include <string>
+
+#include "data/generators/named_mesh.h"
+#include "data/worst_cases.h"
+#include "verify/audit/face_depths.h"
+
+namespace limitcheck::verify {
+namespace {
+
+struct Case {
+  std::string mesh;
+  int depth;
+  const char* depths = "uniform";
+  bool relations = false;
+};
+
+// Each row is here because faults of its kind were seen to pass without it.
+const std::vector<Case>& small_cases() {
+  static const std::vector<Case> all{
+      // Faults at odd depths, and those that begin at depth 5 or 7.
+      {"tetrahedron", 7},
+      {"wheel:5:1", 5},
+      {"bipyramid:5", 5},
+      // Unequal depths and culled faces.
+      {"bumpy:60", 4, "random:1", true},
+      {"ragged-disc", 3, "random:2"},
+      {"bumpy:60", 4, "view"},
+      {"octahedron", 2, "face0-culled"},
+      {"wheel:5:2", 2, "face0-culled"},
+      {"octahedron", 2, "all-culled"},
+      // Topology.
+      {"handles:1", 2},
+      {"handles:2", 3},
+      {"three-components", 3},
+      {"touching-components", 3},
+      {"stellated", 3},
+      {"wheel:20:1", 3},
+      {"wheel:33:1", 2},
+      {"wheel:64:1", 2},
+      {"wheel:256:1", 1},
+      {"bipyramid:33", 2},
+      // Geometry.
+      {"flat", 3},
+      {"needles", 3},
+      {"zero-edge", 3},
+      {"far-box", 3},
+      {"tiny-box", 3},
+      {"huge-box", 3},
+  };
+  return all;
+}
+
+AuditMesh made(const Case& c) {
+  AuditMesh m{c.mesh, data::named_mesh(c.mesh)};
+  m.depth = c.depth;
+  m.face_depth = face_depths(parse_depths(c.depths), m.mesh, c.depth);
+  m.depths = c.depths;
+  m.relations = c.relations;
+  return m;
+}
+
+}  // namespace
+
+std::vector<AuditMesh> default_plan(Level level) {
+  std::vector<Case> cases;
+  if (level != Level::kQuick)
+    for (const std::string& name : data::worst_case_meshes()) cases.push_back({name, 4, "uniform", true});
+  cases.push_back({"bumpy:800", 4, "uniform", true});
+  for (const std::string& shape : data::stock_shapes())
+    for (const int depth : {4, 1, 0}) cases.push_back({shape, depth, "uniform", depth == 4});
+  cases.insert(cases.end(), small_cases().begin(), small_cases().end());
+  // The cases of a mesh together, so that its exact surface is there for all of them.
+  std::vector<AuditMesh> plan;
+  for (std::size_t k = 0; k < cases.size(); ++k)
+    if (std::none_of(cases.begin(), cases.begin() + static_cast<std::ptrdiff_t>(k),
+                     [&](const Case& before) { return before.mesh == cases[k].mesh; }))
+      for (std::size_t same = k; same < cases.size(); ++same)
+        if (cases[same].mesh == cases[k].mesh) plan.push_back(made(cases[same]));
+
+  AuditMesh large = made({"crowd:18000", 2});
+  large.sample = std::make_shared<MeshSample>(large.mesh, 100, 1);
+  plan.push_back(std::move(large));
+  return plan;
+}
+
+}  // namespace limitcheck::verify

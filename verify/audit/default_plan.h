@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What `limitcheck audit SUBJECT` asks for when it is told no meshes and no depths.
+#pragma once
+
+#include <vector>
+
+#include "verify/audit/audit.h"
+
+namespace limitcheck::verify {
+
+/// The cases, those of the same mesh one after the other:
+///   at depth 4, with the relations   the worst cases known (data/worst_cases.h; not at kQuick), bumpy:800,
+///                                    and the stock shapes (data/generators/named_mesh.h)
+///   at depths 0 and 1                the stock shapes
+///   at depths 2, 3, 5 and 7          small meshes, those of data/generators/awkward_meshes.h among them
+///   at unequal depths                random ones with culled faces, a view, face 0 culled, all faces culled
+///   a part of a large mesh           whose indices need more than 16 bits
+/// Throws data::InputError as worst_case_meshes() does.
+std::vector<AuditMesh> default_plan(Level level);
+
+}  // namespace limitcheck::verify

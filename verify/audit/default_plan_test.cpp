@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The default plan asks for all it says, and tessellators that are right hold on it.
+#include "verify/audit/default_plan.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "data/generators/named_mesh.h"
+#include "data/validate.h"
+#include "verify/audit/face_depths.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// How each mesh is asked for: "tetrahedron 7 uniform".
+std::set<std::string> asked(const std::vector<AuditMesh>& plan) {
+  std::set<std::string> all;
+  for (const AuditMesh& m : plan) all.insert(fmt::format("{} {} {}", m.name, m.depth, m.depths));
+  return all;
+}
+
+TEST(DefaultPlan, AsksForEveryStockShapeAtDepths0And1And4) {
+  const auto cases = asked(default_plan(Level::kStandard));
+  for (const std::string& shape : data::stock_shapes())
+    for (const int depth : {0, 1, 4})
+      EXPECT_TRUE(cases.contains(fmt::format("{} {} uniform", shape, depth))) << shape << " " << depth;
+}
+
+TEST(DefaultPlan, AsksForEveryDepthUpToSevenAndForUnequalDepths) {
+  std::set<std::string> depths;
+  for (const AuditMesh& m : default_plan(Level::kStandard))
+    depths.insert(m.depths == "uniform" ? fmt::format("{}", m.depth) : m.depths);
+  for (const char* d : {"0", "1", "2", "3", "4", "5", "7", "random:1", "view", "face0-culled", "all-culled"})
+    EXPECT_TRUE(depths.contains(d)) << d;
+}
+
+TEST(DefaultPlan, ItsCasesAreValidTypeableAndAreAskedForOnce) {
+  const auto plan = default_plan(Level::kStandard);
+  EXPECT_EQ(asked(plan).size(), plan.size());
+  for (const AuditMesh& m : plan) {
+    EXPECT_TRUE(data::validate(m.mesh).empty()) << m.name;
+    // What a user types gives the same.
+    EXPECT_EQ(data::named_mesh(m.name).positions, m.mesh.positions) << m.name;
+    EXPECT_EQ(face_depths(parse_depths(m.depths), m.mesh, m.depth), m.face_depth) << m.name;
+  }
+}
+
+TEST(DefaultPlan, ItsRandomFrameHasCulledFacesAndEveryDepthAndItsViewMoreThanOne) {
+  for (const AuditMesh& m : default_plan(Level::kStandard)) {
+    const std::set<std::int32_t> depths(m.face_depth.begin(), m.face_depth.end());
+    if (m.depths.starts_with("random")) {
+      EXPECT_EQ(static_cast<int>(depths.size()), m.depth + 2) << m.name;
+    }
+    if (m.depths == "view") {
+      EXPECT_TRUE(depths.contains(-1));
+      EXPECT_GE(depths.size(), 3U);
+    }
+    if (m.depths == "all-culled") {
+      EXPECT_EQ(depths, (std::set<std::int32_t>{-1}));
+    }
+  }
+}
+
+TEST(DefaultPlan, ItsSampleLooksAtFacesWhoseIndicesNeedMoreThanSixteenBits) {
+  const auto plan = default_plan(Level::kStandard);
+  const auto large =
+      std::find_if(plan.begin(), plan.end(), [](const auto& m) { return m.sample != nullptr; });
+  ASSERT_NE(large, plan.end());
+  const auto faces = large->sample->faces();
+  const auto beyond = std::count_if(faces.begin(), faces.end(), [&](std::int32_t f) {
+    const auto& t = large->mesh.triangles[static_cast<std::size_t>(f)];
+    return *std::max_element(t.begin(), t.end()) > 0xFFFF;
+  });
+  EXPECT_GE(beyond, 4);
+}
+
+TEST(DefaultPlan, QuickLeavesOutTheWorstCases) {
+  const auto quick = asked(default_plan(Level::kQuick));
+  EXPECT_FALSE(quick.contains("random:360:60 4 uniform"));
+  EXPECT_TRUE(asked(default_plan(Level::kStandard)).contains("random:360:60 4 uniform"));
+}
+
+TEST(Depths, AreReadAsTheyAreWritten) {
+  for (const char* text :
+       {"uniform", "random:7", "random:7:visible", "view", "face0-culled", "all-culled", "file:a:b.txt"})
+    EXPECT_EQ(parse_depths(text).text(), text);
+  EXPECT_EQ(parse_depths("random").text(), "random:1");
+  for (const char* text : {"", "random:", "random:x", "random:1:", "random:1:seen", "random:-1", "culled"})
+    EXPECT_THROW(parse_depths(text), std::invalid_argument) << text;
+}
+
+TEST(Depths, OfRandomFacesSomeAreCulledUnlessVisible) {
+  const data::ControlMesh mesh = data::named_mesh("bumpy:60");
+  const auto least = [&](const char* text) {
+    const auto depths = face_depths(parse_depths(text), mesh, 3);
+    return *std::min_element(depths.begin(), depths.end());
+  };
+  EXPECT_EQ(least("random:5"), -1);
+  EXPECT_EQ(least("random:5:visible"), 0);
+}
+
+TEST(Depths, OfAViewCullFacesThatLookAwayAtAnyScale) {
+  for (const char* name : {"icosahedron", "tiny-box", "huge-box", "far-box"}) {
+    const auto depths = face_depths(parse_depths("view"), data::named_mesh(name), 9);
+    const auto culled = std::count(depths.begin(), depths.end(), -1);
+    EXPECT_GT(culled, 0) << name;
+    EXPECT_LT(culled, static_cast<std::ptrdiff_t>(depths.size())) << name;
+  }
+  const auto flat = face_depths(parse_depths("view"), data::named_mesh("flat"), 9);
+  EXPECT_EQ(std::count(flat.begin(), flat.end(), -1), 0) << "seen from above";
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/face_depths.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "data/splitmix64.h"
+#include "verify/audit/vector.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using FaceDepths = std::vector<std::int32_t>;
+
+// Seen from twice the size of the mesh away, slanting: half of a closed mesh is culled, a flat one is seen.
+// An edge of a triangle on the screen is shorter than this times its distance, so that a mesh of a few
+// hundred faces shows more than one depth.
+FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
+  constexpr double kEdge = 0.03;
+  Vector low = mesh.positions.at(0), high = low;
+  for (const Vector& p : mesh.positions)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  const double away = 2 * norm(high - low) / norm(Vector{1, 2, 3});
+  const Vector eye = 0.5 * (low + high) + away * Vector{1, 2, 3};
+  FaceDepths depths;
+  for (const auto& t : mesh.triangles) {
+    std::array<Vector, 3> p{};
+    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.positions.at(static_cast<std::size_t>(t[k]));
+    const Vector to_eye = eye - (1. / 3) * (p[0] + p[1] + p[2]);
+    if (dot(cross(p[1] - p[0], p[2] - p[0]), to_eye) <= 0) {
+      depths.push_back(-1);
+      continue;
+    }
+    double edge = std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
+    int depth = 0;
+    for (; depth < deepest && edge > kEdge * norm(to_eye); ++depth) edge /= 2;
+    depths.push_back(depth);
+  }
+  return depths;
+}
+
+FaceDepths random_depths(const Depths& depths, std::size_t faces, int deepest) {
+  data::SplitMix64 random(*depths.seed);
+  const int least = depths.visible ? 0 : -1;
+  FaceDepths out(faces);
+  for (std::int32_t& d : out)
+    d = least + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(deepest - least + 1));
+  return out;
+}
+
+FaceDepths read_depths(const std::string& file, std::size_t faces, int deepest) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::invalid_argument(fmt::format("--depths: cannot read {}", file));
+  FaceDepths depths;
+  for (std::string word; in >> word;) {
+    std::int32_t depth = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), depth);
+    if (error != std::errc{} || end != word.data() + word.size() || depth < -1 || depth > deepest)
+      throw std::invalid_argument(
+          fmt::format("--depths: {}: '{}' is no depth from -1 to {} (--depth)", file, word, deepest));
+    depths.push_back(depth);
+  }
+  if (depths.size() != faces)
+    throw std::invalid_argument(
+        fmt::format("--depths: {}: {} depths for {} faces", file, depths.size(), faces));
+  return depths;
+}
+
+}  // namespace
+
+std::string Depths::text() const {
+  if (kind == "random") return fmt::format("random:{}{}", seed.value_or(1), visible ? ":visible" : "");
+  return kind == "file" ? "file:" + file : kind;
+}
+
+Depths parse_depths(const std::string& text) {
+  for (const char* word : {"uniform", "view", "face0-culled", "all-culled"})
+    if (text == word) return {text, {}, false, {}};
+  if (text.starts_with("file:")) return {"file", {}, false, text.substr(5)};
+  if (text == "random") return {text, 1, false, {}};
+  if (text.starts_with("random:")) {
+    Depths depths{"random", 0, text.ends_with(":visible"), {}};
+    const std::string_view seed =
+        std::string_view(text).substr(7, text.size() - 7 - (depths.visible ? 8 : 0));
+    const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), *depths.seed);
+    if (error == std::errc() && end == seed.data() + seed.size()) return depths;
+  }
+  throw std::invalid_argument(fmt::format(
+      "--depths {}: uniform, random[:SEED[:visible]], view, face0-culled, all-culled or file:FILE", text));
+}
+
+std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {
+  const std::size_t faces = mesh.triangles.size();
+  if (depths.kind == "view") return view_depths(mesh, deepest);
+  if (depths.kind == "random") return random_depths(depths, faces, deepest);
+  if (depths.kind == "file") return read_depths(depths.file, faces, deepest);
+  if (depths.kind == "all-culled") return FaceDepths(faces, -1);
+  if (depths.kind == "face0-culled") {
+    FaceDepths all(faces, deepest);
+    if (faces > 0) all[0] = -1;
+    return all;
+  }
+  return {};
+}
+
+}  // namespace limitcheck::verify

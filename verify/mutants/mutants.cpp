@@ -4,12 +4,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
-#include "data/generators/named_mesh.h"
-#include "data/splitmix64.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/checks.h"
+#include "verify/audit/default_plan.h"
 #include "verify/audit/relations.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/model_rules.h"
@@ -75,13 +75,23 @@ const std::map<std::string, Meant>& meant() {
   return table;
 }
 
-AuditMesh mesh(const std::string& name, bool random_depths) {
-  AuditMesh m{name, data::named_mesh(name)};
-  if (!random_depths) return m;
-  data::SplitMix64 random(1);
-  for (std::size_t f = 0; f < m.mesh.triangles.size(); ++f)
-    m.face_depth.push_back(static_cast<std::int32_t>(random.next() % 4) - 1);
-  return m;
+bool is_relation(const std::string& check) {
+  const auto& rows = relation_rows();
+  return std::find(rows.begin(), rows.end(), check) != rows.end();
+}
+
+// Points, roughly: what a case costs without its relations.
+double cost(const AuditMesh& m) {
+  double points = 0;
+  for (const std::int32_t d : m.face_depth) points += d < 0 ? 0 : std::ldexp(1, 2 * d);
+  if (m.face_depth.empty())
+    points = std::ldexp(static_cast<double>(m.mesh.triangles.size()), 2 * std::max(m.depth, 0));
+  return points + static_cast<double>(m.mesh.triangles.size());
+}
+
+std::string label(const AuditMesh& m) {
+  return m.depths.empty() || m.depths == "uniform" ? fmt::format("{} (depth {})", m.name, m.depth)
+                                                   : fmt::format("{} ({})", m.name, m.depths);
 }
 
 }  // namespace
@@ -114,31 +124,46 @@ bool KillTable::held() const {
 }
 
 KillTable run_mutants(const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step) {
-  constexpr int kDepth = 2;
-  const std::vector<AuditMesh> meshes{mesh("bumpy:60", false), mesh("ragged-disc", false),
-                                      mesh("octahedron", true), mesh("wheel:5:2", true)};
-  std::vector<AuditSubject> subjects{{find_subject(kBase), ""}, {find_subject("sliding-window"), ""}};
-  const std::size_t correct = subjects.size();
-  for (const Mutant& m : mutants()) subjects.push_back({find_subject(m.subject), m.options});
-
+  constexpr int kThreads = 2;
   KillTable table;
-  for (const Mutant& m : mutants()) table.kills.push_back({&m, {}});
+  for (const Mutant& m : mutants()) table.kills.push_back({&m, {}, ""});
+  std::vector<AuditMesh> plan = default_plan(Level::kStandard);
+  const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
+                                          {find_subject("row-stream"), "repair=stitch"}};
+  const std::size_t total = plan.size() * correct.size() + table.kills.size();
   std::size_t done = 0;
-  for (const AuditMesh& m : meshes) {
-    Auditor auditor(kDepth, 2, {}, Level::kThorough);
-    for (std::size_t s = 0; s < subjects.size(); ++s, ++done) {
-      if (on_step)
-        on_step(fmt::format("{} on {}", s < correct ? subjects[s].subject->name : mutants()[s - correct].name,
-                            m.name),
-                done, subjects.size() * meshes.size());
-      for (const Result& r : auditor.run(subjects[s], m)) {
-        if (!is_bad(r)) continue;
-        if (s < correct)
+  const auto step = [&](const std::string& subject, const AuditMesh& m) {
+    if (on_step) on_step(fmt::format("{} on {}", subject, label(m)), done, total);
+  };
+
+  // Right subjects: the plan as it is.
+  Auditor auditor(0, kThreads, {}, Level::kStandard);
+  for (const AuditMesh& m : plan)
+    for (const AuditSubject& s : correct) {
+      step(s.subject->name, m);
+      ++done;
+      if (m.sample && s.subject == find_subject(kBase)) continue;  // it would refine the whole
+      for (const Result& r : auditor.run(s, m))
+        if (is_bad(r))
           table.red_on_correct.push_back(
-              fmt::format("{} / {} / {}: {}", r.subject, r.mesh, r.check, r.message));
-        else
-          table.kills[s - correct].killed_by.insert(r.check);
-      }
+              fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
+    }
+
+  // Mutants: cheap cases first, each until its own check has found it.
+  std::stable_sort(plan.begin(), plan.end(),
+                   [](const AuditMesh& a, const AuditMesh& b) { return cost(a) < cost(b); });
+  for (AuditMesh& m : plan) {
+    const bool relations = m.relations;
+    for (Kill& k : table.kills) {
+      const bool relation = is_relation(k.mutant->check);
+      if (k.by_its_check() || (relation && !relations)) continue;
+      step(k.mutant->name, m);
+      m.relations = relation;
+      for (const Result& r : auditor.run({find_subject(k.mutant->subject), k.mutant->options}, m))
+        if (is_bad(r)) k.killed_by.insert(r.check);
+      if (!k.by_its_check()) continue;
+      k.on = label(m);
+      ++done;
     }
   }
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <iostream>
 #include <locale>
+#include <map>
 #include <memory>
 #include <new>
 #include <thread>
@@ -133,21 +134,21 @@ class UnusualSubject {
         throw SubjectError(LC_NOT_SUPPORTED, "closed meshes only");
   }
 
-  // Each face as deep as its deepest neighbour.
-  std::vector<std::int32_t> deeper(std::vector<std::int32_t> depth) const {
-    std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> edges;
+  // Each face as deep as its shallowest neighbour, if that is deeper: no neighbour gets a deeper edge by it.
+  std::vector<std::int32_t> deeper(const std::vector<std::int32_t>& asked) const {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> face_of;
     const auto& triangles = session_.mesh().triangles;
     for (std::size_t f = 0; f < triangles.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k)
-        edges.push_back({std::minmax(triangles[f][k], triangles[f][(k + 1) % 3]), f});
-    std::sort(edges.begin(), edges.end());
-    const std::vector<std::int32_t> asked = depth;
-    for (std::size_t e = 1; e < edges.size(); ++e) {
-      if (edges[e].first != edges[e - 1].first) continue;
-      const std::size_t f = edges[e - 1].second, g = edges[e].second;
-      if (asked[f] < 0 || asked[g] < 0) continue;
-      depth[f] = std::max(depth[f], asked[g]);
-      depth[g] = std::max(depth[g], asked[f]);
+      for (std::size_t k = 0; k < 3; ++k) face_of[{triangles[f][k], triangles[f][(k + 1) % 3]}] = f;
+    std::vector<std::int32_t> depth = asked;
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      std::int32_t least = -1;  // among the visible neighbours
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto beyond = face_of.find({triangles[f][(k + 1) % 3], triangles[f][k]});
+        const std::int32_t d = beyond == face_of.end() ? -1 : asked[beyond->second];
+        if (d >= 0 && (least < 0 || d < least)) least = d;
+      }
+      if (depth[f] >= 0) depth[f] = std::max(depth[f], least);
     }
     return depth;
   }
@@ -156,7 +157,7 @@ class UnusualSubject {
   void run(const lc_request& request, lc_tessellation& out) {
     std::vector<std::int32_t> depth(request.face_depth,
                                     request.face_depth + session_.mesh().triangles.size());
-    if (is("deeper_where_allowed")) depth = deeper(std::move(depth));
+    if (is("deeper_where_allowed")) depth = deeper(depth);
     DeliveredCopy<Real> copy;
     const auto work = [&] {
       copy = copy_of<Real>(session_.tessellate(depth, request.threads));
@@ -233,7 +234,7 @@ std::span<const Habit> habits() {
       {"large_denominators", "fractions are not in lowest terms, nor of the depth: 2 i / 2 n"},
       {"unused_vertices", "a third of the vertices is there twice, and no triangle uses the second one"},
       {"negative_zeros", "zeros are negative"},
-      {"deeper_where_allowed", "faces are as deep as their deepest neighbour"},
+      {"deeper_where_allowed", "faces are deeper than asked for where all their neighbours are"},
       {"rounded_double", "computes in double and delivers float"},
       {"odd_memory", "all arrays are parts of one block, in another order, with room between"},
       {"no_normals", "delivers no normals, and says so"},

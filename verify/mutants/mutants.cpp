@@ -80,13 +80,19 @@ bool is_relation(const std::string& check) {
   return std::find(rows.begin(), rows.end(), check) != rows.end();
 }
 
-// Points, roughly: what a case costs without its relations.
+// Triangles at the deepest level: what a case costs without its relations.
 double cost(const AuditMesh& m) {
-  double points = 0;
-  for (const std::int32_t d : m.face_depth) points += d < 0 ? 0 : std::ldexp(1, 2 * d);
-  if (m.face_depth.empty())
-    points = std::ldexp(static_cast<double>(m.mesh.triangles.size()), 2 * std::max(m.depth, 0));
-  return points + static_cast<double>(m.mesh.triangles.size());
+  const auto& shown = m.sample ? m.sample->part() : m.mesh;
+  return std::ldexp(static_cast<double>(shown.triangles.size()), 2 * m.depth);
+}
+
+// The model refines all faces of a mesh to the deepest level: more than these it is not asked for.
+constexpr double kModelTriangles = 70000;
+bool too_much(const AuditMesh& m) {
+  return std::ldexp(static_cast<double>(m.mesh.triangles.size()), 2 * m.depth) > kModelTriangles;
+}
+bool is_model(const std::string& subject, const std::string& options) {
+  return subject == kBase || options.find(fmt::format("of={}", kBase)) != std::string::npos;
 }
 
 std::string label(const AuditMesh& m) {
@@ -129,7 +135,8 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
   for (const Mutant& m : mutants()) table.kills.push_back({&m, {}, ""});
   std::vector<AuditMesh> plan = default_plan(Level::kStandard);
   const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
-                                          {find_subject("row-stream"), "repair=stitch"}};
+                                          {find_subject("row-stream"), "repair=stitch"},
+                                          {find_subject("sliding-window"), "precision=double,repair=stitch"}};
   const std::size_t total = plan.size() * correct.size() + table.kills.size();
   std::size_t done = 0;
   const auto step = [&](const std::string& subject, const AuditMesh& m) {
@@ -142,7 +149,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
     for (const AuditSubject& s : correct) {
       step(s.subject->name, m);
       ++done;
-      if (m.sample && s.subject == find_subject(kBase)) continue;  // it would refine the whole
+      if (is_model(s.subject->name, s.options) && too_much(m)) continue;
       for (const Result& r : auditor.run(s, m))
         if (is_bad(r))
           table.red_on_correct.push_back(
@@ -157,6 +164,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
     for (Kill& k : table.kills) {
       const bool relation = is_relation(k.mutant->check);
       if (k.by_its_check() || (relation && !relations)) continue;
+      if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
       step(k.mutant->name, m);
       m.relations = relation;
       for (const Result& r : auditor.run({find_subject(k.mutant->subject), k.mutant->options}, m))

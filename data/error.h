@@ -9,7 +9,7 @@
 namespace limitcheck::data {
 
 /// A file, a mesh or a name that cannot be used. what() is one line for the user:
-///   cage.obj:17: MESH_NONMANIFOLD_EDGE: edge 4–9 has 3 faces (12, 13, 40)
+///   cage.obj:17: MESH_NONMANIFOLD_EDGE: edge 4–9 has 3 faces (12, 13, 40) (numbers from 1)
 /// Codes are stable; those of meshes are listed in data/validate.h, those of files in data/io/read.h.
 class InputError : public std::runtime_error {
  public:

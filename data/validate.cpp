@@ -25,7 +25,7 @@ void sort_by(std::vector<std::int32_t>& items, std::size_t keys, Key key) {
   items.swap(sorted);
 }
 
-std::string listed(const std::vector<std::int32_t>& faces) {
+std::string listed(const std::vector<std::int64_t>& faces) {
   std::string text;
   for (std::size_t i = 0; i < std::min(faces.size(), kMostFacesInMessage); ++i) {
     text += fmt::format("{}{}", i == 0 ? "" : ", ", faces[i]);
@@ -36,8 +36,9 @@ std::string listed(const std::vector<std::int32_t>& faces) {
 
 class Validator {
  public:
-  explicit Validator(const ControlMesh& mesh)
+  Validator(const ControlMesh& mesh, const Numbering& numbering)
       : mesh_(mesh),
+        numbering_(numbering),
         vertices_(mesh.positions.size()),
         used_(vertices_, false),
         tainted_(vertices_, false),
@@ -56,6 +57,18 @@ class Validator {
   }
 
  private:
+  // Vertices and faces as messages number them.
+  std::int64_t vertex(std::int64_t v) const { return v + numbering_.first; }
+  std::int64_t face(std::int64_t f) const {
+    return (numbering_.face.empty() ? f : numbering_.face[static_cast<std::size_t>(f)]) + numbering_.first;
+  }
+  template <class Faces>
+  std::string faces(const Faces& list) const {
+    std::vector<std::int64_t> numbers;
+    for (const auto f : list) numbers.push_back(face(f));
+    return listed(numbers);
+  }
+
   void report(MeshFault fault, std::vector<std::int64_t> elements, std::string message, std::int64_t face,
               std::int64_t vertex = -1) {
     findings_.push_back({fault, std::move(elements), std::move(message), face, vertex});
@@ -74,15 +87,15 @@ class Validator {
       const auto& p = mesh_.positions[v];
       if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
       const auto at = static_cast<std::int64_t>(v);
-      report(MeshFault::kNotFinite, {at}, fmt::format("vertex {} lies at ({}, {}, {})", v, p[0], p[1], p[2]),
-             -1, at);
+      report(MeshFault::kNotFinite, {at},
+             fmt::format("vertex {} lies at ({}, {}, {})", vertex(at), p[0], p[1], p[2]), -1, at);
     }
   }
 
   void check_indices() {
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
       const auto& t = mesh_.triangles[f];
-      const auto face = static_cast<std::int64_t>(f);
+      const auto at = static_cast<std::int64_t>(f);
       const auto wrong = std::find_if(t.begin(), t.end(), [&](std::int32_t v) {
         return v < 0 || static_cast<std::size_t>(v) >= vertices_;
       });
@@ -90,13 +103,14 @@ class Validator {
         if (v >= 0 && static_cast<std::size_t>(v) < vertices_) used_[v] = true;
       }
       if (wrong != t.end()) {
-        report(MeshFault::kIndexOutOfRange, {face, *wrong},
-               fmt::format("face {} names vertex {}, the mesh has {}", f, *wrong, vertices_), face);
+        report(MeshFault::kIndexOutOfRange, {at, *wrong},
+               fmt::format("face {} names vertex {}, the mesh has {}", face(at), vertex(*wrong), vertices_),
+               at);
         remove(f);
       } else if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
         const std::int32_t twice = t[0] == t[1] ? t[0] : t[2];
-        report(MeshFault::kDegenerateFace, {face, twice},
-               fmt::format("face {} names vertex {} twice", f, twice), face);
+        report(MeshFault::kDegenerateFace, {at, twice},
+               fmt::format("face {} names vertex {} twice", face(at), vertex(twice)), at);
         remove(f);
       }
     }
@@ -142,13 +156,15 @@ class Validator {
     for (const std::int32_t v : b) {
       if (!back_to_back || faces_at[v] != 2) continue;
       report(MeshFault::kLowValence, {v},
-             fmt::format("interior vertex {} has valence 2 (faces {}, {} back to back)", v, first, later),
+             fmt::format("interior vertex {} has valence 2 (faces {}, {} back to back)", vertex(v),
+                         face(first), face(later)),
              later, v);
       low = true;
     }
     if (low) return;
     report(MeshFault::kDuplicateFace, {first, later},
-           fmt::format("face {} has the vertices of face {} ({}, {}, {})", later, first, b[0], b[1], b[2]),
+           fmt::format("face {} has the vertices of face {} ({}, {}, {})", face(later), face(first),
+                       vertex(b[0]), vertex(b[1]), vertex(b[2])),
            later);
   }
 
@@ -181,7 +197,9 @@ class Validator {
           continue;
         }
         report(MeshFault::kOrientationClash, {v0, v1, a / 3, b / 3},
-               fmt::format("faces {} and {} both run from {} to {}", a / 3, b / 3, from(a), to(a)), b / 3);
+               fmt::format("faces {} and {} both run from {} to {}", face(a / 3), face(b / 3),
+                           vertex(from(a)), vertex(to(a))),
+               b / 3);
         tainted_[v0] = tainted_[v1] = true;
       } else if (end - begin > 2) {
         report_nonmanifold(v0, v1, std::vector(half_edges.begin() + begin, half_edges.begin() + end));
@@ -190,12 +208,14 @@ class Validator {
     }
   }
 
-  void report_nonmanifold(std::int32_t v0, std::int32_t v1, std::vector<std::int32_t> faces) {
-    for (std::int32_t& h : faces) h /= 3;
+  void report_nonmanifold(std::int32_t v0, std::int32_t v1, std::vector<std::int32_t> at_edge) {
+    for (std::int32_t& h : at_edge) h /= 3;
     std::vector<std::int64_t> elements = {v0, v1};
-    elements.insert(elements.end(), faces.begin(), faces.end());
-    report(MeshFault::kNonmanifoldEdge, std::move(elements),
-           fmt::format("edge {}–{} has {} faces ({})", v0, v1, faces.size(), listed(faces)), faces[2]);
+    elements.insert(elements.end(), at_edge.begin(), at_edge.end());
+    report(
+        MeshFault::kNonmanifoldEdge, std::move(elements),
+        fmt::format("edge {}–{} has {} faces ({})", vertex(v0), vertex(v1), at_edge.size(), faces(at_edge)),
+        at_edge[2]);
   }
 
   // Walks round every vertex from its first corner; a corner that no walk reached belongs to another fan.
@@ -222,8 +242,8 @@ class Validator {
     for (MeshFinding& finding : findings_) {
       if (finding.fault != MeshFault::kBowtieVertex) continue;
       const std::vector<std::int32_t> fans(finding.elements.begin() + 1, finding.elements.end());
-      finding.message =
-          fmt::format("vertex {} joins {} fans (of faces {})", finding.vertex, fans.size(), listed(fans));
+      finding.message = fmt::format("vertex {} joins {} fans (of faces {})", vertex(finding.vertex),
+                                    fans.size(), faces(fans));
     }
   }
 
@@ -240,11 +260,12 @@ class Validator {
     for (std::size_t v = 0; v < vertices_; ++v) {
       const auto at = static_cast<std::int64_t>(v);
       if (!used_[v])
-        report(MeshFault::kIsolatedVertex, {at}, fmt::format("no face names vertex {}", v), -1, at);
+        report(MeshFault::kIsolatedVertex, {at}, fmt::format("no face names vertex {}", vertex(at)), -1, at);
     }
   }
 
   const ControlMesh& mesh_;
+  Numbering numbering_;
   std::size_t vertices_;
   std::vector<bool> used_;     // by a face, even a refused one
   std::vector<bool> tainted_;  // vertices on which no verdict is possible
@@ -297,10 +318,10 @@ std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t fac
   return {};
 }
 
-std::vector<MeshFinding> validate(const ControlMesh& mesh) {
+std::vector<MeshFinding> validate(const ControlMesh& mesh, const Numbering& numbering) {
   auto findings = validate_counts(static_cast<std::int64_t>(mesh.positions.size()),
                                   static_cast<std::int64_t>(mesh.triangles.size()));
-  return findings.empty() ? Validator(mesh).run() : findings;
+  return findings.empty() ? Validator(mesh, numbering).run() : findings;
 }
 
 }  // namespace limitcheck::data

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,11 +49,18 @@ struct MeshFinding {
   std::int64_t vertex = -1;            ///< if no face did: the vertex at fault, or -1
 };
 
+/// How messages number vertices and faces; the elements of a finding always count from 0.
+struct Numbering {
+  std::int64_t first = 0;  ///< of the first vertex and the first face: 1 in OBJ files
+  std::span<const std::int64_t>
+      face{};  ///< for each triangle the polygon, from 0, that it was cut from; empty: itself
+};
+
 /// Everything that is wrong with the mesh; empty if it is valid. One cause gives one finding: what is refused
 /// for one reason is left out when the later properties are examined. Ordered by fault, then by element. Time
-/// and memory O(vertices + faces), whatever the valences; 0.1 to 0.5 s for a million
-/// faces, by their order in memory.
-std::vector<MeshFinding> validate(const ControlMesh& mesh);
+/// and memory O(vertices + faces), whatever the valences; 0.1 to 0.5 s for a million faces, by their order in
+/// memory.
+std::vector<MeshFinding> validate(const ControlMesh& mesh, const Numbering& numbering = {});
 
 /// Whether 32-bit indices name that many vertices and half-edges (3 per face). Empty if they do.
 std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces);

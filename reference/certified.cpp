@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
 #include <stdexcept>
 
+#include "data/cut_out.h"
 #include "reference/ball.h"
 #include "reference/parameter_exact.h"
 #include "reference/stam.h"
@@ -16,36 +17,28 @@
 namespace limitcheck::reference {
 
 struct CertifiedEvaluator::Data {
-  std::vector<std::array<Rational, 3>> positions;
+  using Position = std::array<Rational, 3>;
   Topology topology;
+  std::function<Position(std::int32_t)> position;  // of a vertex
+  Weights weights;
 };
 
 namespace {
 
-/// The faces that touch the corners of one face and their vertices: all that the face's surface depends on.
-struct Neighbourhood {
-  std::vector<std::array<Rational, 3>> positions;
-  std::vector<Triangle> triangles;
-};
-
-Neighbourhood neighbourhood(const Topology& topology, const std::vector<std::array<Rational, 3>>& positions,
-                            std::size_t face) {
-  std::vector<std::int32_t> faces{static_cast<std::int32_t>(face)};
-  for (const std::int32_t v : topology.triangles()[face])
+/// The faces that touch the corners of one face, itself first: all that its surface depends on.
+std::vector<std::int32_t> faces_near(const Topology& topology, std::int32_t face) {
+  std::vector<std::int32_t> faces{face};
+  for (const std::int32_t v : topology.triangles()[static_cast<std::size_t>(face)])
     for (const std::int32_t f : topology.faces(v))
       if (f >= 0 && std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
-  Neighbourhood result;
-  std::map<std::int32_t, std::int32_t> renumbered;
-  for (const std::int32_t f : faces) {
-    Triangle t = topology.triangles()[static_cast<std::size_t>(f)];
-    for (std::int32_t& v : t) {
-      const auto [entry, is_new] = renumbered.try_emplace(v, static_cast<std::int32_t>(renumbered.size()));
-      if (is_new) result.positions.push_back(positions[static_cast<std::size_t>(v)]);
-      v = entry->second;
-    }
-    result.triangles.push_back(t);
-  }
-  return result;
+  return faces;
+}
+
+/// The control vertex at a corner of a face.
+std::int32_t corner_at(const Topology& topology, std::int32_t face, const Parameter& l1,
+                       const Parameter& l2) {
+  const std::size_t k = exact_value(l1) == 1 ? 1 : exact_value(l2) == 1 ? 2 : 0;
+  return topology.triangles()[static_cast<std::size_t>(face)][k];
 }
 
 double radius_of(const Ball& a) {
@@ -175,24 +168,29 @@ class Printer {
   double largest_ = 0;
 };
 
-std::vector<std::array<Rational, 3>> exact_positions(const data::ControlMesh& mesh) {
-  std::vector<std::array<Rational, 3>> result;
-  for (const auto& p : mesh.positions) result.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
-  return result;
-}
-
 }  // namespace
 
-CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh)
-    : data_(new Data{exact_positions(mesh), Topology(mesh.positions.size(), mesh.triangles)}) {}
+CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights) {
+  for (const auto& p : mesh.positions)
+    for (const double x : p)
+      if (!std::isfinite(x)) throw std::invalid_argument("control mesh: a coordinate is not finite");
+  const auto position = [positions = mesh.positions](std::int32_t v) {
+    const auto& p = positions[static_cast<std::size_t>(v)];
+    return Data::Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
+  };
+  data_.reset(new Data{Topology(mesh.positions.size(), mesh.triangles), position, weights});
+}
 
 CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
-                                       const std::vector<Triangle>& triangles) {
-  std::vector<std::array<Rational, 3>> exact;
+                                       const std::vector<Triangle>& triangles, Weights weights) {
+  std::vector<Data::Position> exact;
   for (const auto& p : positions)
     exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
                      exact_value(Parameter::parse(p[2]))});
-  data_.reset(new Data{std::move(exact), Topology(positions.size(), triangles)});
+  const auto position = [exact = std::move(exact)](std::int32_t v) {
+    return exact[static_cast<std::size_t>(v)];
+  };
+  data_.reset(new Data{Topology(positions.size(), triangles), position, weights});
 }
 
 CertifiedEvaluator::~CertifiedEvaluator() = default;
@@ -202,8 +200,9 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
   if (digits < 1 || digits > 10000) throw std::invalid_argument("digits must be 1..10000");
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.triangles().size())
     throw std::out_of_range("no face " + std::to_string(face));
-  const Neighbourhood local =
-      neighbourhood(data_->topology, data_->positions, static_cast<std::size_t>(face));
+  const data::CutOut local = data::cut_out(data_->topology.triangles(), faces_near(data_->topology, face));
+  std::vector<Data::Position> exact;
+  for (const std::int32_t v : local.vertices) exact.push_back(data_->position(v));
 
   const long first = static_cast<long>(digits * 3.33) + 64;
   // Next to a corner quantities fall and rise with powers of the distance, which costs that many bits: the
@@ -217,10 +216,10 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
     Ball::precision() = bits;
     const bool last_chance = bits >= 8 * first + nearness;
     std::vector<Vec3<Ball>> positions;
-    for (const auto& p : local.positions)
+    for (const auto& p : exact)
       positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
                            NumberTraits<Ball>::from_rational(p[2])});
-    const StamEvaluator<Ball> evaluator(std::move(positions), local.triangles);
+    const StamEvaluator<Ball> evaluator(std::move(positions), local.triangles, data_->weights);
     const SurfacePoint<Ball> s = evaluator.evaluate(0, l1, l2);
     const bool has_normal =
         s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
@@ -234,11 +233,17 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
     result.normal = print(s.normal);
     result.normal_kind = s.normal_kind;
     result.first_exist = s.first_exist;
+    result.boundary_corner =
+        s.at_corner && data_->topology.on_boundary(corner_at(data_->topology, face, l1, l2));
+    if (s.at_corner) {
+      result.t1 = print(s.t1);
+      result.t2 = print(s.t2);
+    }
     if (s.second_exist) {
       result.d11 = print(s.d11);
       result.d12 = print(s.d12);
       result.d22 = print(s.d22);
-      if (has_normal) {
+      if (has_normal && !s.at_corner) {
         const Ball e = dot(s.d1, s.d1), f = dot(s.d1, s.d2), g = dot(s.d2, s.d2);
         const Ball l = dot(s.d11, s.normal), m = dot(s.d12, s.normal), n = dot(s.d22, s.normal);
         const Ball area = Ball(1) / (e * g - f * f);

@@ -12,6 +12,7 @@
 #include "reference/parameter.h"
 #include "reference/surface_point.h"
 #include "reference/topology.h"
+#include "reference/weights.h"
 
 namespace limitcheck::reference {
 
@@ -23,14 +24,17 @@ struct Enclosure {
 /// A point or vector.
 using Enclosure3 = std::array<Enclosure, 3>;
 
-/// As SurfacePoint. Curvatures exist where second derivatives and the normal do; the mean curvature is
-/// positive where the surface is convex: 1/r on a sphere of radius r.
+/// As SurfacePoint; d11, d12, d22 are there if they exist, t1 and t2 at an extraordinary corner only.
+/// Curvatures are given where second derivatives and the normal exist, but not at an extraordinary corner;
+/// the mean curvature is positive where the surface is convex: 1/r on a sphere of radius r.
 struct CertifiedPoint {
   Enclosure3 position, d1, d2, normal;
-  std::optional<Enclosure3> d11, d12, d22;
+  std::optional<Enclosure3> d11, d12, d22, t1, t2;
   std::optional<Enclosure> gaussian_curvature, mean_curvature;
   NormalKind normal_kind;
   bool first_exist;
+  bool boundary_corner;  ///< an extraordinary corner on the boundary: the derivative along that may exist
+                         ///< alone
   double radius;   ///< the largest of the radii, the curvatures' aside (they have their own and may be huge)
   long precision;  ///< bits that were needed
 };
@@ -39,15 +43,15 @@ struct CertifiedPoint {
 /// parameters as exact rationals.
 class CertifiedEvaluator {
  public:
-  /// As StamEvaluator.
-  explicit CertifiedEvaluator(const data::ControlMesh& mesh);
+  /// As StamEvaluator; throws std::invalid_argument also if a coordinate is not finite.
+  explicit CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   /// Control points as text, "1/3" or "0.125", taken exactly. Throws std::invalid_argument as
   /// Parameter::parse does.
   CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
-                     const std::vector<Triangle>& triangles);
+                     const std::vector<Triangle>& triangles, Weights weights = Weights::kLoop);
   ~CertifiedEvaluator();
 
-  /// Only the face's own neighbourhood is evaluated: quick on large meshes.
+  /// Only the faces that touch the face are evaluated, cut out of the mesh: quick on large meshes.
   ///   digits   1..10000 significant digits of the largest coordinate of each vector; each printed value is
   ///            within one unit of its last decimal. Precision rises until that is certain; a vector that
   ///            cannot be told from zero at eight times the digits, and what nearness to a corner costs, is

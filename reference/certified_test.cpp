@@ -2,6 +2,9 @@
 // Certified points hold the truth, print no digit they cannot vouch for, and say what does not exist.
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "data/generators/random_mesh.h"
 #include "data/shapes.h"
 #include "reference/certified.h"
 #include "reference/number_exact.h"
@@ -43,12 +46,86 @@ TEST(Certified, EnclosuresHoldTheOtherMethodsValuesAtEveryPrecision) {
     }
 }
 
-TEST(Certified, ExtraordinaryCornersHaveNoSecondDerivatives) {
-  const CertifiedPoint p = CertifiedEvaluator(data::tetrahedron()).evaluate(0, 0.0, 0.0, 20);
-  EXPECT_FALSE(p.first_exist);
-  EXPECT_FALSE(p.d11 || p.gaussian_curvature);
-  EXPECT_EQ(p.position[0].value, "0.20000000000000000000");  // of the known answers
-  EXPECT_EQ(p.normal_kind, NormalKind::kRegular);
+TEST(Certified, ExtraordinaryCornersHaveTheDerivativesThatExist) {
+  const auto at_corner = [](const data::ControlMesh& mesh) {
+    return CertifiedEvaluator(mesh).evaluate(0, 0.0, 0.0, 20);
+  };
+  const CertifiedPoint three = at_corner(data::tetrahedron());
+  EXPECT_TRUE(three.first_exist && three.d11 && three.t1);
+  EXPECT_EQ(three.position[0].value, "0.20000000000000000000");  // of the known answers
+  EXPECT_EQ(three.normal_kind, NormalKind::kRegular);
+  for (const Enclosure& zero : three.d1) EXPECT_TRUE(zero.value == "0" && zero.radius == 0);
+  EXPECT_FALSE(three.gaussian_curvature);  // not by first derivatives that vanish
+  const CertifiedPoint five = at_corner(data::icosahedron());
+  EXPECT_TRUE(five.first_exist && five.t1);
+  EXPECT_FALSE(five.d11);
+  const CertifiedPoint seven = at_corner(data::wheel(7));
+  EXPECT_TRUE(seven.t1);
+  EXPECT_FALSE(seven.first_exist || seven.d11);
+  const CertifiedPoint inside = CertifiedEvaluator(data::wheel(7)).evaluate(0, 0.25, 0.25, 20);
+  EXPECT_TRUE(inside.first_exist && inside.d11);
+  EXPECT_FALSE(inside.t1);
+}
+
+// The faces around one face need not be a manifold by themselves: two of them may touch in a vertex alone.
+TEST(Certified, EveryFaceOfATightMeshHasTheSurfaceOfTheWhole) {
+  std::vector<data::ControlMesh> meshes{
+      data::tetrahedron(), data::octahedron(), data::torus(3, 3),
+      data::bipyramid(3),  data::bipyramid(4), data::bipyramid(5),
+      data::cube(),        data::holes(),      data::random_mesh(360, {60, 50})};
+  for (const data::ControlMesh& mesh : meshes) {
+    const CertifiedEvaluator certified(mesh);
+    const SubdivisionEvaluator<Big> whole(mesh);
+    for (int face = 0; face < whole.face_count(); ++face)
+      for (const auto& [a, b] : {std::pair{"1/5", "2/7"}, {"0", "1"}}) {
+        const Parameter l1 = Parameter::parse(a), l2 = Parameter::parse(b);
+        const CertifiedPoint p = certified.evaluate(face, l1, l2, 30);
+        const SurfacePoint<Big> s = whole.evaluate(face, l1, l2);
+        const auto check = [&](const Enclosure3& got, const Vec3<Big>& want) {
+          const std::array<Big, 3> coordinates{want.x, want.y, want.z};
+          for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_LE(abs(Big(got[i].value) - coordinates[i]), Big(got[i].radius) + Big("1e-80"))
+                << mesh.triangles.size() << " faces, face " << face;
+        };
+        check(p.position, s.position);
+        check(p.d1, s.d1);
+        check(p.normal, s.normal);
+      }
+  }
+}
+
+TEST(Certified, HasWarrensSurfaceToo) {
+  const data::ControlMesh mesh = data::octahedron();
+  const CertifiedEvaluator certified(mesh, Weights::kWarren);
+  EXPECT_EQ(Big(certified.evaluate(0, 0.0, 0.0, 10).position[0].value),
+            Big(mesh.positions[static_cast<std::size_t>(mesh.triangles[0][0])][0]) / 2);
+  const SurfacePoint<Big> s = SubdivisionEvaluator<Big>(mesh, Weights::kWarren).evaluate(3, 0.25, 0.125);
+  const CertifiedPoint p = certified.evaluate(3, 0.25, 0.125, 40);
+  EXPECT_LE(abs(Big(p.position[1].value) - s.position.y), Big(p.position[1].radius));
+  EXPECT_LE(abs(Big(p.mean_curvature->value)), Big(100));
+}
+
+TEST(Certified, NumbersAreWrittenPlainlyWhereThatIsShort) {
+  // The limit of a mesh whose points coincide is that point.
+  data::ControlMesh point = data::octahedron();
+  for (auto& p : point.positions) p = {128, -4.3, 0.0078125};
+  const auto text = [&](int digits) {
+    const Enclosure3 p = CertifiedEvaluator(point).evaluate(0, 0.25, 0.25, digits).position;
+    return p[0].value + " " + p[1].value + " " + p[2].value;
+  };
+  EXPECT_EQ(text(2), "1.3e2 0 0");
+  EXPECT_EQ(text(3), "128 -4 0");
+  EXPECT_EQ(text(4), "128.0 -4.3 0");
+  EXPECT_EQ(text(5), "128.00 -4.30 0.01");
+  EXPECT_EQ(text(8), "128.00000 -4.30000 0.00781");
+}
+
+TEST(Certified, CurvaturesToo) {
+  // Next to a corner curvatures lose more digits than derivatives: the first precision has the latter alone.
+  const CertifiedPoint p = CertifiedEvaluator(data::wheel(7))
+                               .evaluate(0, Parameter::parse("1e-25"), Parameter::parse("2e-25"), 20);
+  for (const auto& curvature : {p.gaussian_curvature, p.mean_curvature})
+    EXPECT_LE(Big(curvature->radius), abs(Big(curvature->value)) * Big("1e-19"));
 }
 
 TEST(Certified, ConvexSurfacesHavePositiveCurvatures) {
@@ -110,6 +187,9 @@ TEST(Certified, BadRequestsAreRefused) {
   EXPECT_THROW(e.evaluate(0, 0.6, 0.6, 10), std::invalid_argument);
   EXPECT_THROW(e.evaluate(0, 0.0, 0.0, 0), std::invalid_argument);
   EXPECT_THROW(e.evaluate(0, 0.0, 0.0, 100000), std::invalid_argument);
+  data::ControlMesh infinite = data::octahedron();
+  infinite.positions[2][1] = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(CertifiedEvaluator{infinite}, std::invalid_argument);
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 // to 13 faces, at hubs of valence 3 to 200, down to 1e-300 from the vertex.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
 #include "reference/normal.h"
 #include "reference/number_exact.h"
+#include "reference/refine.h"
 #include "reference/stam.h"
 #include "reference/subdivision_evaluator.h"
 
@@ -51,7 +54,7 @@ std::vector<std::array<Parameter, 2>> points(const std::string& near) {
   return result;
 }
 
-/// Everything of two points but the normal kind; `scale2` relates second derivatives to first ones.
+/// Everything of two points.
 template <class A>
 void expect_same(const SurfacePoint<A>& a, const SurfacePoint<Big>& b, double tolerance, double& worst,
                  const std::string& where) {
@@ -64,7 +67,11 @@ void expect_same(const SurfacePoint<A>& a, const SurfacePoint<Big>& b, double to
   check(a.position, b.position, "position", 1);
   ASSERT_EQ(a.first_exist, b.first_exist) << where;
   ASSERT_EQ(a.second_exist, b.second_exist) << where;
-  const Big first = std::max(length(b.d1), length(b.d2));
+  ASSERT_EQ(a.at_corner, b.at_corner) << where;
+  const Big tangent = std::max(length(b.t1), length(b.t2));
+  check(a.t1, b.t1, "t1", tangent);
+  check(a.t2, b.t2, "t2", tangent);
+  const Big first = std::max({length(b.d1), length(b.d2), Big(1e-300)});
   check(a.d1, b.d1, "d1", first);
   check(a.d2, b.d2, "d2", first);
   if (b.second_exist) {
@@ -174,10 +181,104 @@ TEST(Evaluators, TheMapOfAnExtraordinaryCornerPointsAlongTheEdges) {
       const auto corner = stam.evaluate(face, 0.0, 0.0);
       const Vec3<Big> first = stam.evaluate(face, 0x1p-60, 0.0).position - corner.position;
       const Vec3<Big> second = stam.evaluate(face, 0.0, 0x1p-60).position - corner.position;
-      EXPECT_LE(length(unit(first) - unit(corner.d1)), Big("1e-12")) << n;
-      EXPECT_LE(length(unit(second) - unit(corner.d2)), Big("1e-12")) << n;
+      EXPECT_LE(length(unit(first) - unit(corner.t1)), Big("1e-12")) << n;
+      EXPECT_LE(length(unit(second) - unit(corner.t2)), Big("1e-12")) << n;
     }
   }
+}
+
+/// The first face that has vertex 0 as its corner 0, for every place it can have around vertex 0.
+std::vector<int> faces_of_the_hub(const data::ControlMesh& mesh) {
+  std::vector<int> faces;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    if (mesh.triangles[f][0] == 0) faces.push_back(static_cast<int>(f));
+  return faces;
+}
+
+// Derivatives of order d grow like (2^d mu)^J towards the corner, mu the largest eigenvalue below 1
+// (spider.h): of those that exist what is left falls like the next eigenvalue, the others grow at this rate.
+TEST(Evaluators, DerivativesAtExtraordinaryCornersAreWhatTheyTendToOrDoNotExist) {
+  struct Corner {
+    const char* mesh;
+    bool first, second;
+    double first_rate, second_rate;  // per halving of the distance: of what is left, or of the growth
+  };
+  const auto subdominant = [](int n) { return 3. / 8 + std::cos(2 * std::numbers::pi / n) / 4; };
+  const auto sine_mode = [](int k) { return 3. / 8 + std::cos(std::numbers::pi / k) / 4; };
+  const Corner corners[] = {{"wheel:3", true, true, 2 * subdominant(3), 4. / 8},
+                            {"tetrahedron", true, true, 2 * subdominant(3), 4. / 8},
+                            {"wheel:4", true, false, 2 * subdominant(4), 4 * subdominant(4)},
+                            {"wheel:5", true, false, 2 * subdominant(5), 4 * subdominant(5)},
+                            {"wheel:7", false, false, 2 * subdominant(7), 4 * subdominant(7)},
+                            {"wheel:12", false, false, 2 * subdominant(12), 4 * subdominant(12)},
+                            {"fan:1", true, true, 2. / 4, 4. / 8},
+                            {"fan:2", true, false, 2 * sine_mode(2), 4 * sine_mode(2)},
+                            {"fan:4", false, false, 2 * sine_mode(4), 4 * sine_mode(4)},
+                            {"fan:7", false, false, 2 * sine_mode(7), 4 * sine_mode(7)}};
+  for (const Corner& c : corners) {
+    data::ControlMesh mesh = data::named_mesh(c.mesh);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)  // no symmetry, no flat side
+      for (std::size_t k = 0; k < 3; ++k)
+        mesh.positions[v][k] += 0x1p-6 * static_cast<double>((7 * v + 3 * k) % 11);
+    const StamEvaluator<Big> stam(mesh);
+    for (const int face : faces_of_the_hub(mesh)) {
+      const auto near = [&](int halvings) {
+        const double h = std::ldexp(1., -halvings);
+        return stam.evaluate(face, h, 0.375 * h);
+      };
+      const auto at = stam.evaluate(face, 0.0, 0.0), far = near(900), close = near(901);
+      EXPECT_EQ(at.first_exist, c.first) << c.mesh;
+      EXPECT_EQ(at.second_exist, c.second) << c.mesh;
+      const auto follow = [&](const Vec3<Big>& limit, const Vec3<Big>& a, const Vec3<Big>& b, bool exists,
+                              double rate, const char* what) {
+        if (exists)
+          EXPECT_LE(length(b - limit), 1000 * pow(Big(rate), 900))
+              << c.mesh << " face " << face << ' ' << what;
+        else
+          EXPECT_NEAR(static_cast<Big>(length(b) / length(a)).convert_to<double>(), rate, 1e-9)
+              << c.mesh << " face " << face << ' ' << what;
+      };
+      follow(at.d1, far.d1, close.d1, c.first, c.first_rate, "d1");
+      follow(at.d2, far.d2, close.d2, c.first, c.first_rate, "d2");
+      follow(at.d11, far.d11, close.d11, c.second, c.second_rate, "d11");
+      follow(at.d12, far.d12, close.d12, c.second, c.second_rate, "d12");
+      follow(at.d22, far.d22, close.d22, c.second, c.second_rate, "d22");
+    }
+  }
+}
+
+// The two families have one surface at valences 3 and 6 and at the boundary, and another elsewhere.
+TEST(Evaluators, StamEqualsSubdivisionAndRefinementUnderWarrensWeights) {
+  double worst = 0;
+  for (const std::string name : {"tetrahedron", "octahedron", "icosahedron", "bipyramid:7", "wheel:3",
+                                 "wheel:4", "wheel:5", "wheel:7", "wheel:8", "wheel:50", "fan:4", "holes"}) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    const StamEvaluator<Big> stam(mesh, Weights::kWarren), loop(mesh);
+    const SubdivisionEvaluator<Big> subdivision(mesh, Weights::kWarren);
+    const auto refined = refine<Big>(mesh, 2, Weights::kWarren);
+    const auto limits = refined.limits();
+    Big most = 0;
+    const int faces = std::min(stam.face_count(), 8);
+    for (int i = 0; i < faces; ++i) {
+      const int face = i * stam.face_count() / faces;
+      for (const auto& [l1, l2] : points("1e-7")) {
+        const std::string where =
+            name + " face " + std::to_string(face) + " (" + l1.to_string() + ", " + l2.to_string() + ")";
+        const auto p = stam.evaluate(face, l1, l2);
+        expect_same(p, subdivision.evaluate(face, l1, l2), 1e-80, worst, where);
+        most = std::max(most, length(p.position - loop.evaluate(face, l1, l2, Order::kPosition).position));
+      }
+      for (const auto& [i1, i2] : {std::pair{0, 0}, {4, 0}, {0, 4}, {1, 0}, {1, 2}, {1, 1}}) {
+        const auto v = static_cast<std::size_t>(refined.vertex(static_cast<std::size_t>(face), i1, i2));
+        const auto p = stam.evaluate(face, i1 / 4., i2 / 4., Order::kFirst);
+        EXPECT_LE(length(p.position - limits.positions[v]), Big("1e-90")) << name;
+        EXPECT_LE(length(p.normal - limits.normals[v]), Big("1e-90")) << name;
+      }
+    }
+    const bool same = name == "tetrahedron" || name == "wheel:3" || name == "fan:4";
+    EXPECT_EQ(most < Big("1e-90"), same) << name << ' ' << most;
+  }
+  std::printf("worst relative difference %.2g\n", worst);
 }
 
 /// A hub and a point 10^-e away from it, in the face's corner 0.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loop's masks: subdivision, limit position and tangents, at interior and boundary vertices.
+// Loop's masks: subdivision, limit position and tangents, at interior and boundary vertices. The weights of
+// an interior vertex come in two families, Loop's and Warren's; everything else is common to both.
 //
 // All are written as a point plus weighted differences, so that coincident points stay coincident in floating
 // point and a far-away origin does no harm.
@@ -16,6 +17,7 @@
 
 #include "reference/number.h"
 #include "reference/vec3.h"
+#include "reference/weights.h"
 
 namespace limitcheck::reference {
 
@@ -56,7 +58,14 @@ N loop_a(int n) {
   return N(5) / N(8) - s * s / N(64);
 }
 
-/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i.
+/// What the neighbours of an interior vertex weigh together, n >= 3: a(n), or Warren's 3/8 and 9/16.
+template <class N>
+N ring_weight(int n, Weights weights) {
+  if (weights == Weights::kLoop) return loop_a<N>(n);
+  return n == 3 ? N(9) / N(16) : N(3) / N(8);
+}
+
+/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i, with a = ring_weight(n).
 /// [equation 1; C10]
 ///
 ///         a/n
@@ -67,11 +76,12 @@ N loop_a(int n) {
 ///    a/n   |  a/n
 ///         a/n
 template <class N>
-Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
+Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring,
+                              Weights weights = Weights::kLoop) {
   const auto n = static_cast<int>(ring.size());
   Vec3<N> sum = ring[0] - v;
   for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i] - v;
-  return v + sum * (loop_a<N>(n) / N(n));
+  return v + sum * (ring_weight<N>(n, weights) / N(n));
 }
 
 /// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).
@@ -106,14 +116,14 @@ Vec3<N> ghost_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c) {
 }
 
 /// Limit of an interior vertex: weights (3n / 8a) : 1 .. 1, that is
-/// (3 v + (8a / n) sum v_i) / (3 + 8a).
+/// (3 v + (8a / n) sum v_i) / (3 + 8a), with a = ring_weight(n).
 /// [equation 3; C14]
 template <class N>
-Vec3<N> interior_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
+Vec3<N> interior_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring, Weights weights = Weights::kLoop) {
   const auto n = static_cast<int>(ring.size());
   Vec3<N> sum = ring[0] - v;
   for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i] - v;
-  const N a8 = N(8) * loop_a<N>(n);
+  const N a8 = N(8) * ring_weight<N>(n, weights);
   return v + sum * (a8 / (N(n) * (N(3) + a8)));
 }
 

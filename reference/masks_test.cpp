@@ -39,6 +39,44 @@ TEST(Sec31_VertexWeight, HasTheKnownValues) {
   EXPECT_LT(abs(loop_a<N>(5) - (N(5) / 8 - (3 + 2 * fifth) * (3 + 2 * fifth) / 64)), N("1e-48"));
 }
 
+// A neighbour has beta = 3 / (8 n), or 3/16 at n = 3; the limit mask has 1 / (n + 3 / (8 beta)) for each: 1/5
+// at n = 3, 1/(2 n) elsewhere.
+TEST(WarrensWeights, HaveTheKnownValues) {
+  for (const int n : {3, 4, 5, 6, 7, 12}) {
+    const Rational beta = n == 3 ? Rational(3, 16) : Rational(3, 8 * n);
+    EXPECT_EQ(ring_weight<Rational>(n, Weights::kWarren), n * beta) << n;
+    std::vector<Vec3<Rational>> ring(static_cast<std::size_t>(n));
+    ring[1].x = 1;
+    EXPECT_EQ(interior_limit<Rational>({}, ring, Weights::kWarren).x,
+              n == 3 ? Rational(1, 5) : Rational(1, 2 * n))
+        << n;
+    EXPECT_EQ(interior_vertex_point<Rational>({}, ring, Weights::kWarren).x, beta) << n;
+  }
+  for (const int n : {3, 6})
+    EXPECT_EQ(ring_weight<Rational>(n, Weights::kWarren), ring_weight<Rational>(n, Weights::kLoop));
+  EXPECT_EQ(ring_weight<Rational>(4, Weights::kLoop), Rational(31, 64));
+}
+
+TEST(WarrensWeights, KeepTheLimitOfARingAtEveryValence) {
+  for (const int n : {3, 4, 5, 6, 7, 8, 12, 50, 200}) {
+    auto ring = scattered_ring<N>(n);
+    Vec3<N> v = scattered<N>(0);
+    const auto before = interior_limit<N>(v, ring, Weights::kWarren);
+    const Vec3<N> moved = interior_vertex_point<N>(v, ring, Weights::kWarren);
+    subdivide_ring(v, ring, false);  // the ring's own points are those of either family
+    EXPECT_LT(distance(before, interior_limit<N>(moved, ring, Weights::kWarren)), 1e-47) << n;
+  }
+}
+
+// The vertex (1, 0, 0) of an octahedron has a ring about the origin: 1/2 stays of it. Loop's mask leaves
+// 24/55.
+TEST(WarrensWeights, HalveAnOctahedron) {
+  const std::vector<Vec3<Rational>> ring{{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, -1}};
+  const Vec3<Rational> v{1, 0, 0};
+  EXPECT_EQ(interior_limit<Rational>(v, ring, Weights::kWarren).x, Rational(1, 2));
+  EXPECT_EQ(interior_limit<Rational>(v, ring).x, Rational(24, 55));
+}
+
 TEST(Sec31_Masks, ReproduceTheRegularLatticeExactly) {
   // On a regular lattice Loop's scheme halves linear functions and keeps the cubic boundary rule's line.
   std::vector<Vec3<Rational>> ring{{1, 0, 3}, {0, 1, -2}, {-1, 1, -5}, {-1, 0, -3}, {0, -1, 2}, {1, -1, 5}};

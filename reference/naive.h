@@ -12,6 +12,7 @@
 #include "data/control_mesh.h"
 #include "reference/surface_point.h"
 #include "reference/topology.h"
+#include "reference/weights.h"
 
 namespace limitcheck::reference {
 
@@ -32,8 +33,9 @@ template <class N>
 class NaiveSubdivider {
  public:
   /// Throws std::invalid_argument if the mesh is not manifold (Topology).
-  explicit NaiveSubdivider(const data::ControlMesh& mesh);
-  NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles);
+  explicit NaiveSubdivider(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
+                  Weights weights = Weights::kLoop);
 
   std::size_t face_count() const { return topology_.triangles().size(); }
 
@@ -46,6 +48,7 @@ class NaiveSubdivider {
  private:
   Topology topology_;
   std::vector<Vec3<N>> positions_;
+  Weights weights_;
 };
 
 }  // namespace limitcheck::reference

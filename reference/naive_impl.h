@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "reference/naive.h"
-#include "reference/normal.h"
 #include "reference/refine.h"
 #include "reference/ringed_face.h"
+#include "reference/vertex_limit.h"
 
 namespace limitcheck::reference {
 namespace detail {
@@ -22,7 +22,7 @@ void subdivide(const RingedFace<N>& face, int depth, const std::array<LatticePoi
     LeafTriangle<N> leaf;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = face.corner[k];
-      const VertexLimit<N> limit = vertex_limit<N>(c.point, c.span(), c.on_boundary);
+      const VertexLimit<N> limit = vertex_limit<N>(c.point, c.span(), c.on_boundary, face.weights);
       leaf[k] = {limit.position, limit.normal.direction, limit.normal.kind, lattice[k][0], lattice[k][1]};
     }
     emit(leaf);
@@ -41,12 +41,13 @@ void subdivide(const RingedFace<N>& face, int depth, const std::array<LatticePoi
 }  // namespace detail
 
 template <class N>
-NaiveSubdivider<N>::NaiveSubdivider(const data::ControlMesh& mesh)
-    : NaiveSubdivider(positions_of<N>(mesh), mesh.triangles) {}
+NaiveSubdivider<N>::NaiveSubdivider(const data::ControlMesh& mesh, Weights weights)
+    : NaiveSubdivider(positions_of<N>(mesh), mesh.triangles, weights) {}
 
 template <class N>
-NaiveSubdivider<N>::NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles)
-    : topology_(positions.size(), triangles), positions_(std::move(positions)) {}
+NaiveSubdivider<N>::NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
+                                    Weights weights)
+    : topology_(positions.size(), triangles), positions_(std::move(positions)), weights_(weights) {}
 
 template <class N>
 void NaiveSubdivider<N>::tessellate(std::size_t face, int depth,
@@ -54,7 +55,7 @@ void NaiveSubdivider<N>::tessellate(std::size_t face, int depth,
   if (face >= face_count()) throw std::out_of_range("no face " + std::to_string(face));
   if (depth < 0 || depth > 30) throw std::invalid_argument("depth must be 0..30");
   const std::int32_t size = 1 << depth;
-  detail::subdivide<N>(RingedFace<N>::gather(topology_, positions_, face), depth,
+  detail::subdivide<N>(RingedFace<N>::gather(topology_, positions_, face, weights_), depth,
                        {{{0, 0}, {size, 0}, {0, size}}}, emit);
 }
 

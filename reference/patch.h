@@ -2,11 +2,12 @@
 // A regular patch at a point, and how its parameters lie on the control face.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "reference/basis.h"
-#include "reference/normal.h"
 #include "reference/surface_point.h"
+#include "reference/vertex_limit.h"
 
 namespace limitcheck::reference {
 
@@ -56,6 +57,8 @@ void place(SurfacePoint<N>& result, const LocalPoint<N>& s, const Placement& at,
   const N a1(at.a1), a2(at.a2), b1(at.b1), b2(at.b2);
   result.d1 = (s.a * a1 + s.b * b1) * first;
   result.d2 = (s.a * a2 + s.b * b2) * first;
+  result.t1 = result.d1;
+  result.t2 = result.d2;
   result.first_exist = true;
   if (order == Order::kFirst) return;
   result.d11 = (s.aa * (a1 * a1) + s.ab * (N(2) * a1 * b1) + s.bb * (b1 * b1)) * second;
@@ -64,32 +67,62 @@ void place(SurfacePoint<N>& result, const LocalPoint<N>& s, const Placement& at,
   result.second_exist = true;
 }
 
-/// At an extraordinary corner. d1, d2 are not partial derivatives there (first_exist stays false): inside,
-/// the tangent masks' map of the face's own parameter directions; on the boundary, along and across.
-///   sector     of the face in the corner's ring
-///   placement  of (a, b) towards the corner's next and previous neighbour in the face
+/// At an extraordinary corner itself. Towards it, derivatives of order d of a mode of eigenvalue mu grow like
+/// (2^d mu)^J, so that the largest mu below 1 decides:
+///   interior, valence n   mu = 3/8 + cos(2 pi / n) / 4. For n = 3, 4, 5 it is below 1/2: first derivatives
+///                         fall to zero. For n = 3 it is 1/4, and its mode is a quadratic polynomial on every
+///                         face, A_i a^2 + 2 (A_i + A_{i+1}) a b + A_{i+1} b^2 with A_i = 2/3 of the tangent
+///                         masks' direction i: second derivatives are its. All else grows without bound.
+///   boundary, K faces     the mode of 1/2 is linear on every face of K <= 2, slopes +-(r_0 - r_K) / 2 along
+///                         the boundary edges and 0 along the inner one; all other mu are smaller. For K = 1
+///                         the next is 1/4, a multiple of (a + b)^2: second derivatives exist. For K = 2 it
+///                         is 3/8: they do not. For K >= 4 one is above 1/2.
+///   sector     of the face in the corner's ring, which is that of the control mesh
+///   at         (a, b) towards the corner's next and previous neighbour in the face; its level has no say
 template <class N>
 SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
-                                     int sector, const Placement& at) {
-  const VertexLimit<N> limit = vertex_limit(v, ring, on_boundary);
+                                     int sector, const Placement& at, Weights weights, Order order) {
+  const VertexLimit<N> limit = vertex_limit(v, ring, on_boundary, weights);
   SurfacePoint<N> result;
+  result.at_corner = true;
   result.position = limit.position;
   result.normal = limit.normal.direction;
   result.normal_kind = limit.normal.kind;
   const Vec3<N>&c = limit.tangents.first, &s = limit.tangents.second;
+  const std::size_t n = ring.size();
+  Vec3<N> t1, t2;
+  LocalPoint<N> local{};
+  bool first = false, second = false;
   if (on_boundary) {
-    result.d1 = c;
-    result.d2 = s;
-    return result;
+    t1 = c;
+    t2 = s;
+    first = n <= 3;   // one or two faces
+    second = n == 2;  // one
+    const Vec3<N> along = c * (N(1) / N(2));
+    if (sector == 0) local.a = along;
+    if (static_cast<std::size_t>(sector) + 2 == n) local.b = Vec3<N>{} - along;
+    local.aa = local.ab = local.bb = s;
+  } else {
+    const auto& circle = circle_table<N>(static_cast<long>(n));
+    const auto towards = [&](int i) {
+      const auto k = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
+      return c * circle.cosine[k] + s * circle.sine[k];
+    };
+    const Vec3<N> a = towards(sector), b = towards(sector + 1);
+    t1 = a * N(at.a1) + b * N(at.b1);
+    t2 = a * N(at.a2) + b * N(at.b2);
+    first = n <= 5;
+    second = n == 3;
+    const N factor = N(4) / N(3);
+    local.aa = a * factor;
+    local.ab = (a + b) * factor;
+    local.bb = b * factor;
   }
-  const auto& circle = circle_table<N>(static_cast<long>(ring.size()));
-  const auto towards = [&](int i) {
-    const auto k = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
-    return c * circle.cosine[k] + s * circle.sine[k];
-  };
-  const Vec3<N> a = towards(sector), b = towards(sector + 1);
-  result.d1 = a * N(at.a1) + b * N(at.b1);
-  result.d2 = a * N(at.a2) + b * N(at.b2);
+  result.d1 = t1;
+  result.d2 = t2;
+  if (first) place(result, local, at, N(1), N(1), second ? order : std::min(order, Order::kFirst));
+  result.t1 = t1;
+  result.t2 = t2;
   return result;
 }
 

@@ -9,13 +9,15 @@
 #include "reference/surface_point.h"
 #include "reference/topology.h"
 #include "reference/vec3.h"
+#include "reference/weights.h"
 
 namespace limitcheck::reference {
 
 /// One step: the new vertex points, in the order of the
 /// vertices, then the edge points, in the order of the edges.
 template <class N>
-std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions);
+std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                                 Weights weights = Weights::kLoop);
 
 /// The control points as they are, in the number type: exact in every one but narrower ones.
 template <class N>
@@ -28,8 +30,9 @@ template <class N>
 class RefinedMesh {
  public:
   /// Depth 0: the mesh itself. Throws std::invalid_argument if it is not manifold (Topology).
-  explicit RefinedMesh(const data::ControlMesh& mesh);
-  RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles);
+  explicit RefinedMesh(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles,
+              Weights weights = Weights::kLoop);
 
   /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
   /// few times.
@@ -68,6 +71,7 @@ class RefinedMesh {
   void triangulate();
 
   int depth_ = 0;
+  Weights weights_;
   std::size_t face_count_;
   std::vector<Vec3<N>> positions_;
   std::vector<Triangle> triangles_;
@@ -77,8 +81,8 @@ class RefinedMesh {
 
 /// The refined mesh after `depth` steps.
 template <class N>
-RefinedMesh<N> refine(const data::ControlMesh& mesh, int depth) {
-  RefinedMesh<N> refined(mesh);
+RefinedMesh<N> refine(const data::ControlMesh& mesh, int depth, Weights weights = Weights::kLoop) {
+  RefinedMesh<N> refined(mesh, weights);
   for (int step = 0; step < depth; ++step) refined.refine();
   return refined;
 }

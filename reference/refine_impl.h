@@ -6,13 +6,14 @@
 #include <stdexcept>
 
 #include "reference/masks.h"
-#include "reference/normal.h"
 #include "reference/refine.h"
+#include "reference/vertex_limit.h"
 
 namespace limitcheck::reference {
 
 template <class N>
-std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions) {
+std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                                 Weights weights) {
   const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
   std::vector<Vec3<N>> result;
   result.reserve(topology.vertex_count() + topology.edges().size());
@@ -27,7 +28,7 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
     } else {
       ring.clear();
       for (const std::int32_t r : neighbours) ring.push_back(at(r));
-      result.push_back(interior_vertex_point<N>(positions[v], ring));
+      result.push_back(interior_vertex_point<N>(positions[v], ring, weights));
     }
   }
   for (const Edge& e : topology.edges())
@@ -47,12 +48,13 @@ std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
 }
 
 template <class N>
-RefinedMesh<N>::RefinedMesh(const data::ControlMesh& mesh)
-    : RefinedMesh(positions_of<N>(mesh), mesh.triangles) {}
+RefinedMesh<N>::RefinedMesh(const data::ControlMesh& mesh, Weights weights)
+    : RefinedMesh(positions_of<N>(mesh), mesh.triangles, weights) {}
 
 template <class N>
-RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles)
-    : face_count_(triangles.size()),
+RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles, Weights weights)
+    : weights_(weights),
+      face_count_(triangles.size()),
       positions_(std::move(positions)),
       triangles_(std::move(triangles)),
       topology_(positions_.size(), triangles_) {
@@ -66,7 +68,7 @@ void RefinedMesh<N>::refine() {
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw std::length_error("refined mesh has more than 2^31 - 1 vertices");
   const auto old_vertices = static_cast<std::int32_t>(positions_.size());
-  positions_ = refine_once(topology_, positions_);
+  positions_ = refine_once(topology_, positions_, weights_);
 
   // Lattice points of even coordinates were there before; the others lie on an edge of a triangle (i, j)
   // (i+1, j) (i, j+1).
@@ -125,7 +127,7 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
       result.kinds.push_back(NormalKind::kArbitrary);
       continue;
     }
-    const VertexLimit<N> limit = vertex_limit<N>(positions_[v], ring, topology_.on_boundary(id));
+    const VertexLimit<N> limit = vertex_limit<N>(positions_[v], ring, topology_.on_boundary(id), weights_);
     result.positions.push_back(limit.position);
     result.normals.push_back(limit.normal.direction);
     result.kinds.push_back(limit.normal.kind);
@@ -134,11 +136,11 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
 }
 
 /// All of refine.h but `limits`, which needs square roots.
-#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                   \
-  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&); \
-  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                    \
-  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&);                          \
-  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>);       \
+#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                            \
+  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights); \
+  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                             \
+  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                          \
+  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights);       \
   template void RefinedMesh<N>::refine();
 
 }  // namespace limitcheck::reference

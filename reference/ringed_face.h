@@ -34,11 +34,13 @@ template <class N>
 struct RingedFace {
   std::array<RingedCorner<N>, 3> corner;
   std::array<bool, 3> edge_on_boundary{};  ///< edge k from corner k to k + 1
+  Weights weights = Weights::kLoop;
 
   /// The face of a mesh with its neighbourhood.
-  static RingedFace gather(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                           std::size_t face) {
+  static RingedFace gather(const Topology& topology, const std::vector<Vec3<N>>& positions, std::size_t face,
+                           Weights weights = Weights::kLoop) {
     RingedFace result;
+    result.weights = weights;
     const auto at = [&](std::int32_t v) { return positions[static_cast<std::size_t>(v)]; };
     for (int k = 0; k < 3; ++k) {
       const std::int32_t v = topology.triangles()[face][static_cast<std::size_t>(k)];
@@ -64,7 +66,7 @@ struct RingedFace {
 template <class N>
 class SubdividedFace {
  public:
-  explicit SubdividedFace(const RingedFace<N>& face) {
+  explicit SubdividedFace(const RingedFace<N>& face) : weights_(face.weights) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& from = face.corner[k];
       auto& to = vertex_[k];
@@ -72,7 +74,7 @@ class SubdividedFace {
       to.on_boundary = from.on_boundary;
       const std::size_t n = from.ring.size();
       to.point = from.on_boundary ? boundary_vertex_point(from.point, from.ring.front(), from.ring.back())
-                                  : interior_vertex_point<N>(from.point, from.span());
+                                  : interior_vertex_point<N>(from.point, from.span(), weights_);
       to.ring.resize(n);
       for (std::size_t i = 0; i < n; ++i)
         to.ring[i] = from.on_boundary && (i == 0 || i + 1 == n)
@@ -86,6 +88,7 @@ class SubdividedFace {
 
   RingedFace<N> subface(int which) const {
     RingedFace<N> result;
+    result.weights = weights_;
     if (which == 3) {
       for (std::size_t k = 0; k < 3; ++k) result.corner[k] = edge_corner(k, 1);
       return result;  // its edges are inside
@@ -126,6 +129,7 @@ class SubdividedFace {
 
   std::array<RingedCorner<N>, 3> vertex_, edge_;
   std::array<bool, 3> edge_on_boundary_;
+  Weights weights_;
 };
 
 }  // namespace limitcheck::reference

@@ -16,11 +16,11 @@
 //   q' = 3/4 cos(theta/2) r + 1/8 q                       (q sits at the half angle)
 //   p' = (5/8 + cos(theta)/8) r + 1/8 cos(theta/2) q + 1/16 p
 //
-// c couples with the mean of r: eigenvalues 1 and 5/8 - a(n). At a boundary vertex (c, r_0, r_K) has 1, 1/2,
-// 1/4. All eigenvalues are thus known in closed form. The powers of a triangular block are divided
-// differences of x^J at its eigenvalues (Opitz), e.g. (lambda^J - 8^-J) / (lambda - 1/8), or J lambda^(J-1)
-// where two coincide: the Jordan blocks, at n = 3 (1/16 twice, D8) and in the curve mode at K = 6, 12, ..
-// (1/2 twice). `BlockPower` computes all of them without cancellation.
+// c couples with the mean of r: eigenvalues 1 and 5/8 - a, a = ring_weight(n). At a boundary vertex (c, r_0,
+// r_K) has 1, 1/2, 1/4. All eigenvalues are thus known in closed form. The powers of a triangular block are
+// divided differences of x^J at its eigenvalues (Opitz), e.g. (lambda^J - 8^-J) / (lambda - 1/8), or J
+// lambda^(J-1) where two coincide: the Jordan blocks, at n = 3 (1/16 twice, D8) and in the curve mode at K =
+// 6, 12, .. (1/2 twice). `BlockPower` computes all of them without cancellation.
 #pragma once
 
 #include <cstddef>
@@ -96,14 +96,14 @@ struct SpiderPower {
 template <class N>
 class SpiderKind {
  public:
-  SpiderKind(int count, bool on_boundary);
+  SpiderKind(int count, bool on_boundary, Weights weights);
 
   int count() const { return count_; }
   bool on_boundary() const { return on_boundary_; }
   /// Largest eigenvalue below 1 whose eigenfunction is not linear on every face: derivatives of order d grow
   /// like (2^d growth)^J towards the vertex.
   const N& growth() const { return growth_; }
-  /// Eigenvalue of the centre's own mode: 5/8 - a(n), or 1/4 on the boundary.
+  /// Eigenvalue of the centre's own mode: 5/8 - ring_weight(n), or 1/4 on the boundary.
   const N& mean_eigenvalue() const { return mean_eigenvalue_; }
   SpiderPower<N> power(long exponent) const;
   /// The same, from a table when the exponent is small; `buffer` is used otherwise.

@@ -7,7 +7,7 @@
 namespace limitcheck::reference {
 
 template <class N>
-SpiderKind<N>::SpiderKind(int count, bool on_boundary)
+SpiderKind<N>::SpiderKind(int count, bool on_boundary, Weights weights)
     : count_(count),
       on_boundary_(on_boundary),
       jordan_(on_boundary && count % 6 == 0),
@@ -68,7 +68,7 @@ SpiderKind<N>::SpiderKind(int count, bool on_boundary)
     }
     growth_ = count <= 1 ? N(1) / N(4) : eigenvalue_.front();
   } else {
-    a_ = loop_a<N>(count);
+    a_ = ring_weight<N>(count, weights);
     mean_eigenvalue_ = N(5) / N(8) - a_;
     growth_ = eigenvalue_.front();
   }

@@ -122,7 +122,7 @@ TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
       std::vector<Vec3<N>> r, q, p;
       for (int i = 0; i < m.rings; ++i) r.push_back(vec(m.r(i))), p.push_back(vec(m.p(i)));
       for (int i = 0; i < count; ++i) q.push_back(vec(m.q(i)));
-      const SpiderKind<N> kind(count, boundary);
+      const SpiderKind<N> kind(count, boundary, Weights::kLoop);
       const Spider<N> spider(kind, vec(0), r, q, p);
       for (int step = 0; step <= 60; ++step) {
         if (step < 12 || step == 39 || step == 40 || step == 60)

@@ -15,6 +15,7 @@
 #include "reference/parameter.h"
 #include "reference/surface_point.h"
 #include "reference/topology.h"
+#include "reference/weights.h"
 
 namespace limitcheck::reference {
 
@@ -23,8 +24,8 @@ template <class N>
 class StamData;
 }
 
-/// Limit surface of a control mesh, Loop's 1987 weights, B-spline boundary with the ordinary interior rule
-/// next to it. Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
+/// Limit surface of a control mesh, Loop's or Warren's weights, B-spline boundary with the ordinary interior
+/// rule next to it. Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
 ///
 ///   construction  O(n + sum of squared valences)
 ///   threads       any number may evaluate at once
@@ -40,9 +41,10 @@ template <class N>
 class StamEvaluator {
  public:
   /// The mesh must be valid (data/validate.h). Throws std::invalid_argument if it is not manifold (Topology).
-  explicit StamEvaluator(const data::ControlMesh& mesh);
+  explicit StamEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   /// Control points in the number type itself.
-  StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles);
+  StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
+                Weights weights = Weights::kLoop);
   ~StamEvaluator();
   StamEvaluator(StamEvaluator&&) noexcept;
   StamEvaluator& operator=(StamEvaluator&&) noexcept;

@@ -17,10 +17,11 @@ namespace detail {
 template <class N>
 class StamData {
  public:
-  StamData(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles)
-      : topology_(positions.size(), triangles),
+  StamData(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles, Weights weights)
+      : weights_(weights),
+        topology_(positions.size(), triangles),
         control_(std::move(positions)),
-        refined_(topology_, control_) {
+        refined_(topology_, control_, weights) {
     make_spiders();
   }
 
@@ -39,11 +40,11 @@ class StamData {
     if (spider < 0)
       evaluate_regular(f, site, order, result);
     else if (site.u + site.v == 0)
-      return evaluate_corner(f, site.subface, site.placement);
+      return evaluate_corner(f, site.subface, site.placement, order);
     else
       evaluate_near_corner(f, site, spiders_[static_cast<std::size_t>(spider)], order, result);
     if (order == Order::kPosition) return result;
-    Vec3<N> t1 = result.d1, t2 = result.d2;
+    Vec3<N> t1 = result.t1, t2 = result.t2;
     if (spider >= 0 && topology_.on_boundary(topology_.triangles()[f][corner]) && nearly_parallel(t1, t2))
       separate_tangents(f, site, spiders_[static_cast<std::size_t>(spider)], t1, t2);
     const Normal<N> normal = unit_normal(t1, t2, fallback_normal(f));
@@ -71,7 +72,7 @@ class StamData {
             refined_.point(refined_.edge_point(topology_.edge(static_cast<std::size_t>(f), (k + 1) % 3))));
       }
       const std::pair key(static_cast<int>(q.size()), topology_.on_boundary(v));
-      const auto kind = kinds_.try_emplace(key, key.first, key.second).first;
+      const auto kind = kinds_.try_emplace(key, key.first, key.second, weights_).first;
       spider_of_[id] = static_cast<std::int32_t>(spiders_.size());
       spiders_.emplace_back(kind->second, refined_.point(v), r, q, p);
     }
@@ -92,12 +93,12 @@ class StamData {
     place(result, s, site.placement, N(2), N(4), order);
   }
 
-  SurfacePoint<N> evaluate_corner(std::size_t f, int k, const Placement& placement) const {
+  SurfacePoint<N> evaluate_corner(std::size_t f, int k, const Placement& placement, Order order) const {
     const std::int32_t v = topology_.triangles()[f][static_cast<std::size_t>(k)];
     std::vector<Vec3<N>> ring;
     for (const std::int32_t r : topology_.ring(v)) ring.push_back(control_[static_cast<std::size_t>(r)]);
     return extraordinary_corner<N>(control_[static_cast<std::size_t>(v)], ring, topology_.on_boundary(v),
-                                   topology_.sector(f, k), placement);
+                                   topology_.sector(f, k), placement, weights_, order);
   }
 
   template <class P>
@@ -180,8 +181,8 @@ class StamData {
     if (order == Order::kPosition) return;
     place(result, local, at, N(4) * power(N(2) * growth, steps), N(16) * power(N(4) * growth, steps), order);
     const Placement& g = site.placement;
-    result.d1 += (to_first * N(g.a1) + to_second * N(g.b1)) * N(2);
-    result.d2 += (to_first * N(g.a2) + to_second * N(g.b2)) * N(2);
+    result.t1 = result.d1 += (to_first * N(g.a1) + to_second * N(g.b1)) * N(2);
+    result.t2 = result.d2 += (to_first * N(g.a2) + to_second * N(g.b2)) * N(2);
   }
 
   /// Replaces one of d1, d2 so that their product keeps its direction and no longer cancels, near a boundary
@@ -211,6 +212,7 @@ class StamData {
     return cross(at(1) - at(0), at(2) - at(0));
   }
 
+  Weights weights_;
   Topology topology_;
   std::vector<Vec3<N>> control_;
   RefinedPatches<N> refined_;
@@ -222,11 +224,12 @@ class StamData {
 }  // namespace detail
 
 template <class N>
-StamEvaluator<N>::StamEvaluator(const data::ControlMesh& mesh)
-    : StamEvaluator(positions_of<N>(mesh), mesh.triangles) {}
+StamEvaluator<N>::StamEvaluator(const data::ControlMesh& mesh, Weights weights)
+    : StamEvaluator(positions_of<N>(mesh), mesh.triangles, weights) {}
 template <class N>
-StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles)
-    : data_(std::make_unique<detail::StamData<N>>(std::move(positions), triangles)) {}
+StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
+                                Weights weights)
+    : data_(std::make_unique<detail::StamData<N>>(std::move(positions), triangles, weights)) {}
 template <class N>
 StamEvaluator<N>::~StamEvaluator() = default;
 template <class N>

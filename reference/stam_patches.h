@@ -24,8 +24,9 @@ class RefinedPatches {
   using Patch = std::array<std::int32_t, 12>;
 
   /// Keeps a reference to the topology.
-  RefinedPatches(const Topology& topology, const std::vector<Vec3<N>>& control) : topology_(topology) {
-    refine(control);
+  RefinedPatches(const Topology& topology, const std::vector<Vec3<N>>& control, Weights weights)
+      : topology_(topology) {
+    refine(control, weights);
     make_patches();
   }
 
@@ -43,8 +44,8 @@ class RefinedPatches {
  private:
   /// Points after one step: vertex points, edge points, then two ghosts per boundary edge, over its halves at
   /// a and b.
-  void refine(const std::vector<Vec3<N>>& control) {
-    points_ = refine_once(topology_, control);
+  void refine(const std::vector<Vec3<N>>& control, Weights weights) {
+    points_ = refine_once(topology_, control, weights);
     ghost_of_.assign(topology_.edges().size(), -1);
     for (std::size_t f = 0; f < topology_.triangles().size(); ++f)
       for (int k = 0; k < 3; ++k) {

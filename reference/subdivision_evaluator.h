@@ -9,6 +9,7 @@
 #include "reference/parameter.h"
 #include "reference/surface_point.h"
 #include "reference/topology.h"
+#include "reference/weights.h"
 
 namespace limitcheck::reference {
 
@@ -21,8 +22,9 @@ template <class N>
 class SubdivisionEvaluator {
  public:
   /// As StamEvaluator.
-  explicit SubdivisionEvaluator(const data::ControlMesh& mesh);
-  SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles);
+  explicit SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
+                       Weights weights = Weights::kLoop);
 
   int face_count() const { return static_cast<int>(topology_.triangles().size()); }
   /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
@@ -32,6 +34,7 @@ class SubdivisionEvaluator {
  private:
   Topology topology_;
   std::vector<Vec3<N>> positions_;
+  Weights weights_;
 };
 
 }  // namespace limitcheck::reference

@@ -36,13 +36,13 @@ std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
 }  // namespace detail
 
 template <class N>
-SubdivisionEvaluator<N>::SubdivisionEvaluator(const data::ControlMesh& mesh)
-    : SubdivisionEvaluator(positions_of<N>(mesh), mesh.triangles) {}
+SubdivisionEvaluator<N>::SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights)
+    : SubdivisionEvaluator(positions_of<N>(mesh), mesh.triangles, weights) {}
 
 template <class N>
 SubdivisionEvaluator<N>::SubdivisionEvaluator(std::vector<Vec3<N>> positions,
-                                              const std::vector<Triangle>& triangles)
-    : topology_(positions.size(), triangles), positions_(std::move(positions)) {}
+                                              const std::vector<Triangle>& triangles, Weights weights)
+    : topology_(positions.size(), triangles), positions_(std::move(positions)), weights_(weights) {}
 
 template <class N>
 SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2,
@@ -57,13 +57,14 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   std::array<Rational, 3> w{1 - first - second, first, second};  // barycentric in the current sub-face
   std::array<std::array<int, 2>, 3> gradient{{{-1, -1}, {1, 0}, {0, 1}}};  // of w, in units of 2^level
   long level = 0;
-  RingedFace<N> f = RingedFace<N>::gather(topology_, positions_, static_cast<std::size_t>(face));
+  RingedFace<N> f = RingedFace<N>::gather(topology_, positions_, static_cast<std::size_t>(face), weights_);
   while (!f.is_regular()) {
     for (std::size_t k = 0; k < 3; ++k)
       if (w[k] == 1 && !f.corner[k].is_regular()) {
         const auto next = gradient[(k + 1) % 3], before = gradient[(k + 2) % 3];
         return extraordinary_corner<N>(f.corner[k].point, f.corner[k].span(), f.corner[k].on_boundary,
-                                       f.corner[k].sector, {next[0], next[1], before[0], before[1], level});
+                                       f.corner[k].sector, {next[0], next[1], before[0], before[1], level},
+                                       weights_, order);
       }
     const SubdividedFace<N> subdivided(f);
     const Rational half(1, 2);

@@ -22,20 +22,28 @@ enum class Order : std::uint8_t { kPosition, kFirst, kSecond };
 
 /// A point of the limit surface at (face, l1, l2), l0 = 1 - l1 - l2 being the weight of corner 0.
 ///   position       the limit point
-///   d1, d2         partial derivatives with respect to l1 and l2. Where `first_exist` is false (an
-///                  extraordinary corner itself) they are the tangent masks' directions instead, ordered so
-///                  that d1 x d2 is the outward normal:
+///   d1, d2         partial derivatives with respect to l1 and l2, if `first_exist`; otherwise t1, t2
+///   d11, d12, d22  second partial derivatives, zero if not `second_exist`: not asked for, or not there
+///   t1, t2         two directions in the tangent plane, t1 x t2 outwards. They are d1, d2 but at an
+///                  extraordinary corner itself, where the tangent masks give them:
 ///                  interior vertex, towards the face's own edges;
 ///                  boundary vertex, along x across
-///   d11, d12, d22  second partial derivatives, zero where `second_exist` is false: not asked for, or at an
-///                  extraordinary corner
-///   normal         unit length, d1 x d2 direction, never NaN
+///   normal         unit length, t1 x t2 direction, never NaN
+///   at_corner      an extraordinary corner itself
+/// At an extraordinary corner the derivatives are those of the face, from within (`extraordinary_corner` in
+/// patch.h derives which there are):
+///   interior, valence 3, 4, 5      d1 = d2 = 0; second derivatives at valence 3
+///   interior, valence 7 and more   none
+///   boundary, 1 or 2 faces         d1, d2; second derivatives at 1 face
+///   boundary, 4 faces and more     none but the one along the boundary, which is not given
+/// "None" is said of the rule: where the tangents vanish some may exist all the same.
 template <class N>
 struct SurfacePoint {
-  Vec3<N> position, d1, d2, d11, d12, d22, normal;
+  Vec3<N> position, d1, d2, d11, d12, d22, t1, t2, normal;
   NormalKind normal_kind = NormalKind::kRegular;
   bool first_exist = false;
   bool second_exist = false;
+  bool at_corner = false;
 };
 
 }  // namespace limitcheck::reference

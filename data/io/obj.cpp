@@ -30,6 +30,7 @@ class ObjReader {
   ObjReader(std::string_view content, const std::string& name) : scanner_(content, name, '#', true) {}
 
   PolygonSoup read() {
+    soup_.first = 1;
     while (scanner_.next_line()) {
       const std::string_view keyword = scanner_.word();
       if (keyword == "v") {

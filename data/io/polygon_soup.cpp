@@ -34,57 +34,72 @@ std::size_t fan_apex(const PolygonSoup& soup, Corners polygon, Triangulation rul
 // Before triangulation, which would hide both: every index exists, and no corner occurs twice.
 class PolygonChecker {
  public:
-  explicit PolygonChecker(std::size_t vertices) : last_polygon_(vertices, -1) {}
+  PolygonChecker(std::size_t vertices, std::int64_t first) : last_polygon_(vertices, -1), first_(first) {}
 
   // The fault of the polygon as code and message, or an empty code.
-  std::pair<std::string, std::string> fault(Corners polygon, std::int64_t number) {
+  std::pair<std::string, std::string> fault(Corners polygon, std::int64_t polygon_number) {
+    const std::int64_t shown = polygon_number + first_;
     if (polygon.size() < 3)
       return {std::string(code(MeshFault::kDegenerateFace)),
-              fmt::format("face {} has {} corners", number, polygon.size())};
+              fmt::format("face {} has {} corners", shown, polygon.size())};
     const auto vertices = static_cast<std::int64_t>(last_polygon_.size());
     for (const std::int64_t v : polygon) {
       if (v < 0 || v >= vertices) {
         return {std::string(code(MeshFault::kIndexOutOfRange)),
-                fmt::format("face {} names vertex {} (from 0), the mesh has {}", number, v, vertices)};
+                fmt::format("face {} names vertex {}, the mesh has {}", shown, v + first_, vertices)};
       }
-      if (last_polygon_[v] == number) {
+      if (last_polygon_[v] == polygon_number) {
         return {std::string(code(MeshFault::kDegenerateFace)),
-                fmt::format("face {} names vertex {} twice", number, v)};
+                fmt::format("face {} names vertex {} twice", shown, v + first_)};
       }
-      last_polygon_[v] = number;
+      last_polygon_[v] = polygon_number;
     }
     return {};
   }
 
  private:
   std::vector<std::int64_t> last_polygon_;  // that named the vertex
+  std::int64_t first_;
 };
 
 }  // namespace
 
-ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const ReadOptions& options) {
+Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
+  Examination result;
   const std::size_t polygons = soup.polygon_end.size();
   const auto triangles =
       static_cast<std::int64_t>(soup.corners.size()) - 2 * static_cast<std::int64_t>(polygons);
   const auto too_many = validate_counts(static_cast<std::int64_t>(soup.positions.size()),
                                         std::max(static_cast<std::int64_t>(polygons), triangles));
-  if (!too_many.empty()) throw InputError(std::string(code(too_many[0].fault)), name, 0, too_many[0].message);
+  if (!too_many.empty()) {
+    result.faults.push_back({std::string(code(too_many[0].fault)), 0, too_many[0].message, -1});
+    return result;
+  }
 
-  ControlMesh mesh;
+  // Polygon by polygon.
+  ControlMesh& mesh = result.mesh;
   mesh.positions = soup.positions;
   mesh.triangles.reserve(polygons);
   std::vector<std::int64_t> polygon_of;  // each triangle
   polygon_of.reserve(polygons);
-  PolygonChecker checker(soup.positions.size());
+  std::vector<bool> of_a_bad_polygon(soup.positions.size(), false);
+  PolygonChecker checker(soup.positions.size(), soup.first);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < polygons; begin = soup.polygon_end[i++]) {
     const auto number = static_cast<std::int64_t>(i);
     const Corners polygon(soup.corners.data() + begin, soup.polygon_end[i] - begin);
-    const auto [fault, message] = checker.fault(polygon, number);
-    if (!fault.empty()) throw InputError(fault, name, line_of(soup.polygon_lines, number), message);
-    if (polygon.size() > 3 && options.polygons == Triangulation::kNone) {
-      throw InputError("MESH_POLYGON", name, line_of(soup.polygon_lines, number),
-                       fmt::format("face {} has {} corners, only triangles are accepted", i, polygon.size()));
+    auto [fault, message] = checker.fault(polygon, number);
+    if (fault.empty() && polygon.size() > 3 && options.polygons == Triangulation::kNone) {
+      fault = "MESH_POLYGON";
+      message = fmt::format("face {} has {} corners, only triangles are accepted", number + soup.first,
+                            polygon.size());
+    }
+    if (!fault.empty()) {
+      result.faults.push_back(
+          {std::move(fault), line_of(soup.polygon_lines, number), std::move(message), -1});
+      for (const std::int64_t v : polygon)
+        if (v >= 0 && v < static_cast<std::int64_t>(of_a_bad_polygon.size())) of_a_bad_polygon[v] = true;
+      continue;
     }
     const std::size_t apex = fan_apex(soup, polygon, options.polygons), n = polygon.size();
     for (std::size_t k = 1; k + 1 < n; ++k) {
@@ -95,13 +110,29 @@ ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const
     }
   }
 
-  const auto findings = validate(mesh);
-  if (findings.empty()) return mesh;
-  const MeshFinding& first = findings[0];
-  const std::int64_t line = first.face >= 0 ? line_of(soup.polygon_lines, polygon_of[first.face])
-                                            : line_of(soup.position_lines, first.vertex);
-  const std::string more = findings.size() == 1 ? "" : fmt::format("; {} more faults", findings.size() - 1);
-  throw InputError(std::string(code(first.fault)), name, line, first.message + more);
+  // All of them together.
+  for (MeshFinding& finding : validate(mesh, {soup.first, polygon_of})) {
+    const bool entailed =
+        (finding.fault == MeshFault::kBowtieVertex || finding.fault == MeshFault::kIsolatedVertex) &&
+        of_a_bad_polygon[finding.vertex];
+    if (entailed || finding.fault == MeshFault::kEmpty) continue;
+    result.faults.push_back({std::string(code(finding.fault)),
+                             finding.face >= 0 ? line_of(soup.polygon_lines, polygon_of[finding.face])
+                                               : line_of(soup.position_lines, finding.vertex),
+                             std::move(finding.message), finding.vertex});
+  }
+  return result;
+}
+
+ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const ReadOptions& options) {
+  Examination found = examine(soup, options);
+  if (found.faults.empty()) return std::move(found.mesh);
+  const SoupFault& first = found.faults[0];
+  const std::string more =
+      found.faults.size() == 1 ? "" : fmt::format("; {} more faults", found.faults.size() - 1);
+  const bool numbered = first.code != code(MeshFault::kEmpty) && first.code != code(MeshFault::kTooLarge);
+  const std::string from = numbered ? fmt::format(" (numbers from {})", soup.first) : "";
+  throw InputError(first.code, name, first.line, first.message + from + more);
 }
 
 }  // namespace limitcheck::data::io

@@ -20,6 +20,7 @@ struct PolygonSoup {
   std::vector<std::size_t> polygon_end;      // where each polygon ends in `corners`
   std::vector<std::int64_t> position_lines;  // empty in formats without lines
   std::vector<std::int64_t> polygon_lines;
+  std::int64_t first = 0;  // the number that the format gives to its first vertex: 1 in OBJ
   // Normals as the file has them, for those who ask (PLY, OBJ); any length, unchecked.
   std::vector<std::array<double, 3>> normals;
   std::vector<std::int64_t>
@@ -40,7 +41,28 @@ PolygonSoup read_stl(std::string_view content, const std::string& name);
 /// a FILE_ code.
 PolygonSoup read_soup(const std::filesystem::path& file);
 
-/// Checks, triangulates and validates. Throws InputError.
+/// Writes vertices and polygons as they are, whatever is wrong with them; otherwise as write_mesh (write.h).
+void write_soup(const std::filesystem::path& file, const PolygonSoup& soup);
+
+/// One thing that is wrong with the mesh of a file.
+struct SoupFault {
+  std::string code;     // as in data/validate.h, or MESH_POLYGON
+  std::int64_t line;    // 0 where the format has no lines
+  std::string message;  // numbers its elements as the format does
+  std::int64_t vertex;  // from 0, if the fault is that of one vertex; else -1
+};
+
+/// The mesh of a file, triangulated, and everything that is wrong with it.
+struct Examination {
+  ControlMesh mesh;               // without the polygons that are at fault by themselves
+  std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
+};
+
+/// Looks at all of it. What a polygon left out entails at its vertices (fans that fall apart, vertices that
+/// no face names any more) is no fault of its own.
+Examination examine(const PolygonSoup& soup, const ReadOptions& options);
+
+/// Checks, triangulates and validates. Throws InputError: the first fault that `examine` finds.
 ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const ReadOptions& options);
 
 }  // namespace limitcheck::data::io

@@ -32,12 +32,16 @@ std::string error_of(const std::string& content, FileFormat format = FileFormat:
 
 TEST(Read, ErrorsNameFileLineCodeAndElements) {
   EXPECT_EQ(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\n\nf 1 2 5\n"),
-            "cage.obj:9: MESH_NONMANIFOLD_EDGE: edge 0–1 has 3 faces (0, 1, 2)");
+            "cage.obj:9: MESH_NONMANIFOLD_EDGE: edge 1–2 has 3 faces (1, 2, 3) (numbers from 1)");
+  // Other formats count from 0.
+  EXPECT_EQ(error_of("OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n",
+                     FileFormat::kOff),
+            "cage.obj:10: MESH_NONMANIFOLD_EDGE: edge 0–1 has 3 faces (0, 1, 2) (numbers from 0)");
 }
 
 TEST(Read, MoreThanOneFaultIsCounted) {
   EXPECT_EQ(error_of("v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 inf 0\nf 1 2 3\n"),
-            "cage.obj:1: MESH_NOT_FINITE: vertex 0 lies at (nan, 0, 0); 2 more faults");
+            "cage.obj:1: MESH_NOT_FINITE: vertex 1 lies at (nan, 0, 0) (numbers from 1); 2 more faults");
 }
 
 TEST(Read, EveryFormOfATetrahedronIsTheSameTetrahedron) {
@@ -133,7 +137,7 @@ TEST(Read, QuadsAreCutAlongTheShorterDiagonalOnRequest) {
 TEST(Read, PolygonsAreRefusedOnRequest) {
   const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
   EXPECT_EQ(error_of(quad, FileFormat::kObj, {Triangulation::kNone}),
-            "cage.obj:5: MESH_POLYGON: face 0 has 4 corners, only triangles are accepted");
+            "cage.obj:5: MESH_POLYGON: face 1 has 4 corners, only triangles are accepted (numbers from 1)");
   EXPECT_EQ(error_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", FileFormat::kObj, {Triangulation::kNone}),
             "accepted");
 }

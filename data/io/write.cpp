@@ -4,33 +4,51 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <iterator>
+#include <span>
+#include <vector>
 
 #include "data/error.h"
 #include "data/io/format.h"
+#include "data/io/polygon_soup.h"
 
 namespace limitcheck::data {
 namespace {
 
-void append_obj(std::string& text, const ControlMesh& mesh) {
+// Positions and faces of any number of corners, counted from 0.
+struct Polygons {
+  const std::vector<std::array<double, 3>>& positions;
+  std::size_t count;
+  std::function<std::span<const std::int64_t>(std::size_t)> corners;  // valid until the next call
+};
+
+void append_obj(std::string& text, const Polygons& mesh) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p[0], p[1], p[2]);
-  for (const auto& t : mesh.triangles) {
-    fmt::format_to(std::back_inserter(text), "f {} {} {}\n", std::int64_t{t[0]} + 1, std::int64_t{t[1]} + 1,
-                   std::int64_t{t[2]} + 1);
+  for (std::size_t f = 0; f < mesh.count; ++f) {
+    text += 'f';
+    for (const std::int64_t v : mesh.corners(f)) fmt::format_to(std::back_inserter(text), " {}", v + 1);
+    text += '\n';
   }
 }
 
 // The body of OFF and of ascii PLY.
-void append_lines(std::string& text, const ControlMesh& mesh) {
+void append_lines(std::string& text, const Polygons& mesh) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "{} {} {}\n", p[0], p[1], p[2]);
-  for (const auto& t : mesh.triangles)
-    fmt::format_to(std::back_inserter(text), "3 {} {} {}\n", t[0], t[1], t[2]);
+  for (std::size_t f = 0; f < mesh.count; ++f) {
+    const auto corners = mesh.corners(f);
+    fmt::format_to(std::back_inserter(text), "{}", corners.size());
+    for (const std::int64_t v : corners) fmt::format_to(std::back_inserter(text), " {}", v);
+    text += '\n';
+  }
 }
 
 template <class Integer>
@@ -38,11 +56,14 @@ void append_little_endian(std::string& bytes, Integer bits) {
   for (std::size_t i = 0; i < sizeof(Integer); ++i) bytes += static_cast<char>(bits >> 8 * i & 0xff);
 }
 
-void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
+void append_ply(std::string& text, const Polygons& mesh, bool ascii) {
+  std::size_t most = 0;
+  for (std::size_t f = 0; f < mesh.count; ++f) most = std::max(most, mesh.corners(f).size());
+  const bool small = most < 256;
   text += fmt::format(
       "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      ascii ? "ascii" : "binary_little_endian", mesh.positions.size(), mesh.triangles.size());
+      "element face {}\nproperty list {} int vertex_indices\nend_header\n",
+      ascii ? "ascii" : "binary_little_endian", mesh.positions.size(), mesh.count, small ? "uchar" : "uint");
   if (ascii) {
     append_lines(text, mesh);
     return;
@@ -50,10 +71,33 @@ void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
   for (const auto& p : mesh.positions) {
     for (const double x : p) append_little_endian(text, std::bit_cast<std::uint64_t>(x));
   }
-  for (const auto& t : mesh.triangles) {
-    text += '\3';
-    for (const std::int32_t v : t) append_little_endian(text, static_cast<std::uint32_t>(v));
+  for (std::size_t f = 0; f < mesh.count; ++f) {
+    const auto corners = mesh.corners(f);
+    if (small)
+      text += static_cast<char>(corners.size());
+    else
+      append_little_endian(text, static_cast<std::uint32_t>(corners.size()));
+    for (const std::int64_t v : corners) append_little_endian(text, static_cast<std::uint32_t>(v));
   }
+}
+
+std::string content_of(const Polygons& mesh, FileFormat format, const WriteOptions& options) {
+  std::string text;
+  switch (format) {
+    case FileFormat::kObj:
+      append_obj(text, mesh);
+      break;
+    case FileFormat::kOff:
+      text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.count);
+      append_lines(text, mesh);
+      break;
+    case FileFormat::kPly:
+      append_ply(text, mesh, options.ascii_ply);
+      break;
+    case FileFormat::kStl:
+      throw InputError("FILE_UNSUPPORTED", "", 0, "STL is read, not written: it has no vertices");
+  }
+  return text;
 }
 
 // Empty, or the system's reason why the content could not be written.
@@ -66,29 +110,8 @@ std::string write_all(const std::filesystem::path& file, const char* mode, const
   return error == 0 ? "" : std::strerror(error);
 }
 
-}  // namespace
-
-std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options) {
-  std::string text;
-  switch (format) {
-    case FileFormat::kObj:
-      append_obj(text, mesh);
-      break;
-    case FileFormat::kOff:
-      text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.triangles.size());
-      append_lines(text, mesh);
-      break;
-    case FileFormat::kPly:
-      append_ply(text, mesh, options.ascii_ply);
-      break;
-    case FileFormat::kStl:
-      throw InputError("FILE_UNSUPPORTED", "", 0, "STL is read, not written: it has no vertices");
-  }
-  return text;
-}
-
-void write_mesh(const std::filesystem::path& name, const ControlMesh& mesh, const WriteOptions& options) {
-  const std::string content = mesh_content(mesh, io::format_of(name), options);
+// The content under a temporary name, then renamed.
+void write_content(const std::filesystem::path& name, const std::string& content) {
   const auto refuse = [&](const std::string& why) {
     throw InputError("FILE_CANNOT_WRITE", name.string(), 0, why);
   };
@@ -115,6 +138,30 @@ void write_mesh(const std::filesystem::path& name, const ControlMesh& mesh, cons
     std::filesystem::remove(temporary, error);
     refuse(why);
   }
+}
+
+}  // namespace
+
+std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options) {
+  std::array<std::int64_t, 3> corners{};
+  return content_of({mesh.positions, mesh.triangles.size(),
+                     [&](std::size_t f) {
+                       std::copy(mesh.triangles[f].begin(), mesh.triangles[f].end(), corners.begin());
+                       return std::span<const std::int64_t>(corners);
+                     }},
+                    format, options);
+}
+
+void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options) {
+  write_content(file, mesh_content(mesh, io::format_of(file), options));
+}
+
+void io::write_soup(const std::filesystem::path& file, const PolygonSoup& soup) {
+  const Polygons polygons{soup.positions, soup.polygon_end.size(), [&](std::size_t f) {
+                            const std::size_t begin = f == 0 ? 0 : soup.polygon_end[f - 1];
+                            return std::span(soup.corners).subspan(begin, soup.polygon_end[f] - begin);
+                          }};
+  write_content(file, content_of(polygons, format_of(file), {}));
 }
 
 }  // namespace limitcheck::data

@@ -10,12 +10,13 @@
 
 #include "data/bounding_box.h"
 #include "verify/audit/checks.h"
-#include "verify/audit/digits.h"
+#include "verify/audit/recognise.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
+#include "verify/subject/weights_option.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -40,12 +41,15 @@ bool Auditor::related(const AuditMesh& mesh, std::size_t faces) const {
          (level_ == Level::kThorough || (level_ == Level::kStandard && faces <= kRelationFaces));
 }
 
-ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, int depth, lc_points points) {
+ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, int depth,
+                                     const lc_capabilities& capabilities) {
+  const reference::Weights weights = family(capabilities.weights);
   for (const auto& kept : cache_)
-    if (kept->points() == points && kept->lattice().depth() == depth &&
-        kept->mesh().positions == rounded.positions && kept->mesh().triangles == rounded.triangles)
+    if (kept->points() == capabilities.points && kept->weights() == weights &&
+        kept->lattice().depth() == depth && kept->mesh().positions == rounded.positions &&
+        kept->mesh().triangles == rounded.triangles)
       return *kept;
-  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth, points));
+  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth, capabilities.points, weights));
   return *cache_.back();
 }
 
@@ -147,17 +151,13 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   // The truth at every point the subject names.
   const lc_capabilities& capabilities = session->capabilities();
   step(name, mesh.name, "reference");
-  ReferenceSurface& truth = reference(judged, depth_of(mesh), capabilities.points);
+  ReferenceSurface& truth = reference(judged, depth_of(mesh), capabilities);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
-  const bool same_family = capabilities.weights == LC_WEIGHTS_LOOP;
-  std::string no_reference =
-      same_family ? "" : "declares another family of weights than Loop's: another surface";
-  if (same_family) {
-    try {
-      truth.prepare(points);
-    } catch (const std::exception& error) {
-      no_reference = fmt::format("the reference failed: {}", error.what());
-    }
+  std::string no_reference;
+  try {
+    truth.prepare(points);
+  } catch (const std::exception& error) {
+    no_reference = fmt::format("the reference failed: {}", error.what());
   }
 
   // The checks.
@@ -181,7 +181,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     if (interrupted() != 0) break;
     step(name, mesh.name, check.name);
     if (check.needs_reference && !no_reference.empty()) {
-      rows(check, same_family ? Status::kError : Status::kNotSupported, no_reference);
+      rows(check, Status::kError, no_reference);
       continue;
     }
     try {
@@ -190,12 +190,11 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
       rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
   }
+  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.triangles.size())) {
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
     for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));
   }
-  if (capabilities.points == LC_POINTS_LIMIT)
-    for (Result& r : results) add_digits(r, evidence.mesh);
 }
 
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,

@@ -57,7 +57,8 @@ class Auditor {
   // Whether the relations are looked at, too, where so many faces are judged.
   bool related(const AuditMesh& mesh, std::size_t faces) const;
   int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
-  ReferenceSurface& reference(const data::ControlMesh& rounded, int depth, lc_points points);
+  ReferenceSurface& reference(const data::ControlMesh& rounded, int depth,
+                              const lc_capabilities& capabilities);
   void step(const std::string& subject, const std::string& mesh, std::string_view check);
 
   int depth_, threads_;
@@ -66,7 +67,8 @@ class Auditor {
   std::size_t done_ = 0, total_ = 1;
   bool gave_up_ = false;
   std::string cached_mesh_;
-  std::vector<std::unique_ptr<ReferenceSurface>> cache_;  // of one mesh: by precision and kind of points
+  std::vector<std::unique_ptr<ReferenceSurface>>
+      cache_;  // of one mesh: by precision, kind of points and weights
 };
 
 }  // namespace limitcheck::verify

@@ -14,6 +14,14 @@ inline double unit_roundoff(lc_precision precision) {
   return precision == LC_FLOAT32 ? 0x1p-24 : 0x1p-53;
 }
 
+/// The spacing of the numbers of a precision at a magnitude >= 0.
+inline double ulp_at(double magnitude, lc_precision precision) {
+  const bool single = precision == LC_FLOAT32;
+  const int least = single ? -126 : -1022;  // exponent of the smallest number that is not subnormal
+  const int exponent = magnitude > 0 ? std::max(std::ilogb(magnitude), least) : least;
+  return std::ldexp(1.0, exponent - (single ? 23 : 52));
+}
+
 /// How far a position may be from the exact one, in fractions of the bounding-box diagonal.
 ///
 /// Every point of a subdivision is a convex combination of the level before: errors are not amplified, each
@@ -37,6 +45,25 @@ inline double position_bound(lc_precision precision, int depth, double magnitude
 inline double normal_bound(lc_precision precision, int depth) {
   const double radians = precision == LC_FLOAT32 ? 1e-3 : 1e-9;
   return std::ldexp(radians, std::max(0, depth - 5)) * 57.295779513082320877;
+}
+
+/// What rounding alone may do to a normal where the tangents are short or nearly parallel, in degrees.
+///
+/// A point of level k has an error of about 2 u M in each coordinate: the rounding of its sum and that of the
+/// terms (M: largest coordinate). Subdivision hands such errors on as it does the points themselves, so in a
+/// difference over the last level's steps, as a tangent per unit of l1 or l2, it counts 2^k; over all levels,
+/// 2^(depth + 1). The tangent mask of a regular vertex has weights of 8/6 in sum, there are three
+/// coordinates:
+///     e = sqrt(3) * 8/6 * 2 * 2^(depth + 1) u M < 10 * 2^depth u M
+/// is the error of both tangents t1, t2. It turns their product by
+///     asin(e (|t1| + |t2|) / |t1 x t2|),
+/// anywhere from an e that reaches the shorter height of their parallelogram on. A point is ill-conditioned
+/// from where this exceeds normal_bound, which holds elsewhere.
+///   condition  (|t1| + |t2|) / |t1 x t2|
+inline double conditioned_normal_bound(lc_precision precision, int depth, double magnitude,
+                                       double condition) {
+  const double sine = std::ldexp(10 * unit_roundoff(precision), depth) * magnitude * condition;
+  return sine < 1 ? std::asin(sine) * 57.295779513082320877 : 180;
 }
 
 /// How far the length of a unit normal may be from 1: the rounding of three components, of a square root and

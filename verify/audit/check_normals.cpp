@@ -7,9 +7,11 @@
 
 #include "verify/audit/bounds.h"
 #include "verify/audit/checks.h"
+#include "verify/audit/confirm.h"
 #include "verify/audit/statistics.h"
 
 namespace limitcheck::verify {
+
 std::vector<Result> check_normals(const Evidence& e) {
   Result angle = e.result("normals"), length = e.result("normal-length");
   const Tessellation& t = e.tessellation;
@@ -29,28 +31,40 @@ std::vector<Result> check_normals(const Evidence& e) {
   std::vector<double> angles(count, -1), undefined(count, -1), lengths(count, -1);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const Vector got = t.normal(static_cast<std::int64_t>(v));
-    lengths[v] = is_finite(got) ? std::abs(norm(got) - 1) : std::numeric_limits<double>::infinity();
+    if (!is_finite(got)) return;
+    lengths[v] = std::abs(norm(got) - 1);
     const Lattice::Id id = e.point[v];
     if (id == Lattice::kNone || e.capabilities.points != LC_POINTS_LIMIT) return;
     (e.reference.has_normal(id) ? angles : undefined)[v] = angle_degrees(got, e.reference.normal(id));
   });
 
   angle.unit = "degrees";
-  angle.bound = normal_bound(e.capabilities.precision, e.lattice.depth());
-  const Statistics s = summarise(angles, *angle.bound);
-  take(angle, s);
-  if (s.worst_at >= 0) {
-    const Vector expected = e.reference.normal(e.point[s.worst_at]), got = t.normal(s.worst_at);
-    angle.witness = e.at_vertex(s.worst_at);
+  const std::int64_t at = judge_angles(
+      e, angles,
+      [&](std::size_t v, const ExactPoint& exact) {
+        const double off = angle_degrees(t.normal(static_cast<std::int64_t>(v)), exact.normal);
+        if (exact.has_normal) return off;
+        undefined[v] = off;
+        return -1.0;
+      },
+      angle);
+  if (at >= 0) {
+    const Vector got = t.normal(at);
+    Vector expected = e.reference.normal(e.point[at]);
+    angle.witness = e.at_vertex(at);
+    if (const ExactPoint* exact = is_bad(angle) ? e.reference.certified().at(e.point[at]) : nullptr) {
+      expected = exact->normal;
+      angle.witness->expected_digits = exact->normal_digits;
+    }
     angle.witness->expected = {expected.begin(), expected.end()};
     angle.witness->got = {got.begin(), got.end()};
   }
   // Where the surface has no normal any unit vector will do; say how many such points there are.
   const Statistics without = summarise(undefined, std::numeric_limits<double>::infinity());
   if (without.of > 0)
-    angle.message =
+    say(angle,
         fmt::format("{} more where the surface has no normal, up to {} degrees from the reference's choice",
-                    without.of, without.worst ? fmt::format("{:.3g}", *without.worst) : "infinitely many");
+                    without.of, without.worst ? fmt::format("{:.3g}", *without.worst) : "infinitely many"));
 
   length.unit = "|n| - 1";
   length.bound = length_bound(e.capabilities.precision);
@@ -61,6 +75,8 @@ std::vector<Result> check_normals(const Evidence& e) {
     length.witness = e.at_vertex(l.worst_at);
     length.witness->got = {got.begin(), got.end()};
   }
+  const auto not_finite = std::count_if(lengths.begin(), lengths.end(), [](double x) { return x < 0; });
+  for (Result* r : {&angle, &length}) say_left_out(*r, not_finite, "normals");
   return {angle, length};
 }
 

@@ -6,14 +6,16 @@
 
 #include "verify/audit/bounds.h"
 #include "verify/audit/checks.h"
+#include "verify/audit/confirm.h"
 
 namespace limitcheck::verify {
 namespace {
 
-enum class Verdict : std::uint8_t { kNotPlaced, kGood, kClockwise, kFacesBack };
+enum class Verdict : std::uint8_t { kNotPlaced, kNotFinite, kGood, kClockwise, kFacesBack };
 
-// A facet may only be judged by its points if no allowed error of them can turn it over: each corner may move
-// by `slack`, which turns the facet's area vector by at most about slack * (sum of sides).
+// A facet may only be judged by its points if no allowed error of them can turn it over. A triangle whose
+// corners move by s changes its area vector by at most 2 s (sum of sides + s); s is `slack`, once for the
+// subject and, generously, once for the reference: so no finding needs certified numbers here.
 Verdict judge(const Evidence& e, std::int64_t triangle, double slack) {
   std::array<Lattice::Coordinates, 3> c;
   if (!e.place(triangle, c)) return Verdict::kNotPlaced;
@@ -29,11 +31,11 @@ Verdict judge(const Evidence& e, std::int64_t triangle, double slack) {
   for (int k = 0; k < 3; ++k) {
     got[k] = e.tessellation.position(v[k]);
     exact[k] = e.reference.position(e.point[v[k]]);
-    if (!is_finite(got[k])) return Verdict::kNotPlaced;
+    if (!is_finite(got[k])) return Verdict::kNotFinite;
   }
   const Vector got_area = cross(got[1] - got[0], got[2] - got[0]);
   const Vector exact_area = cross(exact[1] - exact[0], exact[2] - exact[0]);
-  const double sides = norm(exact[1] - exact[0]) + norm(exact[2] - exact[1]) + norm(exact[0] - exact[2]);
+  const double sides = perimeter(exact[0], exact[1], exact[2]);
   if (norm(exact_area) <= 4 * slack * (sides + slack)) return Verdict::kGood;
   return dot(got_area, exact_area) < 0 ? Verdict::kFacesBack : Verdict::kGood;
 }
@@ -52,14 +54,16 @@ std::vector<Result> check_orientation(const Evidence& e) {
 
   const auto number = [&](Verdict v) { return std::count(verdict.begin(), verdict.end(), v); };
   const std::int64_t clockwise = number(Verdict::kClockwise), back = number(Verdict::kFacesBack);
-  r.of = count - number(Verdict::kNotPlaced);
+  const std::int64_t not_finite = number(Verdict::kNotFinite);
+  r.of = count - number(Verdict::kNotPlaced) - not_finite;
   r.bad = clockwise + back;
+  say_left_out(r, not_finite, "triangles with corners");
   if (r.of == 0) r.status = Status::kNotRun;
   if (r.bad == 0) return {r};
 
   r.status = Status::kFinding;
-  r.message = fmt::format("{} triangles clockwise on their control face, {} face away from the exact facet",
-                          clockwise, back);
+  say(r, fmt::format("{} triangles clockwise on their control face, {} face away from the exact facet",
+                     clockwise, back));
   const auto bad = std::find_if(verdict.begin(), verdict.end(), [](Verdict v) { return v > Verdict::kGood; });
   const std::int64_t triangle = bad - verdict.begin();
   r.witness = e.at_vertex(e.tessellation.triangles()[triangle][0]);

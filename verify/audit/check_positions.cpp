@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <tbb/parallel_for.h>
 
-#include <cmath>
-#include <limits>
-
 #include "verify/audit/bounds.h"
 #include "verify/audit/checks.h"
+#include "verify/audit/confirm.h"
 #include "verify/audit/statistics.h"
 
 namespace limitcheck::verify {
-namespace {
-
-// The spacing of numbers of this precision at the largest coordinate of a point.
-double ulp_at(const Vector& point, lc_precision precision) {
-  const int exponent = largest(point) > 0 ? std::ilogb(largest(point)) : -126;
-  return std::ldexp(1.0, exponent - (precision == LC_FLOAT32 ? 23 : 52));
-}
-
-}  // namespace
-
 std::vector<Result> check_positions(const Evidence& e) {
   const bool limit = e.capabilities.points == LC_POINTS_LIMIT;
   std::vector<Result> results;
@@ -32,24 +20,41 @@ std::vector<Result> check_positions(const Evidence& e) {
 
   const Tessellation& t = e.tessellation;
   std::vector<double> error(static_cast<std::size_t>(t.vertex_count()), -1);
+  const auto off = [&](std::size_t v, const Vector& exact) {
+    return norm(t.position(static_cast<std::int64_t>(v)) - exact) / e.diagonal;
+  };
   tbb::parallel_for(std::size_t{0}, error.size(), [&](std::size_t v) {
-    if (e.point[v] == Lattice::kNone) return;
-    const Vector got = t.position(static_cast<std::int64_t>(v));
-    error[v] = is_finite(got) ? norm(got - e.reference.position(e.point[v])) / e.diagonal
-                              : std::numeric_limits<double>::infinity();
+    if (e.point[v] == Lattice::kNone || !is_finite(t.position(static_cast<std::int64_t>(v)))) return;
+    error[v] = off(v, e.reference.position(e.point[v]));
   });
   r.bound = position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal);
   r.unit = "diagonal";
+  // Refined points are means of control points, as good in double as anywhere.
+  const Confirmation confirmation =
+      limit ? confirm(
+                  e, error, [&](std::size_t) { return *r.bound; },
+                  [&](std::size_t v, const ExactPoint& exact) { return off(v, exact.position); })
+            : Confirmation{};
   const Statistics s = summarise(error, *r.bound);
   take(r, s);
+  say(r, confirmation.message);
+  std::int64_t not_finite = 0;
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) not_finite += !is_finite(t.position(v));
+  say_left_out(r, not_finite, "positions");
   if (s.worst_at >= 0) {
-    const Vector expected = e.reference.position(e.point[s.worst_at]), got = t.position(s.worst_at);
+    Vector expected = e.reference.position(e.point[s.worst_at]);
+    const Vector got = t.position(s.worst_at);
     r.witness = e.at_vertex(s.worst_at);
+    if (const ExactPoint* exact =
+            limit && is_bad(r) ? e.reference.certified().at(e.point[s.worst_at]) : nullptr) {
+      expected = exact->position;
+      r.witness->expected_digits = exact->position_digits;
+    }
     r.witness->expected = {expected.begin(), expected.end()};
     r.witness->got = {got.begin(), got.end()};
     if (s.worst) {
       r.worst_absolute = *s.worst * e.diagonal;
-      r.worst_ulps = largest(got - expected) / ulp_at(expected, e.capabilities.precision);
+      r.worst_ulps = largest(got - expected) / ulp_at(largest(expected), e.capabilities.precision);
     }
   }
   return results;

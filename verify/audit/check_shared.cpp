@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "verify/audit/checks.h"
+#include "verify/audit/confirm.h"
 #include "verify/audit/statistics.h"
 
 namespace limitcheck::verify {
@@ -21,19 +22,24 @@ struct Groups {
   }
 };
 
-Groups group(const Evidence& e) {
+// Of the vertices whose value is finite.
+template <class Value>
+Groups group(const Evidence& e, Value value) {
+  const auto counts = [&](std::size_t v) {
+    return e.point[v] != Lattice::kNone && e.lattice.is_shared(e.point[v]) &&
+           is_finite(value(static_cast<std::int64_t>(v)));
+  };
   Lattice::Id ids = 0;  // shared ids are the first ones
-  for (const Lattice::Id id : e.point)
-    if (id != Lattice::kNone && e.lattice.is_shared(id)) ids = std::max(ids, id + 1);
+  for (std::size_t v = 0; v < e.point.size(); ++v)
+    if (counts(v)) ids = std::max(ids, e.point[v] + 1);
   std::vector<std::int64_t> count(static_cast<std::size_t>(ids) + 1, 0);
-  for (const Lattice::Id id : e.point)
-    if (id != Lattice::kNone && id < ids) ++count[id + 1];
+  for (std::size_t v = 0; v < e.point.size(); ++v)
+    if (counts(v)) ++count[e.point[v] + 1];
   std::partial_sum(count.begin(), count.end(), count.begin());
   std::vector<std::int64_t> sorted(static_cast<std::size_t>(count.back()));
   std::vector<std::int64_t> fill(count.begin(), count.end() - 1);
   for (std::size_t v = 0; v < e.point.size(); ++v)
-    if (const Lattice::Id id = e.point[v]; id != Lattice::kNone && id < ids)
-      sorted[fill[id]++] = static_cast<std::int64_t>(v);
+    if (counts(v)) sorted[fill[e.point[v]]++] = static_cast<std::int64_t>(v);
 
   Groups groups;
   groups.start.push_back(0);
@@ -47,7 +53,8 @@ Groups group(const Evidence& e) {
 
 // Compares each vertex of a group with the first one.
 template <class Bits, class Value, class Distance>
-void compare(const Evidence& e, const Groups& groups, Bits bits, Value value, Distance distance, Result& r) {
+void compare(const Evidence& e, Bits bits, Value value, Distance distance, Result& r) {
+  const Groups groups = group(e, value);
   std::vector<double> far(groups.size(), 0);  // the largest distance in the group
   std::vector<std::int64_t> other(groups.size(), -1);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
@@ -70,12 +77,13 @@ void compare(const Evidence& e, const Groups& groups, Bits bits, Value value, Di
   r.p99 = s.p99;
   r.bound = 0;
   for (const std::int64_t v : other) r.bad += v >= 0;
-  if (r.of == 0) {
-    r.message = "every shared point is delivered once";
-    return;
-  }
-  r.message = fmt::format("{:.1f} % of the points delivered more than once differ in bits",
-                          100.0 * static_cast<double>(r.bad) / static_cast<double>(r.of));
+  r.message = r.of == 0 ? "every shared point is delivered once"
+                        : fmt::format("{:.1f} % of the points delivered more than once differ in bits",
+                                      100.0 * static_cast<double>(r.bad) / static_cast<double>(r.of));
+  std::int64_t not_finite = 0;
+  for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) not_finite += !is_finite(value(v));
+  say_left_out(r, not_finite, "vectors");
+  if (r.of == 0 && not_finite > 0) r.status = Status::kNotRun;
   if (r.bad == 0) return;
   r.status = Status::kFinding;
   std::size_t g = static_cast<std::size_t>(s.worst_at);
@@ -99,14 +107,9 @@ std::vector<Result> check_shared(const Evidence& e) {
     positions.status = normals.status = Status::kNotRun;
     return {positions, normals};
   }
-  const Groups groups = group(e);
   compare(
-      e, groups, [&](auto v) { return t.position_bits(v); }, [&](auto v) { return t.position(v); },
-      [&](const Vector& a, const Vector& b) {
-        const double d = norm(a - b) / e.diagonal;
-        return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
-      },
-      positions);
+      e, [&](auto v) { return t.position_bits(v); }, [&](auto v) { return t.position(v); },
+      [&](const Vector& a, const Vector& b) { return norm(a - b) / e.diagonal; }, positions);
   if (!e.capabilities.normals) {
     normals.status = Status::kNotSupported;
     normals.message = "delivers no limit normals";
@@ -114,8 +117,8 @@ std::vector<Result> check_shared(const Evidence& e) {
     normals.status = Status::kNotRun;
   } else {
     compare(
-        e, groups, [&](auto v) { return t.normal_bits(v); }, [&](auto v) { return t.normal(v); },
-        angle_degrees, normals);
+        e, [&](auto v) { return t.normal_bits(v); }, [&](auto v) { return t.normal(v); }, angle_degrees,
+        normals);
   }
   return {positions, normals};
 }

@@ -9,7 +9,9 @@
 #include <optional>
 
 #include "verify/audit/checks.h"
+#include "verify/audit/confirm.h"
 #include "verify/audit/outline.h"
+#include "verify/audit/weld.h"
 #include "verify/watertight/watertight.h"
 
 namespace limitcheck::verify {
@@ -34,12 +36,12 @@ Lattice::Id point_inside(const Evidence& e, const OpenEdge& edge, Lattice::Id fr
   return Lattice::kNone;
 }
 
-// What the merged surface looks like, to us and to CGAL.
+// What the welded surface looks like, to us and to CGAL.
 struct Looked {
-  MergedPoints merged;
-  std::vector<std::int32_t> vertex_of;  // one vertex of each point, as merged, and ...
+  Welded welded;
+  std::vector<std::int32_t> vertex_of;  // one vertex of each point, as welded, and ...
   std::vector<std::int32_t>
-      place_of;  // ... the merged point it is: itself unless it stands for a further fan
+      whole_of;  // ... the welded point it is: itself unless it stands for a further fan
   SurfaceReport report;
   SurfaceJudgement judgement;
 };
@@ -47,11 +49,10 @@ struct Looked {
 Looked look(const Evidence& e, const Outline& outline) {
   const Tessellation& t = e.tessellation;
   Looked l;
-  l.merged =
-      t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
-  l.vertex_of = l.merged.vertex_of;
-  l.place_of.resize(l.vertex_of.size());
-  std::iota(l.place_of.begin(), l.place_of.end(), 0);
+  l.welded = weld(e);
+  l.vertex_of = l.welded.vertex_of;
+  l.whole_of.resize(l.vertex_of.size());
+  std::iota(l.whole_of.begin(), l.whole_of.end(), 0);
 
   // The fan of the triangle's face at the control vertex that a corner is, 0 everywhere else.
   const auto fan_at = [&](std::int64_t triangle, std::uint32_t vertex) {
@@ -65,7 +66,7 @@ Looked look(const Evidence& e, const Outline& outline) {
       if (corner[k] == id) return outline.fan(face, k);
     return 0;
   };
-  std::map<std::pair<std::int32_t, int>, std::int32_t> further;  // merged point, fan -> point of its own
+  std::map<std::pair<std::int32_t, int>, std::int32_t> further;  // welded point, fan -> point of its own
   std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()),
                                                      {-1, -1, -1});
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
@@ -73,14 +74,14 @@ Looked look(const Evidence& e, const Outline& outline) {
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t vertex = t.triangles()[k][c];
       std::int32_t& point = triangles[k][c];
-      point = l.merged.point_of[vertex];
+      point = l.welded.point_of[vertex];
       const int fan = point < 0 ? 0 : fan_at(k, vertex);
       if (fan == 0) continue;
       const auto [it, is_new] =
           further.try_emplace({point, fan}, static_cast<std::int32_t>(l.vertex_of.size()));
       if (is_new) {
         l.vertex_of.push_back(static_cast<std::int32_t>(vertex));
-        l.place_of.push_back(point);
+        l.whole_of.push_back(point);
       }
       point = it->second;
     }
@@ -105,7 +106,7 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
   const auto vertex_at = [&](const OpenEdge& edge,
                              std::int32_t point) {  // the triangle's own vertex at this point
     for (const std::uint32_t v : t.triangles()[edge.triangle])
-      if (looked.merged.point_of[v] == looked.place_of[point]) return static_cast<std::int64_t>(v);
+      if (looked.welded.point_of[v] == looked.whole_of[point]) return static_cast<std::int64_t>(v);
     return std::int64_t{-1};
   };
   const auto with_triangle = [](Witness w, std::int64_t triangle) {
@@ -256,6 +257,15 @@ std::vector<Result> check_watertight(const Evidence& e) {
         ours.manifold(), ours.open_edges.size(), ours.open_loops, cgal.manifold(), cgal.closed,
         cgal.boundary_cycles, surface.message);
   }
+
+  const auto mention = [&](std::int64_t count, const char* what) {
+    if (count > 0) say(surface, fmt::format("the control mesh has {} {}", count, what));
+  };
+  mention(coincident_boundary_edges(e), "coincident boundary edges");
+  mention(triangles_without_area(e), "triangles without area");
+  if (const std::int64_t count = not_finite(e.tessellation); count > 0)
+    say(surface,
+        fmt::format("{} vertices that are not finite go with the others of their lattice points", count));
 
   tees.of = static_cast<std::int64_t>(ours.open_edges.size());
   tees.bad = cracks.split;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "verify/audit/bounds.h"
+
 namespace limitcheck::verify {
 
 Result Evidence::result(std::string check) const {
@@ -14,6 +16,7 @@ Result Evidence::result(std::string check) const {
   r.check = std::move(check);
   r.depth = lattice.depth();
   r.in_float = capabilities.precision == LC_FLOAT32;
+  r.weights = reference.weights();
   r.status = Status::kHeld;
   return r;
 }
@@ -26,6 +29,12 @@ Witness Evidence::at_vertex(std::int64_t vertex) const {
   w.l1 = fraction(p.i, p.denominator);
   w.l2 = fraction(p.j, p.denominator);
   return w;
+}
+
+double Evidence::normal_bound_at(Lattice::Id id) const {
+  return std::max(normal_bound(capabilities.precision, lattice.depth()),
+                  conditioned_normal_bound(capabilities.precision, lattice.depth(), magnitude,
+                                           reference.normal_condition(id)));
 }
 
 Witness Evidence::at_point(Lattice::Id id) const {
@@ -58,6 +67,16 @@ std::int32_t deepest_near(const Evidence& e, std::int32_t face) {
     for (const std::int32_t g : e.lattice.edges()[e.lattice.edge_of(face, k)].face)
       if (g >= 0) depth = std::max(depth, e.face_depth[g]);
   return depth;
+}
+
+bool is_finite(const Tessellation& t, std::int64_t v) {
+  return is_finite(t.position(v)) && (!t.has_normals() || is_finite(t.normal(v)));
+}
+
+std::int64_t not_finite(const Tessellation& t) {
+  std::int64_t count = 0;
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) count += !is_finite(t, v);
+  return count;
 }
 
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice) {

@@ -31,6 +31,9 @@ struct Evidence {
   Result result(std::string check) const;
   /// The witness for a vertex: where it lies by its provenance.
   Witness at_vertex(std::int64_t vertex) const;
+  /// How far a normal at a point that has one may be from the exact one, in degrees: normal_bound, or more
+  /// where the surface is ill-conditioned (bounds.h).
+  double normal_bound_at(Lattice::Id id) const;
   /// The witness for a lattice point.
   Witness at_point(Lattice::Id id) const;
   /// The lattice coordinates of the corners of a triangle in the face it claims to be part of; false if an
@@ -40,6 +43,11 @@ struct Evidence {
 
 /// How deep a face may be displayed: the largest depth asked for it and, unless it is culled, its neighbours.
 std::int32_t deepest_near(const Evidence& e, std::int32_t face);
+
+/// Position and, if there is one, normal of a vertex are neither NaN nor infinite.
+bool is_finite(const Tessellation& tessellation, std::int64_t vertex);
+/// How many vertices are not.
+std::int64_t not_finite(const Tessellation& tessellation);
 
 /// Ids of all vertices of a tessellation, in parallel.
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice);

@@ -19,7 +19,10 @@ const std::vector<Explanation>& explanations() {
        "The arrays lie in the host's memory, are as long as announced, overlap nowhere, were filled to the "
        "last byte and not beyond; indices are in range; the control mesh was left alone.",
        kNone, "guard zones and 0xFF fill of the host (verify/subject/host.h)"},
-      {"finite", "No position or normal is NaN or infinite.", kNone, "IEEE 754"},
+      {"finite",
+       "No position or normal is NaN or infinite. Such points are left out of every other row, which says "
+       "so.",
+       kNone, "IEEE 754"},
       {"positions", "Distance of each vertex from the exact limit point that its provenance names.",
        "sqrt(3) 8 (depth + 2) u M, in bounding-box diagonals; at least 1e-14 in double.",
        "each of depth + 2 steps is a convex combination that adds a few roundings (verify/audit/bounds.h); "
@@ -28,8 +31,13 @@ const std::vector<Explanation>& explanations() {
       {"refined-positions",
        "For subjects that deliver no limit points: distance from the vertex of the refined control mesh.",
        "As for positions.", "verify/audit/bounds.h; truth: the textbook refinement in double"},
-      {"normals", "Angle between each normal and the exact one, where the surface has one.",
-       "1e-3 rad in float, 1e-9 rad in double; doubling with each level beyond 5.",
+      {"normals",
+       "Angle between each normal and the exact one, where the surface has one. A finding is confirmed in "
+       "certified arithmetic.",
+       "1e-3 rad in float, 1e-9 rad in double; doubling with each level beyond 5. More where the tangents "
+       "t1, t2 "
+       "are so short or so nearly parallel that rounding alone turns the normal farther, by "
+       "10 * 2^depth u M (|t1| + |t2|) / |t1 x t2|: the row says at how many points.",
        "differences of points 2^-depth apart lose a bit with each level; measured on float engines "
        "(verify/audit/bounds.h)"},
       {"normal-length", "Distance of the normals' length from 1.", "8 unit roundoffs.",
@@ -37,13 +45,17 @@ const std::vector<Explanation>& explanations() {
       {"normals-against-positions",
        "Whether each normal fits the delivered facets round it as well as the exact normal fits the exact "
        "facets.",
-       "That of normals, and the turn that the bound of the positions can give a facet, 4 of them over its "
-       "shortest edge.",
+       "That of normals, and the turn that the bound s of the positions can give the facets: 4 s times the "
+       "sum "
+       "of their sides over the length of the sum of their area vectors.",
        "differences of the delivered positions against the same differences of the exact ones"},
       {"orientation",
        "Triangles run counter-clockwise on their control face and face as the exact facet does.", kNone,
        "signed areas in exact lattice coordinates; exact facets"},
-      {"coverage", "Each control face is tiled exactly once, at its depth, and culled faces are not there.",
+      {"coverage",
+       "Each control face is tiled exactly once, by any triangles whose corners are lattice points, and "
+       "every "
+       "lattice point of its depth is a corner. Culled faces are not there.",
        kNone, "integer arithmetic on the lattice of the control face"},
       {"shared-positions",
        "A point on a control edge or vertex that is delivered more than once has the same bits each time.",
@@ -54,9 +66,11 @@ const std::vector<Explanation>& explanations() {
        "errors.",
        kTwice, "the surface is continuous, and so is its tangent plane"},
       {"watertight",
-       "Merging equal positions only, the triangles form a manifold whose boundary is that of the control "
-       "mesh, "
-       "with as many loops.",
+       "Merging vertices of one lattice point whose positions are equal, and nothing else, the triangles "
+       "form "
+       "a manifold whose boundary is that of the control mesh, with as many loops. What is apart in the "
+       "control "
+       "mesh stays apart, also where it lies in one place: seams, parts that touch, triangles without area.",
        kNone, "counted twice, by our own code and by CGAL"},
       {"t-vertices", "No vertex lies inside an edge of another triangle.", kNone,
        "exact predicates on the delivered coordinates"},
@@ -83,6 +97,8 @@ const std::vector<Explanation>& explanations() {
 
       // Of finished tessellations (--tessellation).
       {"file-finite", "No position or normal in the file is NaN or infinite.", kNone, "IEEE 754"},
+      {"file-unused", "Vertices that no face names: a warning. Only whether they are finite is looked at.",
+       kNone, "the faces of the file"},
       {"file-distance", "Distance of each vertex from the closest point of the exact limit surface.",
        "--tolerance, in diagonals of the control mesh.", kFile},
       {"file-positions",
@@ -90,15 +106,26 @@ const std::vector<Explanation>& explanations() {
        "--tolerance, in diagonals of the control mesh.", "verify/files; truth: Stam's evaluator in double"},
       {"file-normals", "Angle between each normal of the file and the surface's at the closest point.",
        "1e-3 rad, as of a float engine at depth 5.", kFile},
+      {"file-normal-length", "Distance of the length of the file's normals from 1.",
+       "1e-3: the vector is then no farther from the exact one than a direction that is off by the bound of "
+       "file-normals.",
+       "shading scales with the length; four decimals round to 9e-5"},
       {"file-orientation", "Triangles face outwards, and run counter-clockwise on their control face.", kNone,
        kFile},
       {"file-coverage",
        "The triangles over each control face have its area: nothing is missing, nothing is there twice.",
        "1e-4 of a face; 1e-2 of all where triangles cross the borders of control faces.",
        "areas in the domain of the control faces, from the closest points of the corners"},
+      {"file-degenerate",
+       "Triangles without area that the control mesh does not cause. Triangles that name a vertex twice, as "
+       "joints of strips do, are a warning.",
+       "No area: lower than four roundings of the coordinates in double. The control mesh causes it where "
+       "the "
+       "exact surface, at the file's resolution, is thinner than the tolerance.",
+       "the positions in the file; Stam's evaluator"},
       {"file-watertight",
        "Merging equal positions, every edge inside has two triangles, and the boundary is that of the "
-       "control mesh.",
+       "control mesh: of its limit surface, or refined a number of times.",
        kNone, "counted by our own code and by CGAL"},
       {"file-hausdorff",
        "The larger of the distances from the triangles to the surface and from the surface to the triangles.",

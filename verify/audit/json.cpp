@@ -24,6 +24,13 @@ Json text(const std::string& s) {
   return s.empty() ? Json(nullptr) : Json(s);
 }
 
+Json ill_conditioned(const Result& r) {
+  if (!r.ill_conditioned) return nullptr;
+  return {{"count", r.ill_conditioned->count},
+          {"bound", number(r.ill_conditioned->bound)},
+          {"worst", number(r.ill_conditioned->worst)}};
+}
+
 Json witness(const Result& r, const std::string& level) {
   const std::optional<Witness>& w = r.witness;
   if (!w) return nullptr;
@@ -82,6 +89,7 @@ std::string to_json(const Report& report, const std::string& level) {
                               {"p99", number(r.p99)},
                               {"worst_absolute", number(r.worst_absolute)},
                               {"worst_ulps", number(r.worst_ulps)},
+                              {"ill_conditioned", ill_conditioned(r)},
                               {"message", text(r.message)},
                               {"witness", witness(r, level)}});
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -3,6 +3,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "reference/refine.h"
 #include "reference/stam.h"
 #include "verify/interrupt/interrupt.h"
@@ -14,6 +18,16 @@ Vector vector(const reference::Vec3<double>& v) {
   return {v.x, v.y, v.z};
 }
 
+// See normal_condition(). In units of the larger tangent, so that nothing overflows or vanishes.
+double condition(const reference::SurfacePoint<double>& p) {
+  const Vector t1 = vector(p.d1), t2 = vector(p.d2);
+  const double unit = std::max(largest(t1), largest(t2));
+  if (!(unit > 0)) return std::numeric_limits<double>::infinity();
+  const auto scaled = [&](const Vector& t) { return Vector{t[0] / unit, t[1] / unit, t[2] / unit}; };
+  const double area = norm(cross(scaled(t1), scaled(t2)));
+  return (norm(scaled(t1)) + norm(scaled(t2))) / area / unit;
+}
+
 }  // namespace
 
 // The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
@@ -22,11 +36,20 @@ struct ReferenceSurface::Evaluator {
   std::unique_ptr<reference::RefinedMesh<double>> refined;
 };
 
-ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points)
-    : mesh_(mesh), lattice_(mesh_, depth), points_(points), evaluator_(std::make_unique<Evaluator>()) {
+ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
+                                   reference::Weights weights)
+    : mesh_(mesh),
+      lattice_(mesh_, depth),
+      points_(points),
+      weights_(weights),
+      evaluator_(std::make_unique<Evaluator>()),
+      certified_(lattice_, weights) {
   const auto size = static_cast<std::size_t>(lattice_.size());
   position_.resize(size);
-  if (points_ == LC_POINTS_LIMIT) normal_.resize(size);
+  if (points_ == LC_POINTS_LIMIT) {
+    normal_.resize(size);
+    condition_.resize(size);
+  }
   state_.assign(size, State::kMissing);
 }
 
@@ -43,7 +66,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   if (wanted.empty()) return;
 
   if (points_ == LC_POINTS_LIMIT) {
-    if (!evaluator_->limit) evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_);
+    if (!evaluator_->limit)
+      evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_, weights_);
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
       end_if_interrupted();
       const Lattice::Id id = wanted[k];
@@ -59,13 +83,20 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
       position_[id] = vector(point.position);
       normal_[id] = vector(point.normal);
       state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
+      condition_[id] = condition(point);
+      if (lattice_.is_vertex(id)) {  // of which i and j are 0 or the denominator, which is 1
+        const double step = 0.5 / static_cast<double>(lattice_.n());
+        const double l1 = p.i == 1 ? 1 - 2 * step : step, l2 = p.j == 1 ? 1 - 2 * step : step;
+        const double near = condition(limit.evaluate(p.face, l1, l2, reference::Order::kFirst));
+        condition_[id] = std::isfinite(condition_[id]) ? std::max(condition_[id], near) : near;
+      }
     });
     return;
   }
 
   if (!evaluator_->refined)
-    evaluator_->refined =
-        std::make_unique<reference::RefinedMesh<double>>(reference::refine<double>(mesh_, lattice_.depth()));
+    evaluator_->refined = std::make_unique<reference::RefinedMesh<double>>(
+        reference::refine<double>(mesh_, lattice_.depth(), weights_));
   for (const Lattice::Id id : wanted) {
     const lc_provenance p = lattice_.provenance(id);
     const auto scale =

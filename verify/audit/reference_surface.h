@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "reference/weights.h"
+#include "verify/audit/certified_surface.h"
 #include "verify/audit/lattice.h"
 #include "verify/audit/vector.h"
 
@@ -15,15 +17,20 @@ namespace limitcheck::verify {
 
 /// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that
 /// several subjects share it.
+///
+/// Doubles lie within rounding of the exact values, which is not enough where a normal is ill-conditioned: a
+/// finding is put before certified() first.
 class ReferenceSurface {
  public:
   /// `mesh` is copied. `depth` is that of the lattice.
-  ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points);
+  ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
+                   reference::Weights weights = reference::Weights::kLoop);
   ~ReferenceSurface();
 
   const data::ControlMesh& mesh() const { return mesh_; }
   const Lattice& lattice() const { return lattice_; }
   lc_points points() const { return points_; }
+  reference::Weights weights() const { return weights_; }
 
   /// Evaluates what is missing among these points (kNone is skipped), in parallel. Not to be called at the
   /// same time as anything else.
@@ -36,6 +43,14 @@ class ReferenceSurface {
   /// False where the surface has no normal (D12: zero by the
   /// masks; D5: boundary vertices without a tangent plane).
   bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
+  /// Where there is a normal: (|t1| + |t2|) / |t1 x t2|, t1 and t2 the derivatives by l1 and l2. An error of
+  /// e in both tangents turns the normal by e times this, in radians. Infinite if t1 x t2 vanishes in double.
+  /// At a control vertex, that of the middle of the opposite side of the finest facet if it is larger, and in
+  /// any case where the derivatives vanish: a control vertex that is extraordinary need not have any.
+  double normal_condition(Lattice::Id id) const { return condition_[id]; }
+
+  /// The same surface in certified arithmetic.
+  const CertifiedSurface& certified() const { return certified_; }
 
  private:
   enum class State : std::uint8_t { kMissing, kWanted, kRegular, kNoNormal };
@@ -44,8 +59,11 @@ class ReferenceSurface {
   data::ControlMesh mesh_;
   Lattice lattice_;
   lc_points points_;
+  reference::Weights weights_;
   std::unique_ptr<Evaluator> evaluator_;
+  CertifiedSurface certified_;
   std::vector<Vector> position_, normal_;
+  std::vector<double> condition_;
   std::vector<State> state_;
 };
 

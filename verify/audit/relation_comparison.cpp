@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/relation_comparison.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 
 #include "verify/audit/bounds.h"
@@ -30,6 +32,13 @@ Placed place(const Evidence& e, const Variant& v, const lc_provenance& p) {
   return {id * static_cast<Key>(v.face.size()) + q.face, id};
 }
 
+// -0 and +0 are told apart.
+bool same_bits(const Vector& a, const Vector& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
 }  // namespace
 
 Compared::Compared(const Evidence& e)
@@ -42,17 +51,17 @@ Compared::Compared(const Evidence& e)
     if (at.id == Lattice::kNone) continue;
     by_face_.emplace(*at.face_and_point, v);
     by_point_.emplace(at.id, v);
+    if (!is_finite(e.tessellation, v)) not_finite_.insert(at.id);
   }
 }
 
 Comparison Compared::with(const Tessellation& t, const Variant& v, double slack) const {
   Comparison c;
-  const int depth = e_.lattice.depth();
-  const double position_limit =
-      slack * position_bound(e_.capabilities.precision, depth, v.magnitude, std::max(e_.diagonal, 1e-300));
-  const double normal_limit = slack * normal_bound(e_.capabilities.precision, depth);
+  const double position_limit = slack * position_bound(e_.capabilities.precision, e_.lattice.depth(),
+                                                       v.magnitude, std::max(e_.diagonal, 1e-300));
   const bool normals = v.normals && t.has_normals() && e_.tessellation.has_normals();
   std::vector<bool> seen(static_cast<std::size_t>(e_.lattice.size()), false);
+  std::unordered_set<Lattice::Id> not_finite;
   const auto note = [&](double excess, std::int64_t mine, const Vector& expected, const Vector& got) {
     if (c.witness && excess <= c.worst) return;
     c.worst = excess;
@@ -65,33 +74,45 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     if (at.id == Lattice::kNone) continue;
     const auto exact = by_face_.find(*at.face_and_point);
     const auto any = by_point_.find(at.id);
-    ++c.of;
     if (any == by_point_.end()) {
+      ++c.of;
       if (!uniform_) continue;
       ++c.bad;
       c.message = "a point that the original does not have";
       continue;
     }
     seen[at.id] = true;
+    if (!is_finite(t, k)) not_finite.insert(at.id);
+    if (!is_finite(t, k) || not_finite_.contains(at.id)) continue;
+    ++c.of;
     std::int64_t mine = exact != by_face_.end() ? exact->second : any->second;
     for (auto [k2, last] = by_face_.equal_range(*at.face_and_point); k2 != last; ++k2)
       if (same(t, k, v, k2->second)) mine = k2->second;
     const Vector p = v.position(t.position(k)), q = e_.tessellation.position(mine);
-    double off = norm(p - q) / e_.diagonal;
-    if (!std::isfinite(off)) off = p == q ? 0 : std::numeric_limits<double>::infinity();
+    const double off = norm(p - q) / e_.diagonal;
     c.position = std::max(c.position, off);
-    bool wrong = !(off <= position_limit), bits = p == q;
+    bool wrong = !(off <= position_limit), bits = same_bits(p, q);
     note(position_limit > 0 ? off / position_limit : off > 0 ? 1e300 : 0, mine, q, p);
     if (normals && e_.reference.has_normal(at.id)) {
+      const double normal_limit = slack * e_.normal_bound_at(at.id);
       const Vector a = v.normal(t.normal(k)), b = e_.tessellation.normal(mine);
       const double angle = a == b ? 0 : angle_degrees(a, b);
       c.normal = std::max(c.normal, angle);
       wrong = wrong || !(angle <= normal_limit);
-      bits = bits && a == b;
+      bits = bits && same_bits(a, b);
       note(normal_limit > 0 ? angle / normal_limit : angle > 0 ? 1e300 : 0, mine, b, a);
     }
     c.bad += wrong;
     c.other_bits += !bits;
+  }
+  // Which points are not finite may depend on the order of things: the business of `finite`. That there are
+  // more of them than in the original is nobody else's.
+  if (not_finite.size() > not_finite_.size()) {
+    c.bad += static_cast<std::int64_t>(not_finite.size() - not_finite_.size());
+    c.of += static_cast<std::int64_t>(not_finite.size());
+    c.worst = std::numeric_limits<double>::infinity();
+    c.message =
+        fmt::format("{} points are not finite, {} in the original", not_finite.size(), not_finite_.size());
   }
   // A face may be displayed deeper than asked for where its neighbours are: which, may depend on the order.
   for (const auto& [id, vertex] : by_point_)
@@ -104,9 +125,9 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
 }
 
 bool Compared::same(const Tessellation& t, std::int64_t k, const Variant& v, std::int64_t mine) const {
-  return v.position(t.position(k)) == e_.tessellation.position(mine) &&
+  return same_bits(v.position(t.position(k)), e_.tessellation.position(mine)) &&
          (!t.has_normals() || !e_.tessellation.has_normals() ||
-          v.normal(t.normal(k)) == e_.tessellation.normal(mine));
+          same_bits(v.normal(t.normal(k)), e_.tessellation.normal(mine)));
 }
 
 }  // namespace limitcheck::verify

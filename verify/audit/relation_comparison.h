@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "verify/audit/relation_variants.h"
 
@@ -25,7 +26,8 @@ class Compared {
  public:
   explicit Compared(const Evidence& e);
 
-  /// `t` is what the subject made of `v`; `slack` is how many results' errors may add up.
+  /// `t` is what the subject made of `v`; `slack` is how many results' errors may add up. Points that are not
+  /// finite on either side are left out, as long as there are no more of them than in the original.
   Comparison with(const Tessellation& t, const Variant& v, double slack) const;
 
  private:
@@ -35,6 +37,7 @@ class Compared {
   const bool uniform_;
   std::unordered_multimap<std::int64_t, std::int64_t> by_face_;  // a face may deliver a point more than once
   std::unordered_map<Lattice::Id, std::int64_t> by_point_;
+  std::unordered_set<Lattice::Id> not_finite_;  // points
 };
 
 }  // namespace limitcheck::verify

@@ -68,8 +68,9 @@ class Relations {
         const Tessellation t = session.tessellate(e_.face_depth, threads_);
         row.inspect(what, t);
         row.count(0, t.vertex_count());
+        std::int64_t of_old = not_finite(e_.tessellation);  // so many are the business of `finite`
         for (std::int64_t v = 0; v < t.vertex_count(); ++v)
-          if (!is_displayable(t, v)) {
+          if (!is_displayable(t, v) && (is_finite(t, v) || of_old-- <= 0)) {
             row.count(1, 0);
             row.note(Status::kFinding, what + ": position or normal not finite, or no unit normal");
             row.witness(witness(t, v));
@@ -96,9 +97,8 @@ class Relations {
   }
 
   bool is_displayable(const Tessellation& t, std::int64_t v) const {
-    if (!is_finite(t.position(v))) return false;
-    return !t.has_normals() || (is_finite(t.normal(v)) &&
-                                std::abs(norm(t.normal(v)) - 1) <= length_bound(e_.capabilities.precision));
+    return is_finite(t, v) &&
+           (!t.has_normals() || std::abs(norm(t.normal(v)) - 1) <= length_bound(e_.capabilities.precision));
   }
 
   // By place in the list: on degenerate geometry nothing else tells vertices apart.

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/weights.h"
+
 namespace limitcheck::verify {
 
 enum class Status {
@@ -38,6 +40,13 @@ struct Witness {
   std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
 };
 
+/// The points of a row that have a bound of their own, because the surface's tangents there are so short or
+/// so nearly parallel that rounding alone may turn the normal farther than elsewhere.
+struct IllConditioned {
+  std::int64_t count = 0;
+  double bound = 0, worst = 0;  // the largest of their bounds and of their errors, in the row's unit
+};
+
 /// One row. `worst` and `bound` are in `unit`; so are rms
 /// and p99, which run over everything that was compared.
 struct Result {
@@ -45,12 +54,14 @@ struct Result {
   int depth = 0;               // of the deepest face
   std::string depths, sample;  // how the faces got theirs, and "FACES:SEED": as --depths, --sample take it
   bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
+  reference::Weights weights = reference::Weights::kLoop;  // the family that the subject declares
   Status status = Status::kNotRun;
   std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
   std::optional<double> worst, bound, rms, p99;
   std::string unit;
   std::optional<double> worst_absolute;  // positions: in the mesh's own unit ...
   std::optional<double> worst_ulps;      // ... and in units in the last place of the subject's precision
+  std::optional<IllConditioned> ill_conditioned;  // normals: if there are any
   std::optional<Witness> witness;
   std::string message;  // one sentence, may be empty
 };

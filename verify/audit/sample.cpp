@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
+#include <utility>
 
+#include "data/cut_out.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::verify {
@@ -31,20 +32,6 @@ struct FacesAround {
 
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> face;
-};
-
-// Sets that grow together: corners of faces that are one vertex.
-class Union {
- public:
-  explicit Union(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t find(std::int32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(std::int32_t a, std::int32_t b) { parent_[find(b)] = find(a); }
-
- private:
-  std::vector<std::int32_t> parent_;
 };
 
 }  // namespace
@@ -74,42 +61,9 @@ MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_
       part_of_[f] = static_cast<std::int32_t>(faces_.size());
       faces_.push_back(static_cast<std::int32_t>(f));
     }
-  cut_out(whole);
-}
-
-void MeshSample::cut_out(const ControlMesh& whole) {
-  // Corners are one vertex of the part if they lie at the same end of an edge of two of its faces.
-  const auto corner = [](std::size_t face, int k) { return static_cast<std::int32_t>(3 * face) + k % 3; };
-  const auto key = [](std::int32_t from, std::int32_t to) {
-    return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
-  };
-  std::unordered_map<std::uint64_t, std::int32_t> half_edge;  // to the corner it starts from
-  half_edge.reserve(3 * faces_.size());
-  Union corners(3 * faces_.size());
-  for (std::size_t p = 0; p < faces_.size(); ++p) {
-    const auto& t = whole.triangles[faces_[p]];
-    for (int k = 0; k < 3; ++k) {
-      half_edge[key(t[k], t[(k + 1) % 3])] = corner(p, k);
-      const auto other = half_edge.find(key(t[(k + 1) % 3], t[k]));
-      if (other == half_edge.end()) continue;
-      const std::int32_t there = other->second;
-      corners.join(corner(p, k + 1), there);
-      corners.join(corner(p, k), there - there % 3 + (there + 1) % 3);
-    }
-  }
-
-  std::vector<std::int32_t> vertex_at(3 * faces_.size(), -1);
-  part_.triangles.resize(faces_.size());
-  for (std::size_t p = 0; p < faces_.size(); ++p)
-    for (int k = 0; k < 3; ++k) {
-      std::int32_t& v = vertex_at[corners.find(corner(p, k))];
-      if (v < 0) {
-        v = static_cast<std::int32_t>(vertices_.size());
-        vertices_.push_back(whole.triangles[faces_[p]][k]);
-      }
-      part_.triangles[p][k] = v;
-    }
-  part_.positions = part_with(whole).positions;
+  data::CutOut cut = data::cut_out(whole.triangles, faces_);
+  part_ = {cut.of(whole.positions), std::move(cut.triangles)};
+  vertices_ = std::move(cut.vertices);
 }
 
 std::vector<std::int32_t> MeshSample::cull(std::vector<std::int32_t> depth) const {

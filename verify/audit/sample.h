@@ -41,8 +41,6 @@ class MeshSample {
   data::ControlMesh part_with(const data::ControlMesh& positions) const;
 
  private:
-  void cut_out(const data::ControlMesh& whole);
-
   std::string text_;
   data::ControlMesh part_;
   std::vector<std::int32_t> faces_, part_of_;

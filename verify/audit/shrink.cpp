@@ -5,31 +5,22 @@
 #include <chrono>
 #include <utility>
 
+#include "data/cut_out.h"
 #include "data/validate.h"
 #include "verify/audit/relations.h"
 
 namespace limitcheck::verify {
 namespace {
 
-using Faces = std::vector<std::size_t>;  // of the mesh being shrunk, ascending
+using Faces = std::vector<std::int32_t>;  // of the mesh being shrunk, ascending
 
-// The mesh of some faces, without the vertices that none of them names.
+// The mesh of some faces, cut apart where they touch in a vertex only.
 AuditMesh part(const AuditMesh& whole, const Faces& faces) {
-  AuditMesh out{whole.name, {}};
-  std::vector<std::int32_t> number(whole.mesh.positions.size(), -1);
-  for (const std::size_t f : faces)
-    for (const std::int32_t v : whole.mesh.triangles[f]) number[static_cast<std::size_t>(v)] = 0;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
-    number[v] = static_cast<std::int32_t>(out.mesh.positions.size());
-    out.mesh.positions.push_back(whole.mesh.positions[v]);
-  }
-  for (const std::size_t f : faces) {
-    auto t = whole.mesh.triangles[f];
-    for (auto& v : t) v = number[static_cast<std::size_t>(v)];
-    out.mesh.triangles.push_back(t);
-    if (!whole.face_depth.empty()) out.face_depth.push_back(whole.face_depth[f]);
-  }
+  data::CutOut cut = data::cut_out(whole.mesh.triangles, faces);
+  AuditMesh out{whole.name, {cut.of(whole.mesh.positions), std::move(cut.triangles)}};
+  if (!whole.face_depth.empty())
+    for (const std::int32_t f : faces)
+      out.face_depth.push_back(whole.face_depth[static_cast<std::size_t>(f)]);
   return out;
 }
 
@@ -40,7 +31,7 @@ AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
   for (std::size_t f = 0; f < out.mesh.triangles.size(); ++f) {
     auto& t = out.mesh.triangles[f];
     std::replace(t.begin(), t.end(), b, a);
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) left.push_back(f);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) left.push_back(static_cast<std::int32_t>(f));
   }
   return part(out, left);
 }
@@ -114,7 +105,7 @@ class Shrinker {
     for (int r = 0; r < most && !late(); ++r) {
       Faces faces;
       for (std::size_t f = 0; f < ring.size(); ++f)
-        if (ring[f] >= 0 && ring[f] <= r) faces.push_back(f);
+        if (ring[f] >= 0 && ring[f] <= r) faces.push_back(static_cast<std::int32_t>(f));
       if (take(part(best_.mesh, faces))) return;
     }
   }
@@ -127,7 +118,7 @@ class Shrinker {
         const std::size_t count = best_.mesh.mesh.triangles.size();
         Faces faces;
         for (std::size_t f = 0; f < count; ++f)
-          if (f < begin || f >= begin + chunk) faces.push_back(f);
+          if (f < begin || f >= begin + chunk) faces.push_back(static_cast<std::int32_t>(f));
         if (take(part(best_.mesh, faces)))
           smaller = true;
         else

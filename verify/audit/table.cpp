@@ -239,8 +239,9 @@ std::string quoted(const std::string& text) {
 
 std::string eval_command(const Result& result) {
   if (!result.witness || result.witness->face < 0 || result.witness->l1.empty()) return "";
-  return fmt::format("limitcheck eval {} {} {} {}{}", quoted(result.mesh), result.witness->face,
-                     result.witness->l1, result.witness->l2, result.in_float ? " --precision float" : "");
+  return fmt::format("limitcheck eval {} {} {} {}{}{}", quoted(result.mesh), result.witness->face,
+                     result.witness->l1, result.witness->l2, result.in_float ? " --precision float" : "",
+                     result.weights == reference::Weights::kWarren ? " --weights warren" : "");
 }
 
 std::string audit_command(const Result& result, const std::string& level) {

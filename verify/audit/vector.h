@@ -36,6 +36,11 @@ inline double largest(const Vector& a) {
   return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
 }
 
+/// The sum of a triangle's sides.
+inline double perimeter(const Vector& a, const Vector& b, const Vector& c) {
+  return norm(b - a) + norm(c - b) + norm(a - c);
+}
+
 /// The angle between two vectors in degrees, accurate to a few ulps near 0 and 180 too (Kahan: the arccosine
 /// of a scalar product cannot tell angles below 1e-8 apart). Infinite if one is zero or not finite.
 inline double angle_degrees(const Vector& a, const Vector& b) {

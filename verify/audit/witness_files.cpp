@@ -31,9 +31,10 @@ void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
     for (auto& p : mesh.positions)
       for (double& x : p) x = static_cast<double>(static_cast<float>(x));
   constexpr int kDigits = 40;
-  const auto point = reference::CertifiedEvaluator(mesh).evaluate(
-      static_cast<int>(r.witness->face), reference::Parameter::parse(r.witness->l1),
-      reference::Parameter::parse(r.witness->l2), kDigits);
+  const auto point =
+      reference::CertifiedEvaluator(mesh, r.weights)
+          .evaluate(static_cast<int>(r.witness->face), reference::Parameter::parse(r.witness->l1),
+                    reference::Parameter::parse(r.witness->l2), kDigits);
   const auto vector = [](const auto& v) { return Json{v[0].value, v[1].value, v[2].value}; };
   json["limit_position"] = vector(point.position);
   json["limit_normal"] = vector(point.normal);

@@ -14,12 +14,14 @@ enum ExitCode : int {
   kSignalled = 128  // plus the signal's number: an audit ended early, with a partial report
 };
 
+void add_check(CLI::App& app, int& exit_code);
 void add_claims(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_audit(CLI::App& app, int& exit_code);
 void add_prove(CLI::App& app, int& exit_code);
 void add_mutants(CLI::App& app, int& exit_code);
+void add_repair(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 void add_external(CLI::App& app, int& exit_code);
 void add_worker(CLI::App& app, int& exit_code);  // hidden: the process that isolated subjects run in

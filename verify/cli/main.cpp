@@ -48,6 +48,8 @@ int run(int argc, char** argv) {
   add_eval(app, exit_code);
   add_claims(app, exit_code);
   add_generate(app, exit_code);
+  add_check(app, exit_code);
+  add_repair(app, exit_code);
   add_prove(app, exit_code);
   add_mutants(app, exit_code);
   add_tessellate(app, exit_code);

@@ -55,6 +55,30 @@ TEST_F(WitnessFiles, OfEveryFindingShowItAgain) {
   EXPECT_GT(findings, 4);
 }
 
+TEST_F(WitnessFiles, AreWrittenWhereTheSurroundingsOfAFaceTouchThemselves) {
+  const Outcome o =
+      run("audit model:mutation=mean_facet_normals torus:3:3 random:360:60 --depth 2 --level quick "
+          "--witnesses found --json -");
+  EXPECT_EQ(o.code, 1) << o.err;
+  int findings = 0;
+  const Json report = Json::parse(o.out);
+  for (const auto& row : report["results"]) findings += row["status"] == "finding";
+  EXPECT_EQ(expect_reproducible("found"), findings);
+  EXPECT_GE(findings, 2);
+}
+
+TEST_F(WitnessFiles, NameTheFamilyOfWeights) {
+  const Outcome o =
+      run("audit model:mutation=warren_declared octahedron --depth 1 --level quick --witnesses found");
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_GT(expect_reproducible("found"), 0);
+  for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
+    const Json json = Json::parse(read(entry.path() / "witness.json"));
+    if (json.at("check") != "positions") continue;
+    EXPECT_NE(json.at("eval").get<std::string>().find("--weights warren"), std::string::npos);
+  }
+}
+
 TEST_F(WitnessFiles, CarryTheDepthsOfTheFaces) {
   const Outcome o =
       run("audit sliding-window icosahedron --depth 2 --depths random:3 --option repair=none --level quick "

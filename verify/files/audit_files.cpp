@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "verify/files/blind_spots.h"
 #include "verify/files/diagnosis.h"
 #include "verify/files/hausdorff.h"
 #include "verify/interrupt/interrupt.h"
@@ -48,6 +49,15 @@ std::string per_vertex(const FileEvidence& e) {
   return out;
 }
 
+const char* distance_row(const std::vector<ProvenanceRow>& provenance) {
+  return provenance.empty() ? "file-distance" : "file-positions";
+}
+
+Result& row(FilesAudit& audit, std::string_view check) {
+  return *std::find_if(audit.results.begin(), audit.results.end(),
+                       [&](const Result& r) { return r.check == check; });
+}
+
 using Step = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
 
 // Adds to `audit` as it goes, so that an end in between leaves what there is.
@@ -75,27 +85,33 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   place_points(e, provenance,
                [&](std::size_t done, std::size_t total) { step("closest points", done, total); });
   append(audit.results, check_file_finite(e));
+  append(audit.results, check_file_unused(e));
   append(audit.results, check_file_distance(e));
   append(audit.results, check_file_normals(e));
   if (tessellation.normals.empty() && options.needs_normals) {
-    audit.results.back().status = Status::kFinding;
-    audit.results.back().bad = audit.results.back().of =
-        static_cast<std::int64_t>(tessellation.positions.size());
+    Result& normals = row(audit, "file-normals");
+    normals.status = Status::kFinding;
+    normals.bad = normals.of = static_cast<std::int64_t>(tessellation.positions.size());
   }
   step("coverage", 0, 1);
   append(audit.results, check_file_cover(e));
+  append(audit.results, check_file_triangles(e));
   step("watertight", 0, 1);
   append(audit.results, check_file_watertight(e));
   append(audit.results,
          check_file_hausdorff(e, options.hausdorff.value_or(-1), [&] { step("Hausdorff distance", 0, 1); }));
-  if (!tessellation.triangles.empty()) audit.notes.push_back(audit.results.back().message);
+  if (!tessellation.triangles.empty()) audit.notes.push_back(row(audit, "file-hausdorff").message);
 
-  Result& distance = audit.results[1];
+  Result& distance = row(audit, distance_row(provenance));
+  const auto say = [&](const std::string& sentence) {
+    if (!sentence.empty()) distance.message += (distance.message.empty() ? "" : "; ") + sentence;
+  };
   if (distance.status == Status::kFinding) {
     step("diagnosis", 0, 1);
-    for (const std::string& sentence : diagnose(e)) {
-      distance.message += (distance.message.empty() ? "" : "; ") + sentence;
-    }
+    for (const std::string& sentence : diagnose(e)) say(sentence);
+  } else if (const std::string unseen = blind_spots(e); !unseen.empty()) {
+    say(unseen);
+    audit.notes.push_back(unseen);
   }
   audit.per_vertex = per_vertex(e);
 }
@@ -112,8 +128,8 @@ FilesAudit audit_files(const std::string& control_name, const data::ControlMesh&
   } catch (const Interrupted&) {
     audit.gave_up = true;
     for (const char* check :
-         {"file-finite", provenance.empty() ? "file-distance" : "file-positions", "file-normals",
-          "file-orientation", "file-coverage", "file-watertight", "file-hausdorff"}) {
+         {"file-finite", "file-unused", distance_row(provenance), "file-normals", "file-normal-length",
+          "file-orientation", "file-coverage", "file-degenerate", "file-watertight", "file-hausdorff"}) {
       if (std::any_of(audit.results.begin(), audit.results.end(),
                       [&](const Result& r) { return r.check == check; }))
         continue;

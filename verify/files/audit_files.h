@@ -30,9 +30,9 @@ struct FilesAudit {
   std::string per_vertex;  // CSV: vertex, distance in diagonals, normal angle in degrees, face, l1, l2
 };
 
-/// Rows: file-finite, file-distance (or file-positions, with a provenance), file-normals, file-orientation,
-/// file-coverage, file-watertight, file-hausdorff. `control` is valid (data/validate.h); the tessellation is
-/// fitted first if asked.
+/// Rows: file-finite, file-unused, file-distance (or file-positions, with a provenance), file-normals,
+/// file-normal-length, file-orientation, file-coverage, file-degenerate, file-watertight, file-hausdorff.
+/// `control` is valid (data/validate.h); the tessellation is fitted first if asked.
 FilesAudit audit_files(
     const std::string& control_name, const data::ControlMesh& control, FileTessellation tessellation,
     const std::vector<ProvenanceRow>& provenance, const FilesOptions& options,

@@ -4,29 +4,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "verify/files/boundary.h"
 #include "verify/files/file_evidence.h"
 
 namespace limitcheck::verify {
 namespace {
-
-// Both ends lie on one boundary edge of the control mesh.
-bool on_boundary(const FileEvidence& e, std::int32_t a, std::int32_t b) {
-  const Domain& domain = e.surface.domain();
-  for (const std::int32_t p : {a, b}) {
-    const FacePoint& at = e.place[p];
-    std::vector<std::int32_t> faces{at.face};
-    for (int k = 0; k < 3; ++k)
-      if (at.l[k] == 1)
-        for (const std::int32_t f : domain.faces_at(domain.triangles()[at.face][k])) faces.push_back(f);
-    for (const std::int32_t face : faces) {
-      FacePoint x, y;
-      if (!domain.express(e.place[a], face, x) || !domain.express(e.place[b], face, y)) continue;
-      for (int k = 0; k < 3; ++k)
-        if (x.l[k] == 0 && y.l[k] == 0 && domain.across(face, k) < 0) return true;
-    }
-  }
-  return false;
-}
 
 // How far the points of the cracks are from the nearest
 // other one, at most: what welding would have to bridge.
@@ -75,14 +57,8 @@ std::vector<Result> check_file_watertight(const FileEvidence& e) {
   const SurfaceReport report =
       inspect_surface(static_cast<std::int64_t>(e.merged.vertex_of.size()), triangles);
 
-  std::vector<SurfaceReport::Edge> cracks;
-  std::vector<std::int32_t> points;
-  for (const auto& edge : report.open_edges)
-    if (!on_boundary(e, edge.from, edge.to)) {
-      cracks.push_back(edge);
-      points.push_back(edge.from);
-      points.push_back(edge.to);
-    }
+  const FileBoundary boundary = compare_boundary(e, report);
+  const auto& cracks = boundary.cracks;
   r.of = report.elements() + t.left_out;
   const auto part = [&](std::int64_t count, const char* what, bool bad = true) {
     if (count == 0) return;
@@ -96,9 +72,17 @@ std::vector<Result> check_file_watertight(const FileEvidence& e) {
   part(report.clashing_edges, "edges of two triangles that run the same way");
   part(report.bow_tie_points, "points with more than one fan of triangles");
   part(t.left_out, "faces of fewer than three corners, or of vertices that do not exist");
+  // A hole of the control mesh that is filled. Seams may be closed by merging equal positions, or not.
+  if (r.bad == 0 && !boundary.seams && report.open_loops != boundary.loops) {
+    r.bad = 1;
+    r.message = fmt::format("{} boundary loops instead of {}", report.open_loops, boundary.loops);
+  }
   if (r.bad > 0) r.status = Status::kFinding;
   part(degenerate, "triangles with two corners in one place left out", false);
+  if (!boundary.remark.empty()) r.message += (r.message.empty() ? "" : "; ") + boundary.remark;
   if (!cracks.empty()) {
+    std::vector<std::int32_t> points;
+    for (const auto& edge : cracks) points.insert(points.end(), {edge.from, edge.to});
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     const double width = widest(e, points) / e.surface.diagonal();

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verify/files/schemes.h"
+#include "verify/audit/schemes.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -98,22 +98,15 @@ std::vector<std::string> diagnose(const FileEvidence& e) {
     return a.apart.rms < b.apart.rms;
   });
   if (best != guesses.end() && best->apart.rms < from_surface / 10) {
-    const std::string cloud =
-        fmt::format("the {} {} ({} step{})",
-                    best->scheme == Scheme::kLoop     ? "vertices of the control mesh refined by"
-                    : best->scheme == Scheme::kLinear ? "flat control mesh itself, by"
-                    : best->limit                     ? "limit points of"
-                                                      : "vertices of the control mesh refined by",
-                    name_of(best->scheme), best->steps, best->steps == 1 ? "" : "s");
-    told.push_back(
-        fmt::format("looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off Loop's "
-                    "limit surface{}",
-                    cloud, best->apart.worst / size, worst_from_surface / size,
-                    best->scheme == Scheme::kLoop     ? "; what is missing is the last step, the limit mask"
-                    : best->scheme == Scheme::kWarren ? "; Warren's is another surface"
-                    : best->scheme == Scheme::kCatmullClark
-                        ? "; this is not Loop subdivision at all: more steps bring it no nearer"
-                        : "; nothing was subdivided"));
+    told.push_back(fmt::format(
+        "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off Loop's "
+        "limit surface{}",
+        describe(best->scheme, best->steps, best->limit), best->apart.worst / size, worst_from_surface / size,
+        best->scheme == Scheme::kLoop     ? "; what is missing is the last step, the limit mask"
+        : best->scheme == Scheme::kWarren ? "; Warren's is another surface"
+        : best->scheme == Scheme::kCatmullClark
+            ? "; this is not Loop subdivision at all: more steps bring it no nearer"
+            : "; nothing was subdivided"));
     return told;
   }
   const auto& t = e.tessellation;

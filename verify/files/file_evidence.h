@@ -56,8 +56,10 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
 std::vector<Result> check_file_finite(const FileEvidence& e);
 std::vector<Result> check_file_distance(const FileEvidence& e);
 std::vector<Result> check_file_positions(const FileEvidence& e);  // at the provenance claimed
-std::vector<Result> check_file_normals(const FileEvidence& e);
-std::vector<Result> check_file_cover(const FileEvidence& e);  // file-orientation, file-coverage
+std::vector<Result> check_file_normals(const FileEvidence& e);    // file-normals, file-normal-length
+std::vector<Result> check_file_unused(const FileEvidence& e);
+std::vector<Result> check_file_triangles(const FileEvidence& e);  // file-degenerate
+std::vector<Result> check_file_cover(const FileEvidence& e);      // file-orientation, file-coverage
 std::vector<Result> check_file_watertight(const FileEvidence& e);
 
 }  // namespace limitcheck::verify

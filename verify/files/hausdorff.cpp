@@ -349,6 +349,8 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
       *r.worst, most, h.from_triangles.at_least / size, h.from_triangles.at_most / size,
       h.from_surface.at_least / size, h.from_surface.at_most / size);
   if (bound < 0) r.message += "; the bound is that of one triangle per control face";
+  if (bound < 0 && e.tessellation.triangles.size() <= e.control.triangles.size())
+    r.message += ", which this file is: only --max-deviation can judge it";
   if (h.loose > 0)
     r.message += fmt::format(
         "; {} triangles reach over several control faces or cover none, which makes the upper ends large",

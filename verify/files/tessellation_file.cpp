@@ -51,7 +51,7 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
 
   if (soup.corner_normals.empty() && soup.normals.size() == t.positions.size()) {
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertices); ++v)
-      if (t.used[v]) t.normals.push_back({v, soup.normals[v]});
+      t.normals.push_back({v, soup.normals[v]});
   } else {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

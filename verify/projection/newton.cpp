@@ -55,6 +55,7 @@ class Descent {
     const Vector r = position_ - p_, d1 = vector(s_.d1), d2 = vector(s_.d2);
     const double g1 = dot(r, d1), g2 = dot(r, d2);
     const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);
+    if (!(a + c > 0)) return false;
     double ha = a, hb = b, hc = c;
     if (s_.second_exist) {
       ha += dot(r, vector(s_.d11));

@@ -78,7 +78,7 @@ KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourho
                           const RoundingModel& model) {
   const BoundScope scope(reach, model);
   const std::size_t n = neighbourhood.mesh.positions.size();
-  // One coordinate stands for three: the kernels treat them alike until the normal.
+  // One coordinate stands for three: the kernels treat them alike until the normal, see WorstObserved::alike.
   std::vector<fast::Vec3<BoundFloat>> points(n);
   for (auto& p : points) p.x = BoundFloat(BoundForm::variable());
   LinearRuns<BoundFloat, BoundLane> runs(neighbourhood.mesh, points);
@@ -115,6 +115,7 @@ BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood,
     proof.normal_bound = std::max(proof.normal_bound, bounds.normal());
     const WorstObserved worst = search_worst(neighbourhood, bounds, depth <= 4 ? meshes : meshes / 5,
                                              static_cast<std::uint64_t>(depth) + 1);
+    proof.alike = proof.alike && worst.alike;
     proof.position_worst = std::max(proof.position_worst, worst.position);
     proof.tangent_worst = std::max(proof.tangent_worst, worst.tangent);
     proof.share = std::max({proof.share, worst.position_share, worst.tangent_share});

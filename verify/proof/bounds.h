@@ -87,6 +87,7 @@ struct WorstObserved {
   /// Largest share of its own point's bound: at most 1, or the proof is wrong.
   double position_share = 0, tangent_share = 0;
   std::int64_t meshes = 0;
+  bool alike = true;  ///< a mesh with x = y = z in all points comes out so, bit for bit
 };
 
 /// The real float kernel against the exact limit. Positions come from the reference (Stam's evaluator in

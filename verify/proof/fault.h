@@ -10,10 +10,11 @@ namespace limitcheck::verify {
 class StencilFault {
  public:
   enum class Kind : std::uint8_t {
-    kFactor,    ///< a wrong coefficient: a product with a factor that is 2^-20 too large
-    kDropped,   ///< a wrong index: a sum without its second term
-    kDoubled,   ///< a wrong coefficient: a sum with its second term twice
-    kNeighbour  ///< a wrong index: a sum with the second term of the sum before in place of its own
+    kFactor,     ///< a wrong coefficient: a product with a factor that is 2^-20 too large
+    kDropped,    ///< a wrong index: a sum without its second term
+    kDoubled,    ///< a wrong coefficient: a sum with its second term twice
+    kNeighbour,  ///< a wrong index: a sum with the second term of the sum before in place of its own
+    kCoordinate  ///< a wrong coordinate: a sum of y or z that is the sum of x before it
   };
 
   StencilFault(Kind kind, std::int64_t at) : kind_(kind), left_(at) { active_ = this; }

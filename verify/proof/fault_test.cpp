@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -34,16 +35,20 @@ void run_stream(const data::ControlMesh& mesh, const Points& points, Visit&& vis
 }
 
 bool same(const Number& a, const Number& b) {
-  return std::ranges::equal(a.entries(), b.entries(), [](const auto& x, const auto& y) {
-    return x.point == y.point && x.weight == y.weight;
-  });
+  return a.constant() == b.constant() &&
+         std::ranges::equal(a.entries(), b.entries(), [](const auto& x, const auto& y) {
+           return x.point == y.point && x.weight == y.weight;
+         });
+}
+bool same(const fast::Vec3<Number>& a, const fast::Vec3<Number>& b) {
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 bool same(const Frame& a, const Frame& b) {
-  return same(a.position.x, b.position.x) && same(a.du.x, b.du.x) && same(a.dv.x, b.dv.x);
+  return same(a.position, b.position) && same(a.du, b.du) && same(a.dv, b.dv);
 }
 
 std::string name(StencilFault::Kind kind) {
-  constexpr std::array<const char*, 4> kNames{"factor", "dropped", "doubled", "neighbour"};
+  constexpr std::array<const char*, 5> kNames{"factor", "dropped", "doubled", "neighbour", "coordinate"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -56,7 +61,8 @@ void expect_caught(const char* kernel, const Neighbourhood& pair, Run&& run) {
   run(pair.mesh, points, [&](const fast::LatticePoint&, const Frame& f) { clean.push_back(f); });
   int planted = 0, visible = 0;
   using Kind = StencilFault::Kind;
-  for (const Kind kind : {Kind::kFactor, Kind::kDropped, Kind::kDoubled, Kind::kNeighbour}) {
+  for (const Kind kind :
+       {Kind::kFactor, Kind::kDropped, Kind::kDoubled, Kind::kNeighbour, Kind::kCoordinate}) {
     constexpr std::int64_t kFar = std::int64_t{1} << 40;
     std::int64_t operations = 0;
     {
@@ -85,7 +91,7 @@ void expect_caught(const char* kernel, const Neighbourhood& pair, Run&& run) {
       EXPECT_EQ(row.map.equal, !differs) << kernel << ' ' << name(kind) << " at operation " << at;
       if (!row.map.witness) continue;
       const MapWitness& w = *row.map.witness;
-      EXPECT_GE(w.control_point, 0) << w.quantity;
+      EXPECT_EQ(w.control_point < 0, kind == Kind::kCoordinate) << w.quantity;
       EXPECT_FALSE(w.point.empty());
     }
   }
@@ -154,6 +160,12 @@ TEST(Proof_Faults, WrongPlacesAndTangentsAreCaught) {
          f.du.x = f.du.x + Number::control_point(0) - Number::control_point(1);
        }},
       {"a constant", [](fast::LatticePoint&, Frame& f) { f.position.x = f.position.x + Number(1); }},
+      {"y is x", [](fast::LatticePoint&, Frame& f) { f.position.y = f.position.x; }},
+      {"z is y", [](fast::LatticePoint&, Frame& f) { f.position.z = f.position.y; }},
+      {"y and z exchanged", [](fast::LatticePoint&, Frame& f) { std::swap(f.position.y, f.position.z); }},
+      {"a tangent's y is x", [](fast::LatticePoint&, Frame& f) { f.du.y = f.du.x; }},
+      {"the other tangent's z is y", [](fast::LatticePoint&, Frame& f) { f.dv.z = f.dv.y; }},
+      {"z is not there", [](fast::LatticePoint&, Frame& f) { f.position.z = Number(); }},
       {"an ulp of a weight", [](fast::LatticePoint&, Frame& f) {
          f.position.x = f.position.x + Coefficient<Residue>::ratio(1, 1 << 30) * Number::control_point(2);
        }}};
@@ -169,6 +181,23 @@ TEST(Proof_Faults, WrongPlacesAndTangentsAreCaught) {
       });
       EXPECT_FALSE(row.map.equal) << wrong.what;
     }
+  }
+}
+
+TEST(Proof_Faults, OfTheScaleOfFloatAndDoubleAreCaught) {
+  using detail::scales_rightly;
+  const auto right = [](auto unit, int depth) {
+    return static_cast<decltype(unit)>(std::ldexp(static_cast<double>(unit) / 12, -3 * depth));
+  };
+  for (int depth = 0; depth <= fast::row_stream::kMaxDepth; ++depth) {
+    EXPECT_TRUE(scales_rightly<float>(depth) && scales_rightly<double>(depth)) << depth;
+    EXPECT_TRUE(scales_rightly<float>(depth, right) && scales_rightly<double>(depth, right)) << depth;
+    const auto level = [&](auto unit, int d) { return right(unit, d + 1); };
+    EXPECT_FALSE(scales_rightly<float>(depth, level)) << depth;
+    const auto ulp = [&](auto unit, int d) { return std::nextafter(right(unit, d), decltype(unit)(0)); };
+    EXPECT_FALSE(scales_rightly<float>(depth, ulp) || scales_rightly<double>(depth, ulp)) << depth;
+    const auto eleven = [&](auto unit, int d) { return right(unit, d) * 12 / 11; };
+    EXPECT_FALSE(scales_rightly<float>(depth, eleven)) << depth;
   }
 }
 

@@ -3,21 +3,43 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "data/splitmix64.h"
 #include "verify/proof/proof_row.h"
 #include "verify/proof/reference_map.h"
 #include "verify/proof/stencil.h"
 
 namespace limitcheck::verify {
 
+/// What y and z of control point k are in the runs of the kernels: numbers of 60 random bits below 1, the
+/// same in every run.
+template <class C>
+std::vector<std::array<C, 2>> probes(std::size_t n) {
+  data::SplitMix64 random(2);
+  const C step = Coefficient<C>::ratio(1, 1 << 30);
+  const auto part = [&] { return C(static_cast<int>(random.next() >> 34)); };
+  std::vector<std::array<C, 2>> result(n);
+  for (auto& probe : result)
+    for (C& c : probe) {
+      const C high = part() * step;
+      c = high + part() * step * step;
+    }
+  return result;
+}
+
 /// Compares points one by one and keeps the first that differs.
 ///   position   every weight equals the reference's; the weights sum to 1, none is negative         [C24]
 ///   tangents   du = a d1 + b d2 and dv = c d1 + d d2 for every control point, with a d > b c: the same
 ///              plane and side for any geometry, whichever two tangents either side prefers;
 ///              the weights sum to 0
+///   y, z       are what the weights of x make of the probes, in position and tangents: a kernel that treats
+///              them otherwise than x would do so by a chance of 2^-60
 template <class C>
 class MapComparison {
  public:
@@ -30,7 +52,10 @@ class MapComparison {
     ++points_;
     if (witness_) return;
     if (!check_position(found.position.x, expected.position) ||
-        !check_tangents(found.du.x, found.dv.x, expected))
+        !check_tangents(found.du.x, found.dv.x, expected) ||
+        !check_others("position", found.position, expected.position.size()) ||
+        !check_others("first tangent", found.du, expected.position.size()) ||
+        !check_others("second tangent", found.dv, expected.position.size()))
       witness_->point = where();
   }
 
@@ -70,6 +95,22 @@ class MapComparison {
       if (K::approximate(row[k]) < 0) return fail("negative weight", k, row[k], expected[k]);
     }
     return check_sum("sum of the position's weights", found, 1);
+  }
+
+  bool check_others(const std::string& quantity, const fast::Vec3<Stencil<C>>& found, std::size_t n) {
+    if (probes_.size() != n) probes_ = probes<C>(n);
+    C y(0), z(0);
+    for (const auto& entry : found.x.entries()) {
+      const auto& probe = probes_[static_cast<std::size_t>(entry.point)];
+      y += entry.weight * probe[0];
+      z += entry.weight * probe[1];
+    }
+    return check_other(quantity + " in y", found.y, y) && check_other(quantity + " in z", found.z, z);
+  }
+  bool check_other(const std::string& quantity, const Stencil<C>& found, const C& expected) {
+    if (found.entries().empty() && equal(found.constant(), expected)) return true;
+    witness_ = MapWitness{"", quantity, -1, K::approximate(found.constant()), K::approximate(expected)};
+    return false;
   }
 
   // du, dv in terms of d1, d2, as two of the control points have it.
@@ -137,6 +178,7 @@ class MapComparison {
 
   std::int64_t points_ = 0;
   double worst_ = 0;
+  std::vector<std::array<C, 2>> probes_;
   std::optional<MapWitness> witness_;
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "data/cut_out.h"
 #include "data/splitmix64.h"
 #include "fast/adjacency.h"
 
@@ -52,39 +53,6 @@ int faces_after(const Adjacency& adjacency, std::int32_t h) {
   int count = 0;
   for (std::int32_t walk = h; walk >= 0 && (count == 0 || walk != h); walk = adjacency.rotate(walk)) ++count;
   return count;
-}
-
-/// Every vertex is given once per fan of faces around it: removing faces may have left it several. The fan
-/// with the lowest face keeps the number.
-void split_fans(Faces& faces) {
-  std::int32_t vertices = 0;
-  std::map<std::int32_t, std::vector<std::size_t>> around;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (const std::int32_t v : faces[f]) around[v].push_back(f), vertices = std::max(vertices, v + 1);
-  for (auto& [v, rest] : around) {
-    for (bool first = true; !rest.empty(); first = false) {
-      std::set<std::int32_t> reached(faces[rest.front()].begin(), faces[rest.front()].end());
-      std::vector<std::size_t> fan{rest.front()};
-      rest.erase(rest.begin());
-      reached.erase(v);
-      for (bool grown = true; grown;) {
-        grown = false;
-        for (std::size_t k = 0; k < rest.size(); ++k) {
-          const auto& face = faces[rest[k]];
-          if (std::ranges::none_of(face, [&](std::int32_t w) { return reached.contains(w); })) continue;
-          for (const std::int32_t w : face)
-            if (w != v) reached.insert(w);
-          fan.push_back(rest[k]);
-          rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
-          grown = true;
-          break;
-        }
-      }
-      if (first) continue;
-      for (const std::size_t f : fan) std::ranges::replace(faces[f], v, vertices);
-      ++vertices;
-    }
-  }
 }
 
 /// Closes the fans of the four corners one after the other; false if that cannot be done in this order.
@@ -184,7 +152,7 @@ Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge) {
       face[k] = number.emplace(corners[k], static_cast<std::int32_t>(number.size())).first->second;
     faces.push_back(face);
   }
-  split_fans(faces);
+  data::split_fans(faces, number.size());
   Neighbourhood result{"", with_positions(std::move(faces))};
   result.name = signature(result.mesh, 0);
   return result;
@@ -212,7 +180,7 @@ std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence) {
     mesh.triangles.clear();
     for (std::size_t f = 0; f < whole->mesh.triangles.size(); ++f)
       if (!removed.contains(f)) mesh.triangles.push_back(whole->mesh.triangles[f]);
-    split_fans(mesh.triangles);
+    data::split_fans(mesh.triangles, mesh.positions.size());
     Neighbourhood cut = cut_out(with_positions(mesh.triangles), 0);
     if (seen.insert(cut.name).second) result.push_back(std::move(cut));
   };

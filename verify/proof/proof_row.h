@@ -33,7 +33,8 @@ struct BoundProof {
   double tangent_worst = 0;
   /// A unit normal is right to asin(normal_bound / q) + 2^-23, q the share that |du x dv| has of its largest.
   double normal_bound = 0;
-  double share = 0;  ///< largest share of its own point's bound that an error had: at most 1
+  double share = 0;   ///< largest share of its own point's bound that an error had: at most 1
+  bool alike = true;  ///< equal x, y and z come out with equal bits: the bound of x is that of y and z
 };
 
 /// Counted at the last depth, per distinct limit point of the pair (operation_count.h).

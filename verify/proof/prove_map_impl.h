@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
+#include "fast/row_stream/layout.h"
 #include "reference/stam.h"
 #include "verify/proof/kernel_runs.h"
 #include "verify/proof/map_comparison.h"
@@ -15,11 +17,15 @@
 
 namespace limitcheck::verify::detail {
 
-/// The control points themselves.
+/// Control points whose x is the control point itself, and whose y and z are known numbers: what a kernel
+/// does to y and z it must then do to numbers as the weights of x say (MapComparison).
 template <class C>
 std::vector<fast::Vec3<Stencil<C>>> identity(std::size_t n) {
   std::vector<fast::Vec3<Stencil<C>>> points(n);
-  for (std::size_t k = 0; k < n; ++k) points[k].x = Stencil<C>::control_point(static_cast<int>(k));
+  const std::vector<std::array<C, 2>> known = probes<C>(n);
+  for (std::size_t k = 0; k < n; ++k)
+    points[k] = {Stencil<C>::control_point(static_cast<int>(k)), Stencil<C>(known[k][0]),
+                 Stencil<C>(known[k][1])};
   return points;
 }
 
@@ -32,6 +38,36 @@ struct StencilLane {
 inline std::string describe(int depth, const fast::LatticePoint& p) {
   return fmt::format("depth {}, face {} at ({}/{}, {}/{})", depth, p.face, p.i, p.denominator, p.j,
                      p.denominator);
+}
+
+/// Whether a float or double engine scales limit points by the number next to what the proof's own numbers
+/// are scaled by: fast::row_stream::scaled has a branch for them. A sample of units stands for all, which are
+/// powers of two.
+template <class T, class Scaled>
+bool scales_rightly(int depth, Scaled&& scaled) {
+  for (int e = -60; e <= 60; e += 20) {
+    const T unit = std::ldexp(T(1), e);
+    const double found = std::ldexp(static_cast<double>(scaled(unit, depth)), 3 * depth);
+    // 12 found - unit is exact; half a unit in the last place of `found` is allowed.
+    const double half = std::ldexp(0.5, std::ilogb(found) + 1 - std::numeric_limits<T>::digits);
+    if (!(std::abs(std::fma(12., found, -static_cast<double>(unit))) <= 12 * half)) return false;
+  }
+  return true;
+}
+template <class T>
+bool scales_rightly(int depth) {
+  return scales_rightly<T>(depth, [](T unit, int d) {
+    return fast::row_stream::scaled(fast::row_stream::Placement<T>{{}, unit}, d).unit;
+  });
+}
+
+/// A row whose depths are not all scaled rightly is no proof.
+inline void check_scale(ProofRow& row) {
+  for (int depth = row.first_depth; depth <= row.last_depth && row.map.equal; ++depth) {
+    if (scales_rightly<float>(depth) && scales_rightly<double>(depth)) continue;
+    row.map.equal = false;
+    row.map.witness = MapWitness{fmt::format("depth {}", depth), "scale of limit points", -1, 0, 0};
+  }
 }
 
 /// Compares what `run(depth, visit)` delivers at every depth.
@@ -86,6 +122,8 @@ std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOpt
     rows.push_back(compare<C>(neighbourhood, "row-stream-edge", options, maps, [&](int depth, auto&& visit) {
       for (std::int32_t h = 0; h < 3 * faces; ++h) runs.edge(h, depth, visit);
     }));
+    check_scale(rows[rows.size() - 2]);
+    check_scale(rows.back());
   }
   return rows;
 }

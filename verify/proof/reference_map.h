@@ -29,8 +29,8 @@ struct MapRow {
     for (std::size_t c = 0; c < 3 && first + c < points.size(); ++c) {
       const std::size_t v = points[first + c];
       position[v] = p.position.*kCoordinates[c];
-      d1[v] = p.d1.*kCoordinates[c];
-      d2[v] = p.d2.*kCoordinates[c];
+      d1[v] = p.t1.*kCoordinates[c];
+      d2[v] = p.t2.*kCoordinates[c];
     }
   }
 

@@ -106,7 +106,8 @@ class SharedReferenceMap {
         for (std::size_t t = 0; t < face->rings.size(); ++t) {
           const auto& c = face->rings[t].corner[k];
           put(t, reference::extraordinary_corner<C>(c.point, c.span(), c.on_boundary, c.sector,
-                                                    {next[0], next[1], before[0], before[1], level}));
+                                                    {next[0], next[1], before[0], before[1], level},
+                                                    face->rings[t].weights, reference::Order::kFirst));
         }
         return row;
       }

@@ -111,7 +111,13 @@ class Stencil {
   template <bool kMinus>
   static Stencil sum(const Stencil& a, const Stencil& b) {
     StencilFault* fault = StencilFault::active();
-    if (fault == nullptr || fault->is_product() || b.entries_.empty()) return merged<kMinus>(a, b);
+    if (fault == nullptr || fault->is_product()) return merged<kMinus>(a, b);
+    if (fault->kind() == StencilFault::Kind::kCoordinate) {
+      static thread_local Stencil of_x;
+      if (a.entries_.empty() && b.entries_.empty()) return fault->strikes() ? of_x : merged<kMinus>(a, b);
+      return of_x = merged<kMinus>(a, b);
+    }
+    if (b.entries_.empty()) return merged<kMinus>(a, b);
     static thread_local Stencil before;
     const Stencil instead = before;
     before = b;

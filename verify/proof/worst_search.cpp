@@ -2,8 +2,10 @@
 // Trying to reach the proved bounds with real control meshes.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,7 @@ using FloatLane = fast::row_stream::LinearNumber<float, tangent>;
 using Row = std::vector<double>;
 using Mesh = std::vector<fast::Vec3<float>>;
 
-// Three meshes at once, one per coordinate: the kernels treat coordinates alike.
+// Three meshes at once, one per coordinate: the kernels treat coordinates alike (Search::alike).
 constexpr std::array<float fast::Vec3<float>::*, 3> kCoordinates{&fast::Vec3<float>::x, &fast::Vec3<float>::y,
                                                                  &fast::Vec3<float>::z};
 
@@ -104,10 +106,30 @@ class Search {
       worst.tangent_share = std::max(worst.tangent_share, errors.worst.tangent_share);
     }
     worst.meshes = meshes;
+    worst.alike = alike();
     return worst;
   }
 
  private:
+  // Whether a mesh whose points have one value for x, y and z comes out so, bit for bit.
+  bool alike() {
+    Mesh mesh(neighbourhood_.mesh.positions.size());
+    for (auto& p : mesh) {
+      const float value = fresh(0);
+      p = {value, value, value};
+    }
+    bool result = true;
+    const auto is_alike = [](const fast::Vec3<float>& v) {
+      const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+      return bits(v.x) == bits(v.y) && bits(v.x) == bits(v.z);
+    };
+    LinearRuns<float, FloatLane> runs(neighbourhood_.mesh, mesh);
+    runs.run(bounds_.kernel, bounds_.depth, [&](const fast::LatticePoint&, const fast::LimitFrame<float>& f) {
+      result = result && is_alike(f.position) && is_alike(f.du) && is_alike(f.dv);
+    });
+    return result;
+  }
+
   static void put(Quantity& q, std::size_t k, const Row& row, double largest, double size, double bound) {
     const std::size_t points = q.doubt.size();
     for (std::size_t v = 0; v < row.size(); ++v) q.weights[v * points + k] = row[v];

@@ -9,6 +9,8 @@ std::span<const Mutation> mutations() {
       {"none", "nothing: right in every check", ""},
       // Subdivision.
       {"warren_weights", "a(n) = 3/8 for n > 3, as Warren has it", "positions"},
+      {"warren_declared", "declares Warren's weights and has Loop's", "positions"},
+      {"warren_limit_of_loop", "Warren's weights, declared, but the limit mask of Loop's", "positions"},
       {"weight_1e-6_at_valence_5", "a(5) is 1e-6 too large, and nothing else", "positions"},
       {"square_forgotten", "a(n) = 5/8 - (3 + 2 cos)/64", "positions"},
       {"half_angle", "a(n) with cos(pi/n)", "positions"},

@@ -52,7 +52,8 @@ double ModelRules::alpha(int n) const {
   if (is("weights_below_64") && n == 64) return 0;
   if (is("weight_at_infinity") && n >= 20) return 15. / 64;
   if (is("valence_in_8_bits") && n % 256 == 0) return 0;
-  return reference::loop_a<double>(n) + (n == 5 && is("weight_1e-6_at_valence_5") ? 1e-6 : 0);
+  const auto weights = is("warren_declared") ? reference::Weights::kLoop : weights_;
+  return reference::ring_weight<double>(n, weights) + (n == 5 && is("weight_1e-6_at_valence_5") ? 1e-6 : 0);
 }
 
 V ModelRules::vertex_point(const Topology& topology, const std::vector<V>& points, std::int32_t v) const {
@@ -116,7 +117,7 @@ std::vector<V> ModelRules::refine(const Topology& topology, const std::vector<V>
 V ModelRules::limit(const Topology& topology, const std::vector<V>& points, std::int32_t v, int depth,
                     std::size_t first) const {
   const V& p = points[static_cast<std::size_t>(v)];
-  if (is("no_limit") || (is("no_limit_at_depth_0") && depth == 0) ||
+  if (refined_ || is("no_limit") || (is("no_limit_at_depth_0") && depth == 0) ||
       (is("no_limit_from_depth_5") && depth >= 5) ||
       (is("valence_in_8_bits") && topology.ring(v).size() == 256))
     return p;
@@ -143,7 +144,8 @@ V ModelRules::limit(const Topology& topology, const std::vector<V>& points, std:
   } else if (is("limit_weights_1e-4")) {
     weight *= 1.0001;
   } else {
-    return reference::interior_limit<double>(p, ring);
+    return reference::interior_limit<double>(
+        p, ring, is("warren_declared") || is("warren_limit_of_loop") ? reference::Weights::kLoop : weights_);
   }
   V sum = p * weight;
   for (const V& r : ring) sum += r;

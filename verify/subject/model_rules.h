@@ -9,6 +9,7 @@
 #include "reference/masks.h"
 #include "reference/topology.h"
 #include "reference/vec3.h"
+#include "reference/weights.h"
 
 namespace limitcheck::verify {
 
@@ -23,12 +24,16 @@ struct Mutation {
 std::span<const Mutation> mutations();
 
 /// The rules under one mutation, in double. Points are those of a mesh at some level.
+///   weights   the family that the subject declares
+///   refined   limit() leaves points as they are
 class ModelRules {
  public:
   using V = reference::Vec3<double>;
-  explicit ModelRules(std::string_view mutation) : mutation_(mutation) {}
+  ModelRules(std::string_view mutation, reference::Weights weights, bool refined)
+      : mutation_(mutation), weights_(weights), refined_(refined) {}
 
   bool is(std::string_view name) const { return mutation_ == name; }
+  reference::Weights weights() const { return weights_; }
 
   /// One step of `depth`: vertex points in the order of the vertices, then edge points in the order of the
   /// edges.
@@ -47,6 +52,8 @@ class ModelRules {
                const reference::Edge& edge) const;
 
   std::string_view mutation_;
+  reference::Weights weights_;
+  bool refined_;
 };
 
 }  // namespace limitcheck::verify

@@ -3,7 +3,11 @@
 // the deepest level asked for, every point once; faces beside deeper ones are stitched to them or, below
 // depth 2, become fans round their centre. Computes in double.
 //
-//   options   mutation=NAME (default none), precision=double|float (of what is delivered)
+//   options   mutation=NAME (default none)
+//             precision=double|float (default double; of what is delivered)
+//             weights=loop|warren (default loop)
+//             points=limit|refined (default limit); refined points come without normals, at one depth for all
+//             faces
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +21,7 @@
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/model_frame.h"
 #include "verify/subject/registry.h"
+#include "verify/subject/weights_option.h"
 
 namespace {
 
@@ -34,9 +39,15 @@ std::vector<std::string_view> names() {
 struct Settings {
   explicit Settings(Options& options)
       : mutation(names()[static_cast<std::size_t>(options.choice("mutation", names()))]),
-        single(options.choice("precision", {"double", "float"}) == 1) {}
+        single(options.choice("precision", {"double", "float"}) == 1),
+        weights(weights_option(options)),
+        refined(options.choice("points", {"limit", "refined"}) == 1) {
+    if (mutation == "warren_declared" || mutation == "warren_limit_of_loop") weights = LC_WEIGHTS_WARREN;
+  }
   std::string_view mutation;
   bool single;
+  lc_weights weights;
+  bool refined;
 };
 
 double one_ulp_up(double x) {
@@ -47,14 +58,10 @@ class ModelSubject {
  public:
   static lc_capabilities capabilities(Options& options) {
     const Settings settings(options);
-    return {settings.single ? LC_FLOAT32 : LC_FLOAT64,
-            LC_WEIGHTS_LOOP,
-            LC_BOUNDARY_SPLINE,
-            LC_POINTS_LIMIT,
-            kDeepest,
-            1,
-            1,
-            1};
+    const lc_precision precision = settings.single ? LC_FLOAT32 : LC_FLOAT64;
+    if (settings.refined)
+      return {precision, settings.weights, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, kDeepest, 0, 0, 1};
+    return {precision, settings.weights, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
   }
 
   ModelSubject(const lc_mesh& mesh, Options& options) : ModelSubject(mesh, Settings(options)) {}
@@ -74,7 +81,7 @@ class ModelSubject {
 
  private:
   ModelSubject(const lc_mesh& mesh, const Settings& settings)
-      : settings_(settings), rules_(settings.mutation) {
+      : settings_(settings), rules_(settings.mutation, family(settings.weights), settings.refined) {
     try {
       data::ControlMesh control = control_mesh(mesh);
       refuse(control);
@@ -146,7 +153,7 @@ class ModelSubject {
 
   template <class Real>
   void deliver(const lc_request& request, lc_tessellation& out) const {
-    const bool normals = !rules_.is("normals_forgotten");
+    const bool normals = !settings_.refined && !rules_.is("normals_forgotten");
     const std::size_t vertices = frame_ ? frame_->vertices.size() : 0;
     const std::size_t triangles = frame_ ? frame_->triangles.size() : 0;
     const auto output = allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices),
@@ -184,6 +191,7 @@ class ModelSubject {
 extern "C" const lc_subject* lc_subject_model() {
   static const lc_subject subject =
       make_subject<ModelSubject>("model", "a plain tessellator that is right, or wrong in one stated way",
-                                 "mutation=NAME (default none), precision=double|float");
+                                 "mutation=NAME (default none), precision=double|float (default double), weights=loop|warren "
+                                 "(default loop), points=limit|refined (default limit)");
   return &subject;
 }

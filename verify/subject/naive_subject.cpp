@@ -2,6 +2,8 @@
 // The recursive subdivider of the paper's section 4 (reference/naive.h) in double. It sends single triangles;
 // corners of one face that agree in place, position and normal, bit for bit, become one vertex, so that
 // nothing it says is lost. Faces share no vertices. [C18]
+//
+//   options   weights=loop|warren (default loop)
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -15,6 +17,7 @@
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/faces_in_parallel.h"
 #include "verify/subject/registry.h"
+#include "verify/subject/weights_option.h"
 
 namespace {
 
@@ -68,11 +71,12 @@ struct Face {
 
 class NaiveSubject {
  public:
-  static lc_capabilities capabilities(Options&) {
-    return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 1};
+  static lc_capabilities capabilities(Options& options) {
+    return {LC_FLOAT64, weights_option(options), LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 1};
   }
 
-  NaiveSubject(const lc_mesh& mesh, Options&) : subdivider_(control_mesh(mesh)) {}
+  NaiveSubject(const lc_mesh& mesh, Options& options)
+      : subdivider_(control_mesh(mesh), family(weights_option(options))) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const auto count = static_cast<std::int64_t>(subdivider_.face_count());
@@ -125,6 +129,7 @@ class NaiveSubject {
 
 extern "C" const lc_subject* lc_subject_naive() {
   static const lc_subject subject = make_subject<NaiveSubject>(
-      "naive", "our own recursive subdivider, as the paper's section 4 lists it, in double");
+      "naive", "our own recursive subdivider, as the paper's section 4 lists it, in double",
+      "weights=loop|warren (default loop)");
   return &subject;
 }

@@ -25,9 +25,9 @@ struct Settings {
   explicit Settings(Options& options) {
     indexed = options.choice("output", {"strips", "indexed"}) == 1;
     tessellator.provenance = true;
-    constexpr std::array kRepairs{fast::Repair::kFan, fast::Repair::kStitch, fast::Repair::kNone};
+    constexpr std::array kRepairs{fast::Repair::kStitch, fast::Repair::kFan, fast::Repair::kNone};
     tessellator.cracks.repair =
-        kRepairs[static_cast<std::size_t>(options.choice("repair", {"fan", "stitch", "none"}))];
+        kRepairs[static_cast<std::size_t>(options.choice("repair", {"stitch", "fan", "none"}))];
     const std::string target = options.value("target", rs::kernels().front().name);
     kernel = rs::find_kernel(target.c_str());
     if (kernel == nullptr) {
@@ -78,6 +78,6 @@ class RowStreamSubject {
 const lc_subject* lc_subject_row_stream() {
   static const lc_subject subject = make_subject<RowStreamSubject>(
       "row-stream", "limitcheck's row streaming: one pair per vector lane, shared points bit-identical",
-      "output=strips|indexed, repair=fan|stitch|none, target=avx512|avx2|avx2/4|sse4|scalar|...");
+      "output=strips|indexed, repair=stitch|fan|none, target=avx512|avx2|avx2/4|sse4|scalar|...");
   return &subject;
 }

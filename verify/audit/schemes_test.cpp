@@ -9,7 +9,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "reference/refine.h"
-#include "verify/files/schemes.h"
+#include "verify/audit/schemes.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -87,6 +87,36 @@ TEST(Schemes, LoopIsTheReference) {
     expect_same_points(scheme_points(mesh, Scheme::kLoop, 2, false), points, name);
     expect_same_points(scheme_points(mesh, Scheme::kLoop, 2, true), limits, name);
   }
+}
+
+// Places against the reference's lattice, and Catmull and Clark's on the edges alone.
+TEST(Schemes, PointsKnowTheirPlaces) {
+  const auto mesh = data::named_mesh("holes");
+  constexpr int kSteps = 3;
+  const auto refined = reference::refine<double>(mesh, kSteps);
+  const auto points = placed_scheme_points(mesh, Scheme::kLoop, kSteps, false);
+  ASSERT_EQ(points.place.size(), refined.positions().size());
+  for (std::size_t k = 0; k < points.place.size(); ++k) {
+    const lc_provenance& p = points.place[k];
+    ASSERT_EQ(p.denominator, 1U << kSteps);
+    const auto& q = refined.positions()[refined.vertex(p.face, static_cast<int>(p.i), static_cast<int>(p.j))];
+    ASSERT_LE(norm(points.position[k] - Vector{q.x, q.y, q.z}), 1e-14) << k;
+  }
+  // A flat face keeps points in place but for their distance from its edges: its middle stays the middle.
+  data::ControlMesh flat;
+  flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  flat.triangles = {{0, 1, 2}};
+  const auto quads = placed_scheme_points(flat, Scheme::kCatmullClark, 1, false);
+  std::size_t placed = 0;
+  for (std::size_t k = 0; k < quads.place.size(); ++k) {
+    const lc_provenance& p = quads.place[k];
+    if (p.denominator == 0) continue;
+    ++placed;
+    const bool corner = p.i == p.denominator || p.j == p.denominator || p.i + p.j == 0;
+    if (corner) continue;
+    EXPECT_LE(norm(quads.position[k] - Vector{p.i / 2., p.j / 2., 0}), 1e-15) << "the middle of an edge";
+  }
+  EXPECT_EQ(placed, 6U) << "three corners and three middles of edges; the face's point is on no lattice";
 }
 
 // Warren's weight of each neighbour is 3/(8 n), and 3/16 at valence 3: an octahedron's vertex (1, 0, 0) goes

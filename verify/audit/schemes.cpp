@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "verify/files/schemes.h"
+#include "verify/audit/schemes.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "reference/masks.h"
 #include "reference/topology.h"
-#include "verify/projection/triangle.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -78,6 +80,26 @@ std::vector<Vector> limits(const std::vector<Vector>& points, const Triangles& t
   return result;
 }
 
+// Each triangle of the control mesh has become 4^steps, in the order in which refine() makes them.
+std::vector<lc_provenance> places(std::size_t vertices, const Triangles& triangles, int steps) {
+  std::vector<lc_provenance> place(vertices, {0, 0, 0, 0});
+  const std::uint32_t n = 1U << steps;
+  using Corners = std::array<std::array<std::uint32_t, 2>, 3>;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Corners c{{{0, 0}, {n, 0}, {0, n}}};
+    for (int step = steps - 1; step >= 0; --step) {
+      Corners m;  // middles of the edges 01, 12, 20
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t axis = 0; axis < 2; ++axis) m[k][axis] = (c[k][axis] + c[(k + 1) % 3][axis]) / 2;
+      const std::array<Corners, 4> child{{{c[0], m[0], m[2]}, {m[0], c[1], m[1]}, {m[2], m[1], c[2]}, m}};
+      c = child[(t >> (2 * step)) & 3U];
+    }
+    const auto face = static_cast<std::int32_t>(t >> (2 * steps));
+    for (std::size_t k = 0; k < 3; ++k) place[triangles[t][k]] = {face, c[k][0], c[k][1], n};
+  }
+  return place;
+}
+
 // Who is next to whom in a mesh of polygons.
 struct PolygonEdges {
   struct Edge {
@@ -115,8 +137,14 @@ struct PolygonEdges {
   }
 };
 
+// Where the corners of a polygon lie in its control face.
+struct PolygonPlaces {
+  std::int32_t face;
+  std::vector<std::array<double, 2>> l;  // l1, l2
+};
+
 // One step of Catmull and Clark (1978).
-void catmull_clark(std::vector<Vector>& points, Polygons& polygons) {
+void catmull_clark(std::vector<Vector>& points, Polygons& polygons, std::vector<PolygonPlaces>& places) {
   const PolygonEdges edges(points.size(), polygons);
   std::vector<Vector> face, middle, edge;
   for (const auto& p : polygons) face.push_back(mean(points, p));
@@ -141,20 +169,32 @@ void catmull_clark(std::vector<Vector>& points, Polygons& polygons) {
   const auto first_edge = static_cast<std::int32_t>(points.size());
   const auto first_face = first_edge + static_cast<std::int32_t>(edge.size());
   Polygons quads;
+  std::vector<PolygonPlaces> quad_places;
   for (std::size_t f = 0; f < polygons.size(); ++f) {
     const auto& p = polygons[f];
+    const auto& l = places[f].l;
+    const auto between = [](const std::array<double, 2>& a, const std::array<double, 2>& b) {
+      return std::array<double, 2>{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+    };
+    std::array<double, 2> centre{};
+    for (const auto& at : l)
+      for (std::size_t axis = 0; axis < 2; ++axis) centre[axis] += at[axis] / static_cast<double>(l.size());
     const std::size_t n = p.size();
     const auto edge_at = [&](std::size_t k) {
       const std::int32_t a = p[k % n], b = p[(k + 1) % n];
       return first_edge + edges.number.at({std::min(a, b), std::max(a, b)});
     };
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < n; ++k) {
       quads.push_back({p[k], edge_at(k), first_face + static_cast<std::int32_t>(f), edge_at(k + n - 1)});
+      quad_places.push_back(
+          {places[f].face, {l[k], between(l[k], l[(k + 1) % n]), centre, between(l[k], l[(k + n - 1) % n])}});
+    }
   }
   points = std::move(next);
   points.insert(points.end(), edge.begin(), edge.end());
   points.insert(points.end(), face.begin(), face.end());
   polygons = std::move(quads);
+  places = std::move(quad_places);
 }
 
 std::vector<Vector> catmull_clark_limits(const std::vector<Vector>& points, const Polygons& quads) {
@@ -183,30 +223,59 @@ std::vector<Vector> catmull_clark_limits(const std::vector<Vector>& points, cons
 }  // namespace
 
 std::vector<Vector> scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit) {
-  std::vector<Vector> points = mesh.positions;
-  if (scheme == Scheme::kCatmullClark) {
-    Polygons polygons;
-    for (const auto& t : mesh.triangles) polygons.push_back({t[0], t[1], t[2]});
-    for (int step = 0; step < steps; ++step) catmull_clark(points, polygons);
-    return limit && steps > 0 ? catmull_clark_limits(points, polygons) : points;
-  }
-  Triangles triangles = mesh.triangles;
-  for (int step = 0; step < steps; ++step) refine(points, triangles, scheme);
-  return limit && scheme != Scheme::kLinear ? limits(points, triangles, scheme) : points;
+  return placed_scheme_points(mesh, scheme, steps, limit).position;
 }
 
-std::string name_of(Scheme scheme) {
+SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit) {
+  std::vector<Vector> points = mesh.positions;
+  if (scheme != Scheme::kCatmullClark) {
+    Triangles triangles = mesh.triangles;
+    for (int step = 0; step < steps; ++step) refine(points, triangles, scheme);
+    auto place = places(points.size(), triangles, steps);
+    if (limit && scheme != Scheme::kLinear) points = limits(points, triangles, scheme);
+    return {std::move(points), std::move(place)};
+  }
+  Polygons polygons;
+  std::vector<PolygonPlaces> of_polygons;
+  for (const auto& t : mesh.triangles) {
+    polygons.push_back({t[0], t[1], t[2]});
+    of_polygons.push_back({static_cast<std::int32_t>(of_polygons.size()), {{0, 0}, {1, 0}, {0, 1}}});
+  }
+  for (int step = 0; step < steps; ++step) catmull_clark(points, polygons, of_polygons);
+  std::vector<lc_provenance> place(points.size(), {0, 0, 0, 0});
+  const double n = std::ldexp(1, steps);
+  for (std::size_t f = 0; f < polygons.size(); ++f)
+    for (std::size_t k = 0; k < polygons[f].size(); ++k) {
+      const double i = n * of_polygons[f].l[k][0], j = n * of_polygons[f].l[k][1];
+      if (std::floor(i) == i && std::floor(j) == j)  // dyadic, and so exact
+        place[polygons[f][k]] = {of_polygons[f].face, static_cast<std::uint32_t>(i),
+                                 static_cast<std::uint32_t>(j), 1U << steps};
+    }
+  if (limit && steps > 0) points = catmull_clark_limits(points, polygons);
+  return {std::move(points), std::move(place)};
+}
+
+std::string describe(Scheme scheme, int steps, bool limit) {
+  const char* rule = "";
   switch (scheme) {
     case Scheme::kLoop:
-      return "Loop's rule";
+      rule = "Loop's rule";
+      break;
     case Scheme::kWarren:
-      return "Loop's rule with Warren's simplified weights";
+      rule = "Loop's rule with Warren's simplified weights";
+      break;
     case Scheme::kLinear:
-      return "linear interpolation";
+      rule = "linear interpolation";
+      break;
     case Scheme::kCatmullClark:
-      return "Catmull and Clark's rule";
+      rule = "Catmull and Clark's rule";
+      break;
   }
-  return "";
+  return fmt::format("the {} {} ({} step{})",
+                     scheme == Scheme::kLinear ? "flat control mesh itself, by"
+                     : limit                   ? "limit points of"
+                                               : "vertices of the control mesh refined by",
+                     rule, steps, steps == 1 ? "" : "s");
 }
 
 }  // namespace limitcheck::verify

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What other subdivision schemes make of a control mesh: to recognise a tessellation that is not Loop's limit
-// surface.
+// What other subdivision schemes make of a control mesh: to recognise a tessellation that is not what it
+// should be.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "data/control_mesh.h"
 #include "verify/audit/vector.h"
+#include "verify/subject/subject.h"
 
 namespace limitcheck::verify {
 
@@ -25,7 +26,15 @@ enum class Scheme {
 ///                the n quads (Halstead, Kass, DeRose 1993); not for zero steps, where faces are no quads
 std::vector<Vector> scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit);
 
-/// "Loop's rule", "Catmull and Clark's rule" ...
-std::string name_of(Scheme scheme);
+/// The same points with their places on the control mesh: the lattice of depth `steps` has them. A vertex
+/// that is none of its points (Catmull and Clark's inside of faces) has denominator 0.
+struct SchemePoints {
+  std::vector<Vector> position;
+  std::vector<lc_provenance> place;
+};
+SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit);
+
+/// "the limit points of Loop's rule with Warren's simplified weights (1 step)"
+std::string describe(Scheme scheme, int steps, bool limit);
 
 }  // namespace limitcheck::verify

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/certified_surface.h"
+
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+
+#include "data/numeral.h"
+#include "reference/certified.h"
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr int kDigits = 40;
+
+std::vector<std::string> digits(const reference::Enclosure3& point) {
+  return {point[0].value, point[1].value, point[2].value};
+}
+
+Vector rounded(const reference::Enclosure3& point) {
+  return {data::parse<double>(point[0].value), data::parse<double>(point[1].value),
+          data::parse<double>(point[2].value)};
+}
+
+}  // namespace
+
+struct CertifiedSurface::State {
+  std::mutex mutex;
+  std::optional<reference::CertifiedEvaluator> evaluator;
+  std::unordered_map<Lattice::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
+};
+
+CertifiedSurface::CertifiedSurface(const Lattice& lattice, reference::Weights weights)
+    : lattice_(lattice), weights_(weights), state_(std::make_unique<State>()) {}
+CertifiedSurface::~CertifiedSurface() = default;
+
+const ExactPoint* CertifiedSurface::at(Lattice::Id id) const {
+  const std::scoped_lock lock(state_->mutex);
+  const auto [place, is_new] = state_->kept.try_emplace(id);
+  std::optional<ExactPoint>& point = place->second;
+  if (is_new) try {
+      if (!state_->evaluator) state_->evaluator.emplace(lattice_.mesh(), weights_);
+      const lc_provenance p = lattice_.provenance(id);
+      const auto exact =
+          state_->evaluator->evaluate(p.face, reference::Parameter::fraction(p.i, p.denominator),
+                                      reference::Parameter::fraction(p.j, p.denominator), kDigits);
+      point = {rounded(exact.position), rounded(exact.normal), digits(exact.position), digits(exact.normal),
+               exact.normal_kind == reference::NormalKind::kRegular};
+    } catch (const std::exception&) {  // a neighbourhood that it does not take: the word in double stands
+    }
+  return point ? &*point : nullptr;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The exact surface at lattice points in certified arithmetic: the last word on a finding.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reference/weights.h"
+#include "verify/audit/lattice.h"
+#include "verify/audit/vector.h"
+
+namespace limitcheck::verify {
+
+/// One point: to 40 significant digits of the largest coordinate, and the same rounded to double.
+struct ExactPoint {
+  Vector position, normal;
+  std::vector<std::string> position_digits, normal_digits;  // x, y, z
+  bool has_normal;  // false: the tangents are not told from parallel, or there is no tangent plane (D5, D12)
+};
+
+/// The limit surface of the lattice's control mesh (reference/certified.h).
+class CertifiedSurface {
+ public:
+  /// `lattice` outlives this. Nothing is computed yet: an audit without a finding never needs any of it.
+  CertifiedSurface(const Lattice& lattice, reference::Weights weights);
+  ~CertifiedSurface();
+
+  /// The point, kept for whoever asks again; nullptr where the evaluator cannot say. Some milliseconds each.
+  /// Any number of threads may ask.
+  const ExactPoint* at(Lattice::Id id) const;
+
+ private:
+  struct State;
+  const Lattice& lattice_;
+  reference::Weights weights_;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace limitcheck::verify

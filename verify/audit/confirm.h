@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// No finding without certified arithmetic: what lies beyond its bound by the reference in double is looked at
+// again.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "verify/audit/evidence.h"
+
+namespace limitcheck::verify {
+
+/// What became of the vertices that the reference in double has beyond their bounds.
+struct Confirmation {
+  std::int64_t looked = 0;     // put before the certified evaluator
+  std::int64_t acquitted = 0;  // of these: within the bound after all, or at a point where nothing is judged
+  std::int64_t left = 0;       // beyond the bound in double and not looked at, though some were acquitted
+  std::int64_t worst = -1;     // the first vertex that was confirmed
+  std::string message;         // empty unless some were acquitted
+};
+
+/// Puts the vertices beyond their bounds before the certified evaluator, the one worst in its bounds first,
+/// until one is confirmed. If it is the very first, double and certified numbers agree, and all the others
+/// count as they are. If any was acquitted, double is not to be trusted on this mesh: then the row goes on to
+/// kMostCertified vertices, and those beyond are not judged.
+///   error    of each vertex, negative where there is none; corrected where it was looked at
+///   bound    of a vertex
+///   measure  the error of a vertex against the exact point, negative if nothing can be judged there
+/// A point that the certified evaluator does not take counts as confirmed. Throws Interrupted.
+inline constexpr std::int64_t kMostCertified = 1000;
+Confirmation confirm(const Evidence& e, std::vector<double>& error,
+                     const std::function<double(std::size_t)>& bound,
+                     const std::function<double(std::size_t, const ExactPoint&)>& measure);
+
+/// The same for angles of normals in degrees, each against normal_bound_at() of its point, and all of it into
+/// a row:
+///   worst, bound, rms, p99   of the points whose bound is that of ordinary ones; worst and bound of the
+///                            confirmed point if there is one
+///   ill_conditioned          of the other points: how many, and how far their bounds go
+///   message                  both in words
+/// Returns the vertex that the row's witness is, or -1.
+std::int64_t judge_angles(const Evidence& e, std::vector<double>& angle,
+                          const std::function<double(std::size_t, const ExactPoint&)>& measure, Result& row);
+
+/// Adds a sentence to what a row says.
+void say(Result& row, const std::string& sentence);
+
+/// Says how many of something were left out of a row because they are NaN or infinite: that is the business
+/// of `finite` (or of `written`) alone.
+void say_left_out(Result& row, std::int64_t count, const char* what);
+
+}  // namespace limitcheck::verify

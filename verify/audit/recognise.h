@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What a subject delivered, if it is not what it should have.
+#pragma once
+
+#include <vector>
+
+#include "verify/audit/evidence.h"
+
+namespace limitcheck::verify {
+
+/// Adds a sentence to the findings among `results`, the rows of this evidence, that it can explain:
+///   positions, refined-positions   the points are those of another scheme at the same lattice points, or of
+///                                  Loop's without or with the limit mask (schemes.h); ten times nearer to
+///                                  them than to what was expected. One depth for all faces that are not
+///                                  culled
+///   normals                        origin_of_normals()
+/// Nothing is done without such a finding, and for more than kRecognised lattice points.
+void recognise(const Evidence& e, std::vector<Result>& results);
+
+inline constexpr Lattice::Id kRecognised = 300000;
+
+}  // namespace limitcheck::verify

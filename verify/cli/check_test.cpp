@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// `limitcheck check` and `limitcheck repair` as a user meets them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+class CheckCommand : public CommandTest {};
+class RepairCommand : public CommandTest {};
+
+// Faces 2 and 4 (lines 6 and 8) are at fault, and so is vertex 5.
+constexpr const char* kBroken =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+    "f 1 3 2\nf 1 2 9\nf 1 2 4\nf 3 3 4\nf 2 3 4\nf 1 4 3\nv 7 7 7\n";
+
+TEST_F(CheckCommand, ListsEveryFaultWithItsLineAndCountsAsTheFileDoes) {
+  write("broken.obj", kBroken);
+  const Outcome o = run("check broken.obj");
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_NE(o.out.find("broken.obj:6: MESH_INDEX_OUT_OF_RANGE: face 2 names vertex 9"), std::string::npos)
+      << o.out;
+  EXPECT_NE(o.out.find("broken.obj:8: MESH_DEGENERATE_FACE: face 4 names vertex 3 twice"), std::string::npos)
+      << o.out;
+  EXPECT_NE(o.out.find("broken.obj:11: MESH_ISOLATED_VERTEX: no face names vertex 5"), std::string::npos)
+      << o.out;
+  EXPECT_NE(o.out.find("counted from 1"), std::string::npos) << o.out;
+
+  const auto json = nlohmann::json::parse(run("check broken.obj --json").out);
+  EXPECT_EQ(json["faults"].size(), 3U);
+  EXPECT_FALSE(json["valid"].get<bool>());
+  EXPECT_EQ(json["numbers_from"], 1);
+}
+
+TEST_F(CheckCommand, SummarisesAMeshWithoutFaults) {
+  ASSERT_EQ(run("generate octahedron -o o.ply").code, 0);
+  const Outcome o = run("check o.ply");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("none: the mesh is closed"), std::string::npos) << o.out;
+  const auto json = nlohmann::json::parse(run("check o.ply --json").out);
+  EXPECT_TRUE(json["valid"].get<bool>());
+  EXPECT_EQ(json["vertices"], 6);
+  EXPECT_EQ(json["interior_valences"]["4"], 6);
+  EXPECT_EQ(json["euler_characteristic"], 2);
+}
+
+TEST_F(CheckCommand, NamesPolygonsNotTheTrianglesTheyBecome) {
+  // Two quads and a third face on the edge that they share.
+  write("book.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 1 0 1\nf 1 2 3 4\nf 2 5 6 3\nf 3 2 7\n");
+  const Outcome o = run("check book.obj");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.out.find("edge 2–3 has 3 faces (1, 2, 3)"), std::string::npos) << o.out;
+}
+
+TEST_F(CheckCommand, RefusesWhatIsNoMesh) {
+  write("x.obj", "v 1 2\n");
+  EXPECT_EQ(run("check x.obj").code, 2);
+  EXPECT_EQ(run("check absent.obj").code, 2);
+  EXPECT_EQ(run("check").code, 2);
+  EXPECT_EQ(run("check x.xyz").code, 2);
+}
+
+TEST_F(RepairCommand, MakesAMeshThatAnAuditTakes) {
+  write("broken.obj", kBroken);
+  ASSERT_EQ(run("audit row-stream broken.obj --depth 1 --level quick").code, 2);
+  const Outcome o = run("repair broken.obj -o fixed.obj");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_NE(o.out.find("dropped 1 face that named a vertex which does not exist"), std::string::npos)
+      << o.out;
+  EXPECT_EQ(run("check fixed.obj").code, 0);
+  EXPECT_EQ(run("audit row-stream fixed.obj --depth 1 --level quick").code, 0);
+  EXPECT_EQ(run("repair fixed.obj -o again.obj").out.substr(0, 7), "nothing");
+}
+
+TEST_F(RepairCommand, SaysWhatItCannotMend) {
+  // Two triangles back to back: three interior vertices of valence 2.
+  write("pillow.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n");
+  const Outcome o = run("repair pillow.off -o out.off");
+  EXPECT_EQ(o.code, 0) << o.out;  // the later of the two faces is a duplicate, and goes
+  EXPECT_NE(o.out.find("dropped 1 face with the corners of a face before it"), std::string::npos) << o.out;
+}
+
+TEST_F(RepairCommand, KeepsPolygonsInEveryFormat) {
+  write("quads.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 9 9 9\nf 1 2 3 4\nf 2 5 6 3\n");
+  for (const char* file : {"a.obj", "a.off", "a.ply"}) {
+    ASSERT_EQ(run(std::string("repair quads.obj -o ") + file).code, 0);
+    const auto json = nlohmann::json::parse(run(std::string("check --json ") + file).out);
+    EXPECT_EQ(json["face_sizes"], (nlohmann::json{{"4", 2}})) << file;
+    EXPECT_EQ(json["vertices"], 6) << file;
+  }
+}
+
+TEST_F(RepairCommand, LeavesWhatIsThereWhenItCannotWrite) {
+  write("broken.obj", kBroken);
+  write("keep.stl", "precious");
+  EXPECT_EQ(run("repair broken.obj -o keep.stl").code, 2);
+  EXPECT_EQ(read("keep.stl"), "precious");
+  EXPECT_EQ(run("repair absent.obj -o keep.stl").code, 2);
+  EXPECT_EQ(read("keep.stl"), "precious");
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// limitcheck repair: a mesh that can be audited, made of one that cannot.
+#include "verify/repair/repair.h"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+
+#include "verify/cli/commands.h"
+#include "verify/cli/mesh_report.h"
+
+namespace limitcheck::cli {
+namespace {
+
+struct Arguments {
+  std::string file, output;
+  verify::RepairOptions options;
+};
+
+int repair(const Arguments& a) {
+  const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
+  data::io::write_soup(a.output, repaired.soup);
+  for (const std::string& change : repaired.changes) fmt::print("{}\n", change);
+  if (repaired.changes.empty()) fmt::print("nothing had to be changed\n");
+  fmt::print("{}: {} vertices, {} faces\n", a.output, repaired.soup.positions.size(),
+             repaired.soup.polygon_end.size());
+  // As the file that was written has them.
+  const data::io::PolygonSoup written = data::io::read_soup(a.output);
+  const auto left = data::io::examine(written, {}).faults;
+  print_faults(a.output, written, left);
+  return left.empty() ? kHeld : kFindings;
+}
+
+}  // namespace
+
+void add_repair(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "repair", "Make a mesh that can be audited of one that cannot: limitcheck repair scan.obj -o cage.obj");
+  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
+  command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")->required();
+  command->add_flag("--weld", a->options.weld,
+                    "Make vertices that lie at exactly the same place one: seams close");
+  command->footer(
+      "Drops faces without area by their corners, faces given twice, vertices that no face names; turns "
+      "faces "
+      "against their neighbours; cuts the mesh apart where it is no manifold. No vertex is moved, no hole "
+      "filled.\nExit codes: 0 the result can be audited, 1 faults are left (they are listed), 2 bad usage, "
+      "or a "
+      "file that cannot be read or written.");
+  command->callback([a, &exit_code] { exit_code = repair(*a); });
+}
+
+}  // namespace limitcheck::cli

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "verify/repair/repair.h"
+
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Simple_cartesian.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace limitcheck::verify {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point = Kernel::Point_3;
+using Polygon = std::vector<std::size_t>;
+
+struct CountTurned : pmp::Default_orientation_visitor {
+  std::int64_t* turned;  // the visitor is copied
+  void polygon_orientation_reversed(std::size_t) { ++*turned; }
+};
+
+class Repair {
+ public:
+  explicit Repair(const data::io::PolygonSoup& soup) {
+    for (const auto& p : soup.positions) points_.emplace_back(p[0], p[1], p[2]);
+    std::int64_t no_vertex = 0;
+    std::size_t begin = 0;
+    for (const std::size_t end : soup.polygon_end) {
+      Polygon polygon;
+      bool good = true;
+      for (std::size_t k = begin; k < end; ++k) {
+        good = good && soup.corners[k] >= 0 && static_cast<std::size_t>(soup.corners[k]) < points_.size();
+        polygon.push_back(static_cast<std::size_t>(soup.corners[k]));
+      }
+      begin = end;
+      no_vertex += !good;
+      if (good) polygons_.push_back(std::move(polygon));
+    }
+    note("dropped", no_vertex, "face", "that named a vertex which does not exist");
+    drop("with fewer than three corners", [](const Polygon& p) { return p.size() < 3; });
+    drop_repeated_corners("with a repeated corner");
+    drop("with a coordinate that is not finite", [&](const Polygon& p) {
+      return std::any_of(p.begin(), p.end(), [&](std::size_t v) {
+        return !std::isfinite(points_[v].x()) || !std::isfinite(points_[v].y()) ||
+               !std::isfinite(points_[v].z());
+      });
+    });
+  }
+
+  void weld() {
+    // Only finite points have an order, so what no face names goes first.
+    drop_unused();
+    const std::size_t merged = pmp::merge_duplicate_points_in_polygon_soup(points_, polygons_);
+    note("welded", static_cast<std::int64_t>(merged), "vertex", "that lay exactly where another one does");
+    drop_repeated_corners("whose corners fell together when vertices were welded");
+  }
+
+  void drop_duplicates() {
+    const std::size_t before = polygons_.size();
+    std::set<Polygon> seen;
+    std::erase_if(polygons_, [&](Polygon p) {
+      std::sort(p.begin(), p.end());
+      return !seen.insert(std::move(p)).second;
+    });
+    note("dropped", static_cast<std::int64_t>(before - polygons_.size()), "face",
+         "with the corners of a face before it");
+  }
+
+  void orient() {
+    const std::size_t vertices = points_.size();
+    std::int64_t turned = 0;
+    // False: it had to cut, which the points it added show.
+    (void)pmp::orient_polygon_soup(points_, polygons_, CGAL::parameters::visitor(CountTurned{{}, &turned}));
+    note("turned", turned, "face", "so that neighbours run the same way round");
+    note("added", static_cast<std::int64_t>(points_.size() - vertices), "vertex",
+         "where the mesh was cut apart: at edges of three faces or more, and where fans touch in a vertex");
+  }
+
+  void drop_unused() {
+    std::vector<bool> used(points_.size(), false);
+    for (const Polygon& p : polygons_)
+      for (const std::size_t v : p) used[v] = true;
+    std::vector<std::size_t> to(points_.size());
+    std::vector<Point> kept;
+    for (std::size_t v = 0; v < points_.size(); ++v) {
+      to[v] = kept.size();
+      if (used[v]) kept.push_back(points_[v]);
+    }
+    note("dropped", static_cast<std::int64_t>(points_.size() - kept.size()), "vertex", "that no face names");
+    points_ = std::move(kept);
+    for (Polygon& p : polygons_)
+      for (std::size_t& v : p) v = to[v];
+  }
+
+  Repaired take() {
+    Repaired result;
+    for (const Point& p : points_) result.soup.positions.push_back({p.x(), p.y(), p.z()});
+    for (const Polygon& p : polygons_) {
+      for (const std::size_t v : p) result.soup.corners.push_back(static_cast<std::int64_t>(v));
+      result.soup.close_polygon();
+    }
+    result.changes = std::move(changes_);
+    return result;
+  }
+
+ private:
+  void note(std::string_view verb, std::int64_t count, std::string_view what, std::string_view which) {
+    if (count == 0) return;
+    const std::string many = what == "vertex" ? "vertices" : fmt::format("{}s", what);
+    changes_.push_back(fmt::format("{} {} {} {}", verb, count, count == 1 ? what : many, which));
+  }
+
+  template <class Bad>
+  void drop(std::string_view which, Bad bad) {
+    note("dropped", static_cast<std::int64_t>(std::erase_if(polygons_, bad)), "face", which);
+  }
+
+  void drop_repeated_corners(std::string_view which) {
+    drop(which, [](Polygon p) {
+      std::sort(p.begin(), p.end());
+      return std::adjacent_find(p.begin(), p.end()) != p.end();
+    });
+  }
+
+  std::vector<Point> points_;
+  std::vector<Polygon> polygons_;
+  std::vector<std::string> changes_;
+};
+
+}  // namespace
+
+Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options) {
+  Repair work(soup);
+  if (options.weld) work.weld();
+  work.drop_duplicates();
+  work.orient();
+  work.drop_unused();
+  return work.take();
+}
+
+}  // namespace limitcheck::verify

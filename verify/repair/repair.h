@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A mesh as scanners and modelling programs leave it, made into one that can be subdivided.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "data/io/polygon_soup.h"
+
+namespace limitcheck::verify {
+
+struct RepairOptions {
+  bool weld = false;  // vertices that lie at exactly the same place become one: seams close
+};
+
+/// What was done, one line for each kind of change: "dropped 3 faces with a repeated corner".
+struct Repaired {
+  data::io::PolygonSoup soup;  // polygons stay polygons; without lines
+  std::vector<std::string> changes;
+};
+
+/// In this order: drops faces that name no existing vertex, have fewer than three corners, a repeated corner
+/// or a vertex that is not finite; welds, if asked to; drops all but the first of faces with the same
+/// corners; gives faces that share an edge the same orientation, and cuts the mesh apart where that cannot
+/// be, along edges of three faces or more and at vertices where fans touch (CGAL, Polygon_mesh_processing);
+/// drops vertices that no face names. It moves no vertex, adds no face and fills no hole, and does not turn a
+/// whole component inside out. What it cannot mend stays: interior vertices of valence 2.
+Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options = {});
+
+}  // namespace limitcheck::verify

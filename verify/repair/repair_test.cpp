@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "verify/repair/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+
+namespace limitcheck::verify {
+namespace {
+
+using data::io::PolygonSoup;
+using Faces = std::vector<std::vector<std::int64_t>>;
+
+PolygonSoup soup(std::size_t vertices, const Faces& faces) {
+  PolygonSoup s;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto x = static_cast<double>(v);
+    s.positions.push_back({x, x * x, x * x * x});  // no three on a line, no two alike
+  }
+  for (const auto& f : faces) {
+    s.corners.insert(s.corners.end(), f.begin(), f.end());
+    s.close_polygon();
+  }
+  return s;
+}
+
+Faces faces_of(const PolygonSoup& s) {
+  Faces faces;
+  std::size_t begin = 0;
+  for (const std::size_t end : s.polygon_end) {
+    faces.emplace_back(s.corners.begin() + static_cast<std::ptrdiff_t>(begin),
+                       s.corners.begin() + static_cast<std::ptrdiff_t>(end));
+    begin = end;
+  }
+  return faces;
+}
+
+bool is_valid(const PolygonSoup& s) {
+  return data::io::examine(s, {}).faults.empty();
+}
+
+const Faces kTetrahedron{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+
+TEST(Repair, LeavesAValidMeshAsItIs) {
+  const PolygonSoup mesh = soup(4, kTetrahedron);
+  const Repaired r = repair(mesh);
+  EXPECT_TRUE(r.changes.empty());
+  EXPECT_EQ(faces_of(r.soup), kTetrahedron);
+  EXPECT_EQ(r.soup.positions, mesh.positions);
+}
+
+TEST(Repair, DropsWhatNamesNothingOrItself) {
+  Faces faces = kTetrahedron;
+  faces.push_back({0, 1, 99});
+  faces.push_back({0, -1, 2});
+  faces.push_back({2, 2, 3});
+  faces.push_back({1, 2});
+  const Repaired r = repair(soup(6, faces));
+  EXPECT_EQ(faces_of(r.soup), kTetrahedron);
+  EXPECT_EQ(r.changes, (std::vector<std::string>{"dropped 2 faces that named a vertex which does not exist",
+                                                 "dropped 1 face with fewer than three corners",
+                                                 "dropped 1 face with a repeated corner",
+                                                 "dropped 2 vertices that no face names"}));
+}
+
+TEST(Repair, DropsFacesWithAVertexThatIsNotFinite) {
+  PolygonSoup mesh = soup(7, {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}});
+  mesh.positions[5][1] = std::numeric_limits<double>::quiet_NaN();
+  for (const bool weld : {false, true}) {
+    const Repaired r = repair(mesh, {.weld = weld});
+    EXPECT_EQ(faces_of(r.soup), (Faces{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_TRUE(is_valid(r.soup));
+  }
+}
+
+TEST(Repair, DropsTheLaterOfTwoFacesWithTheSameCorners) {
+  Faces faces = kTetrahedron;
+  faces.push_back({1, 2, 0});
+  faces.push_back({0, 2, 1});  // the other way round
+  const Repaired r = repair(soup(4, faces));
+  EXPECT_EQ(faces_of(r.soup), kTetrahedron);
+}
+
+TEST(Repair, TurnsFacesThatRunAgainstTheirNeighbours) {
+  const Repaired r = repair(soup(4, {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 3, 2}}));
+  EXPECT_TRUE(is_valid(r.soup));
+  EXPECT_EQ(r.soup.polygon_end.size(), 4U);
+  ASSERT_EQ(r.changes.size(), 1U);
+  EXPECT_EQ(r.changes[0].substr(0, 6), "turned");
+}
+
+// Two triangles that touch in vertex 0 only, and an edge of three faces.
+TEST(Repair, CutsTheMeshApartWhereItIsNoManifold) {
+  const PolygonSoup bowtie = soup(5, {{0, 1, 2}, {0, 3, 4}});
+  EXPECT_FALSE(is_valid(bowtie));
+  const Repaired r = repair(bowtie);
+  EXPECT_TRUE(is_valid(r.soup));
+  EXPECT_EQ(r.soup.positions.size(), 6U);
+
+  const PolygonSoup book = soup(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  EXPECT_FALSE(is_valid(book));
+  const Repaired three = repair(book);
+  EXPECT_TRUE(is_valid(three.soup));
+  EXPECT_EQ(three.soup.polygon_end.size(), 3U);
+}
+
+TEST(Repair, ClosesSeamsOnlyWhenAsked) {
+  PolygonSoup cut = soup(6, {{0, 1, 2}, {3, 4, 5}});
+  cut.positions[3] = cut.positions[0];
+  cut.positions[4] = cut.positions[2];
+  EXPECT_EQ(repair(cut).soup.positions.size(), 6U);
+  const Repaired welded = repair(cut, {.weld = true});
+  EXPECT_EQ(welded.soup.positions.size(), 4U);
+  EXPECT_TRUE(is_valid(welded.soup));
+  // Vertices of one face that lie at one place: the face has no area, and goes.
+  cut.positions[1] = cut.positions[0];
+  EXPECT_EQ(repair(cut, {.weld = true}).soup.polygon_end.size(), 1U);
+}
+
+TEST(Repair, KeepsPolygons) {
+  const Faces cube{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  EXPECT_EQ(faces_of(repair(soup(8, cube)).soup), cube);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

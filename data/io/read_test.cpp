@@ -39,6 +39,27 @@ TEST(Read, ErrorsNameFileLineCodeAndElements) {
             "cage.obj:10: MESH_NONMANIFOLD_EDGE: edge 0–1 has 3 faces (0, 1, 2) (numbers from 0)");
 }
 
+// The face in the second line was lost, and with it nothing said so.
+TEST(Read, ACommentIsNotContinuedByABackslash) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const auto faces = [&](const std::string& text) {
+    return read_mesh(vertices + text, FileFormat::kObj, "text").triangles.size();
+  };
+  EXPECT_EQ(faces("# from C:\\models\\\nf 1 2 3\nf 1 3 4\n"), 2U);
+  EXPECT_EQ(faces("f 1 2 3 # the first \\\nf 1 3 4\n"), 2U);
+  EXPECT_EQ(faces("f 1 2 \\\n3 # the first \\\nf 1 3 4\n"), 2U);
+  EXPECT_EQ(faces("f 1 2 \\\n3\nf 1 3 4\n"), 2U) << "but what is no comment is";
+}
+
+TEST(Read, AByteOrderMarkIsReadOver) {
+  const std::string mark = "\xEF\xBB\xBF", obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  EXPECT_EQ(read_mesh(mark + obj, FileFormat::kObj, "text").triangles.size(), 1U);
+  EXPECT_EQ(read_mesh(mark + "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n", FileFormat::kOff, "text")
+                .triangles.size(),
+            1U);
+  EXPECT_NE(error_of(obj + mark), "accepted") << "at the beginning, that is";
+}
+
 TEST(Read, MoreThanOneFaultIsCounted) {
   EXPECT_EQ(error_of("v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 inf 0\nf 1 2 3\n"),
             "cage.obj:1: MESH_NOT_FINITE: vertex 1 lies at (nan, 0, 0) (numbers from 1); 2 more faults");

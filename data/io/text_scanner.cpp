@@ -54,20 +54,24 @@ std::string_view TextScanner::raw_line() {
   return line;
 }
 
+// A comment is not continued, whatever it ends in.
+std::string_view TextScanner::without_comment(std::string_view line) const {
+  return comment_ == 0 ? line : line.substr(0, line.find(comment_));
+}
+
 bool TextScanner::next_line() {
   while (next_ < text_.size()) {
     line_ = lines_read_ + 1;
-    rest_ = raw_line();
+    rest_ = without_comment(raw_line());
     if (continuation_ && rest_.ends_with('\\')) {
       joined_.clear();
       while (rest_.ends_with('\\') && next_ < text_.size()) {
         joined_.append(rest_.substr(0, rest_.size() - 1)).append(1, ' ');
-        rest_ = raw_line();
+        rest_ = without_comment(raw_line());
       }
       joined_.append(rest_);
       rest_ = joined_;
     }
-    if (comment_ != 0) rest_ = rest_.substr(0, rest_.find(comment_));
     while (!rest_.empty() && is_space(rest_.front())) rest_.remove_prefix(1);
     if (!rest_.empty()) return true;
   }

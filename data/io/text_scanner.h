@@ -12,10 +12,14 @@ namespace limitcheck::data::io {
 /// Walks through the lines of a text (ended by LF, CR LF or CR), and through the words of each.
 class TextScanner {
  public:
-  /// `comment` begins a comment up to the end of the line; 0 for none. `continuation` joins a line ending in
-  /// \ with the next.
+  /// A byte-order mark at the beginning is read over. `comment` begins a comment up to the end of the line; 0
+  /// for none. `continuation` joins a line ending in \ with the next.
   TextScanner(std::string_view text, std::string name, char comment, bool continuation = false)
-      : text_(text), name_(std::move(name)), comment_(comment), continuation_(continuation) {}
+      : text_(text),
+        name_(std::move(name)),
+        comment_(comment),
+        continuation_(continuation),
+        next_(text.starts_with("\xEF\xBB\xBF") ? 3 : 0) {}
 
   /// Goes to the next line that has words. False at the end of the text.
   bool next_line();
@@ -40,13 +44,14 @@ class TextScanner {
 
  private:
   std::string_view raw_line();
+  std::string_view without_comment(std::string_view line) const;
   std::size_t word_length() const;
 
   std::string_view text_;
   std::string name_;
   char comment_;
   bool continuation_;
-  std::size_t next_ = 0;   // where the next line begins
+  std::size_t next_;       // where the next line begins
   std::int64_t line_ = 0;  // number of the current line, the first of those joined
   std::int64_t lines_read_ = 0;
   std::string_view rest_;  // of the current line

@@ -9,18 +9,83 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "data/error.h"
+#include "data/io/text_scanner.h"
+#include "data/io/whole_content.h"
 
 namespace limitcheck::verify {
 namespace {
 
 using Matrix = std::array<double, 16>;  // by columns, as glTF has them
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-constexpr int kDeepest = 256;  // nodes above a mesh
+constexpr int kDeepest = 256;              // nodes above a mesh
+constexpr std::size_t kDeepestJson = 128;  // brackets: no glTF needs more than ten, and the parser recurses
+constexpr std::size_t kMost = 1 << 28;     // vertices, and corners: a small file may repeat a mesh very often
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// How deep brackets nest in a JSON text.
+std::size_t nesting(std::string_view json) {
+  std::size_t depth = 0, deepest = 0;
+  bool in_text = false;
+  for (std::size_t k = 0; k < json.size(); ++k) {
+    const char c = json[k];
+    if (in_text) {
+      if (c == '\\') ++k;
+      in_text = c != '"';
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      deepest = std::max(deepest, ++depth);
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
+// A GLB file is a header of 12 bytes, then the length and the kind of the first chunk, then that: the JSON.
+std::string_view json_of(std::string_view content, bool binary) {
+  if (!binary) return content;
+  if (content.size() < 20) return {};
+  std::uint32_t length = 0;
+  std::memcpy(&length, content.data() + 12, sizeof length);
+  return content.substr(20, length);
+}
+
+// What is required to see the model as it is meant, and changes nothing of its shape.
+bool is_about_looks(const std::string& extension) {
+  static constexpr std::array kLooks{"KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_"};
+  return std::any_of(kLooks.begin(), kLooks.end(),
+                     [&](const char* begin) { return extension.starts_with(begin); });
+}
+
+// Opens nothing: a pipe would be waited for.
+bool is_beside(const std::string& file, void*) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored);
+}
+
+// Buffers beside the file: regular files only, of a size that is read.
+bool read_beside(std::vector<unsigned char>* out, std::string* error, const std::string& file, void*) try {
+  const std::string content = data::io::whole_content(file);
+  out->assign(content.begin(), content.end());
+  return true;
+} catch (const data::InputError& refusal) {
+  *error += refusal.what();
+  return false;
+}
 
 Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix c{};
@@ -28,37 +93,6 @@ Matrix operator*(const Matrix& a, const Matrix& b) {
     for (int row = 0; row < 4; ++row)
       for (int k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
   return c;
-}
-
-Matrix local(const tinygltf::Node& node) {
-  Matrix m = kIdentity;
-  if (node.matrix.size() == 16) {
-    std::copy(node.matrix.begin(), node.matrix.end(), m.begin());
-    return m;
-  }
-  if (node.rotation.size() == 4) {
-    const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
-    m = {1 - 2 * (y * y + z * z),
-         2 * (x * y + z * w),
-         2 * (x * z - y * w),
-         0,
-         2 * (x * y - z * w),
-         1 - 2 * (x * x + z * z),
-         2 * (y * z + x * w),
-         0,
-         2 * (x * z + y * w),
-         2 * (y * z - x * w),
-         1 - 2 * (x * x + y * y),
-         0,
-         0,
-         0,
-         0,
-         1};
-  }
-  for (int column = 0; column < 3 && node.scale.size() == 3; ++column)
-    for (int row = 0; row < 3; ++row) m[4 * column + row] *= node.scale[column];
-  for (int row = 0; row < 3 && node.translation.size() == 3; ++row) m[12 + row] = node.translation[row];
-  return m;
 }
 
 double determinant(const Matrix& m) {
@@ -76,13 +110,26 @@ class Reader {
     loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
-    std::string error, warning, extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool read = extension == ".glb" ? loader.LoadBinaryFromFile(&model_, &error, &warning, name_)
-                                          : loader.LoadASCIIFromFile(&model_, &error, &warning, name_);
+    loader.SetFsCallbacks({&is_beside, &tinygltf::ExpandFilePath, &read_beside, nullptr, nullptr});
+    const std::string content = data::io::whole_content(file);
+    const bool binary = lower_extension(file) == ".glb";
+    if (const std::size_t depth = nesting(json_of(content, binary)); depth > kDeepestJson)
+      refuse("FILE_UNSUPPORTED", fmt::format("its JSON nests {} deep; {} are read", depth, kDeepestJson));
+    if (content.size() > std::numeric_limits<unsigned>::max()) refuse("FILE_TOO_LARGE", "more than 4 GiB");
+    const auto size = static_cast<unsigned>(content.size());
+    const std::string folder = file.parent_path().string();
+    std::string error, warning;
+    const bool read =
+        binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
+                                             reinterpret_cast<const unsigned char*>(content.data()), size,
+                                             folder)
+               : loader.LoadASCIIFromString(&model_, &error, &warning, content.data(), size, folder);
     std::replace(error.begin(), error.end(), '\n', ' ');
     if (!read) refuse("FILE_SYNTAX", error.empty() ? "not glTF 2.0" : error);
+    for (const std::string& extension : model_.extensionsRequired)
+      if (!is_about_looks(extension))
+        refuse("FILE_UNSUPPORTED", fmt::format("it requires the extension {}", data::io::quoted(extension)));
+    visited_.resize(model_.nodes.size());
   }
 
   data::io::PolygonSoup run() {
@@ -106,10 +153,54 @@ class Reader {
     return list[static_cast<std::size_t>(index)];
   }
 
+  Matrix local(const tinygltf::Node& node, int index) const {
+    const auto numbers = [&](const std::vector<double>& list, std::size_t count, const char* what) {
+      if (!list.empty() && list.size() != count)
+        refuse("FILE_SYNTAX",
+               fmt::format("the {} of node {} has {} numbers, not {}", what, index, list.size(), count));
+    };
+    numbers(node.matrix, 16, "matrix");
+    numbers(node.rotation, 4, "rotation");
+    numbers(node.scale, 3, "scale");
+    numbers(node.translation, 3, "translation");
+    Matrix m = kIdentity;
+    if (node.matrix.size() == 16) {
+      std::copy(node.matrix.begin(), node.matrix.end(), m.begin());
+      return m;
+    }
+    if (node.rotation.size() == 4) {
+      const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
+      m = {1 - 2 * (y * y + z * z),
+           2 * (x * y + z * w),
+           2 * (x * z - y * w),
+           0,
+           2 * (x * y - z * w),
+           1 - 2 * (x * x + z * z),
+           2 * (y * z + x * w),
+           0,
+           2 * (x * z + y * w),
+           2 * (y * z - x * w),
+           1 - 2 * (x * x + y * y),
+           0,
+           0,
+           0,
+           0,
+           1};
+    }
+    for (int column = 0; column < 3 && node.scale.size() == 3; ++column)
+      for (int row = 0; row < 3; ++row) m[4 * column + row] *= node.scale[column];
+    for (int row = 0; row < 3 && node.translation.size() == 3; ++row) m[12 + row] = node.translation[row];
+    return m;
+  }
+
   void visit(int index, const Matrix& above, int depth) {
     const tinygltf::Node& node = element(model_.nodes, index, "node");
-    if (depth > kDeepest) refuse("FILE_UNSUPPORTED", "nodes in a circle, or too deep");
-    const Matrix m = above * local(node);
+    if (depth > kDeepest)
+      refuse("FILE_UNSUPPORTED", fmt::format("more than {} nodes above each other", kDeepest));
+    if (visited_[static_cast<std::size_t>(index)])
+      refuse("FILE_SYNTAX", fmt::format("node {} occurs twice: the nodes of a scene must be trees", index));
+    visited_[static_cast<std::size_t>(index)] = true;
+    const Matrix m = above * local(node, index);
     if (node.mesh >= 0) add(element(model_.meshes, node.mesh, "mesh"), m, index);
     for (const int child : node.children) visit(child, m, depth + 1);
   }
@@ -174,6 +265,10 @@ class Reader {
       const auto [first, vertex_count] = vertices(attribute("POSITION"), attribute("NORMAL"), m, node);
       Bytes list;
       if (p.indices >= 0) list = bytes(p.indices, TINYGLTF_TYPE_SCALAR);
+      if (soup_.positions.size() > kMost ||
+          (vertex_count + static_cast<std::int64_t>(list.count)) > static_cast<std::int64_t>(kMost) ||
+          soup_.corners.size() > kMost)
+        refuse("MESH_TOO_LARGE", fmt::format("more than {} vertices or corners", kMost));
       const std::int64_t count = p.indices >= 0 ? static_cast<std::int64_t>(list.count) : vertex_count;
       const auto corner = [&, begin = first, end = vertex_count](std::int64_t k) {
         const std::int64_t v = p.indices >= 0 ? index(list, static_cast<std::size_t>(k)) : k;
@@ -232,6 +327,7 @@ class Reader {
   std::string name_;
   tinygltf::Model model_;
   data::io::PolygonSoup soup_;
+  std::vector<bool> visited_;  // nodes
   std::map<std::tuple<int, int, int>, std::pair<std::int64_t, std::int64_t>> seen_;
   bool without_normals_ = false;
 };
@@ -239,9 +335,7 @@ class Reader {
 }  // namespace
 
 bool is_gltf(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(file);
   return extension == ".gltf" || extension == ".glb";
 }
 

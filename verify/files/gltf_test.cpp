@@ -2,6 +2,7 @@
 // glTF as exporters write it: nodes that move, shared and separate vertices, short indices, strips, mirrored
 // nodes; and files that are broken.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <tiny_gltf.h>
 
 #include <cmath>
@@ -152,11 +153,69 @@ TEST_F(Gltf, BrokenFilesAreRefused) {
   EXPECT_EQ(with([](auto& m) { m.meshes[0].primitives[0].attributes["POSITION"] = 17; }), "FILE_SYNTAX");
   EXPECT_EQ(with([](auto& m) { m.accessors[0].componentType = TINYGLTF_COMPONENT_TYPE_SHORT; }),
             "FILE_UNSUPPORTED");
-  EXPECT_EQ(with([](auto& m) { m.nodes[0].children = {0}; }), "FILE_UNSUPPORTED");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].children = {0}; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.scenes[0].nodes = {0, 0}; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].matrix = std::vector<double>(15, 1); }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].rotation = {1, 0, 0}; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].scale = {1}; }), "FILE_SYNTAX");
   EXPECT_EQ(with([](auto& m) { m.scenes[0].nodes = {9}; }), "FILE_SYNTAX");
   std::ofstream(folder_ / "torn.glb") << "glTF";
   EXPECT_THROW(read_tessellation(folder_ / "torn.glb"), data::InputError);
   EXPECT_THROW(read_tessellation(folder_ / "absent.gltf"), data::InputError);
+}
+
+// Sixty nodes that each hold the next one twice are 2^60 paths to the last.
+TEST_F(Gltf, NodesThatAreNoTreeAreRefusedAtOnce) {
+  model_.scenes[0].nodes = {1};
+  for (int k = 1; k <= 60; ++k) {
+    tinygltf::Node node;
+    node.children = {k < 60 ? k + 1 : 0, k < 60 ? k + 1 : 0};
+    model_.nodes.push_back(node);
+  }
+  EXPECT_EQ(code(), "FILE_SYNTAX");
+}
+
+// The parser recurses into what it does not know.
+TEST_F(Gltf, JsonThatNestsTooDeepIsRefused) {
+  for (const int depth : {100, 20000, 2000000}) {
+    const std::string deep =
+        std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
+    const fs::path file = folder_ / "deep.gltf";
+    std::ofstream(file) << R"({"asset": {"version": "2.0", "extras": )" << deep << "}}";
+    try {
+      (void)read_tessellation(file);
+      ADD_FAILURE() << "accepted";
+    } catch (const data::InputError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.find("FILE_UNSUPPORTED: its JSON nests") != std::string::npos, depth > 100) << what;
+    }
+  }
+  // Brackets in texts do not nest.
+  const fs::path file = folder_ / "texts.gltf";
+  std::ofstream(file) << R"({"asset": {"version": "2.0", "generator": ")" << std::string(1000, '[')
+                      << R"(\"{[", "copyright": "\\"}})";
+  EXPECT_THROW(
+      try { (void)read_tessellation(file); } catch (const data::InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find("nests"), std::string::npos) << error.what();
+        throw;
+      },
+      data::InputError);
+}
+
+TEST_F(Gltf, WhatItRequiresAndIsNotReadIsRefused) {
+  model_.extensionsRequired = {"KHR_draco_mesh_compression"};
+  EXPECT_EQ(code(), "FILE_UNSUPPORTED");
+  model_.extensionsRequired = {"KHR_materials_unlit", "KHR_texture_transform"};
+  EXPECT_EQ(code(), "none") << "looks are of no interest";
+}
+
+TEST_F(Gltf, BuffersArePlainFiles) {
+  const std::string head = R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 8, "uri": ")";
+  ASSERT_EQ(mkfifo((folder_ / "pipe.bin").c_str(), 0600), 0);
+  for (const std::string uri : {"pipe.bin", "/dev/zero", ".", "absent.bin"}) {
+    std::ofstream(folder_ / "t.gltf") << head << uri << "\"}]}";
+    EXPECT_THROW((void)read_tessellation(folder_ / "t.gltf"), data::InputError) << uri;
+  }
 }
 
 }  // namespace

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The memory behind lc_request::allocate: filled with 0xFF, with guard zones on both sides.
+// The memory behind lc_request::allocate: filled with 0xFF, between guard zones, and these between pages that
+// nobody may touch.
+//
+//   | no access | guard zone | block | guard zone | no access |
+//
+// The zones hold a pattern that no subject can foresee: what is written there is seen afterwards. They are at
+// least kGuard bytes long; what goes beyond, up to kNoAccess, ends the process on the spot. So a subject that
+// may write anywhere belongs in a process of its own, where note_overruns() says which block it was.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace limitcheck::verify::detail {
@@ -12,15 +19,26 @@ namespace limitcheck::verify::detail {
 class Memory {
  public:
   static constexpr std::size_t kAlignment = 64;
-  static constexpr std::size_t kGuard = 1024;  // bytes on each side; writes beyond it are not seen
+  static constexpr std::size_t kGuard = 1024;          // bytes of a guard zone, at least
+  static constexpr std::size_t kNoAccess = 256 << 10;  // bytes beyond each zone
+  static constexpr std::size_t kMostBlocks = 1 << 14;  // what the kernel tells apart is limited
   /// Refuses (NULL) what would take the sum over this many
   /// bytes: a count gone wild must not take the machine down.
   static constexpr std::size_t kLimit = std::size_t{16} << 30;
 
   struct Block {
-    std::byte* data;
-    std::size_t size;
+    std::byte* data = nullptr;
+    std::size_t size = 0;
+    std::size_t before = 0, behind = 0;  // bytes of the guard zones: they depend on the size alone
   };
+
+  Memory();
+  ~Memory();
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  /// A block of this size, in no Memory.
+  static Block block_of(std::size_t size);
 
   /// The callback of lc_request: `host` is the Memory. Never throws.
   static void* allocate(void* host, std::size_t bytes) noexcept;
@@ -31,16 +49,19 @@ class Memory {
   const std::vector<Block>& blocks() const { return blocks_; }
 
   /// Bytes between the block and the farthest guard byte that was changed; 0 if none was.
-  static std::int64_t written_before(const Block& block);
-  static std::int64_t written_behind(const Block& block);
+  std::int64_t written_before(const Block& block) const;
+  std::int64_t written_behind(const Block& block) const;
+
+  /// Has the process say on standard error, before SIGSEGV or SIGBUS ends it as ever, that a subject wrote or
+  /// read beyond a guard zone of the Memory made last, and how far.
+  static void note_overruns();
 
  private:
-  struct Free {
-    void operator()(std::byte* p) const;
-  };
-  std::vector<std::unique_ptr<std::byte, Free>> owned_;
+  std::byte pattern(const std::byte* place) const;
+
   std::vector<Block> blocks_;
   std::size_t total_ = 0;
+  std::uint64_t secret_;
 };
 
 }  // namespace limitcheck::verify::detail

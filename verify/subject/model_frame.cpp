@@ -124,7 +124,8 @@ void ModelFrame::fan(std::size_t f, const std::array<int, 3>& edge) {
     for (int s = 0; s < n; ++s)
       border.push_back(k == 0 ? put(f, s, 0, d) : k == 1 ? put(f, n - s, s, d) : put(f, 0, n - s, d));
   }
-  if (!surface_) surface_ = std::make_unique<reference::StamEvaluator<double>>(mesh_.control, rules_.weights());
+  if (!surface_)
+    surface_ = std::make_unique<reference::StamEvaluator<double>>(mesh_.control, rules_.weights());
   const auto third = reference::Parameter::fraction(1, 3);
   const auto centre = surface_->evaluate(static_cast<int>(f), third, third, reference::Order::kFirst);
   Vertex out{centre.position, centre.normal, {static_cast<std::int32_t>(f), 1, 1, 3}};

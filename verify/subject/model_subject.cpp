@@ -189,9 +189,9 @@ class ModelSubject {
 }  // namespace
 
 extern "C" const lc_subject* lc_subject_model() {
-  static const lc_subject subject =
-      make_subject<ModelSubject>("model", "a plain tessellator that is right, or wrong in one stated way",
-                                 "mutation=NAME (default none), precision=double|float (default double), weights=loop|warren "
-                                 "(default loop), points=limit|refined (default limit)");
+  static const lc_subject subject = make_subject<ModelSubject>(
+      "model", "a plain tessellator that is right, or wrong in one stated way",
+      "mutation=NAME (default none), precision=double|float (default double), weights=loop|warren "
+      "(default loop), points=limit|refined (default limit)");
   return &subject;
 }

@@ -10,8 +10,8 @@
  *
  * Output memory comes from the host: the subject asks request->allocate() for each array, on the thread
  * tessellate() was called on. Every byte of it is 0xFF beforehand (a NaN in both precisions, an impossible
- * index) and it has guard zones on both sides, so what a subject forgets to write, or writes beyond the end,
- * is found.
+ * index), it has guard zones on both sides, and beyond these there is no memory: what a subject forgets to
+ * write, or writes beyond the end, is found.
  *
  * A *message is a text without a line end that explains a status other than LC_OK. It stays valid until the
  * subject is called again; NULL if there is nothing to say.

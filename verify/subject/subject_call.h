@@ -20,9 +20,11 @@ void call(const lc_subject& subject, const char* function, Call&& function_call)
   lc_status status = LC_FAILED;
   try {
     status = function_call(&message);
-  } catch (const SubjectDied&) {
+  } catch (const SubjectError&) {
     throw;
   } catch (const Interrupted&) {
+    throw;
+  } catch (const HostOutOfMemory&) {
     throw;
   } catch (const std::exception& error) {
     throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw: {}", subject.name, function, error.what()));

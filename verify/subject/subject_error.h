@@ -38,4 +38,8 @@ class SubjectDied : public SubjectError {
   Kind kind_;
 };
 
+/// This program has no memory left for what a subject delivered: no fault of the subject. Not a
+/// std::exception, for the reason that Interrupted (interrupt.h) is none.
+struct HostOutOfMemory {};
+
 }  // namespace limitcheck::verify

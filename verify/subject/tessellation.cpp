@@ -120,8 +120,8 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
         std::find_if(arrays.begin(), arrays.end(), [&](const Array& a) { return a.data == block.data; });
     const std::string name =
         owner != arrays.end() ? owner->name : fmt::format("block of {} bytes", block.size);
-    if (const auto far = detail::Memory::written_before(block)) overruns_.push_back({name, true, far});
-    if (const auto far = detail::Memory::written_behind(block)) overruns_.push_back({name, false, far});
+    if (const auto far = memory_->written_before(block)) overruns_.push_back({name, true, far});
+    if (const auto far = memory_->written_behind(block)) overruns_.push_back({name, false, far});
   }
 
   if (!usable) return;

@@ -4,19 +4,19 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <thread>
+#include <utility>
 
 #include "verify/interrupt/interrupt.h"
+#include "verify/subject/isolation/process_tree.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -28,35 +28,6 @@ constexpr std::size_t kErrorTail = 2000;
 
 [[noreturn]] void refuse(const char* what) {
   throw SubjectError(LC_FAILED, fmt::format("{}: {}", what, std::strerror(errno)));
-}
-
-// Between fork and exec of a program with threads: nothing but async-signal-safe calls.
-[[noreturn]] void become(char* const* argv, const std::array<std::array<int, 2>, 3>& pipes, pid_t parent) {
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(126);  // it ended before the line above
-  if (dup2(pipes[0][0], STDIN_FILENO) < 0 || dup2(pipes[1][1], STDOUT_FILENO) < 0 ||
-      dup2(pipes[2][1], STDERR_FILENO) < 0)
-    _exit(126);
-  close_range(3, ~0U, 0);
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  signal(SIGPIPE, SIG_DFL);
-  execv(argv[0], argv);
-  _exit(127);
-}
-
-// Resident pages of a process and of all it has started.
-std::uint64_t resident_bytes(pid_t pid, int generation = 0) {
-  std::uint64_t size = 0, resident = 0;
-  std::ifstream(fmt::format("/proc/{}/statm", pid)) >> size >> resident;
-  std::uint64_t bytes = resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", pid));
-  for (pid_t child = 0; generation < 8 && children >> child;) bytes += resident_bytes(child, generation + 1);
-  return bytes;
 }
 
 // write(), without the SIGPIPE that would end this program if the reader is gone.
@@ -83,18 +54,36 @@ std::string how_it_ended(int status) {
     const char* name = sigabbrev_np(WTERMSIG(status));
     return fmt::format("killed by SIG{} ({})", name != nullptr ? name : "?", strsignal(WTERMSIG(status)));
   }
-  return fmt::format("ended with exit status {} before its answer was complete", WEXITSTATUS(status));
+  const int code = WEXITSTATUS(status);
+  const char* name = code > 128 ? sigabbrev_np(code - 128) : nullptr;
+  return fmt::format("ended with exit status {}{}", code,
+                     name == nullptr ? "" : fmt::format(" (a shell says so of SIG{})", name));
 }
+
+// Where namespaces are not to be had the first child finds out for all.
+std::atomic<bool> no_namespaces{false};
 
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits)
     : limits_(limits) {
+  if (limits.namespaces && !no_namespaces) {
+    start(command, Containment::kNamespace);
+    if (alive()) return;
+    no_namespaces = true;
+  }
+  start(command, Containment::kSubreaper);
+  if (!alive()) refuse("cannot start a process");
+}
+
+// Leaves it not alive, with errno, if it cannot be held in this way.
+void ChildProcess::start(const std::vector<std::string>& command, Containment containment) {
   std::vector<char*> argv;
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
 
-  std::array<std::array<int, 2>, 3> pipes{{{-1, -1}, {-1, -1}, {-1, -1}}};
+  std::array<std::array<int, 2>, 5> pipes{};
+  for (auto& ends : pipes) ends = {-1, -1};
   const auto close_all = [&pipes] {
     for (const auto& ends : pipes)
       for (const int fd : ends)
@@ -105,18 +94,34 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Proces
       close_all();
       refuse("cannot make a pipe");
     }
-  const pid_t parent = getpid();
-  pid_ = fork();
-  if (pid_ == 0) become(argv.data(), pipes, parent);
-  if (pid_ < 0) {
+  containment_ = containment;
+  keeper_ =
+      start_keeper(containment, argv.data(),
+                   {{pipes[kIn][0], pipes[kOut][1], pipes[kErr][1]}, pipes[kLifeline][0], pipes[kNews][1]});
+  if (keeper_ < 0) {
+    const int error = errno;
     close_all();
-    refuse("cannot start a process");
+    errno = error;
+    return;
   }
-  setpgid(pid_, pid_);  // in both, so that it holds from here on
-  pipe_ = {pipes[0][1], pipes[1][0], pipes[2][0]};
-  for (const int fd : {pipes[0][0], pipes[1][1], pipes[2][1]}) ::close(fd);
+  pipe_ = {pipes[kIn][1], pipes[kOut][0], pipes[kErr][0], pipes[kLifeline][1], pipes[kNews][0]};
+  for (const int fd : {pipes[kIn][0], pipes[kOut][1], pipes[kErr][1], pipes[kLifeline][0], pipes[kNews][1]})
+    ::close(fd);
   for (const int fd : pipe_) fcntl(fd, F_SETFL, O_NONBLOCK);
   start_clock();
+  // The first news: whether there is a child.
+  pollfd news{pipe_[kNews], POLLIN, 0};
+  while (::poll(&news, 1, static_cast<int>(std::chrono::milliseconds(kGrace).count())) < 0 &&
+         errno == EINTR) {
+  }
+  News first{News::kGivesUp, ECHILD};
+  (void)!::read(pipe_[kNews], &first, sizeof first);
+  if (first.kind == News::kGivesUp) {
+    kill_and_reap();
+    errno = first.value;
+  } else {
+    take(first);
+  }
 }
 
 ChildProcess::~ChildProcess() {
@@ -128,15 +133,50 @@ void ChildProcess::close_pipe(Pipe pipe) {
   pipe_[pipe] = -1;
 }
 
+void ChildProcess::take(const News& news) {
+  if (news.kind == News::kNotStarted) {
+    not_started_ = true;
+    errors_ += fmt::format("{}\n", std::strerror(news.value));
+  }
+  if (news.kind == News::kEnded) status_ = news.value;
+}
+
+// Whether the child ends until then. Throws SubjectDied if its keeper ends without a word.
+bool ChildProcess::wait_for_end(Clock::time_point until) {
+  for (;;) {
+    siginfo_t info{};
+    const bool last = waitid(P_PID, static_cast<id_t>(keeper_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+                      info.si_pid == keeper_;
+    for (News news; ::read(pipe_[kNews], &news, sizeof news) == sizeof news;) take(news);
+    if (status_) return true;
+    if (last) fail(SubjectDied::Kind::kCrash, "the process that holds it was killed");
+    if (Clock::now() > until) return false;
+    drain_errors();
+    pollfd news{pipe_[kNews], POLLIN, 0};
+    ::poll(&news, 1, 5);
+  }
+}
+
+// Waits for nothing without limit: what the kernel does not end is left to it.
 void ChildProcess::kill_and_reap() {
-  if (pid_ > 0) {
-    kill(-pid_, SIGKILL);  // before it is reaped: until then the number is its own
-    while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+  if (keeper_ > 0) {
+    close_pipe(kIn);
+    close_pipe(kLifeline);
+    const auto reap = [this](Clock::duration patience) {
+      for (const auto until = Clock::now() + patience; waitpid(keeper_, nullptr, WNOHANG) == 0;
+           std::this_thread::sleep_for(500us))
+        if (Clock::now() > until) return false;
+      return true;
+    };
+    // A subreaper has its children to kill first; a namespace goes with its first process.
+    if (containment_ == Containment::kNamespace || !reap(kGrace)) {
+      kill(keeper_, SIGKILL);
+      if (!reap(kGrace)) epitaph_ += "; it cannot be killed, and is left to the system";
     }
-    pid_ = -1;
+    keeper_ = -1;
     drain_errors();
   }
-  for (const Pipe pipe : {kIn, kOut, kErr}) close_pipe(pipe);
+  for (const Pipe pipe : {kIn, kOut, kErr, kLifeline, kNews}) close_pipe(pipe);
 }
 
 void ChildProcess::drain_errors() {
@@ -156,13 +196,13 @@ void ChildProcess::drain_errors() {
 }
 
 void ChildProcess::check_alive() const {
-  if (pid_ < 0) throw SubjectDied(kind_, epitaph_);
+  if (!alive()) throw SubjectDied(kind_, epitaph_);
 }
 
 void ChildProcess::fail(SubjectDied::Kind kind, const std::string& what) {
+  epitaph_ = what;
   kill_and_reap();
   kind_ = kind;
-  epitaph_ = what;
   if (!errors_.empty()) {
     std::string_view tail(errors_);
     std::string lines;
@@ -178,40 +218,37 @@ void ChildProcess::fail(SubjectDied::Kind kind, const std::string& what) {
 
 // Standard output or input is closed: the process is ending, or has lost interest.
 void ChildProcess::ended() {
-  const auto patience = Clock::now() + kGrace;
-  siginfo_t info{};
-  for (;;) {
-    // Not reaped yet: its process group must be killed first.
-    info.si_pid = 0;
-    if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-        info.si_pid == pid_)
-      break;
-    if (Clock::now() > patience)
-      fail(SubjectDied::Kind::kProtocol,
-           "closed its standard input or output before its answer was complete");
-    drain_errors();
-    std::this_thread::sleep_for(1ms);
-  }
+  if (!wait_for_end(Clock::now() + kGrace))
+    fail(SubjectDied::Kind::kProtocol, "closed its standard input or output before its answer was complete");
   kill_and_reap();
-  not_started_ = WIFEXITED(status_) && (WEXITSTATUS(status_) == 126 || WEXITSTATUS(status_) == 127);
-  fail(SubjectDied::Kind::kCrash, how_it_ended(status_));
+  const bool shell_says =
+      WIFEXITED(*status_) && (WEXITSTATUS(*status_) == 126 || WEXITSTATUS(*status_) == 127);
+  not_started_ = not_started_ || (shell_says && !answered_);
+  fail(SubjectDied::Kind::kCrash,
+       how_it_ended(*status_) + (WIFEXITED(*status_) ? " before its answer was complete" : ""));
 }
 
 void ChildProcess::watch_limits() {
   if (interrupted() != 0) {
-    kill_and_reap();
     epitaph_ = "interrupted";
+    kill_and_reap();
     throw Interrupted();
   }
   const auto now = Clock::now();
   if (now >= deadline_)
     fail(SubjectDied::Kind::kTimeout, fmt::format("no complete answer within {} s", limits_.seconds));
   if (now < next_look_) return;
-  next_look_ = now + kTick;
-  const std::uint64_t bytes = resident_bytes(pid_);
+  const std::vector<pid_t> all = descendants(keeper_);
+  const std::uint64_t bytes = resident_bytes(all, limits_.memory_bytes());
+  // Where there are thousands of processes a look takes its time; nine tenths of it are for other things.
+  const auto after = Clock::now();
+  next_look_ = after + std::max<Clock::duration>(kTick, 9 * (after - now));
   if (bytes > limits_.memory_bytes())
     fail(SubjectDied::Kind::kMemory,
          fmt::format("took {} MiB of memory; {} MiB are allowed", bytes >> 20, limits_.memory_mib));
+  if (static_cast<std::int64_t>(all.size()) > limits_.processes)
+    fail(SubjectDied::Kind::kMemory,
+         fmt::format("has started {} processes; {} are allowed", all.size(), limits_.processes));
 }
 
 void ChildProcess::wait_for(Pipe pipe, short events) {
@@ -230,7 +267,8 @@ void ChildProcess::start_clock() {
 void ChildProcess::ask(std::string_view request) {
   check_alive();
   start_clock();
-  refuse_more_output();
+  looked_ = false;
+  if (answered_) refuse_more_output();  // before that, what it says is its first answer
   while (!request.empty()) {
     const ssize_t n = write_quietly(pipe_[kIn], request);
     if (n > 0) {
@@ -283,10 +321,11 @@ std::string ChildProcess::line(std::size_t longest) {
       throw protocol::Error(fmt::format("it wrote more than {} bytes without a line end: \"{}\"", longest,
                                         protocol::printable(left, 80)));
     if (end != std::string_view::npos) {
-      next_look_ = {};  // one look at least, however quick the answer came
+      if (!std::exchange(looked_, true)) next_look_ = {};  // one look at least, however quick the answer came
       watch_limits();
       std::string result(left.substr(0, end));
       taken_ += end + 1;
+      answered_ = true;
       return result;
     }
     looked = left.size();
@@ -315,22 +354,22 @@ void ChildProcess::fill_buffer() {
   }
 }
 
-void ChildProcess::finish() {
+void ChildProcess::finish(int exit_status) {
   check_alive();
   close_pipe(kIn);
   start_clock();
   for (;;) {
     refuse_more_output();
-    siginfo_t info{};
-    if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-        info.si_pid == pid_)
-      break;
+    if (wait_for_end(Clock::now() + kTick)) break;
     watch_limits();
     drain_errors();
-    std::this_thread::sleep_for(1ms);
   }
+  refuse_more_output();
   kill_and_reap();
-  if (WIFSIGNALED(status_)) fail(SubjectDied::Kind::kCrash, how_it_ended(status_));
+  const bool orderly =
+      WIFEXITED(*status_) &&
+      (exit_status == kAnyStatus ? WEXITSTATUS(*status_) <= 128 : WEXITSTATUS(*status_) == exit_status);
+  if (!orderly) fail(SubjectDied::Kind::kCrash, how_it_ended(*status_));
 }
 
 }  // namespace limitcheck::verify

@@ -7,10 +7,12 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "verify/subject/isolation/keeper.h"
 #include "verify/subject/isolation/protocol.h"
 #include "verify/subject/subject_error.h"
 
@@ -19,6 +21,8 @@ namespace limitcheck::verify {
 struct ProcessLimits {
   double seconds = 60;             // for each answer; the child's own time and its waiting count alike
   std::int64_t memory_mib = 4096;  // resident, of the child and its children together
+  std::int64_t processes = 1000;   // of the child's children together
+  bool namespaces = true;          // false: the keeper is a subreaper, though the system allow namespaces
   std::uint64_t memory_bytes() const { return static_cast<std::uint64_t>(memory_mib) << 20; }
 };
 
@@ -26,11 +30,11 @@ struct ProcessLimits {
 /// reserved, and interpreters, sanitizers and threads reserve far more than they use. So a process can be
 /// beyond its limit for that long; what one machine can fill in 20 ms is some tens of MiB.
 ///
-/// A child process in a process group of its own; its standard input, output and error
-/// are pipes. Any failure, of whatever kind, kills the whole group and leaves no zombie;
-/// then every further call throws the same SubjectDied again. An interrupt (interrupt.h)
-/// ends it likewise, with Interrupted. If this process ends, the kernel ends the child
-/// (so the thread that made it must not end before). Needs Linux: prctl, /proc.
+/// A child process under a keeper (keeper.h); its standard input, output and error are pipes. When it has
+/// ended, or any failure, of whatever kind, has ended it, whatever it had started has ended too; then every
+/// further call throws the same SubjectDied again. An interrupt (interrupt.h) ends it likewise, with
+/// Interrupted. If this process ends, however it does, the child and all it has started end (so the thread
+/// that made it must not end before). Needs Linux: prctl, /proc.
 class ChildProcess : public protocol::Source {
  public:
   /// Throws SubjectError(LC_FAILED) if the system cannot start another process. A program that does not exist
@@ -43,20 +47,25 @@ class ChildProcess : public protocol::Source {
   void read(std::span<std::byte> to) override;
   std::string line(std::size_t longest) override;
 
-  /// Nothing more is asked: closes the pipes and waits for an orderly end. Throws SubjectDied if it ends by a
-  /// signal or not in time.
-  void finish();
+  /// Nothing more is asked: closes the pipes and waits for an orderly end. Throws SubjectDied if it does not
+  /// end in time, ends by a signal, or with another exit status than this. kAnyStatus: that of a program, in
+  /// which only what a shell says of a command killed by a signal (more than 128) is a fault.
+  static constexpr int kAnyStatus = -1;
+  void finish(int exit_status = kAnyStatus);
 
-  /// Kills the group and throws SubjectDied: `what`, then the tail of what the child wrote on standard error.
+  /// Kills all and throws SubjectDied: `what`, then the tail of what the child wrote on standard error.
   [[noreturn]] void fail(SubjectDied::Kind kind, const std::string& what);
 
-  bool alive() const { return pid_ > 0; }
-  /// It could not be started: the shell's exit status 126 or 127.
+  bool alive() const { return keeper_ > 0; }
+  /// It could not be started: there is no such program, or a shell said so (exit status 126 or 127) before
+  /// anything was answered.
   bool not_started() const { return not_started_; }
+  /// How it is held.
+  Containment containment() const { return containment_; }
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum Pipe : std::size_t { kIn, kOut, kErr };
+  enum Pipe : std::size_t { kIn, kOut, kErr, kLifeline, kNews };
 
   /// Waits until the pipe is ready, at most `kTick`; keeps reading standard error; checks the limits.
   void wait_for(Pipe pipe, short events);
@@ -65,15 +74,19 @@ class ChildProcess : public protocol::Source {
   void fill_buffer();
   void refuse_more_output();
   void drain_errors();
+  void start(const std::vector<std::string>& command, Containment containment);
+  void take(const News& news);
+  bool wait_for_end(Clock::time_point until);
   void close_pipe(Pipe pipe);
   void kill_and_reap();
   [[noreturn]] void ended();
   void check_alive() const;
 
   ProcessLimits limits_;
-  pid_t pid_ = -1;
-  std::array<int, 3> pipe_{-1, -1, -1};
-  int status_ = 0;  // of waitpid, once pid_ is -1
+  Containment containment_ = Containment::kNamespace;
+  pid_t keeper_ = -1;
+  std::array<int, 5> pipe_{-1, -1, -1, -1, -1};
+  std::optional<int> status_;  // of the child, once it has ended: as waitpid has it
   Clock::time_point deadline_, next_look_;
   std::string buffer_;  // read from standard output and not yet taken
   std::size_t taken_ = 0;
@@ -81,7 +94,7 @@ class ChildProcess : public protocol::Source {
   bool errors_cut_ = false;
   std::string epitaph_;
   SubjectDied::Kind kind_ = SubjectDied::Kind::kCrash;
-  bool not_started_ = false;
+  bool not_started_ = false, answered_ = false, looked_ = false;
 };
 
 }  // namespace limitcheck::verify

@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "verify/subject/isolation/header.h"
 
@@ -36,7 +38,14 @@ class Row {
   T next() {
     skip_blanks();
     T value{};
-    const auto [end, error] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
+    auto [end, error] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
+    if constexpr (std::is_floating_point_v<T>) {
+      // Beyond the range of its type a number is zero or infinite, as if it had been computed.
+      long double wide = 0;
+      if (error == std::errc::result_out_of_range)
+        error = std::from_chars(left_.data(), left_.data() + left_.size(), wide).ec;
+      if (wide != 0) value = static_cast<T>(wide);
+    }
     if (error != std::errc{} || (end != left_.data() + left_.size() && *end != ' ' && *end != '\t')) refuse();
     left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
     return value;
@@ -133,6 +142,10 @@ std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads
   return text;
 }
 
+std::string ask_end() {
+  return to_line({{"request", "end"}});
+}
+
 Capabilities read_capabilities(Source& source) {
   const Header header = read_header(source);
   if (!header.has("limitcheck")) throw Error(R"(the first answer does not say "limitcheck": 1)");
@@ -161,6 +174,12 @@ void read_created(Source& source) {
   read_header(source).refuse_unless_ok();
 }
 
+int read_ended(Source& source) {
+  const Header header = read_header(source);
+  header.refuse_unless_ok();
+  return static_cast<int>(header.integer("exit", 0, 255));
+}
+
 void read_tessellation(Source& source, const Capabilities& capabilities, std::uint64_t most_bytes,
                        const lc_request& request, lc_tessellation& out) {
   const Header header = read_header(source);
@@ -179,7 +198,7 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
                             vertices, triangles, bytes / 1048576, most_bytes >> 20));
   const auto get = [&](std::int64_t count, std::size_t size) {
     void* memory = request.allocate(request.host, static_cast<std::size_t>(count) * size);
-    if (memory == nullptr) throw Error("there is no memory for the answer it announces");
+    if (memory == nullptr) throw std::bad_alloc();
     return memory;
   };
   out.vertex_count = vertices;

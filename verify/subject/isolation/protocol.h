@@ -51,10 +51,15 @@ struct Capabilities {
 std::string ask_capabilities(const std::string& options);
 std::string ask_create(const lc_mesh& mesh, const std::string& options, Payload payload);
 std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads, Payload payload);
+/// Of the worker only: destroy(), and to end.
+std::string ask_end();
 
-/// Answers. All throw Error, or SubjectError if the subject refuses.
+/// Answers. All throw Error, SubjectError if the subject refuses, or std::bad_alloc if this program has no
+/// memory for what is delivered.
 Capabilities read_capabilities(Source& source);
 void read_created(Source& source);
+/// Of the worker only: the exit status it is going to end with.
+int read_ended(Source& source);
 
 /// The worker (worker.h) tells more than a program: what the subject did to the memory it was handed.
 struct Aftermath {

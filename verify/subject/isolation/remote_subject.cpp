@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -45,8 +46,11 @@ struct RemoteDoor {
       } catch (const protocol::Error& error) {
         child.fail(SubjectDied::Kind::kProtocol, fmt::format("broke the protocol: {}", error.what()));
       }
+    } catch (const std::bad_alloc&) {
+      throw HostOutOfMemory();
     } catch (const SubjectDied& error) {
-      if (!child.not_started()) died(error);
+      // What has answered once can be started: a later failure is its own.
+      if (!child.not_started() || s.has_answered_) died(error);
       text = error.what();  // a wrong command line, not a fault of the subject
       *message = text.c_str();
       return LC_INVALID_INPUT;
@@ -78,6 +82,8 @@ struct RemoteDoor {
       s.capabilities_ = protocol::read_capabilities(*child);
       *out = s.capabilities_.values;
     });
+    s.has_answered_ = s.has_answered_ || !child->not_started();
+    s.containment_ = child->containment();
     if (status == LC_OK) {
       s.waiting_ = std::move(child);
       s.waiting_options_ = given;
@@ -134,7 +140,15 @@ struct RemoteDoor {
     Input in = input(i->subject, i->options);
     in.mesh = &i->mesh;
     const char* message = nullptr;
-    answer(i->subject, *i->child, &message, in, [&] { i->child->finish(); });
+    const lc_status status = answer(i->subject, *i->child, &message, in, [&] {
+      if (i->subject.kind_ == RemoteSubject::Kind::kProgram) {
+        i->child->finish();
+      } else {
+        i->child->ask(protocol::ask_end());
+        i->child->finish(protocol::read_ended(*i->child));
+      }
+    });
+    if (status != LC_OK) throw SubjectError(status, message);
   }
 
   template <std::size_t Slot>

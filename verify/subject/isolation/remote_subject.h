@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ class RemoteSubject {
   /// Valid as long as this. Its name is `what`, "program:" in front of a command.
   const lc_subject& subject() const { return subject_; }
 
+  /// How its last process was held; none: there was none yet.
+  std::optional<Containment> containment() const { return containment_; }
+
  private:
   friend struct RemoteDoor;
   std::unique_ptr<ChildProcess> start() const;
@@ -49,6 +53,8 @@ class RemoteSubject {
   std::unique_ptr<ChildProcess> waiting_;
   std::string waiting_options_;
   protocol::Capabilities capabilities_;
+  bool has_answered_ = false;
+  std::optional<Containment> containment_;
 };
 
 }  // namespace limitcheck::verify

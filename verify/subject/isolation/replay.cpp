@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <new>
 #include <vector>
 
 #include "verify/subject/host_memory.h"
@@ -18,17 +19,17 @@ using detail::Memory;
 struct Block {
   std::int64_t size, before, behind;
 };
-constexpr std::byte kScribble{0x5A};
 
 std::vector<Block> read_blocks(Source& source, const Header& header, std::uint64_t most_bytes) {
-  // A million blocks is more than anyone asks for, and little enough to allocate.
-  std::vector<Block> blocks(static_cast<std::size_t>(header.integer("blocks", 0, 1 << 20)));
+  std::vector<Block> blocks(
+      static_cast<std::size_t>(header.integer("blocks", 0, std::int64_t{Memory::kMostBlocks})));
   source.read(std::as_writable_bytes(std::span(blocks)));
   std::uint64_t total = 0;
   for (const Block& b : blocks) {
-    constexpr auto kGuard = static_cast<std::int64_t>(Memory::kGuard);
-    if (b.size < 0 || b.before < 0 || b.before > kGuard || b.behind < 0 || b.behind > kGuard ||
-        static_cast<std::uint64_t>(b.size) > most_bytes - total)
+    const bool bearable = b.size >= 0 && static_cast<std::uint64_t>(b.size) <= most_bytes - total;
+    const Memory::Block zones = Memory::block_of(bearable ? static_cast<std::size_t>(b.size) : 0);
+    if (!bearable || b.before < 0 || b.before > static_cast<std::int64_t>(zones.before) || b.behind < 0 ||
+        b.behind > static_cast<std::int64_t>(zones.behind))
       throw Error("a block of memory it describes is impossible");
     total += static_cast<std::uint64_t>(b.size);
   }
@@ -63,10 +64,11 @@ Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& m
   std::vector<std::byte*> memory;
   for (const Block& b : blocks) {
     auto* data = static_cast<std::byte*>(request.allocate(request.host, static_cast<std::size_t>(b.size)));
-    if (data == nullptr) throw Error("there is no memory for what it allocated");
+    if (data == nullptr) throw std::bad_alloc();
     source.read({data, static_cast<std::size_t>(b.size)});
-    if (b.before > 0) *(data - b.before) = kScribble;
-    if (b.behind > 0) *(data + b.size + b.behind - 1) = kScribble;
+    // Any other byte than what stands there.
+    if (b.before > 0) *(data - b.before) ^= std::byte{1};
+    if (b.behind > 0) *(data + b.size + b.behind - 1) ^= std::byte{1};
     memory.push_back(data);
   }
   const auto place = [&](const char* key) { return pointer(header.at(key), memory, blocks); };

@@ -2,6 +2,7 @@
 #include "verify/subject/isolation/worker.h"
 
 #include <fcntl.h>
+#include <sys/random.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <vector>
@@ -125,8 +127,7 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
 
   std::vector<std::array<std::int64_t, 3>> blocks;
   for (const Memory::Block& b : memory.blocks())
-    blocks.push_back(
-        {static_cast<std::int64_t>(b.size), Memory::written_before(b), Memory::written_behind(b)});
+    blocks.push_back({static_cast<std::int64_t>(b.size), memory.written_before(b), memory.written_behind(b)});
   // By bytes: what a subject writes there may be a NaN.
   const auto same = [](const auto& a, const auto& b) {
     return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
@@ -151,6 +152,15 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
   }
 }
 
+// An exit status that nobody ends with by chance: a library that ends the process while it is unloaded is
+// found out by its own.
+int unlikely_status() {
+  std::uint8_t random = 0;
+  if (getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random)
+    random = static_cast<std::uint8_t>(getpid());
+  return 100 + random % 100;
+}
+
 void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Header& header,
             Connection& host) {
   const std::string request = header.text("request");
@@ -168,6 +178,15 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
     host.write({{"status", "ok"}});
   } else if (request == "tessellate") {
     tessellate(*loaded, header, host);
+  } else if (request == "end") {
+    if (loaded)
+      detail::call(subject, "destroy", [&](const char**) {
+        subject.destroy(loaded->instance);
+        return LC_OK;
+      });
+    const int status = unlikely_status();
+    host.write({{"status", "ok"}, {"exit", status}});
+    std::exit(status);  // the library's own destructors run in here
   }
 }
 
@@ -183,6 +202,7 @@ int serve(const std::function<const lc_subject&()>& load) {
   setvbuf(stdout, nullptr, _IOLBF, 0);
   // Sanitizers catch these to report and exit: the host wants to see the signal itself.
   for (const int s : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(s, SIG_DFL);
+  Memory::note_overruns();
 
   Connection host(in, out);
   const lc_subject* subject = nullptr;
@@ -205,7 +225,6 @@ int serve(const std::function<const lc_subject&()>& load) {
       break;
     }
   }
-  if (loaded) subject->destroy(loaded->instance);
   return 0;
 }
 

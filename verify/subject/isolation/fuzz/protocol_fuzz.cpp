@@ -40,7 +40,7 @@ void read_any(unsigned choice, Source& source) {
     std::uint64_t total = 0;
     for (const auto& block : memory.blocks()) {
       total += block.size;
-      require(detail::Memory::written_before(block) == 0 && detail::Memory::written_behind(block) == 0);
+      require(memory.written_before(block) == 0 && memory.written_behind(block) == 0);
     }
     require(total <= kMost);
   }

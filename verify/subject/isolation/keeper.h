@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The process between this program and a child: it starts the child, and nothing that the child starts
+// outlives it. It leads a session of its own, so that the child has no terminal.
+//
+//   in a PID namespace   where the system allows one (root, or user namespaces). The keeper is its first
+//   process:
+//                        when it ends, however it ends, the kernel kills all others. They see no process
+//                        outside.
+//   as a subreaper       elsewhere. What a descendant leaves behind becomes a child of the keeper, which
+//   kills its
+//                        children until none is left. A descendant that kills the keeper gets past that.
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+
+namespace limitcheck::verify {
+
+enum class Containment { kNamespace, kSubreaper };
+
+/// What the keeper tells, one after another, in the pipe `news`.
+struct News {
+  enum Kind : int {
+    kGivesUp,     // it cannot work in this way; value: errno. It has started nothing and ends
+    kRunning,     // the child exists. Its program need not yet
+    kNotStarted,  // there is no such program, or it cannot be run; value: errno. May come before kRunning
+    kEnded  // value: the status of waitpid. All that the child has started is gone; under a subreaper, all
+            // but what multiplies faster than it can be killed
+  };
+  Kind kind = kGivesUp;
+  int value = 0;
+};
+
+struct KeeperPipes {
+  std::array<int, 3> standard;  // the child's standard input, output and error
+  int lifeline;                 // for reading: the keeper ends when nobody holds the other end
+  int news;                     // for writing
+};
+
+/// Starts a keeper that runs argv[0] with these arguments. Returns its process number, or -1 with errno. In a
+/// namespace it ends with the thread that called this, too. It keeps no descriptors but these pipes.
+pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// A program that speaks the protocol as text and knows the octahedron at depth 0, until it does what its
+// words say: THING, or THING at hello|create|end. Everything here is wrong on purpose.
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+std::string thing, place = "tessellate";
+
+[[noreturn]] void sleep_for_ever() {
+  for (;;) sleep(1000);
+}
+void take_memory(std::size_t mib) {
+  void* const taken = mmap(nullptr, mib << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (taken != MAP_FAILED) std::memset(taken, 1, mib << 20);
+}
+void in_a_child(bool as_a_daemon, std::size_t mib) {
+  const pid_t first = fork();
+  if (first == 0) {
+    if (as_a_daemon) setsid();
+    if (as_a_daemon && fork() != 0) _exit(0);
+    take_memory(mib);
+    sleep_for_ever();
+  }
+  if (as_a_daemon) waitpid(first, nullptr, 0);
+}
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+void say_status(const char* status) {
+  say(std::string(R"({"limitcheck": 1, "status": ")") + status + R"(", "message": "no luck"})" + "\n");
+  _exit(0);
+}
+
+void misbehave(const std::string& here) {
+  if (place != here) return;
+  if (thing == "segfault") raise(SIGSEGV);
+  if (thing == "abort") std::abort();
+  if (thing.starts_with("exit")) _exit(std::atoi(thing.c_str() + 4));
+  if (thing == "kill_group") kill(0, SIGKILL);
+  if (thing == "complain") std::fputs("no luck today\n", stderr), _exit(1);
+  if (thing == "in_the_middle")
+    say(R"({"status": "ok", "vertices": 6, "triangles": 8})"
+        "\n1 2 3"),
+        _exit(0);
+  if (thing == "sleep") sleep_for_ever();
+  if (thing == "stop") raise(SIGSTOP);
+  if (thing == "leave_group") setpgid(0, getpgid(getppid())), sleep_for_ever();
+  if (thing == "own_session") setsid(), sleep_for_ever();
+  if (thing == "kill_parent") kill(getppid(), SIGKILL), sleep_for_ever();
+  while (thing == "flood_errors") std::fputs("nonsense nonsense nonsense\n", stderr);
+  while (thing == "drip") say(" "), usleep(10000);
+  if (thing == "deaf" || thing == "dumb") close(0), close(1), sleep_for_ever();
+  if (thing == "memory") take_memory(600), sleep_for_ever();
+  if (thing == "memory_in_a_daemon") in_a_child(true, 600), sleep_for_ever();
+  for (int k = 0; thing == "many_processes" && k < 60; ++k) in_a_child(false, 0);
+  if (thing == "many_processes") sleep_for_ever();
+  if (thing == "child") in_a_child(false, 1);
+  if (thing == "daemon") in_a_child(true, 1);
+  if (thing == "chatter") say("hello there\n"), sleep_for_ever();
+  if (thing == "no_end_of_line") say(std::string(100000, 'x')), sleep_for_ever();
+  if (thing == "nested") say(std::string(60000, '[') + "\n"), sleep_for_ever();
+  if (thing == "not_utf8") say("{\"status\": \"\xff\xfe\"}\n"), sleep_for_ever();
+  if (thing == "counts_1e18")
+    say(R"({"status": "ok", "vertices": 1000000000000000000, "triangles": 1})"
+        "\n");
+  if (thing == "counts_negative")
+    say(R"({"status": "ok", "vertices": 6, "triangles": -8})"
+        "\n");
+  if (thing == "counts_real")
+    say(R"({"status": "ok", "vertices": 6.5, "triangles": 8})"
+        "\n");
+  if (thing == "counts_text")
+    say(R"({"status": "ok", "vertices": "6", "triangles": 8})"
+        "\n");
+  if (thing == "no_counts")
+    say(R"({"status": "ok"})"
+        "\n");
+  if (thing.starts_with("counts_") || thing == "no_counts") sleep_for_ever();
+  if (thing == "failed") say_status("failed");
+  if (thing == "not_supported") say_status("not-supported");
+  if (thing == "other_status") say_status("so-so");
+  if (thing == "more" && here == "end") say("more\n");
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count > 1) thing = words[1];
+  if (count > 3) place = words[3];
+  const auto lines = [](int n) {
+    std::vector<std::string> all(static_cast<std::size_t>(n));
+    for (std::string& line : all) std::getline(std::cin, line);
+    return all;
+  };
+  const auto number = [](const std::string& line, const char* key) {
+    const std::size_t at = line.find(std::string("\"") + key + "\":");
+    return at == std::string::npos ? 0 : std::atoi(line.c_str() + at + std::strlen(key) + 3);
+  };
+  std::vector<std::string> points, faces;
+  for (std::string line; std::getline(std::cin, line);) {
+    if (line.find("\"capabilities\"") != std::string::npos) {
+      misbehave("hello");
+      say(R"({"limitcheck": 1, "status": "ok", "payload": "text", "precision": "float32", "weights": "loop", )"
+          R"("boundary": "none", "points": "limit", "max_depth": 0, "normals": false, "per_face_depth": false, )"
+          R"("exact_lattice": true})"
+          "\n");
+    } else if (line.find("\"create\"") != std::string::npos) {
+      points = lines(number(line, "vertices"));
+      faces = lines(number(line, "triangles"));
+      misbehave("create");
+      say(R"({"status": "ok"})"
+          "\n");
+    } else {
+      (void)lines(number(line, "triangles"));
+      misbehave("tessellate");
+      std::ostringstream out;
+      out << R"({"status": "ok", "vertices": )" << points.size() << R"(, "triangles": )" << faces.size()
+          << "}\n";
+      for (std::size_t v = 0; v < points.size(); ++v) {
+        if (thing == "short_row" && v == 0) out << "1 2\n";
+        if (thing == "words" && v == 0) out << "one two three\n";
+        std::size_t f = 0, corner = 3;
+        for (; f < faces.size() && corner == 3; ++f) {
+          std::istringstream in(faces[f]);
+          std::array<std::size_t, 3> c{};
+          in >> c[0] >> c[1] >> c[2];
+          for (std::size_t k = 0; k < 3; ++k)
+            if (c[k] == v) corner = k;
+        }
+        std::istringstream in(points[v]);
+        for (double x = 0; in >> x;) {
+          if (thing == "tiny_number" && x == 0)
+            out << "1e-50 ";
+          else
+            out << x * 24 / 55 << ' ';
+        }
+        out << f - 1 << ' ' << (corner == 1) << ' ' << (corner == 2) << " 1";
+        out << (thing == "long_row" && v == 0 ? " 7\n" : "\n");
+      }
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        out << (thing == "index_beyond" && f == 0 ? "0 1 77" : faces[f].c_str()) << ' ' << f << '\n';
+      if (thing == "more" && place == "tessellate") out << "more\n";
+      say(out.str());
+    }
+  }
+  misbehave("end");
+  return 0;
+}

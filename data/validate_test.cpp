@@ -32,6 +32,8 @@ void expect_only(const ControlMesh& mesh, MeshFault fault, const std::vector<std
 TEST(Validate, AnEmptyMeshIsRefused) {
   expect_only({}, MeshFault::kEmpty, {}, "0 vertices and 0 faces");
   expect_only(mesh_of(3, {}), MeshFault::kEmpty, {}, "3 vertices and 0 faces");
+  EXPECT_EQ(validate_counts(0, 3).at(0).fault, MeshFault::kEmpty);
+  EXPECT_TRUE(validate_counts(1, 3).empty());
 }
 
 TEST(Validate, MoreThan32BitIndicesCanNameIsRefused) {
@@ -46,6 +48,16 @@ TEST(Validate, AnIndexOutOfRangeNamesItsFaceAndNothingElse) {
               "face 2 names vertex 4, the mesh has 4");
   expect_only(mesh_of(3, {{0, 1, 2}, {-1, 0, 1}}), MeshFault::kIndexOutOfRange, {1, -1},
               "face 1 names vertex -1, the mesh has 3");
+  expect_only(mesh_of(3, {{0, 1, 2}, {2147483647, 0, 1}}), MeshFault::kIndexOutOfRange, {1, 2147483647},
+              "face 1 names vertex 2147483647, the mesh has 3");
+}
+
+// Without the two faces that are left out the four others round vertex 0 make two fans: no verdict on those.
+TEST(Validate, AFaceLeftOutTakesNoVertexWithItThatWasWhole) {
+  const auto findings =
+      validate(mesh_of(7, {{0, 1, 2}, {0, 2, 3}, {0, 3, 7}, {0, 4, 5}, {0, 5, 6}, {0, 6, 8}}));
+  ASSERT_EQ(findings.size(), 2u);
+  for (const MeshFinding& finding : findings) EXPECT_EQ(finding.fault, MeshFault::kIndexOutOfRange);
 }
 
 TEST(Validate, EveryCoordinateMustBeFinite) {
@@ -97,6 +109,9 @@ TEST(Validate, AnEdgeOfManyFacesNamesTheFirstEightInItsMessage) {
   expect_only(mesh_of(14, triangles), MeshFault::kNonmanifoldEdge,
               {0, 1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
               "edge 0–1 has 12 faces (0, 1, 2, 3, 4, 5, 6, 7, …)");
+  triangles.resize(8);
+  expect_only(mesh_of(10, triangles), MeshFault::kNonmanifoldEdge, {0, 1, 0, 1, 2, 3, 4, 5, 6, 7},
+              "edge 0–1 has 8 faces (0, 1, 2, 3, 4, 5, 6, 7)");
 }
 
 TEST(Validate, TwoFacesAlongAnEdgeInTheSameDirectionClash) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -102,6 +104,21 @@ void expect_refused(int vertices, std::vector<std::array<std::int32_t, 3>> trian
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
+}
+
+// Vertex 5 joins a fan of one face and one of two, in every order; the corners of vertex 0, which has more
+// faces and comes first, must not be taken for its own.
+TEST(Adjacency, RefusesTwoOpenFansWhateverTheOrderOfFaces) {
+  std::array<std::array<std::int32_t, 3>, 4> hub{{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+  std::sort(hub.begin(), hub.end());
+  do {
+    std::array<std::array<std::int32_t, 3>, 3> fans{{{5, 6, 7}, {5, 7, 8}, {5, 9, 10}}};
+    do {
+      std::vector<std::array<std::int32_t, 3>> triangles(hub.begin(), hub.end());
+      triangles.insert(triangles.end(), fans.begin(), fans.end());
+      expect_refused(11, triangles, "vertex 5 joins two fans");
+    } while (std::next_permutation(fans.begin(), fans.end()));
+  } while (std::next_permutation(hub.begin(), hub.end()));
 }
 
 TEST(Adjacency, RefusesWhatIsNotAnOrientedManifoldAndNamesTheElement) {

@@ -109,7 +109,7 @@ inline typename Surface::Vertex regular_vertex_limit(const Vec3<N>& v, const Axi
       [&] {
         WideVec3<N> ring[] = {widen<N>(r.e), widen<N>(r.ne), widen<N>(r.nw),
                               widen<N>(r.w), widen<N>(r.sw), widen<N>(r.se)};
-        return substitute_normal<N>(v, ring, false);
+        return substitute_normal<typename NumberTraits<N>::Wide>(widen<N>(v), ring, false, kParallel<N>);
       },
       zero_normals);
 }
@@ -123,7 +123,7 @@ inline typename Surface::Vertex boundary_vertex_limit(const Vec3<N>& v, const Ve
       regular_boundary_limit(v, e, ne, nw, w),
       [&] {
         WideVec3<N> ring[] = {widen<N>(e), widen<N>(ne), widen<N>(nw), widen<N>(w)};
-        return substitute_normal<N>(v, ring, true);
+        return substitute_normal<typename NumberTraits<N>::Wide>(widen<N>(v), ring, true, kParallel<N>);
       },
       zero_normals);
 }

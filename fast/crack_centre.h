@@ -119,10 +119,9 @@ class FanCentreEvaluator {
   /// The centre is no vertex: the face around it after one step, else the control face, else (0, 0, 1). [D12]
   static Vec3<Wide> substitute(const std::array<Vec3<Wide>, 12>& points,
                                const std::array<Vec3<N>, 3>& corner) {
-    const Wide tolerance = sizeof(N) == 4 ? Wide(1e-6) : Wide(1e-12);
     const Vec3<Wide> finer[] = {points[6], points[7]}, control[] = {widen<N>(corner[1]), widen<N>(corner[2])};
-    Vec3<Wide> normal = area_normal<Wide>(points[3], finer, true, tolerance);
-    if (normal == Vec3<Wide>{}) normal = area_normal<Wide>(widen<N>(corner[0]), control, true, tolerance);
+    Vec3<Wide> normal = area_normal<Wide>(points[3], finer, true, kParallel<N>);
+    if (normal == Vec3<Wide>{}) normal = area_normal<Wide>(widen<N>(corner[0]), control, true, kParallel<N>);
     return normal != Vec3<Wide>{} ? normal : Vec3<Wide>{Wide(0), Wide(0), Wide(1)};
   }
 

@@ -90,6 +90,19 @@ TEST(Sec5_Plan, AFaceIsAFanIfAnEdgeIsDeeperThanItself) {
   EXPECT_THROW(plan_cracks(adjacency, std::vector<std::int32_t>(3)), std::invalid_argument);
 }
 
+TEST(Sec5_Plan, AFaceIsStitchedFromDepthTwoOn) {
+  const Adjacency adjacency(grid_torus(4, 4));
+  CrackOptions options;
+  options.repair = Repair::kStitch;
+  for (const std::int32_t own : {0, 1, 2, 3}) {
+    std::vector<std::int32_t> depth(32, own);
+    depth[5] = own + 2;
+    const CrackPlan plan = plan_cracks(adjacency, depth, options);
+    EXPECT_EQ(plan.stitched, own >= 2 ? 3 : 0) << own;
+    EXPECT_EQ(plan.fans, own >= 2 ? 0 : 3) << own;
+  }
+}
+
 TEST(Sec5_Stitch, MakesTheRingOfTrianglesItAnnounces) {
   for (int depth = 2; depth <= 6; ++depth) {
     for (int edge = depth; edge <= 8; ++edge) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "data/splitmix64.h"
 #include "fast/ring.h"
 
 namespace limitcheck::fast {
@@ -32,12 +33,9 @@ constexpr std::array<std::pair<Strategy, std::string_view>, 6> kNames{
   throw std::invalid_argument("depth: " + what);
 }
 
-// Steele, Lea, Flood: SplitMix64's finaliser, as a hash of (seed, face).
+// A hash of (seed, face).
 std::uint64_t mix(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
+  return data::SplitMix64(z).next();
 }
 
 bool uses_sphere(Strategy s) {

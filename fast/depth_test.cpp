@@ -64,6 +64,7 @@ TEST(Depth, UniformIsUniformAndRandomMeetsEveryDepthAboutEquallyOften) {
     // 2400 draws, p = 1/6: 400 expected, standard deviation 18; six of them.
     EXPECT_NEAR(static_cast<double>(std::count(depths.begin(), depths.end(), d)), 400, 110);
   }
+  EXPECT_EQ(std::count_if(depths.begin(), depths.end(), [](int d) { return d < 0 || d > 5; }), 0);
   EXPECT_EQ(f.heuristics.depths(options, {}), depths) << "the same seed";
   options.seed = 2;
   EXPECT_NE(f.heuristics.depths(options, {}), depths) << "another seed";
@@ -230,6 +231,9 @@ TEST(Depth, EmptyMeshesAndVerticesWithoutFacesAreNoProblem) {
   const Fixture f(mesh);
   EXPECT_EQ(f.heuristics.depths({}, {}).size(), 8u);
   EXPECT_EQ(f.heuristics.degenerate_normals(), 0);
+  data::ControlMesh point = single_triangle();
+  for (auto& p : point.positions) p = {1, 2, 3};
+  EXPECT_EQ(Fixture(point).heuristics.degenerate_normals(), 3) << "vertices of one face count, too";
 }
 
 TEST(Depth, MayBeAskedForByManyTasksAtOnce) {

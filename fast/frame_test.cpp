@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fast/exact_weld.h"
@@ -203,6 +205,43 @@ TEST(Sec4_Frame, KeepsItsNormalsAtAnyScaleAndFarFromTheOrigin) {
     ASSERT_LE(dot(d, d), 1e-9f);
     ASSERT_NEAR(plain.vertices[i].position.x + 1024, other.vertices[i].position.x, 1e-4);
   }
+}
+
+// Coordinates of few bits, so that the mesh can be moved without loss: however far, its normals keep their
+// bits.
+TEST(Sec4_Frame, KeepsTheBitsOfItsNormalsWhereverTheMeshLies) {
+  data::ControlMesh mesh = shaken(grid_torus(4, 5), 13);
+  for (auto& p : mesh.positions)
+    for (double& x : p) x = std::round(64 * x) / 64;
+  const std::vector<std::int32_t> depth(mesh.triangles.size(), 3);
+  DrawList<float> plain, other;
+  const std::array<double, 3> middle = [&] {  // of the box: then the centre of the plain mesh is 0
+    std::array<double, 3> low = mesh.positions[0], high = low;
+    for (const auto& p : mesh.positions)
+      for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+    return std::array{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+  }();
+  for (auto& p : mesh.positions)
+    for (std::size_t i = 0; i < 3; ++i) p[i] -= middle[i];
+  Tessellator<float>(mesh).frame(depth, plain);
+  for (const double offset : {20., -20., 0x1p30, -0x1p40}) {
+    data::ControlMesh moved = mesh;
+    for (auto& p : moved.positions)
+      for (double& x : p) x += offset;
+    Tessellator<float>(moved).frame(depth, other);
+    ASSERT_EQ(plain.vertices.size(), other.vertices.size());
+    for (std::size_t i = 0; i < plain.vertices.size(); ++i)
+      ASSERT_EQ(plain.vertices[i].normal, other.vertices[i].normal) << offset;
+  }
+}
+
+// A sheet in the plane x = 2^25 + 3, which is no float and no centre: its points are the nearest float.
+TEST(Sec4_Frame, RoundsACoordinateOnceThatIsNoFloat) {
+  data::ControlMesh mesh = grid_sheet(3, 3);
+  for (auto& p : mesh.positions) p = {0x1p25 + 3, p[1], p[0]};
+  DrawList<float> list;
+  Tessellator<float>(mesh).frame(std::vector<std::int32_t>(mesh.triangles.size(), 2), list);
+  for (const auto& v : list.vertices) EXPECT_EQ(v.position.x, 0x1p25f + 4);
 }
 
 TEST(Sec5_Frame, IsWatertightBitByBitWithNormalsInDouble) {

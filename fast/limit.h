@@ -10,6 +10,7 @@
 
 #include "fast/masks.h"
 #include "fast/sink.h"
+#include "fast/vertex_normal.h"
 
 namespace limitcheck::fast {
 
@@ -86,70 +87,9 @@ LimitFrame<typename NumberTraits<N>::Wide> vertex_limit(const Vec3<N>& v, std::s
   return {c + T::ratio(1, 6) * (first + last), first - last, across};
 }
 
-/// One subdivision step of a vertex and its ring in place. A half turn of a ring of six keeps the bits. [C29]
-template <class W>
-void subdivide_in_place(Vec3<W>& v, std::span<Vec3<W>> ring, bool open) {
-  const std::size_t n = ring.size();
-  const Vec3<W> old = v, first = ring[0];
-  Vec3<W> before = ring[n - 1];
-  if (open) {
-    v = curve_vertex(old, first, before);
-  } else if (n == 6) {
-    v = regular_vertex(old, AxisRing<W>{ring[0], ring[1], ring[2], ring[3], ring[4], ring[5]});
-  } else {
-    const auto weights = vertex_weights<W>(static_cast<int>(n));
-    Vec3<W> sum{};
-    for (const Vec3<W>& p : ring) sum = sum + p;
-    v = weights.centre * old + weights.ring * sum;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3<W> here = ring[i];
-    ring[i] = open && (i == 0 || i + 1 == n)
-                  ? midpoint(old, here)
-                  : edge_point(old, here, before, i + 1 == n ? first : ring[i + 1]);
-    before = here;
-  }
-}
-
-/// The unit normal of a fan, its faces weighted by area; zero if it is lost in rounding: at most `tolerance`
-/// times the square of the fan's radius. Rings of six are added in opposite pairs.
-template <class W>
-Vec3<W> area_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, W tolerance) {
-  using std::sqrt;
-  const std::size_t n = ring.size();
-  const auto face = [&](std::size_t i) { return cross(ring[i] - v, ring[(i + 1) % n] - v); };
-  Vec3<W> sum{};
-  if (!open && n == 6) {
-    sum = (face(0) + face(3)) + ((face(1) + face(4)) + (face(2) + face(5)));
-  } else {
-    for (std::size_t i = 0; i + (open ? 1 : 0) < n; ++i) sum = sum + face(i);
-  }
-  W reach(0);
-  for (const Vec3<W>& p : ring) reach = std::max(reach, dot(p - v, p - v));
-  const W size = sqrt(dot(sum, sum));
-  return size > tolerance * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
-}
-
-/// The unit normal where the tangents do not tell: that of the faces, weighted by area, after one to three
-/// steps in place, else before them, else (0, 0, 1).                                                   [D12]
-///   ring   is used up
-template <class N>
-WideVec3<N> substitute_normal(const Vec3<N>& centre, std::span<WideVec3<N>> ring, bool open) {
-  using W = typename NumberTraits<N>::Wide;
-  const W tolerance = sizeof(N) == 4 ? W(1e-6) : W(1e-12);
-  Vec3<W> v = widen<N>(centre);
-  const Vec3<W> control = area_normal<W>(v, ring, open, tolerance);
-  for (int step = 0; step < 3; ++step) {
-    subdivide_in_place<W>(v, ring, open);
-    Vec3<W> normal = area_normal<W>(v, ring, open, tolerance);
-    if (normal != Vec3<W>{}) return normal;
-  }
-  return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};
-}
-
-/// The unit vertex of a frame. If the tangents vanish or are parallel, |du x dv| <= 1e-12 |du| |dv| (1e-6 in
-/// float), the normal is what `substitute` returns, a unit vector in the wide number, and `zero_normals`
-/// counts it. Never NaN for finite input.                                                              [D12]
+/// The unit vertex of a frame inside a patch. If the tangents vanish or are parallel (kParallel), the normal
+/// is what `substitute` returns, a unit vector in the wide number, and `zero_normals` counts it. Never NaN
+/// for finite input. [D12]
 template <class N>
 class LimitSurface {
  public:
@@ -161,7 +101,7 @@ class LimitSurface {
     const N square = dot(normal, normal);
     // + 0 turns a negative zero into zero: its sign would depend on the direction of the axis.
     const Vec3<N> zero{N(0), N(0), N(0)};
-    if (!(square > kParallel * dot(frame.du, frame.du) * dot(frame.dv, frame.dv)) || square < kSmallest)
+    if (!(square > kSquare * dot(frame.du, frame.du) * dot(frame.dv, frame.dv)) || square < kSmallest)
         [[unlikely]] {
       ++zero_normals;
       return {frame.position, narrow<N>(substitute()) + zero};
@@ -171,7 +111,7 @@ class LimitSurface {
   }
 
  private:
-  static constexpr N kParallel = sizeof(N) == 4 ? N(1e-12) : N(1e-24);
+  static constexpr N kSquare = N(kParallel<N> * kParallel<N>);
   static constexpr N kSmallest = std::numeric_limits<N>::min();
 };
 

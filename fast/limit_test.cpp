@@ -106,7 +106,7 @@ TEST(Sec31_LimitMasks, KeepTheirBitsUnderAHalfTurn) {
           [&] {
             V all[] = {widen<float>(r(0)), widen<float>(r(1)), widen<float>(r(2)),
                        widen<float>(r(3)), widen<float>(r(4)), widen<float>(r(5))};
-            return substitute_normal<float>(p[6], all, false);
+            return substitute_normal<double>(widen<float>(p[6]), all, false, kParallel<float>);
           },
           zero);
     };

@@ -96,12 +96,16 @@ constexpr Vec3<N> curve_vertex(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>
   return v + T::ratio(1, 8) * ((e + w) - T::ratio(2, 1) * v);
 }
 
-/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64.                                                          [C11]
+/// a(n) = 5/8 - (3 + 2 c)^2 / 64 from c = cos(2 pi / n).                                               [C11]
 template <class S>
+S loop_a_of(const S& c) {
+  const S b = S(3) + S(2) * c;
+  return S(5) / S(8) - b * b / S(64);
+}
+/// The same from n.
+template <class N>
 auto loop_a(int n) {
-  using T = NumberTraits<S>;
-  const auto b = T::ratio(3, 1) + T::ratio(2, 1) * T::cosine(1, n);
-  return T::ratio(5, 8) - T::ratio(1, 64) * b * b;
+  return loop_a_of(NumberTraits<N>::cosine(1, n));
 }
 
 /// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}).

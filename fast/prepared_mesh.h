@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fast/adjacency.h"
@@ -29,6 +31,7 @@ template <class N, class Surface = LimitSurface<N>>
 class PreparedMesh {
  public:
   using Vertex = typename Surface::Vertex;
+  using Wide = typename NumberTraits<N>::Wide;
 
   /// One position per vertex of the adjacency.
   PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions)
@@ -71,38 +74,29 @@ class PreparedMesh {
   }
 
   Vertex limit_of(std::int32_t v, const std::vector<Vec3<N>>& ring, bool open) {
-    auto wide = vertex_limit<N>(position(v), ring, open);
-    // Linear numbers have no sizes, and no rounding either.
-    if constexpr (!requires { requires Surface::kLinear; }) drop_noise(v, ring, wide);
-    const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
-    return Surface::vertex(
-        frame,
-        [&] {
-          std::vector<WideVec3<N>> wide_ring;
-          for (const Vec3<N>& p : ring) wide_ring.push_back(widen<N>(p));
-          return substitute_normal<N>(position(v), wide_ring, open);
-        },
-        zero_normals_);
-  }
-
-  /// A tangent of at most 1e-14 of what it sums is rounding error: its direction means nothing.       [D12]
-  void drop_noise(std::int32_t v, const std::vector<Vec3<N>>& ring,
-                  LimitFrame<typename NumberTraits<N>::Wide>& frame) const {
-    using W = typename NumberTraits<N>::Wide;
-    using std::sqrt;
-    W reach(0);
-    for (const Vec3<N>& p : ring) {
-      const Vec3<W> d = widen<N>(p) - widen<N>(position(v));
-      reach = reach + sqrt(dot(d, d));
+    const auto wide = vertex_limit<N>(position(v), ring, open);
+    if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
+      wide_ring_.clear();
+      for (const Vec3<N>& p : ring) wide_ring_.push_back(widen<N>(p));
+      const auto substitute = [&] {
+        ++zero_normals_;
+        return substitute_normal<Wide>(widen<N>(position(v)), wide_ring_, open, kParallel<double>);
+      };
+      const Vec3<Wide> normal =
+          vertex_normal<Wide>(wide.du, wide.dv, widen<N>(position(v)), wide_ring_, substitute);
+      return {narrow<N>(wide.position), narrow<N>(normal) + Vec3<N>{N(0), N(0), N(0)}};
+    } else {  // linear numbers have no sizes, and no rounding either
+      const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
+      return Surface::vertex(
+          frame, [] { return Vec3<Wide>{}; }, zero_normals_);
     }
-    for (Vec3<W>* tangent : {&frame.du, &frame.dv})
-      if (sqrt(dot(*tangent, *tangent)) <= W(1e-14) * reach) *tangent = Vec3<W>{};
   }
 
   const Adjacency* adjacency_;
   std::vector<Vec3<N>> positions_;
   std::vector<VertexWeights<N>> weights_;
   std::vector<Vertex> limits_;
+  std::vector<Vec3<Wide>> wide_ring_;
   std::int64_t zero_normals_ = 0;
 };
 

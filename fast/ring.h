@@ -8,6 +8,7 @@
 
 #include "data/control_mesh.h"
 #include "fast/adjacency.h"
+#include "fast/limit.h"
 #include "fast/point3.h"
 
 namespace limitcheck::fast {
@@ -44,12 +45,9 @@ class Ring {
 
   /// Limit position of the centre.                                                   [eq. 3; claims C14, D1]
   Point3 limit_position() const;
-  /// Unit limit normal of the centre. Inside: C x S with C = sum cos(2 pi i/n) (r_i - v), S likewise [erratum
-  /// 1]; on the boundary along x across with the eigenvector of the ordinary rules [claims D1, D2]; with six
-  /// or more faces there the surface has no tangent plane [claim D5], and this is the plane of that
-  /// eigenvector. Where the two tangents are zero (<= 1e-14 sum |r_i - v|) or parallel (|T1 x T2| <= 1e-12
-  /// |T1| |T2|): the area-weighted normal of the ring after 1, 2, 3 steps, else of the ring itself, else (0,
-  /// 0, 1) [claim D12]; `degenerate` says so.
+  /// Unit limit normal of the centre: tangents as in limit.h, and where they vanish or are parallel what
+  /// vertex_normal.h has for that; `degenerate` says so. On the boundary with six or more faces the surface
+  /// has no tangent plane [claim D5], and this is the plane of the masks' eigenvector.      [erratum 1; D12]
   Point3 limit_normal(bool* degenerate = nullptr) const;
 
   /// Unit normal of triangle (centre, r_i, r_{i+1}); zero if it has no area.
@@ -58,15 +56,11 @@ class Ring {
   double cone_cosine(const Point3& normal) const;
 
  private:
-  Point3 area_normal() const;
+  LimitFrame<double> limit() const;
 
   Point3 centre_;
   std::vector<Point3> points_;
   bool open_ = false;
 };
-
-/// Loop's weight a(n) = 5/8 - (3 + 2 cos(2 pi/n))^2 / 64.
-/// [claim C11]
-double loop_alpha(int n);
 
 }  // namespace limitcheck::fast

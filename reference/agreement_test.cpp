@@ -105,7 +105,12 @@ TEST(Topology, RefusesWhatIsNotManifold) {
   const auto refuse = [](std::size_t vertices, std::vector<Triangle> triangles) {
     EXPECT_THROW(Topology(vertices, triangles), std::invalid_argument);
   };
-  refuse(3, {{0, 1, 3}});                                          // no such vertex
+  try {
+    Topology(3, std::vector<Triangle>{{0, 1, 3}});
+    ADD_FAILURE() << "there is no vertex 3";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("face 0 names vertex 3"), std::string::npos) << error.what();
+  }
   refuse(3, {{0, 1, 1}});                                          // repeated vertex
   refuse(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});                    // three faces at an edge, or a clash
   refuse(4, {{0, 1, 2}, {0, 1, 3}});                               // orientation clash

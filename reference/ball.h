@@ -96,6 +96,7 @@ struct NumberTraits<Ball> {
     return result;
   }
   static constexpr int kNormalThreshold = 0;  ///< a normal counts when its product is certainly not zero
+  static constexpr int kRounding = 0;         ///< the radius has it
   static long precision() { return Ball::precision(); }
   static Ball from_double(double a) {
     Ball result;

@@ -171,6 +171,29 @@ TEST(Certified, PrecisionRisesUntilTheNormalIsKnown) {
   }
 }
 
+// Curvatures near an extraordinary corner take more bits than everything else: they have their digits, too.
+TEST(Certified, PrecisionRisesUntilTheCurvaturesAreKnown) {
+  const CertifiedEvaluator certified(data::wheel(7));
+  for (const char* distance : {"1e-10", "1e-20", "1e-40"}) {
+    const Parameter l = Parameter::parse(distance);
+    const CertifiedPoint p = certified.evaluate(0, l, l, 12);
+    for (const auto& curvature : {p.gaussian_curvature, p.mean_curvature}) {
+      ASSERT_TRUE(curvature.has_value()) << distance;
+      ASSERT_FALSE(curvature->value.empty()) << distance;
+      EXPECT_LE(Big(curvature->radius), abs(Big(curvature->value)) * Big("1e-11")) << distance;
+    }
+  }
+}
+
+TEST(Certified, NumbersWithoutDecimalsArePrintedWithoutAnExponent) {
+  data::ControlMesh mesh = data::octahedron();
+  for (auto& p : mesh.positions) p = {123, 456, -789};
+  const CertifiedPoint p = CertifiedEvaluator(mesh).evaluate(0, 0.25, 0.25, 3);
+  EXPECT_EQ(p.position[0].value, "123");
+  EXPECT_EQ(p.position[1].value, "456");
+  EXPECT_EQ(p.position[2].value, "-789");
+}
+
 TEST(Certified, DegenerateMeshesAreSaidToBeSo) {
   data::ControlMesh point = data::octahedron();
   for (auto& p : point.positions) p = {1, 2, 3};

@@ -133,11 +133,22 @@ Vec3<N> boundary_limit(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& la
   return v + ((first - v) + (last - v)) * (N(1) / N(6));
 }
 
-/// Two tangents; first x second points outwards.
+/// Two tangents, sums of weighted points; first x second points outwards.
+///   first_terms, second_terms   sum of |weight| magnitude(point): a relative error u of the points or of the
+///                               sum moves the tangent by some u times that. A tangent no larger than this
+///                               is not a direction but what rounding left of one. 0 unless kRounds<N>
 template <class N>
 struct Tangents {
   Vec3<N> first, second;
+  N first_terms{}, second_terms{};
 };
+
+/// Adds weight * (a - b), and its terms.
+template <class N>
+void add_difference(Vec3<N>& sum, N& terms, const N& weight, const Vec3<N>& a, const Vec3<N>& b) {
+  sum += (a - b) * weight;
+  if constexpr (kRounds<N>) terms += (magnitude(a) + magnitude(b)) * magnitude(weight);
+}
 
 /// C = sum cos(2 pi i / n) v_i and S = sum sin(2 pi i / n) v_i, i = 0..n-1 along `ring`, taken from v_i - v.
 /// The paper's (4), (5) divide by sums that are zero: errata 1.      [C16, C17, D12] The known answers start
@@ -147,9 +158,8 @@ Tangents<N> interior_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   const CircleTable<N>& table = circle_table<N>(static_cast<long>(ring.size()));
   Tangents<N> t{};
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec3<N> d = ring[i] - v;
-    t.first += d * table.cosine[2 * i];
-    t.second += d * table.sine[2 * i];
+    add_difference(t.first, t.first_terms, table.cosine[2 * i], ring[i], v);
+    add_difference(t.second, t.second_terms, table.sine[2 * i], ring[i], v);
   }
   return t;
 }
@@ -167,17 +177,23 @@ Tangents<N> interior_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
 template <class N>
 Tangents<N> boundary_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   const auto faces = static_cast<long>(ring.size()) - 1;
-  Tangents<N> t{ring.front() - ring.back(), {}};
+  Tangents<N> t{};
+  add_difference(t.first, t.first_terms, N(1), ring.front(), ring.back());
+  const auto across = [&](const Vec3<N>& r, const N& weight) {
+    add_difference(t.second, t.second_terms, weight, r, v);
+  };
   if (faces == 1) {
-    t.second = (ring.front() - v) + (ring.back() - v);
+    across(ring.front(), N(1));
+    across(ring.back(), N(1));
     return t;
   }
   // The weights sum to zero, so the centre's is implied by taking differences from it.
   const CircleTable<N>& table = circle_table<N>(faces);
   const N c = table.cosine[1], s = table.sine[1];
   const N end = N(0) - c * (N(1) + c) / ((N(1) + N(2) * c) * s);
-  t.second = ((ring.front() - v) + (ring.back() - v)) * end;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) t.second += (ring[i] - v) * table.sine[i];
+  across(ring.front(), end);
+  across(ring.back(), end);
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) across(ring[i], table.sine[i]);
   return t;
 }
 

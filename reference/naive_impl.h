@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "reference/naive.h"
+#include "reference/normal.h"
 #include "reference/refine.h"
 #include "reference/ringed_face.h"
-#include "reference/vertex_limit.h"
 
 namespace limitcheck::reference {
 namespace detail {

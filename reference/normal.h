@@ -15,6 +15,7 @@ template <class N>
 struct Normal {
   Vec3<N> direction;  ///< unit length
   NormalKind kind;
+  N condition{};  ///< see SurfacePoint::normal_condition
 };
 
 /// The vector times the power of two that brings its largest coordinate to [1, 2); zero stays zero.
@@ -33,15 +34,37 @@ Vec3<N> unit(const Vec3<N>& a) {
   return b * (N(1) / NumberTraits<N>::sqrt(dot(b, b)));
 }
 
-/// Whether t1 x t2 can be trusted: |t1 x t2| > threshold |t1| |t2|. [D12]
+/// How many relative errors of one operation a sum of rounded points, with rounded weights, is off by at
+/// most: two for each point, two for its weight, and the product, differences and additions (as these err
+/// either way, their number hardly counts).
+inline constexpr int kRoundingsOfATangent = 16;
+
+/// Whether t1 x t2 can be trusted: |t1 x t2| > threshold |t1| |t2|, and more than rounding can make it:
+/// |t1| e2 + |t2| e1 + e1 e2, e the error of a tangent. So a tangent that vanished but for rounding has no
+/// normal. [D12]
 ///   cross_product  receives t1 x t2 up to a positive factor
+///   condition      receives (|t1| s2 + |t2| s1) / |t1 x t2|, s the terms
 template <class N>
-bool has_normal(const Vec3<N>& t1, const Vec3<N>& t2, Vec3<N>& cross_product) {
-  const Vec3<N> a = rescaled(t1), b = rescaled(t2);
+bool has_normal(const Tangents<N>& t, Vec3<N>& cross_product, N& condition) {
+  using T = NumberTraits<N>;
+  const Vec3<N> a = rescaled(t.first), b = rescaled(t.second);
   cross_product = cross(a, b);
-  const N limit =
-      dot(a, a) * dot(b, b) * (N(NumberTraits<N>::kNormalThreshold) * N(NumberTraits<N>::kNormalThreshold));
-  return dot(cross_product, cross_product) > limit;
+  const N aa = dot(a, a), bb = dot(b, b), square = dot(cross_product, cross_product);
+  condition = N(0);
+  if (!(square > aa * bb * (N(T::kNormalThreshold) * N(T::kNormalThreshold)))) return false;
+  if constexpr (kRounds<N>) {
+    // In the scale that `rescaled` chose: to compare with e1, e2 as with a and b.
+    const auto scaled_terms = [](const N& terms, const Vec3<N>& tangent) {
+      return T::scale(terms,
+                      -std::max({T::exponent(tangent.x), T::exponent(tangent.y), T::exponent(tangent.z)}));
+    };
+    const N s1 = scaled_terms(t.first_terms, t.first), s2 = scaled_terms(t.second_terms, t.second);
+    const N u = N(kRoundingsOfATangent) * N(T::kRounding), size = T::sqrt(square);
+    const N turn = T::sqrt(aa) * s2 + T::sqrt(bb) * s1;
+    condition = turn / size;
+    return size > u * (turn + u * s1 * s2);
+  }
+  return true;
 }
 
 /// Whether t1 x t2 loses several digits: their angle has a sine below 1/100.
@@ -51,19 +74,21 @@ bool nearly_parallel(const Vec3<N>& t1, const Vec3<N>& t2) {
   return N(10000) * dot(c, c) < dot(a, a) * dot(b, b);
 }
 
-/// The normal of tangents t1, t2; where they fail, that of `fallback`, a vector that may be zero; else (0, 0,
+/// The normal of two tangents; where they fail, that of `fallback`, a vector that may be zero; else (0, 0,
 /// 1). [D12]
 template <class N>
-Normal<N> unit_normal(const Vec3<N>& t1, const Vec3<N>& t2, const Vec3<N>& fallback) {
+Normal<N> unit_normal(const Tangents<N>& tangents, const Vec3<N>& fallback) {
   Vec3<N> n;
-  if (has_normal(t1, t2, n)) return {unit(n), NormalKind::kRegular};
-  if (dot(rescaled(fallback), fallback) > N(0)) return {unit(fallback), NormalKind::kFallback};
-  return {{N(0), N(0), N(1)}, NormalKind::kArbitrary};
+  N condition;
+  if (has_normal(tangents, n, condition)) return {unit(n), NormalKind::kRegular, condition};
+  if (dot(rescaled(fallback), fallback) > N(0)) return {unit(fallback), NormalKind::kFallback, {}};
+  return {{N(0), N(0), N(1)}, NormalKind::kArbitrary, {}};
 }
 
 /// One subdivision step of a vertex and its ring, in place. [C29]
 template <class N>
-void subdivide_ring(Vec3<N>& v, std::vector<Vec3<N>>& ring, bool on_boundary) {
+void subdivide_ring(Vec3<N>& v, std::vector<Vec3<N>>& ring, bool on_boundary,
+                    Weights weights = Weights::kLoop) {
   const std::vector<Vec3<N>> old = ring;
   const Vec3<N> centre = v;
   const std::size_t n = ring.size();
@@ -72,7 +97,7 @@ void subdivide_ring(Vec3<N>& v, std::vector<Vec3<N>>& ring, bool on_boundary) {
                   ? boundary_edge_point(centre, old[i])
                   : interior_edge_point(centre, old[i], old[(i + n - 1) % n], old[(i + 1) % n]);
   v = on_boundary ? boundary_vertex_point(centre, old.front(), old.back())
-                  : interior_vertex_point<N>(centre, old);
+                  : interior_vertex_point<N>(centre, old, weights);
 }
 
 /// Sum of the ring triangles' area-weighted normals (twice the area).
@@ -96,11 +121,13 @@ struct VertexLimit {
 /// of the ring after one to three steps, else of the control ring, else (0, 0, 1).
 ///   error    in double a few ulp of the ring's largest coordinate for the position (see stam.h)
 template <class N>
-VertexLimit<N> vertex_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary) {
+VertexLimit<N> vertex_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
+                            Weights weights = Weights::kLoop) {
   VertexLimit<N> result;
-  result.position = on_boundary ? boundary_limit(v, ring.front(), ring.back()) : interior_limit(v, ring);
+  result.position =
+      on_boundary ? boundary_limit(v, ring.front(), ring.back()) : interior_limit(v, ring, weights);
   result.tangents = on_boundary ? boundary_tangents(v, ring) : interior_tangents(v, ring);
-  result.normal = unit_normal(result.tangents.first, result.tangents.second, Vec3<N>{});
+  result.normal = unit_normal(result.tangents, Vec3<N>{});
   if (result.normal.kind == NormalKind::kRegular) {
     if (on_boundary && ring.size() > 6) result.normal.kind = NormalKind::kNoTangentPlane;  // K >= 6  [D5]
     return result;
@@ -109,17 +136,17 @@ VertexLimit<N> vertex_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring, boo
   Vec3<N> centre = v, largest = area_normal(v, ring, on_boundary);
   std::vector<Vec3<N>> moving(ring.begin(), ring.end());
   for (int step = 0; step < 3; ++step) {
-    subdivide_ring(centre, moving, on_boundary);
+    subdivide_ring(centre, moving, on_boundary, weights);
     const Vec3<N> sum = area_normal<N>(centre, moving, on_boundary);
     N size{};
     for (const Vec3<N>& r : moving) size += dot(r - centre, r - centre);
     const N threshold = N(NumberTraits<N>::kNormalThreshold);
     if (dot(sum, sum) > size * size * threshold * threshold) {
-      result.normal = {unit(sum), NormalKind::kFallback};
+      result.normal = {unit(sum), NormalKind::kFallback, {}};
       return result;
     }
   }
-  result.normal = unit_normal(Vec3<N>{}, Vec3<N>{}, largest);
+  result.normal = unit_normal(Tangents<N>{}, largest);
   return result;
 }
 

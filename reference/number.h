@@ -34,12 +34,18 @@ struct NumberTraits<double> {
   static long exponent(double a) { return a == 0 ? kZeroExponent : std::ilogb(a); }
   /// Below this sine of the angle between two tangents their cross product is not trusted. [D12]
   static constexpr double kNormalThreshold = 1e-12;
+  /// The relative error of one operation; 0 for numbers that are exact or know their own error.
+  static constexpr double kRounding = 0x1p-53;
   /// a * 2^e
   static double scale(double a, long e) { return std::ldexp(a, static_cast<int>(e)); }
   static long precision() { return 53; }
   static double from_double(double a) { return a; }
   static double approximate(double a) { return a; }
 };
+
+/// Whether operations lose digits that the number itself does not account for.
+template <class N>
+inline constexpr bool kRounds = NumberTraits<N>::kRounding != 0;
 
 /// sin(pi p / q)
 template <class N>

@@ -39,6 +39,7 @@ struct NumberTraits<Rational> {
     if (3 * p == 2 * q) return Rational(-1, 2);
     throw std::domain_error("cosine is not rational");
   }
+  static constexpr int kRounding = 0;
   static Rational from_double(double a) { return Rational(a); }
   static double approximate(const Rational& a) { return a.convert_to<double>(); }
 };
@@ -60,6 +61,7 @@ struct NumberTraits<Decimal<Digits>> {
   static N sqrt(const N& a) { return boost::multiprecision::sqrt(a); }
   static long exponent(const N& a) { return a == 0 ? kZeroExponent : boost::multiprecision::ilogb(a); }
   static constexpr double kNormalThreshold = Digits <= 50 ? 1e-40 : 1e-90;
+  static constexpr double kRounding = Digits <= 50 ? 1e-50 : 1e-100;
   static N scale(const N& a, long e) { return boost::multiprecision::ldexp(a, static_cast<int>(e)); }
   static long precision() { return Digits; }
   static N from_double(double a) { return N(a); }

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "reference/masks.h"
+#include "reference/normal.h"
 #include "reference/refine.h"
-#include "reference/vertex_limit.h"
 
 namespace limitcheck::reference {
 

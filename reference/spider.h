@@ -153,10 +153,18 @@ class Spider {
 
   const SpiderKind<N>& kind() const { return *kind_; }
   const Vec3<N>& limit() const { return limit_; }
+  /// What the rounding of a sector's points is a part of: every amplitude, however small, carries that of the
+  /// largest coordinate it was computed from. 0 unless kRounds<N>.
+  N size(long exponent) const { return size_ * reference::power(decay_, exponent); }
 
   /// The part of the surface that is linear on sector i's triangle (c, r_i, r_{i+1}): gradient with respect
-  /// to the coordinates of r_i and r_{i+1}. Zero except on the boundary.
-  void linear_part(int sector, long exponent, Vec3<N>& to_first, Vec3<N>& to_second) const;
+  /// to the coordinates of r_i and r_{i+1}, and the size of the rounding that they carry, like size(). Zero
+  /// except on the boundary.
+  struct LinearPart {
+    Vec3<N> to_first, to_second;
+    N first_size{}, second_size{};
+  };
+  LinearPart linear_part(int sector, long exponent) const;
 
   /// Near a boundary vertex of K != 3 faces one mode outgrows the others, and d1 and d2 become parallel to
   /// its amplitude A: d1 = f1 A + r1, d2 = f2 A + r2. These are the spider without it, for r1 and r2, and
@@ -178,6 +186,8 @@ class Spider {
 
   const SpiderKind<N>* kind_;
   Vec3<N> limit_, mean_, along_, linear_;
+  N size_{}, along_size_{};  ///< largest coordinate of the points; 0 for along_ where it is left out
+  N decay_{1};               ///< largest eigenvalue of the modes that are not left out, over growth
   std::vector<Vec3<N>> cosine_, sine_;  ///< amplitudes of the modes; no cosines on the boundary
   std::vector<Vec3<N>> q_, p_;          ///< first q_i, p_i, without limit and linear part
 };

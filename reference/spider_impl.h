@@ -2,6 +2,8 @@
 // Definitions behind spider.h, for the .cpp files that instantiate them.
 #pragma once
 
+#include <algorithm>
+
 #include "reference/spider.h"
 
 namespace limitcheck::reference {
@@ -116,6 +118,12 @@ Spider<N>::Spider(const SpiderKind<N>& kind, const Vec3<N>& c, const std::vector
   const auto count = static_cast<std::size_t>(kind.count_);
   const std::size_t modes = kind.frequency_.size();
   sine_.resize(modes);
+  if constexpr (kRounds<N>) {
+    size_ = magnitude(c);
+    for (const auto* points : {&r, &q, &p})
+      for (const Vec3<N>& x : *points) size_ = std::max(size_, magnitude(x));
+    along_size_ = size_;
+  }
   if (kind.on_boundary_) {
     limit_ = boundary_limit(c, r.front(), r.back());
     along_ = (r.front() - r.back()) * (N(1) / N(2));
@@ -165,25 +173,44 @@ Spider<N>::Spider(const SpiderKind<N>& kind, const Vec3<N>& c, const std::vector
 }
 
 template <class N>
-void Spider<N>::linear_part(int sector, long exponent, Vec3<N>& to_first, Vec3<N>& to_second) const {
-  if (!kind_->on_boundary_) return;
+typename Spider<N>::LinearPart Spider<N>::linear_part(int sector, long exponent) const {
+  LinearPart part;
+  if (!kind_->on_boundary_) return part;
+  const auto add = [&](const Vec3<N>& amplitude, const N& size, const N& first, const N& second) {
+    part.to_first += amplitude * first;
+    part.to_second += amplitude * second;
+    if constexpr (kRounds<N>) {
+      part.first_size += size * magnitude(first);
+      part.second_size += size * magnitude(second);
+    }
+  };
   const auto at = static_cast<std::size_t>(sector);
-  if (!kind_->jordan_) {
-    to_first += along_ * kind_->along_r_[at];
-    to_second += along_ * kind_->along_r_[at + 1];
-  }
+  if (!kind_->jordan_) add(along_, along_size_, kind_->along_r_[at], kind_->along_r_[at + 1]);
   if (kind_->linear_frequency_ != 0) {
     Vec3<N> amplitude = linear_;
-    if (kind_->jordan_) amplitude += along_ * (N(2 * static_cast<int>(exponent)) * kind_->kappa_);
-    to_first += amplitude * sin_pi<N>(sector, 3);
-    to_second += amplitude * sin_pi<N>(sector + 1, 3);
+    N size = size_;
+    if (kind_->jordan_) {
+      const N share = N(2 * static_cast<int>(exponent)) * kind_->kappa_;
+      amplitude += along_ * share;
+      size += along_size_ * share;
+    }
+    add(amplitude, size, sin_pi<N>(sector, 3), sin_pi<N>(sector + 1, 3));
   }
+  return part;
 }
 
 template <class N>
 Spider<N> Spider<N>::without_dominant() const {
   Spider result = *this;
   (along_dominates() ? result.along_ : result.sine_.front()) = Vec3<N>{};
+  if (along_dominates()) {
+    result.along_size_ = N(0);
+  } else if constexpr (kRounds<N>) {
+    N largest = N(1) / N(kind_->jordan_ ? 2 : 4);
+    for (std::size_t m = 1; m < kind_->eigenvalue_.size(); ++m)
+      largest = std::max(largest, kind_->eigenvalue_[m]);
+    result.decay_ = largest / kind_->growth_;
+  }
   return result;
 }
 
@@ -191,6 +218,7 @@ template <class N>
 Spider<N> Spider<N>::only_dominant() const {
   Spider result = *this;
   result.limit_ = result.mean_ = result.along_ = result.linear_ = Vec3<N>{};
+  result.size_ = result.along_size_ = N(0);
   for (auto* all : {&result.cosine_, &result.sine_, &result.q_, &result.p_})
     all->assign(all->size(), Vec3<N>{});
   (along_dominates() ? result.along_ : result.sine_.front()).x = N(1);

@@ -130,8 +130,8 @@ TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
             Spider<N>::Sector s;
             SpiderPower<N> buffer;
             spider.sector(i, kind.power(step, buffer), s);
-            Vec3<N> g1{}, g2{};
-            spider.linear_part(i, step, g1, g2);
+            const auto linear = spider.linear_part(i, step);
+            const Vec3<N>&g1 = linear.to_first, &g2 = linear.to_second;
             const N shrink = power(N(1) / 2, step), growth = power(kind.growth(), step);
             // Position of a lattice point (a, b) of the sector: limit + linear part + modes; relative to the
             // slowest mode.

@@ -44,12 +44,11 @@ class StamData {
     else
       evaluate_near_corner(f, site, spiders_[static_cast<std::size_t>(spider)], order, result);
     if (order == Order::kPosition) return result;
-    Vec3<N> t1 = result.t1, t2 = result.t2;
-    if (spider >= 0 && topology_.on_boundary(topology_.triangles()[f][corner]) && nearly_parallel(t1, t2))
-      separate_tangents(f, site, spiders_[static_cast<std::size_t>(spider)], t1, t2);
-    const Normal<N> normal = unit_normal(t1, t2, fallback_normal(f));
-    result.normal = normal.direction;
-    result.normal_kind = normal.kind;
+    Tangents<N> tangents = tangents_of(result);
+    if (spider >= 0 && topology_.on_boundary(topology_.triangles()[f][corner]) &&
+        nearly_parallel(result.t1, result.t2))
+      separate_tangents(f, site, spiders_[static_cast<std::size_t>(spider)], tangents);
+    set_normal(result, tangents, fallback_normal(f));
     return result;
   }
 
@@ -169,12 +168,11 @@ class StamData {
     }
     Basis<N> basis;
     evaluate_basis(basis, number_from<N>(a), number_from<N>(b), order);
-    const LocalPoint<N> local = evaluate_patch<N>(points, basis, order);
+    const LocalPoint<N> local = evaluate_patch<N>(points, basis, order, spider.size(steps));
 
     // Put back growth^J, the scale of the triangle, the linear part and the limit.
     const N& growth = spider.kind().growth();
-    Vec3<N> to_first{}, to_second{};
-    spider.linear_part(sector, steps, to_first, to_second);
+    const auto [to_first, to_second, first_size, second_size] = spider.linear_part(sector, steps);
     result.position = spider.limit() +
                       (to_first * number_from<N>(site.u) + to_second * number_from<N>(site.v)) +
                       local.position * power(growth, steps);
@@ -183,21 +181,25 @@ class StamData {
     const Placement& g = site.placement;
     result.t1 = result.d1 += (to_first * N(g.a1) + to_second * N(g.b1)) * N(2);
     result.t2 = result.d2 += (to_first * N(g.a2) + to_second * N(g.b2)) * N(2);
+    result.t1_terms += (first_size * N(std::abs(g.a1)) + second_size * N(std::abs(g.b1))) * N(2);
+    result.t2_terms += (first_size * N(std::abs(g.a2)) + second_size * N(std::abs(g.b2))) * N(2);
   }
 
   /// Replaces one of d1, d2 so that their product keeps its direction and no longer cancels, near a boundary
   /// vertex: (f1 A + r1) x (f2 A + r2) = d1 x (r2 - (f2 / f1) r1).
   template <class P>
-  void separate_tangents(std::size_t f, const Site<P>& site, const Spider<N>& spider, Vec3<N>& t1,
-                         Vec3<N>& t2) const {
+  void separate_tangents(std::size_t f, const Site<P>& site, const Spider<N>& spider, Tangents<N>& t) const {
     SurfacePoint<N> rest, factor;
     evaluate_near_corner(f, site, spider.without_dominant(), Order::kFirst, rest);
     evaluate_near_corner(f, site, spider.only_dominant(), Order::kFirst, factor);
     const N f1 = factor.d1.x, f2 = factor.d2.x;
-    if (f1 * f1 > f2 * f2)
-      t2 = rest.d2 - rest.d1 * (f2 / f1);
-    else if (f2 * f2 > N(0))
-      t1 = rest.d1 - rest.d2 * (f1 / f2);
+    if (f1 * f1 > f2 * f2) {
+      t.second = rest.d2 - rest.d1 * (f2 / f1);
+      t.second_terms = rest.t2_terms + rest.t1_terms;  // |f2 / f1| <= 1
+    } else if (f2 * f2 > N(0)) {
+      t.first = rest.d1 - rest.d2 * (f1 / f2);
+      t.first_terms = rest.t1_terms + rest.t2_terms;
+    }
   }
 
   /// The centre one step later, without limit and linear part (which vanishes at c), in the scale of `s`.

@@ -100,10 +100,7 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   const auto corner = [&](std::size_t k) {
     return positions_[static_cast<std::size_t>(topology_.triangles()[static_cast<std::size_t>(face)][k])];
   };
-  const Normal<N> normal =
-      unit_normal(result.d1, result.d2, cross(corner(1) - corner(0), corner(2) - corner(0)));
-  result.normal = normal.direction;
-  result.normal_kind = normal.kind;
+  set_normal(result, tangents_of(result), cross(corner(1) - corner(0), corner(2) - corner(0)));
   return result;
 }
 

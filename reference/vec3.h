@@ -2,6 +2,7 @@
 // A point or vector of three numbers, of any number type.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 namespace limitcheck::reference {
@@ -47,6 +48,17 @@ N dot(const Vec3<N>& a, const Vec3<N>& b) {
 template <class N>
 Vec3<N> cross(const Vec3<N>& a, const Vec3<N>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// |a|
+template <class N>
+N magnitude(const N& a) {
+  return a < N(0) ? N(0) - a : a;
+}
+/// The largest |coordinate|.
+template <class N>
+N magnitude(const Vec3<N>& a) {
+  return std::max({magnitude(a.x), magnitude(a.y), magnitude(a.z)});
 }
 
 /// The coordinates as a vector of another number type; `convert` maps one number.

@@ -21,16 +21,26 @@ uniform mat4 projection;
 uniform vec3 light;
 uniform bool lit;
 out vec3 front;
+out vec3 bare;
+out vec3 place;
 void main() {
   gl_Position = projection * vec4(position, 1);
+  bare = colour;
+  place = position;
   front = lit ? colour * (0.22 + 0.78 * max(dot(normal, light), 0)) : colour;
 })";
 constexpr const char* kFragmentShader = R"(#version 330 core
 in vec3 front;
+in vec3 bare;
+in vec3 place;
+uniform vec3 light;
 uniform bool both;
+uniform bool faceted;
 out vec4 pixel;
 void main() {
-  pixel = vec4(both && !gl_FrontFacing ? vec3(0.75, 0.2, 0.15) : front, 1);
+  vec3 own = normalize(cross(dFdx(place), dFdy(place)));
+  vec3 shade = faceted ? bare * (0.22 + 0.78 * max(dot(own, light), 0)) : front;
+  pixel = vec4(both && !gl_FrontFacing ? vec3(0.75, 0.2, 0.15) : shade, 1);
 })";
 
 constexpr Colour kSurface{.72f, .76f, .82f}, kEdge{.08f, .1f, .14f};
@@ -153,11 +163,13 @@ void Renderer::draw(const fast::DrawList<float>& frame, const Appearance& appear
   };
   glVertexAttrib3fv(2, kSurface.data());
   glUniform1i(glGetUniformLocation(program_, "lit"), 1);
+  glUniform1i(glGetUniformLocation(program_, "faceted"), appearance.flat ? 1 : 0);
   if (appearance.wireframe) {  // push the surface back, so that its edges lie before it
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1, 1);
   }
   draws(true);
+  glUniform1i(glGetUniformLocation(program_, "faceted"), 0);
   if (!appearance.wireframe) return;
   glDisable(GL_POLYGON_OFFSET_FILL);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);

@@ -22,6 +22,7 @@ struct Appearance {
   std::function<Colour(const fast::Draw&)> colour;
   bool wireframe = false;  // edges of the triangles over the surface
   bool backfaces = false;  // seen from behind in red instead of not at all
+  bool flat = false;       // every triangle in one shade, by its own normal: dents show that shading hides
 };
 
 struct Segment {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opens the report in headless Chromium as a reader would: node browser_test.mjs INDEX.html FOLDER
-// (npm install in this folder first; Debian's chromium). Fails on a console error, a request to anywhere, a dead button or key,
+// (npm ci --ignore-scripts in this folder first; Debian's chromium). Fails on a console error, a request to anywhere, a dead button or key,
 // sideways scrolling on a telephone; leaves screenshots and a PDF in FOLDER.
 import { chromium } from "playwright-core";
 import path from "node:path";
@@ -40,6 +40,8 @@ async function try_viewer(page, name) {
     if ((await words.textContent()) !== witness.text) problems.push(`${name}: the view does not say which witness it shows`);
     const focused = await page.evaluate(() => document.activeElement.tagName);
     if (focused !== "CANVAS") problems.push(`${name}: after a jump the keyboard is at ${focused}, not at the view`);
+    await viewer.locator("button[name=table]").click();
+    if (!(await button.evaluate((b) => b === document.activeElement))) problems.push(`${name}: the way back to the table does not lead to the witness`);
     // One witness of every mesh.
     await page.evaluate(() => {
       const seen = new Set();
@@ -55,7 +57,8 @@ async function try_viewer(page, name) {
   }
 }
 
-for (const [name, viewport, colorScheme] of [["wide", { width: 1280, height: 900 }, "light"], ["phone", { width: 390, height: 844 }, "dark"]]) {
+const wide = { width: 1400, height: 900 }, phone = { width: 390, height: 844 };
+for (const [name, viewport, colorScheme] of [["wide", wide, "light"], ["wide-dark", wide, "dark"], ["phone", phone, "dark"], ["phone-light", phone, "light"]]) {
   const page = await browser.newPage({ viewport, colorScheme, offline: true });
   page.setDefaultTimeout(120000);
   page.on("console", (message) => message.type() === "error" && problems.push(`${name}: console: ${message.text()}`));

@@ -5,6 +5,8 @@ import json
 import pathlib
 import re
 
+import sentences
+import summary
 import tables
 from parts import PARTS
 from record import write_whole
@@ -12,22 +14,31 @@ from tables import text
 
 STYLE = (pathlib.Path(__file__).resolve().parent / "style.css").read_text(encoding="utf-8")
 
-DEPTHS = "Depths: yellow 0, light green 1, green 2, blue 3, dark blue 4, violet 5; fans in orange."
+# Light for shallow, dark for deep; the same in the pictures (bench/reproduction/studio.h) and in three dimensions.
+DEPTH_COLOURS = ("#fce826", "#8fd645", "#21a885", "#2b738f", "#404587", "#450054")
+FAN_COLOUR = "#d9731a"
 PICTURES = {
     "figure-3": ("Figure 3", "The ring of a vertex after 0, 1 and 2 steps in place. Blue: the normals of its triangles, moved to the "
                              "vertex. Red: the cone of 30 degrees about the limit normal that they have to enter, and do after two."),
-    "figure-6": ("Figure 6", "Random depths without repair: white cracks between unequal depths, seen best at the upper left. " + DEPTHS),
-    "figure-7": ("Figure 7", "The same with the paper's fans: no crack is left. " + DEPTHS),
-    "figure-8": ("Figure 8", "Fans on an icosahedron: round the middle of the flat triangle (left) they dent the surface, round the "
-                             "limit point (right) they do not. " + DEPTHS),
+    "figure-6": ("Figure 6", "Depth 1 beside depth 4 without repair, from the side: through the cracks one sees the inside, in red."),
+    "figure-7": ("Figure 7", "The same with the paper's fans: no crack is left."),
+    "figure-8": ("Figure 8", "Two fans amid depth 3 on an icosahedron, every triangle in one shade: round the middle of the flat triangle (left) "
+                             "they dent the surface, round the limit point (right) they do not."),
     "figure-10": ("Figure 10", "Bumpy spheres with 200 and 4000 control faces, uniform depth 4."),
     "figure-13": ("Figure 13", "Random depths from 0 to 4, cracks repaired. Right: faces seen from behind left out, the object turned to "
-                               "show the gap; red is the inside. " + DEPTHS),
-    "figure-14": ("Figure 14", "Depth by curvature. Right: the limit normals of the control vertices, which decide. " + DEPTHS),
+                               "show the gap; red is the inside."),
+    "figure-14": ("Figure 14", "Depth by curvature. Right: the limit normals of the control vertices, which decide."),
+}
+MORE_PICTURES = {
+    "picture-error": ("Errors", "A control mesh of 200 faces, and uniform depth 2 of it: how far each triangle's middle is off the surface, from "
+                                "10⁻⁴ of the diagonal (violet) to 10⁻² (yellow)."),
+    "picture-cracks": ("Cracks", "Figures 6 and 7 beside each other."),
 }
 CHARTS = {
-    "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres."),
-    "figure-12": ("Figure 12", "Triangles per frame, and control faces culled: the same for both adaptive strategies, one rule decides."),
+    "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres; logarithmic, and below on a linear scale with the uniform depths that "
+                               "the adaptive strategies compete with. One thread: processor time."),
+    "figure-12": ("Figure 12", "Triangles per frame, and control faces culled, of so many: the same for both adaptive strategies, one rule "
+                               "decides."),
 }
 NO_NUMBERS = (
     "<p>Figures 11 and 12 of the paper are diagrams, and its text has none of their numbers: no frame rate, triangle count or culled share "
@@ -70,6 +81,13 @@ def figure(folder, name, title, caption, record):
     return f"<figure id={name}>{image}<figcaption><b>{text(title)}.</b> {text(caption)}{origin(name, record)}</figcaption></figure>"
 
 
+def depth_bar():
+    """Which colour is which depth, in the pictures and in three dimensions."""
+    swatches = "".join(f"<span style='background:{colour}'></span>{name} "
+                       for name, colour in (*enumerate(DEPTH_COLOURS), ("fan", FAN_COLOUR)))
+    return f"<p class=bar>Depth: {swatches}</p>"
+
+
 def view(folder):
     script, data, shapes = folder / "viewer.js", folder / "model.json", folder / "shapes.json"
     if not all(path.is_file() for path in (script, data, shapes)):
@@ -81,10 +99,11 @@ def view(folder):
                                 + path.read_text(encoding="utf-8").replace("<", "\\u003c") + "</script>")
     return ("<p>A bumpy sphere of 200 control faces by the combined strategy; errors are taken in the middle of each triangle. "
             "Drag to turn it, two fingers or the wheel to come nearer; with the keyboard: arrows turn, + and - come nearer and go away. "
-            "A witness of the audit is shown here on its own mesh: the control face in orange, the point in black with its normal.</p>"
-            f"<div id=viewer><p><label>Colour by <select>{options}</select></label> "
+            "A witness of the audit is shown here on its own mesh: the control face in orange, the exact point and normal in black, what "
+            "the subject delivered in red.</p>" + depth_bar()
+            + f"<div id=viewer data-depths='{text(json.dumps(DEPTH_COLOURS))}' data-fan='{FAN_COLOUR}'><p><label>Colour by <select>{options}</select></label> "
             "<label><input type=checkbox name=wire checked> edges</label> <button name=worst>Go to the worst triangle</button> "
-            "<button name=back hidden>Back to the tessellation</button></p><p><output aria-live=polite></output></p>"
+            "<button name=back hidden>Back to the tessellation</button> <button name=table hidden>Back to the table</button></p><p><output aria-live=polite></output></p>"
             "<canvas tabindex=0 aria-label='Tessellated surface; arrow keys turn it, plus and minus come nearer'></canvas></div>"
             + embed("model", data) + embed("shapes", shapes) + f"<script type=module>{code}</script>")
 
@@ -108,7 +127,7 @@ def gaps_of(folder, record, loaded, broken):
 def write(folder, record):
     """index.html of everything in the folder; returns what is missing in it."""
     broken, sections = [], []
-    names = ("claims", "audit", "proofs", "spheres", "matched", "trends", "throughput", "shapes", "witnesses")
+    names = ("claims", "audit", "proofs", "spheres", "matched", "timings", "throughput", "shapes", "witnesses")
     loaded = {name: load(folder, name + ".json", broken) for name in names}
 
     def section(name, title, *pieces):
@@ -119,12 +138,16 @@ def write(folder, record):
     def result(name, show, *more):
         return show(loaded[name], *more) + origin(name, record) if loaded[name] else ""
     shown = lambda some: "".join(figure(folder, n, *about, record) for n, about in some.items())  # noqa: E731
-    section("trends", "Does what the text says of its figures hold?", result("trends", tables.trends))
+    section("summary", "In short", summary.summary(loaded["claims"]) if loaded["claims"] else "",
+            shown({"picture-error": MORE_PICTURES["picture-error"]}))
+    section("sentences", "What the text says, and what came out", sentences.sentences(loaded["claims"], loaded["timings"]),
+            origin("timings" if loaded["timings"] else "claims", record) if loaded["claims"] or loaded["timings"] else "")
     section("tables", "Tables and diagrams", NO_NUMBERS if loaded["spheres"] else "", shown(CHARTS), result("spheres", tables.spheres))
     section("matched", "At equal error", result("matched", tables.matched), figure(
         folder, "error", "Error", "Error on the screen against triangles drawn, each strategy from coarse to fine settings: lower and "
         "further left is better.", record))
-    section("pictures", "Pictures", shown(PICTURES))
+    pictures = shown(PICTURES) + shown({"picture-cracks": MORE_PICTURES["picture-cracks"]})
+    section("pictures", "Pictures", depth_bar() if pictures else "", pictures)
     viewer = view(folder)
     section("view", "In three dimensions", viewer, origin("view", record) if viewer else "")
     section("claims", "Claims", result("claims", tables.claims))
@@ -139,7 +162,7 @@ def write(folder, record):
     context = (loaded["throughput"] or {}).get("context", {})
     compiler = f"Compiler: {text(context['compiler'])}, {text(context['flags'].strip())}. " if "compiler" in context else ""
     missing = "".join(f"<li>{text(g)}</li>" for g in gaps)
-    document = (f"<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport content='width=device-width'>"
+    document = (f"<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport content='width=device-width, initial-scale=1'>"
                 f"<link rel=icon href='data:,'><title>limitcheck: Müller &amp; Havemann 2000, reproduced</title><style>{STYLE}</style>"
                 f"<header><h1>Subdivision surface tessellation on the fly, reproduced</h1>"
                 f"<p>Müller &amp; Havemann (2000), claim by claim. {machine}{compiler}{seed}All of it: <code>limitcheck reproduce</code>.</p>"

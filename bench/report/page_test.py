@@ -12,6 +12,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import page  # noqa: E402
+import parts  # noqa: E402
 from parts import PARTS  # noqa: E402
 from record import Record  # noqa: E402
 
@@ -29,17 +30,21 @@ def needs(triangles):
 
 RESULTS = {
     "claims": {"claims": [{"id": "C01", "statement": EVIL, "verdict": "confirmed", "check": "A.B", "ran": True, "held": False},
-                          {"id": "C02", "statement": "", "verdict": "not checkable", "check": None, "ran": False, "held": None}]},
+                          {"id": "C02", "statement": "", "verdict": "not checkable", "check": None, "ran": False, "held": None},
+                          {"id": "C79", "place": "7", "statement": "no perceivable difference", "verdict": "depends", "check": "A.C", "ran": True,
+                           "held": True, "note": "On the settings.", "finding": "8.6 % are off.",
+                           "measured": {"percent_off_200": "8.6", "percent_off_800": "11.5", "pixels": "60"}}]},
     "audit": {"results": [{"subject": EVIL, "mesh": "m", "check": "positions", "status": "finding", "count": 1, "worst": 0.5, "bound": 1e-7,
                            "unit": "", "witness": {"face": 3}},
                           {"subject": "b", "mesh": "m", "check": "positions", "status": "held", "count": 1, "worst": 0, "bound": 1,
                            "unit": "", "witness": None}]},
-    "trends": [{"id": "T1", "statement": EVIL, "held": True, "figures": "1 2"}],
+    "timings": {"load": 1.5, "rows": [{"id": "T7", "outcome": "could not be measured", "figures": EVIL, "series": [
+        {"name": "frames", "unit": "faces", "at": [200, 800], "values": [1.0, 2.0]}]}]},
     "spheres": {"renderer": "r", "threads": 2, "viewport": [1024, 768], "seed": 1, "rows": [
         {"faces": 200, "strategy": "combined", "triangles": 1.0, "strips": 2.0, "fans": 0.0, "pairs": 3.0, "singletons": 0.0,
          "culled_share": 0.25, "limit_points": 4.0,
          **{engine + how: timing(1.0) for engine in ("sliding_window", "row_stream") for how in ("", "_all_threads", "_drawn")},
-         "error_pixels": {"silhouette_99": 0.1, "silhouette_worst": 0.2, "interior_99": 0.2, "interior_worst": 0.3, "mean": 0.05}}]},
+         "picture": {"mean": 0.1, "median": 0.2, "percentile_99": 0.2, "share": 0.01, "missing": 5, "extra": 6}}]},
     "matched": {"engine": "e", "curves": [], "rows": [{"faces": 200, "measure": "mean", "as": "uniform-3", "error": 0.5,
                                                       "uniform": needs(100.0), "combined": needs(50.0), "combined, stitched": None}]},
     "proofs": {"rows": [{"group": "g", "kernel": "k", "map": "equal", "topology": "3 3 3", "depths": [0, 2], "points": 5,
@@ -92,7 +97,7 @@ class Page(unittest.TestCase):
     def test_every_part_has_its_section(self):
         self.draw_all()
         self.assertEqual(self.made().sections,
-                         ["trends", "tables", "matched", "pictures", "view", "claims", "audit", "proofs", "throughput"])
+                         ["summary", "sentences", "tables", "matched", "pictures", "view", "claims", "audit", "proofs", "throughput"])
         self.assertEqual(self.gaps, [])
 
     def test_every_table_and_figure_names_the_command_that_makes_it_alone(self):
@@ -103,6 +108,36 @@ class Page(unittest.TestCase):
         for block in re.findall(r"<figure.*?</figure>|<section.*?</section>", self.text, re.DOTALL):
             self.assertIn("limitcheck reproduce --only", block)
 
+    def test_pictures_and_the_view_have_one_palette(self):
+        source = (pathlib.Path(__file__).resolve().parents[1] / "reproduction" / "studio.h").read_text()
+        scale = source.partition("constexpr Colour scale[] = {")[2].partition("};")[0]
+        colours = [[float(x.strip().rstrip("f")) for x in c.split(",")] for c in re.findall(r"\{([^{}]*)\}", scale + "}")]
+        self.assertEqual(len(colours), 6)
+        for ours, theirs in zip(page.DEPTH_COLOURS, colours):
+            for k, part in zip((1, 3, 5), theirs):
+                self.assertLessEqual(abs(int(ours[k:k + 2], 16) - 255 * part), 1, (ours, theirs))
+
+    def test_the_summary_says_what_came_out(self):
+        self.made(("claims",))
+        short = self.text.partition("<section id=summary>")[2].partition("</section>")[0]
+        for words in ("3 claims of the paper", "8.6 % are off.", "project-sphere", "Figures that are not reproduced: 1, 2, 9"):
+            self.assertIn(words, short)
+
+    def test_what_the_subject_delivered_goes_with_its_witness(self):
+        witness = {"got": [1.0, 2.0, 3.0]}
+        self.assertEqual(parts.delivered({"check": "positions", "witness": witness}), {"got_position": [1.0, 2.0, 3.0]})
+        self.assertEqual(parts.delivered({"check": "normals", "witness": witness}), {"got_normal": [1.0, 2.0, 3.0]})
+        self.assertEqual(parts.delivered({"check": "holes", "witness": {"got": None}}), {})
+
+    def test_throughput_sets_our_variants_apart_from_others(self):
+        runs = [{"name": f"{route}/steady/bumpy/faces:4000/depth:3/threads:1/real_time", "points/s": rate, "real_time": 1.0, "time_unit": "ms"}
+                for route, rate in (("row-stream/avx2", 6e6), ("row-stream/compact", 4e6), ("far/uniform", 2e6))]
+        (self.folder / "throughput.json").write_text(json.dumps({"benchmarks": runs}))
+        self.made(())
+        ours, _, others = self.text.partition("<table class=bars>")[2].partition("</table>")[0].partition(">others")
+        self.assertIn("row-stream/compact", ours)
+        self.assertIn("far/uniform", others)
+
     def test_it_opens_from_disk_with_nothing_beside_it(self):
         (self.folder / "figure-3.png").write_bytes(b"png")
         self.assertEqual(self.made().fetched, [])
@@ -112,10 +147,10 @@ class Page(unittest.TestCase):
         self.assertIn("&lt;script&gt;", self.text)
 
     def test_a_part_that_is_missing_is_left_out_and_said(self):
-        reader = self.made(("trends",), [("claims", "the program crashed")])
-        self.assertEqual(reader.sections, ["trends"])
+        reader = self.made(("timings",), [("claims", "the program crashed")])
+        self.assertEqual(reader.sections, ["sentences"])
         self.assertIn("the paper&#x27;s claims (claims): the program crashed", self.text)
-        for name in set(PARTS) - {"trends", "claims"}:
+        for name in set(PARTS) - {"timings", "claims"}:
             self.assertIn(f"({name}): not made", self.text)
 
     def test_an_older_result_is_not_passed_off_as_new(self):
@@ -127,7 +162,7 @@ class Page(unittest.TestCase):
         self.made(("spheres",))
         for words in ("sliding window, 1 thread<", "sliding window, 2 threads", "sliding window, 1 thread, drawn", "row streaming, 1 thread<",
                       "row streaming, 2 threads", "row streaming, 1 thread, drawn", "triangles", "strips", "fans", "singletons", "culled",
-                      "heuristics", "pairing", "window", "cracks", "drawing", "silhouette, 99 %", "interior, 99 %", "by r, 1024 by 768"):
+                      "heuristics", "pairing", "window", "cracks", "drawing", "99 % of the pixels", "missing pixels", "by r, 1024 by 768"):
             self.assertIn(words, self.text)
 
     def test_at_equal_error_the_ratio_says_how_many_triangles_are_saved(self):
@@ -137,7 +172,7 @@ class Page(unittest.TestCase):
 
     def test_a_broken_result_is_said_to_be_missing(self):
         (self.folder / "claims.json").write_text("----- Benchmark")
-        self.assertEqual(self.made(("trends",)).sections, ["trends"])
+        self.assertEqual(self.made(("timings",)).sections, ["sentences"])
         self.assertIn("claims.json: Expecting value", self.text)
 
     def test_throughput_has_ratios(self):
@@ -149,9 +184,29 @@ class Page(unittest.TestCase):
 
     def test_a_claim_that_did_not_run_is_not_called_held(self):
         self.made(("claims",))
-        self.assertIn("not held", self.text)
-        self.assertIn("not run", self.text)
-        self.assertNotIn("<b class=yes>held", self.text)
+        row = self.text.partition("<span id=C02>")[2].partition("\n")[0]
+        self.assertIn("not run", row)
+        self.assertNotIn("green", row)
+        self.assertIn("red", self.text.partition("<span id=C01>")[2].partition("\n")[0])
+
+    def test_a_sentence_has_one_verdict_wherever_it_is_judged(self):
+        self.made(("claims", "timings"))
+        sentence, row = (self.text.partition(f"{start}")[2].partition(end)[0]
+                         for start, end in (("<article id=T10>", "</article>"), ("<span id=C79>", "\n")))
+        for part in (sentence, row):
+            self.assertIn(">depends<", part)
+            self.assertNotIn(">confirmed<", part)
+            self.assertIn(">green<", part)
+            self.assertIn("8.6 % are off.", part)
+        self.assertIn("<td>percent off<td>8.6<td>11.5", sentence)
+
+    def test_the_headline_counts_conclusions_and_tests_apart(self):
+        self.made(("claims",))
+        self.assertIn("3 claims of the paper: confirmed 1, not checkable 1, depends 1. Our tests: green 1, red 1, not run 0, none 1.", self.text)
+
+    def test_what_could_not_be_measured_is_said_and_no_verdict(self):
+        self.made(("timings",))
+        self.assertIn("<b class=open>could not be measured</b>", self.text)
 
     def test_the_worst_status_of_a_check_is_shown(self):
         RESULTS["audit"]["results"].append({**RESULTS["audit"]["results"][1], "status": "crash"})

@@ -54,14 +54,14 @@ class Workshop:
         self.run([self.bench / "reproduction" / "reproduction", "-o", self.folder, *arguments, *(["--quick"] if self.quick else [])])
 
     def node(self):
-        """Node.js with the packages, installed on first use."""
+        """Node.js with the packages, installed on first use: those of package-lock.json, none of whose scripts is run."""
         for program in ("node", "npm"):
             if not shutil.which(program):
                 raise PartError(NO_NODE.format(program))
         needed = json.loads((HERE / "package.json").read_text(encoding="utf-8"))["dependencies"]
         if not all((HERE / "node_modules" / name / "package.json").is_file() for name in needed):
             try:
-                self.run(["npm", "install", "--prefix", HERE, "--omit=dev", "--no-audit", "--no-fund", "--no-package-lock",
+                self.run(["npm", "ci", "--prefix", HERE, "--ignore-scripts", "--omit=dev", "--no-audit", "--no-fund",
                           "--fetch-retries=1", "--fetch-retry-mintimeout=1000", "--fetch-timeout=30000"])
             except PartError as error:
                 raise PartError(f"npm could not install {', '.join(needed)} (is there a network?): {error}") from error
@@ -129,6 +129,15 @@ def place_key(r):
     return f"{r['subject']}|{r['check']}|{r['mesh']}|{w['face']}|{w['l1']}|{w['l2']}" if named else ""
 
 
+def delivered(r):
+    """What the subject delivered in the place of the exact point or normal: {"got_position"} or {"got_normal"}, or nothing."""
+    got = r["witness"].get("got")
+    if not isinstance(got, list) or len(got) != 3 or not all(isinstance(x, (int, float)) for x in got):
+        return {}
+    name = "got_normal" if "normal" in r["check"] else "got_position"
+    return {name: got}
+
+
 def places(shop, findings):
     """Where the witnesses lie, by the exact evaluator: {key: what the view shows}."""
     points, found = {}, {}
@@ -147,7 +156,7 @@ def places(shop, findings):
         if points[at]:
             bound = f", bound {r['bound']:.3g}" if r.get("bound") is not None else ""
             off = f": {r['worst']:.3g} {r.get('unit') or ''}{bound}" if r.get("worst") is not None else ""
-            found[place_key(r)] = {"mesh": r["mesh"], "face": w["face"], **points[at],
+            found[place_key(r)] = {"mesh": r["mesh"], "face": w["face"], **points[at], **delivered(r),
                                    "text": f"{r['subject']} / {r['check']}{off}; {r['mesh']} face {w['face']} at ({w['l1']}, {w['l2']})"}
     (shop.folder / "point.json").unlink(missing_ok=True)
     return found
@@ -172,15 +181,17 @@ Part = collections.namedtuple("Part", "title make files needs", defaults=((),))
 
 
 def parts():
-    yield "spheres", Part("frame rates, counts and errors on bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
-    yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"], ["spheres"])
-    yield "trends", Part("trends T1 to T10", lambda shop: shop.reproduction("trends"), ["trends.json"], ["spheres", "matched"])
+    yield "spheres", Part("frame rates, counts and pictures of bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
+    yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"])
+    yield "timings", Part("what the text says of time", lambda shop: shop.reproduction("timings"), ["timings.json"], ["spheres"])
     for name, title in (("figure-11", "frames per second"), ("figure-12", "triangles and culled faces")):
         yield name, Part(f"{name}: {title}", chart(name, "spheres", "rows"), [f"{name}.svg"], ["spheres"])
     yield "error", Part("error against triangles", chart("error", "matched", "curves"), ["error.svg"], ["matched"])
     for number, title in ((3, "normal cone"), (6, "cracks"), (7, "cracks repaired"), (8, "centres of fans"), (10, "bumpy spheres"),
                           (13, "random depths"), (14, "depth by curvature")):
         yield f"figure-{number}", Part(f"figure-{number}: {title}", picture(f"figure-{number}"), [f"figure-{number}.png"])
+    for name, title in (("error", "an error map beside its control mesh"), ("cracks", "cracks and their repair")):
+        yield f"picture-{name}", Part(f"picture-{name}: {title}", picture(f"picture-{name}"), [f"picture-{name}.png"])
     yield "claims", Part("the paper's claims", claims, ["claims.json"])
     yield "audit", Part("audit of the built-in tessellators", audit, ["audit.json"])
     yield "proofs", Part("proofs", proofs, ["proofs.json"])

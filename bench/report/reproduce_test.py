@@ -84,7 +84,7 @@ class Reproduce(unittest.TestCase):
 
     def test_without_node_the_report_lacks_only_what_needs_it_and_says_so(self):
         self.assertEqual(self.run_it(), 1)
-        self.assertEqual(self.sections(), ["trends", "tables", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
+        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
         for part in ("figure-11", "figure-12", "error", "view"):
             self.says(f"({part}): node is not installed (apt-get install nodejs npm)")
         self.assertFalse("<script" in self.page)
@@ -97,6 +97,20 @@ class Reproduce(unittest.TestCase):
         self.says("network request failed")
         self.assertIn("tables", self.sections())
 
+    def test_packages_are_those_of_the_lock_file_and_their_scripts_are_not_run(self):
+        self.program(self.bin / "node", "#!/bin/sh\nexit 0\n")
+        self.program(self.bin / "npm", "#!/bin/sh\necho \"npm was asked for: $*\" >&2\nexit 1\n")
+        self.run_it("--only", "figure-11")
+        asked = self.page.partition("npm was asked for: ")[2].partition("<")[0]
+        self.assertTrue(asked.startswith("ci "), asked)
+        self.assertIn("--ignore-scripts", asked)
+        folder = TOP / "bench" / "report"
+        wanted = json.loads((folder / "package.json").read_text())
+        locked = json.loads((folder / "package-lock.json").read_text())["packages"]
+        for name, version in {**wanted["dependencies"], **wanted["devDependencies"]}.items():
+            self.assertEqual(locked[f"node_modules/{name}"]["version"], version)
+        self.assertEqual([n for n, p in locked.items() if n and not p.get("integrity")], [], "each package has its hash")
+
     def test_a_part_that_fails_leaves_the_others(self):
         self.assertEqual(self.run_it(BREAKS="audit"), 1)
         self.says("something went wrong here")
@@ -105,7 +119,7 @@ class Reproduce(unittest.TestCase):
 
     def test_what_needs_a_part_that_failed_says_which(self):
         self.run_it(BREAKS="spheres")
-        self.says("(trends): needs spheres, matched, which could not be made")
+        self.says("(timings): needs spheres, which could not be made")
 
     def test_an_interrupted_run_keeps_what_it_made_and_says_what_is_missing(self):
         with self.start(HANGS="prove") as process:
@@ -114,7 +128,7 @@ class Reproduce(unittest.TestCase):
             process.communicate(timeout=30)
         self.assertEqual(process.returncode, 1)
         self.page = (self.out / "index.html").read_text()
-        self.assertEqual(self.sections(), ["trends", "tables", "matched", "pictures", "claims", "audit"])
+        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "matched", "pictures", "claims", "audit"])
         self.says("(proofs): interrupted")
         self.says("(throughput): not made: the run was interrupted before it")
         self.assertFalse(list(self.out.glob("*.partial")))
@@ -131,10 +145,10 @@ class Reproduce(unittest.TestCase):
         self.says("(claims): interrupted")
 
     def test_one_part_alone_makes_what_it_needs_and_nothing_else(self):
-        self.assertEqual(self.run_it("--only", "trends"), 0)
-        self.assertEqual(sorted(p.name for p in self.out.glob("*.json")), ["matched.json", "reproduction.json", "spheres.json", "trends.json"])
+        self.assertEqual(self.run_it("--only", "timings"), 0)
+        self.assertEqual(sorted(p.name for p in self.out.glob("*.json")), ["reproduction.json", "spheres.json", "timings.json"])
         before = (self.out / "spheres.json").stat().st_mtime_ns
-        self.run_it("--only", "trends")
+        self.run_it("--only", "timings")
         self.assertEqual((self.out / "spheres.json").stat().st_mtime_ns, before)
 
     def test_a_program_that_is_not_built_is_named(self):

@@ -30,24 +30,42 @@ def details(summary, body):
 
 
 def mark(held):
-    return {True: "<b class=yes>held</b>", False: "<b class=no>not held</b>"}.get(held, "<b class=open>not run</b>")
+    """Whether our test agrees with what we conclude."""
+    return {True: "<b class=yes>green</b>", False: "<b class=no>red</b>"}.get(held, "<b class=open>not run</b>")
 
 
-def claims(data):
+def badge(verdict):
+    """What we conclude about a sentence of the paper."""
+    return f"<b class='verdict {text(verdict.replace(' ', '-'))}'>{text(verdict)}</b>"
+
+
+def headline(data):
+    """How many claims of each verdict, and how our tests stand: the same words as `limitcheck claims`."""
     rows = data["claims"]
     counts = {}
     for row in rows:
         counts[row["verdict"]] = counts.get(row["verdict"], 0) + 1
-    summary = ", ".join(f"{n} {text(v)}" for v, n in sorted(counts.items(), key=lambda item: -item[1]))
+    known = [v for v in data.get("verdicts", counts) if v in counts]
+    concluded = ", ".join(f"{text(v)} {counts[v]}" for v in known)
+    green = sum(bool(r["ran"] and r["held"]) for r in rows)
+    red = sum(bool(r["ran"] and not r["held"]) for r in rows)
+    waiting = sum(bool(not r["ran"] and r["check"]) for r in rows)
+    return (f"{len(rows)} claims of the paper: {concluded}. Our tests: green {green}, red {red}, not run {waiting}, none "
+            f"{len(rows) - green - red - waiting}.")
+
+
+def claims(data):
+    rows = data["claims"]
     errata = [r for r in rows if r["verdict"] == "misprint"]
-    return (f"<p>{len(rows)} claims: {summary}.</p>"
+    said = lambda r: "<br>".join(text(r[key]) for key in ("note", "finding") if r.get(key))  # noqa: E731
+    return (f"<p>{headline(data)}</p>"
             + table(["claim", "place", "printed", "correction"],
                     [[text(r["id"]), text(r.get("place", "")), text(r["statement"]), text(r.get("note") or "")] for r in errata],
                     f"{len(errata)} wrong as printed; the errata as Markdown: <code>limitcheck claims --errata</code>")
             + details(f"All {len(rows)} claims", table(
-                ["claim", "says", "verdict", "today", "note", "check"],
-                [[text(r["id"]), text(r.get("statement", "")), text(r["verdict"]),
-                  mark(r["held"] if r["ran"] else None), text(r.get("note") or ""),
+                ["claim", "the paper says", "we conclude", "our test", "note, and what was measured", "check"],
+                [[f"<span id={text(r['id'])}>{text(r['id'])}</span>", text(r.get("statement", "")), badge(r["verdict"]),
+                  mark(r["held"] if r["ran"] else None), said(r),
                   f"<code>{text(', '.join(r['check']) if isinstance(r['check'], list) else r['check'] or '')}</code>"] for r in rows])))
 
 
@@ -87,11 +105,8 @@ def audit(data, places):
             + details(f"{bad} findings; the {len(shown)} worst with witnesses, at most three of a subject and check", witnesses))
 
 
-def trends(data):
-    return table(["", "the text says", "today", "figures"],
-                 [[text(t["id"]), text(t["statement"]), mark(t["held"]), text(t["figures"]).replace("; ", "<br>")] for t in data])
-
-
+PIXELS = ("Difference of the shade of each pixel, of 255, from deep uniform depth, seen from two sides by a rasteriser without a driver. "
+          "A pixel that shows the surface in one of the pictures only counts as off by 255.")
 ENGINES = (("sliding_window", "sliding window"), ("row_stream", "row streaming"))
 
 
@@ -104,14 +119,16 @@ def spheres(data):
     mean = lambda key, digits=0: lambda r: f"{r[key]:.{digits}f}"  # noqa: E731
     fps = lambda key: lambda r: rate(r[key]["frames_per_second"])  # noqa: E731
     stage = lambda key, name: lambda r: share(r[key]["stages"][name])  # noqa: E731
-    pixels = lambda key: lambda r: number(float(r["error_pixels"][key]))  # noqa: E731
+    shade = lambda key: lambda r: number(float(r["picture"][key]))  # noqa: E731
     first, threads = ["faces", "strategy"], data["threads"]
     stages = ["heuristics", "pairing", "cracks", "window"]
     return (
         details("Frames per second", table(
             first + [f"{name}, {how}" for _, name in ENGINES for how in ("1 thread", f"{threads} threads", "1 thread, drawn")],
             lines(*(fps(key + end) for key, _ in ENGINES for end in ("", "_all_threads", "_drawn"))),
-            f"Drawn: with OpenGL by {text(data['renderer'])}, {data['viewport'][0]} by {data['viewport'][1]} pixels."))
+            f"Drawn: with OpenGL by {text(data['renderer'])}, {data['viewport'][0]} by {data['viewport'][1]} pixels. One thread: processor time, "
+            f"the least of three repetitions; {threads} threads: time on the wall, of use on a quiet machine only (load "
+            f"{number(float(data.get('load', 0)))})."))
         + details("What a frame holds", table(
             first + ["triangles", "strips", "fans", "pairs", "no partner (singletons)", "culled", "limit points"],
             lines(mean("triangles"), mean("strips"), mean("fans"), mean("pairs"), mean("singletons", 1),
@@ -121,16 +138,17 @@ def spheres(data):
             first + [f"{name}: {s}" for _, name in ENGINES for s in stages] + [f"{name}, drawn: drawing" for _, name in ENGINES],
             lines(*(stage(key, s) for key, _ in ENGINES for s in stages), *(stage(key + "_drawn", "drawing") for key, _ in ENGINES)),
             "Of the time of a frame, one thread. Row streaming plans pairs and cracks together. Drawing: share of a frame that is drawn."))
-        + details("Error in pixels", table(
-            first + ["silhouette, 99 %", "silhouette, worst", "interior, 99 %", "interior, worst", "mean"],
-            lines(*(pixels(k) for k in ("silhouette_99", "silhouette_worst", "interior_99", "interior_worst", "mean"))),
-            "Distance to the exact surface as the viewer sees it, at middles of triangles and edges; 99 %: of the samples are closer. "
-            "Silhouette: the normal is within 20 degrees of the image plane. The worst of three views.")))
+        + details("How they look", table(
+            first + ["pixels off by more than 4", "99 % of the pixels", "mean", "median", "missing pixels", "extra pixels"],
+            lines(lambda r: share(r["picture"]["share"]), *(shade(k) for k in ("percentile_99", "mean", "median")),
+                  *(lambda r, k=k: text(r["picture"][k]) for k in ("missing", "extra"))),
+            PIXELS)))
+
 
 
 def matched(data):
     families = [k for k in data["rows"][0] if k not in ("faces", "measure", "as", "error")]
-    measures = {"interior_99": "interior, 99 %", "silhouette_99": "silhouette, 99 %", "mean": "mean"}
+    measures = {"percentile_99": "99 % of the pixels", "mean": "mean", "median": "median", "share": "share of pixels off by more than 4"}
 
     def cell(row, family):
         it, uniform = row[family], row["uniform"]
@@ -141,29 +159,55 @@ def matched(data):
     rows = [[text(r["faces"]), text(measures[r["measure"]]), text(r["as"]), number(float(r["error"])), *(cell(r, f) for f in families)]
             for r in data["rows"]]
     intro = ("<p>Equal depth is no comparison: the strategies do not show the surface equally well. Here each adaptive strategy is run "
-             "from coarse to fine settings (240 to 3.75 pixels, half the number of degrees), and read off where its error on the screen "
-             "equals that of a uniform depth. In each cell: triangles, (those of uniform depth divided by them: above 1 the strategy is "
+             "from coarse to fine settings (240 to 3.75 pixels, half the number of degrees), and read off where its picture is as far off "
+             "as that of a uniform depth. " + PIXELS + " In each cell: triangles, (those of uniform depth divided by them: above 1 the strategy is "
              "better), and below frames per second. What holds the strategies back are the paper's fans, which drop all points inside a "
              "face: the last two columns keep these and stitch only the border (not in the paper).</p>")
     only = lambda depth: [row for row, r in zip(rows, data["rows"]) if r["as"] == depth]  # noqa: E731
-    header = ["faces", "error", "as", "pixels", *families]
+    header = ["faces", "error", "as", "of 255", *families]
     return (intro + table(header, only("uniform-3"), f"At the error of uniform depth 3; {text(data['engine'])}")
             + details("At the error of uniform depths 2 and 4", table(header, only("uniform-2") + only("uniform-4"))))
 
 
+OURS = ("row-stream", "sliding-window", "naive", "reference", "write-only")
+
+
 def throughput(data):
-    """Rates, and how many times as fast row streaming (the first of each case) is."""
+    """Rates as bars, our own variants apart from others; and all of it as a table."""
     runs = [r for r in data["benchmarks"] if "points/s" in r and r.get("run_type") != "aggregate"]
-    ours, rows = {}, []
+    ours, rows, cases = {}, [], {}
     for r in runs:
         name = r["name"].replace("/real_time", "")
         route, _, case = re.sub(r"/(steady|scratch)/", r"|\1/", name, count=1).partition("|")
         best = ours.setdefault(case, r["points/s"])
+        cases.setdefault(case, []).append((route, r["points/s"]))
         rows.append([text(case), text(route), f"{r['points/s'] / 1e6:.4g}", f"{best / r['points/s']:.3g}",
                      f"{r['real_time']:.4g} {r['time_unit']}", f"{r['peak'] / 2**20:.3g} MiB" if "peak" in r else ""])
     rows.sort(key=lambda row: list(ours).index(row[0]))
-    return table(["case", "route", "million points/s", "row streaming is so many times as fast", "time", "peak memory"], rows,
-                 "All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench</code>")
+    charts = "".join(bars(case, some) for case, some in cases.items() if len(some) > 1)
+    return charts + details("All cases as a table", table(
+        ["case", "route", "million points/s", "row streaming is so many times as fast", "time", "peak memory"], rows,
+        "All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench</code>"))
+
+
+def bars(case, rates):
+    most = max(rate for _, rate in rates)
+
+    def group(title, some):
+        lines = "".join(f"<tr><th scope=row>{text(route)}<td class=rate><span style='width:{100 * rate / most:.2f}%'></span>"
+                        f"<td>{rate / 1e6:.3g}" for route, rate in sorted(some, key=lambda x: -x[1]))
+        return f"<tbody><tr><th colspan=3>{title}{lines}" if some else ""
+    mine = [x for x in rates if x[0].startswith(OURS)]
+    return (f"<div class=wide tabindex=0><table class=bars><caption>{text(case)}: million points per second</caption>"
+            + group("ours", mine) + group("others", [x for x in rates if x not in mine]) + "</table></div>")
+
+
+GROUPS = {
+    "triples": "every triple of valences round a face", "deep": "the same at depths 5 and 6",
+    "digits": "computed with 50 digits and compared with Stam's evaluator, too", "rational": "valences 3, 4 and 6, in exact fractions",
+    "high": "valences 20, 50 and 100", "boundary": "boundary edges and vertices round pairs of several valences",
+    "boundary-deep": "boundaries round the regular pair, deeper", "alone": "a face without neighbours",
+    "spheres": "every pair of faces of bumpy spheres"}
 
 
 def proofs(data):
@@ -178,10 +222,11 @@ def proofs(data):
         bound, worst = max((r["bound"] for r in bounds), default=None), max((r["worst"] for r in bounds), default=None)
         lines.append([text(group), text(kernel), text(len({r["topology"] for r in some})),
                       f"{min(r['depths'][0] for r in some)} to {max(r['depths'][1] for r in some)}",
-                      text(sum(r["points"] for r in some)), mark(not wrong), ", ".join(sorted({text(r["arithmetic"]) for r in some})),
+                      text(sum(r["points"] for r in some)), "<b class=yes>equal</b>" if not wrong else "<b class=no>differs</b>", ", ".join(sorted({text(r["arithmetic"]) for r in some})),
                       f"{min(digits):.1f}" if digits else "", number(bound) if bound else "", number(worst) if worst else "",
                       number(bound / worst) if bound and worst else ""])
-    return ("<p>The map from control points to limit points that each kernel applies, against the reference's, for every geometry of a "
+    explained = "; ".join(f"<b>{text(g)}</b>: {text(GROUPS[g])}" for g in dict.fromkeys(g for g, _ in groups) if g in GROUPS)
+    return ((f"<p>Groups of neighbourhoods. {explained}.</p>" if explained else "") + "<p>The map from control points to limit points that each kernel applies, against the reference's, for every geometry of a "
             "topology at once; and a bound of the float32 error over all control meshes in the unit box. Topology by topology: "
             "<code>limitcheck prove --each</code>.</p>"
             + table(["group", "kernel", "topologies", "depths", "points", "map equal", "arithmetic", "digits", "proved bound",

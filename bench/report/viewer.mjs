@@ -14,6 +14,8 @@ function ramp(t) {
   return stops[k].clone().lerp(stops[k + 1], x - k);
 }
 const kinds = ["#21618c", "#c0392b", "#d9730d", "#7d3c98"].map((c) => new THREE.Color(c));
+const frame = document.getElementById("viewer").dataset;
+const depths = JSON.parse(frame.depths).map((c) => new THREE.Color(c)), fan = new THREE.Color(frame.fan);  // as in the pictures
 const plain = new THREE.Color("#9fb0c0"), chosen = new THREE.Color("#d9730d");
 
 function solid() {
@@ -97,7 +99,7 @@ class Tessellation {
     const { model, errors } = this;
     const logarithmic = (name, worst) => (t) => ramp(1 + Math.log10(Math.max(errors[name][t], 1e-9) / worst) / 4);
     const of = {
-      depth: (t) => ramp(model.depth[t] / 5), kind: (t) => kinds[model.kind[t]],
+      depth: (t) => (model.kind[t] === 2 ? fan : depths[model.depth[t]]), kind: (t) => kinds[model.kind[t]],
       position: logarithmic("position", model.worst_position), normal: logarithmic("normal", model.worst_normal),
     }[by];
     for (let t = 0; t < model.depth.length; ++t) {
@@ -106,7 +108,7 @@ class Tessellation {
     }
     this.colour.needsUpdate = true;
     return {
-      depth: "dark: depth 0, light: depth 5",
+      depth: "as in the pictures: light is shallow, dark is deep, fans are orange",
       kind: "blue: pairs, red: without partner, orange: fans",
       position: `logarithmic; yellow: ${model.worst_position.toPrecision(2)} of the diagonal, violet: 10⁻⁴ of that`,
       normal: `logarithmic; yellow: ${model.worst_normal.toPrecision(2)} degrees, violet: 10⁻⁴ of that`,
@@ -137,26 +139,35 @@ function marked(shape, witness) {
   const size = apart.boundingBox.getSize(new THREE.Vector3()).length();
 
   const point = new THREE.Vector3(...witness.position), normal = new THREE.Vector3(...witness.normal);
-  const object = withEdges(apart), ink = new THREE.MeshBasicMaterial({ color: 0x000000, depthTest: false, transparent: true });
-  const ball = new THREE.Mesh(new THREE.SphereGeometry(size / 250, 16, 12), ink);
-  ball.position.copy(point);
-  const needle = new THREE.Mesh(new THREE.CylinderGeometry(size / 1200, size / 1200, size / 12), ink);
-  needle.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), normal);
-  needle.position.copy(point).addScaledVector(normal, size / 24);
-  ball.renderOrder = needle.renderOrder = 1;
-  object.add(ball, needle);
+  const object = withEdges(apart);
+  const pin = (at, along, colour, length) => {
+    const ink = new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true });
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(size / 200, 16, 12), ink);
+    ball.position.copy(at);
+    const needle = new THREE.Mesh(new THREE.CylinderGeometry(size / 800, size / 800, length), ink);
+    needle.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.clone().normalize());
+    needle.position.copy(at).addScaledVector(along.clone().normalize(), length / 2);
+    ball.renderOrder = needle.renderOrder = 1;
+    object.add(ball, needle);
+  };
+  // What the subject delivered first, and longer: where both agree its end still shows.
+  const finite = (v) => v && v.every(Number.isFinite);
+  if (finite(witness.got_position)) pin(new THREE.Vector3(...witness.got_position), normal, 0xc0341d, size / 8);
+  if (finite(witness.got_normal)) pin(point, new THREE.Vector3(...witness.got_normal), 0xc0341d, size / 8);
+  pin(point, normal, 0x000000, size / 12);
   // Seen from before the surface, a little from the side so that the needle shows.
   const side = Math.abs(normal.y) < 0.9 ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(1, 0, 0);
   side.cross(normal).normalize();
-  return { object, point, eye: point.clone().addScaledVector(normal, 0.4 * size).addScaledVector(side, 0.2 * size), size };
+  return { object, point, eye: point.clone().addScaledVector(normal, 0.7 * size).addScaledVector(side, 0.5 * size), size };
 }
 
 function start(element) {
   const read = (id) => JSON.parse(document.getElementById(id).textContent);
   const control = (name) => element.querySelector(name);
   const select = control("select"), wire = control("input[name=wire]"), legend = control("output"), back = control("button[name=back]");
+  const toTable = control("button[name=table]");
   const stage = new Stage(control("canvas")), tessellation = new Tessellation(read("model")), shapes = read("shapes");
-  let witness = null;
+  let witness = null, from = null;
 
   function refresh() {
     if (!witness) legend.textContent = tessellation.paint(select.value);
@@ -165,15 +176,16 @@ function start(element) {
   }
   function overview() {
     witness = null;
-    back.hidden = true;
+    back.hidden = toTable.hidden = true;
     stage.show(tessellation.object);
     stage.look(new THREE.Vector3(), new THREE.Vector3(1.3, 1.4, 3.6), 3);
     refresh();
   }
-  function jump(to) {
+  function jump(to, button) {
+    from = button;
     const scene = marked(shapes[to.mesh], to);
     witness = to;
-    back.hidden = false;
+    back.hidden = toTable.hidden = false;
     stage.show(scene.object);
     stage.look(scene.point, scene.eye, scene.size);
     legend.textContent = to.text;
@@ -184,6 +196,10 @@ function start(element) {
   select.addEventListener("change", () => (witness ? overview() : refresh()));
   wire.addEventListener("change", refresh);
   back.addEventListener("click", overview);
+  toTable.addEventListener("click", () => {
+    from.scrollIntoView({ block: "center" });
+    from.focus({ preventScroll: true });
+  });
   control("button[name=worst]").addEventListener("click", () => {
     if (witness) overview();
     const { middle, normal } = tessellation.worst(select.value);
@@ -213,5 +229,5 @@ document.addEventListener("click", (event) => {
   const button = event.target.closest?.("button.jump");
   if (!button) return;
   begin();
-  jump?.(JSON.parse(button.dataset.witness));
+  jump?.(JSON.parse(button.dataset.witness), button);
 });

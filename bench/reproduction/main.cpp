@@ -32,8 +32,8 @@ int main(int argc, char** argv) {
   fs::path folder = "build/report";
   bool quick = false;
   std::vector<std::string> parts, meshes, names = bench::picture_names();
-  names.insert(names.end(), {"model", "spheres", "matched", "trends", "shapes"});
-  app.add_option("PART", parts, "What to make; matched and trends read what spheres and matched have left")
+  names.insert(names.end(), {"model", "spheres", "matched", "timings", "shapes"});
+  app.add_option("PART", parts, "What to make; timings reads what spheres has left")
       ->required()
       ->check(CLI::IsMember(names));
   app.add_option("-o,--output", folder, "Folder for the results")->capture_default_str();
@@ -42,12 +42,11 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const auto save = [&](const std::string& name, const Json& data) {
     verify::AtomicFile file(folder / (name + ".json"));
-    file.stream() << data.dump(name == "spheres" || name == "matched" || name == "trends" ? 1 : -1) << "\n";
+    file.stream() << data.dump(name == "spheres" || name == "matched" || name == "timings" ? 1 : -1) << "\n";
     file.commit();
   };
   try {
     fs::create_directories(folder);
-    const auto spheres = [&] { return read(folder / "spheres.json", "spheres"); };
     for (const std::string& part : parts) {
       if (part == "model") {
         save(part, bench::model());
@@ -56,9 +55,9 @@ int main(int argc, char** argv) {
       } else if (part == "spheres") {
         save(part, bench::sphere_table(quick));
       } else if (part == "matched") {
-        save(part, bench::matched_error_table(spheres(), quick));
-      } else if (part == "trends") {
-        save(part, bench::check_trends(spheres(), read(folder / "matched.json", "matched"), quick));
+        save(part, bench::matched_error_table(quick));
+      } else if (part == "timings") {
+        save(part, bench::timings(read(folder / "spheres.json", "spheres"), quick));
       } else {
         bench::draw_picture(part, folder);
       }

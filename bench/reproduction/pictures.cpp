@@ -4,85 +4,15 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "bench/render/renderer.h"
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
-#include "data/generators/bumpy_sphere.h"
-#include "data/shapes.h"
+#include "bench/reproduction/studio.h"
 #include "fast/depth.h"
-#include "fast/frame.h"
 #include "reference/refine.h"
 
 namespace limitcheck::bench {
 
 namespace {
-
-constexpr int kSize = 800;
-
-fast::Camera camera_at(double degrees, double distance) {
-  fast::Camera camera;
-  const double angle = degrees * std::numbers::pi / 180;
-  camera.eye = {distance * std::sin(angle), .35 * distance, distance * std::cos(angle)};
-  camera.field_of_view = 40;
-  camera.width = camera.height = kSize;
-  return camera;
-}
-
-/// Light for shallow, dark for deep; readable without colour vision.
-Colour depth_colour(int depth) {
-  constexpr Colour scale[] = {{.99f, .91f, .15f}, {.56f, .84f, .27f}, {.13f, .66f, .52f},
-                              {.17f, .45f, .56f}, {.25f, .27f, .53f}, {.27f, .0f, .33f}};
-  return scale[std::min(depth, 5)];
-}
-
-struct Lines {
-  std::vector<Segment> segments;
-  Colour colour;
-};
-constexpr Colour kRed{.8f, .1f, .1f}, kBlue{.05f, .2f, .75f};
-
-class Studio {
- public:
-  explicit Studio(data::ControlMesh mesh) : mesh_(std::move(mesh)) {}
-
-  fast::DrawList<float> frame(const fast::DepthOptions& depth, const fast::Camera& seen_by,
-                              const fast::CrackOptions& cracks = {}) const {
-    fast::TessellatorOptions options;
-    options.cracks = cracks;
-    fast::Tessellator<float> tessellator(mesh_, options);
-    fast::DrawList<float> out;
-    tessellator.frame(depth, seen_by, out);
-    return out;
-  }
-  Image shot(const fast::DrawList<float>& frame, const fast::Camera& camera, const Appearance& appearance,
-             const std::vector<Lines>& lines = {}) {
-    static Renderer renderer(kSize, kSize, 4);
-    renderer.begin(camera, 20);
-    renderer.draw(frame, appearance);
-    for (const Lines& some : lines) renderer.draw(some.segments, some.colour);
-    return renderer.image();
-  }
-  const data::ControlMesh& mesh() const { return mesh_; }
-
- private:
-  data::ControlMesh mesh_;
-};
-
-Appearance by_depth(bool wireframe) {
-  Appearance a;
-  a.colour = [](const fast::Draw& draw) {
-    return draw.kind == fast::Kind::kFan ? Colour{.85f, .45f, .1f} : depth_colour(draw.depth);
-  };
-  a.wireframe = wireframe;
-  return a;
-}
-
-fast::DepthOptions strategy(fast::Strategy name, int depth = 4) {
-  fast::DepthOptions options;
-  options.strategy = name;
-  options.depth = depth;
-  return options;
-}
 
 fast::Point3 point(const reference::Vec3<double>& p) {
   return {p.x, p.y, p.z};
@@ -171,37 +101,6 @@ std::vector<Segment> limit_normals(const data::ControlMesh& mesh) {
   return lines;
 }
 
-fast::CrackOptions cracks(fast::Repair repair, fast::FanCentre centre = fast::FanCentre::kLimit) {
-  fast::CrackOptions options;
-  options.repair = repair;
-  options.centre = centre;
-  return options;
-}
-
-Studio bumpy(int faces) {
-  return Studio(data::bumpy_sphere(faces, kSphereSeed));
-}
-
-/// Random depths, near enough to see the cracks; unlit lines between the triangles would hide them.
-Image close_up(fast::Repair repair) {
-  Studio studio = bumpy(200);
-  fast::Camera close = camera_at(32, 1.9);
-  close.target = {.35, .1, .6};
-  return studio.shot(studio.frame(strategy(fast::Strategy::kRandom), close, cracks(repair)), close,
-                     by_depth(true));
-}
-
-Image fan_centres() {
-  Studio studio(data::icosahedron());
-  const fast::DepthOptions coarse = strategy(fast::Strategy::kRandom, 3);
-  const fast::Camera whole = camera_at(20, 5.2);
-  const auto with = [&](fast::FanCentre centre) {
-    return studio.shot(studio.frame(coarse, whole, cracks(fast::Repair::kFan, centre)), whole,
-                       by_depth(true));
-  };
-  return beside({with(fast::FanCentre::kFlatLimit), with(fast::FanCentre::kLimit)});
-}
-
 Image two_sizes() {
   const fast::Camera front = camera_at(20, 3.7);
   std::vector<Image> images;
@@ -242,12 +141,14 @@ const std::vector<Picture> kPictures{
        Studio studio = bumpy(200);
        return normal_cone(studio);
      }},
-    {"figure-6", [] { return close_up(fast::Repair::kNone); }},
-    {"figure-7", [] { return close_up(fast::Repair::kFan); }},
+    {"figure-6", [] { return cracks_close_up(fast::Repair::kNone); }},
+    {"figure-7", [] { return cracks_close_up(fast::Repair::kFan); }},
     {"figure-8", fan_centres},
     {"figure-10", two_sizes},
     {"figure-13", random_depths},
     {"figure-14", by_curvature},
+    {"picture-cracks", cracks_and_repair},
+    {"picture-error", error_beside_control_mesh},
 };
 
 }  // namespace

@@ -9,20 +9,23 @@
 
 namespace limitcheck::bench {
 
-/// figure-3, figure-6, figure-7, figure-8, figure-10, figure-13, figure-14.
+/// figure-3, figure-6, figure-7, figure-8, figure-10, figure-13, figure-14; picture-cracks and picture-error,
+/// for the README.
 const std::vector<std::string>& picture_names();
 
 /// One of these as NAME.png in the folder.
 void draw_picture(const std::string& name, const std::filesystem::path& folder);
 
 /// Behind Fig. 11 and Fig. 12: for each size of bumpy sphere and each strategy what a frame holds, how many
-/// of them per second each engine makes and draws, and their error in pixels. quick: fewer frames.
+/// of them per second each engine makes and draws, and how they look. Times of one thread are processor time,
+/// those of all threads time on the wall; each the least of three repetitions, with the spread. quick: fewer
+/// frames.
 nlohmann::ordered_json sphere_table(bool quick);
 
-/// `curves`: triangles, frames per second and errors in pixels of uniform depth (from the sphere table) and
-/// of the adaptive strategies from coarse to fine settings, with the paper's fans and with stitched borders.
-/// `rows`: what each needs for the error that uniform depth 2, 3 or 4 has. quick: three sizes.
-nlohmann::ordered_json matched_error_table(const nlohmann::ordered_json& spheres, bool quick);
+/// `curves`: triangles, frames per second and pictures of uniform depth and of the adaptive strategies from
+/// coarse to fine settings, with the paper's fans and with stitched borders. `rows`: what each needs to look
+/// as good as uniform depth 2, 3 or 4, by each measure. quick: two sizes.
+nlohmann::ordered_json matched_error_table(bool quick);
 
 /// A bumpy sphere tessellated by the combined strategy, triangle by triangle, with depth, kind and the errors
 /// at its middle: position in units of the diagonal, interpolated normal in degrees. Numbers of float32 as
@@ -33,8 +36,15 @@ nlohmann::ordered_json model();
 /// 32-bit integers as base 64, with the control face of each triangle; or `error`, why it cannot be shown.
 nlohmann::ordered_json shapes(const std::vector<std::string>& names);
 
-/// The trends T1 to T10 that a reproduction must show: an array of id, statement, held, figures.
-nlohmann::ordered_json check_trends(const nlohmann::ordered_json& spheres,
-                                    const nlohmann::ordered_json& matched, bool quick);
+/// What the text says of time, measured: an array of id, outcome ("as the text says", "not as the text says"
+/// or "could not be measured"), figures and series, [{name, unit, at, values}].
+nlohmann::ordered_json timings(const nlohmann::ordered_json& spheres, bool quick);
+
+/// Of a quantity that the text says exceeds a bound, measured with repetitions that differed by a factor
+/// `spread`: what their disagreement leaves to be said. The words are those of timings().
+const char* outcome(double quantity, double bound, double spread);
+
+/// Programs that waited for a processor in the last minute, as the system says, with the time.
+double load_average();
 
 }  // namespace limitcheck::bench

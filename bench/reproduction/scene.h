@@ -2,28 +2,21 @@
 // What the paper's timings were taken of: bumpy spheres that turn before a fixed viewer.     [mueller2000, 6]
 #pragma once
 
-#include <cmath>
-#include <numbers>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "fast/camera.h"
 #include "fast/depth.h"
 #include "fast/frame.h"
+#include "verify/picture/judge.h"
 
 namespace limitcheck::bench {
 
 inline constexpr int kSphereFaces[] = {200, 400, 800, 1200, 1600, 2000, 2400, 2800, 3200, 3600, 4000};
 inline constexpr std::uint64_t kSphereSeed = 1;
 
-/// The viewer of all timings: distance 4 for a sphere of radius 0.5 to 1.5, 1024 x 768 pixels. (The paper
-/// does not say.) Turning the object is moving the viewer round it.
-inline fast::Camera viewer(double turn) {
-  fast::Camera camera;
-  const double angle = 2 * std::numbers::pi * turn;
-  camera.eye = {4 * std::sin(angle), 1, 4 * std::cos(angle)};
-  return camera;
-}
+using verify::viewer;
 
 /// One frame for the viewer, with provenance.
 inline fast::DrawList<float> frame_seen(const data::ControlMesh& mesh, const fast::DepthOptions& depth,
@@ -49,18 +42,16 @@ struct NamedStrategy {
 /// uniform-1 .. uniform-5, project-sphere, combined.
 inline std::vector<NamedStrategy> strategies() {
   std::vector<NamedStrategy> list;
-  for (int depth = 1; depth <= 5; ++depth) {
-    fast::DepthOptions options;
-    options.strategy = fast::Strategy::kUniform;
-    options.depth = depth;
-    list.push_back({"uniform-" + std::to_string(depth), options});
-  }
-  for (const auto strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined}) {
-    fast::DepthOptions options;
-    options.strategy = strategy;
-    list.push_back({std::string(fast::name(strategy)), options});
-  }
+  for (int depth = 1; depth <= 5; ++depth)
+    list.push_back({"uniform-" + std::to_string(depth), verify::uniform(depth)});
+  for (const auto strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined})
+    list.push_back({std::string(fast::name(strategy)), verify::adaptive(strategy, 60)});
   return list;
+}
+
+/// The uniform depth whose picture counts as the surface: the engine draws some millions of triangles of it.
+inline int truth_depth(int faces) {
+  return faces <= 800 ? 7 : 6;
 }
 
 }  // namespace limitcheck::bench

@@ -27,14 +27,14 @@ Json sphere_table(bool quick) {
     renderer.finish();
   };
 
-  const double seconds = quick ? .03 : .3;
+  const double seconds = quick ? .03 : .2;
   const int frames = quick ? 8 : 36;
   Json rows = Json::array();
   cli::Progress progress;
   std::size_t done = 0;
   for (const int faces : kSphereFaces) {
     const data::ControlMesh mesh = data::bumpy_sphere(faces, kSphereSeed);
-    const PixelErrorMeter meter(mesh, 5);
+    const verify::Judge judge(mesh, truth_depth(faces));
     const Frame window = sliding_window(mesh, 1), window_all = sliding_window(mesh, all);
     const Frame stream = row_stream(mesh, 1), stream_all = row_stream(mesh, all);
     for (const auto& [name, depth] : strategies()) {
@@ -42,31 +42,24 @@ Json sphere_table(bool quick) {
       // Counts must not depend on the machine's speed; those of uniform depth are the same in every frame.
       const bool adaptive = depth.strategy != fast::Strategy::kUniform;
       const Turn counted =
-          turn(window, depth, frames, adaptive ? std::numeric_limits<double>::infinity() : seconds);
+          turn(window, depth, frames, adaptive ? std::numeric_limits<double>::infinity() : seconds,
+               Clock::kProcessor);
       Json row{{"faces", faces}, {"strategy", name}};
       row.update(counts(counted));
       row["sliding_window"] = timing(counted);
-      row["sliding_window_all_threads"] = timing(turn(window_all, depth, frames, seconds));
-      row["sliding_window_drawn"] = timing(turn(window, depth, frames, seconds, draw));
-      row["row_stream"] = timing(turn(stream, depth, frames, seconds));
-      row["row_stream_all_threads"] = timing(turn(stream_all, depth, frames, seconds));
-      row["row_stream_drawn"] = timing(turn(stream, depth, frames, seconds, draw));
-      const PixelError error = turned_error(mesh, meter, depth);
-      row["error_pixels"] = {{"silhouette_99", error.silhouette_99},
-                             {"silhouette_worst", error.silhouette_worst},
-                             {"interior_99", error.interior_99},
-                             {"interior_worst", error.interior_worst},
-                             {"mean", error.mean},
-                             {"samples", error.samples}};
+      row["sliding_window_all_threads"] = timing(turn(window_all, depth, frames, seconds, Clock::kWall));
+      row["sliding_window_drawn"] = timing(turn(window, depth, frames, seconds, Clock::kProcessor, draw));
+      row["row_stream"] = timing(turn(stream, depth, frames, seconds, Clock::kProcessor));
+      row["row_stream_all_threads"] = timing(turn(stream_all, depth, frames, seconds, Clock::kWall));
+      row["row_stream_drawn"] = timing(turn(stream, depth, frames, seconds, Clock::kProcessor, draw));
+      row["picture"] = picture(judge.see(depth).difference);
       rows.push_back(std::move(row));
     }
   }
   progress.clear();
-  return {{"renderer", renderer.name()},
-          {"threads", all},
-          {"viewport", {camera.width, camera.height}},
-          {"seed", kSphereSeed},
-          {"rows", std::move(rows)}};
+  return {
+      {"renderer", renderer.name()}, {"threads", all},         {"viewport", {camera.width, camera.height}},
+      {"seed", kSphereSeed},         {"load", load_average()}, {"rows", std::move(rows)}};
 }
 
 }  // namespace limitcheck::bench

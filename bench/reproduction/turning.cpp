@@ -2,9 +2,10 @@
 #include "bench/reproduction/turning.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <memory>
+#include <vector>
 
 #include "bench/reproduction/scene.h"
 #include "fast/row_stream/stream_frame.h"
@@ -13,12 +14,9 @@ namespace limitcheck::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+constexpr int kRepetitions = 3;
 
 fast::TessellatorOptions options(int threads, fast::Repair repair = fast::Repair::kFan) {
   fast::TessellatorOptions o;
@@ -27,7 +25,22 @@ fast::TessellatorOptions options(int threads, fast::Repair repair = fast::Repair
   return o;
 }
 
+void add(fast::FrameStats& sum, const fast::FrameStats& s) {
+  sum.faces += s.faces, sum.culled += s.culled, sum.pairs += s.pairs, sum.singletons += s.singletons;
+  sum.fans += s.fans, sum.strips += s.strips, sum.triangles += s.triangles, sum.vertices += s.vertices;
+  sum.limit_points += s.limit_points;
+  sum.seconds_heuristics += s.seconds_heuristics, sum.seconds_pairing += s.seconds_pairing;
+  sum.seconds_planning += s.seconds_planning, sum.seconds_evaluation += s.seconds_evaluation;
+  sum.seconds_total += s.seconds_total;
+}
+
 }  // namespace
+
+double seconds_of(Clock clock) {
+  timespec t{};
+  clock_gettime(clock == Clock::kProcessor ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 Frame sliding_window(const data::ControlMesh& mesh, int threads, fast::Repair repair) {
   auto engine = std::make_shared<fast::Tessellator<float>>(mesh, options(threads, repair));
@@ -43,30 +56,38 @@ Frame row_stream(const data::ControlMesh& mesh, int threads) {
   };
 }
 
-Turn turn(const Frame& frame, const fast::DepthOptions& depth, int frames, double seconds,
+Turn turn(const Frame& frame, const fast::DepthOptions& depth, int frames, double seconds, Clock clock,
           const std::function<void(const fast::Camera&, const fast::DrawList<float>&)>& shown) {
   fast::DrawList<float> out;
   frame(depth, viewer(0), out);  // tables of the heuristics and memory are not part of a frame
   Turn result;
-  for (int k = 0; k < frames && (k == 0 || result.seconds < seconds); ++k) {
-    // Far apart first: a turn that is cut short has still seen all sides.
-    const auto camera = viewer(std::fmod(k * .6180339887498949, 1.));
-    const auto start = Clock::now();
-    const fast::FrameStats s = frame(depth, camera, out);
-    const double tessellated = since(start);
-    if (shown) shown(camera, out);
-    const double whole = since(start);
-    result.seconds += whole;
-    if (shown) result.shown += whole - tessellated;
-    ++result.frames;
-    auto& sum = result.sum;
-    sum.faces += s.faces, sum.culled += s.culled, sum.pairs += s.pairs, sum.singletons += s.singletons;
-    sum.fans += s.fans, sum.strips += s.strips, sum.triangles += s.triangles, sum.vertices += s.vertices;
-    sum.limit_points += s.limit_points;
-    sum.seconds_heuristics += s.seconds_heuristics, sum.seconds_pairing += s.seconds_pairing;
-    sum.seconds_planning += s.seconds_planning, sum.seconds_evaluation += s.seconds_evaluation;
-    sum.seconds_total += s.seconds_total;
+  std::vector<double> least;
+  double all = 0, drawing = 0, fastest = 0, slowest = 0;
+  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+    double sum = 0;
+    for (int k = 0; k < frames && (repetition > 0 ? k < result.frames : k == 0 || sum < seconds); ++k) {
+      // Far apart first: a turn that is cut short has still seen all sides.
+      const auto camera = viewer(std::fmod(k * .6180339887498949, 1.));
+      const double start = seconds_of(clock);
+      const fast::FrameStats stats = frame(depth, camera, out);
+      const double tessellated = seconds_of(clock);
+      if (shown) shown(camera, out);
+      const double end = seconds_of(clock);
+      sum += end - start, drawing += end - tessellated;
+      if (repetition == 0) {
+        ++result.frames;
+        least.push_back(end - start);
+        add(result.sum, stats);
+      } else {
+        least[static_cast<std::size_t>(k)] = std::min(least[static_cast<std::size_t>(k)], end - start);
+      }
+    }
+    all += sum;
+    fastest = repetition == 0 ? sum : std::min(fastest, sum), slowest = std::max(slowest, sum);
   }
+  for (const double s : least) result.seconds += s;
+  result.spread = fastest > 0 ? slowest / fastest : 1;
+  result.shown_share = shown && all > 0 ? drawing / all : 0;
   return result;
 }
 
@@ -82,37 +103,21 @@ Json counts(const Turn& t) {
 }
 
 Json timing(const Turn& t) {
-  const auto share = [&](double s) { return s / t.seconds; };
+  const auto share = [&](double s) { return (1 - t.shown_share) * s / t.sum.seconds_total; };
   return {{"frames", t.frames},
           {"frames_per_second", t.frames / t.seconds},
+          {"spread", t.spread},
           {"stages",
            {{"heuristics", share(t.sum.seconds_heuristics)},
             {"pairing", share(t.sum.seconds_pairing)},
             {"cracks", share(t.sum.seconds_planning)},
             {"window", share(t.sum.seconds_evaluation)},
-            {"drawing", share(t.shown)}}}};
+            {"drawing", t.shown_share}}}};
 }
 
-PixelError turned_error(const data::ControlMesh& mesh, const PixelErrorMeter& meter,
-                        const fast::DepthOptions& depth, fast::Repair repair) {
-  auto all = options(0, repair);
-  all.provenance = true;
-  fast::Tessellator<float> engine(mesh, all);
-  fast::DrawList<float> out;
-  PixelError worst;
-  constexpr int kViews = 3;
-  for (int view = 0; view < kViews; ++view) {
-    const auto camera = viewer(static_cast<double>(view) / kViews);
-    engine.frame(depth, camera, out);
-    const PixelError e = meter.measure(out, camera, 8000);
-    worst.silhouette_99 = std::max(worst.silhouette_99, e.silhouette_99);
-    worst.interior_99 = std::max(worst.interior_99, e.interior_99);
-    worst.silhouette_worst = std::max(worst.silhouette_worst, e.silhouette_worst);
-    worst.interior_worst = std::max(worst.interior_worst, e.interior_worst);
-    worst.mean += e.mean / kViews;
-    worst.samples += e.samples;
-  }
-  return worst;
+Json picture(const verify::Difference& d) {
+  return {{"mean", d.mean},   {"median", d.median},   {"percentile_99", d.percentile_99},
+          {"share", d.share}, {"missing", d.missing}, {"extra", d.extra}};
 }
 
 }  // namespace limitcheck::bench

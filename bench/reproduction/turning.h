@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The object turned before the viewer: what frames hold, how long they take and how far they are off.
+// The object turned before the viewer: what frames hold, how long they take and how they look.
 #pragma once
 
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "bench/reproduction/pixel_error.h"
 #include "data/control_mesh.h"
 #include "fast/camera.h"
 #include "fast/crack.h"
 #include "fast/depth.h"
 #include "fast/frame.h"
+#include "verify/picture/difference.h"
 
 namespace limitcheck::bench {
 
@@ -22,26 +22,31 @@ using Frame =
 Frame sliding_window(const data::ControlMesh& mesh, int threads, fast::Repair repair = fast::Repair::kFan);
 Frame row_stream(const data::ControlMesh& mesh, int threads);
 
-/// Sums over the frames of a turn.
+/// What passes: processor time of this process, which other programs on the machine do not add to; or time on
+/// the wall, for several threads at once.
+enum class Clock { kProcessor, kWall };
+/// Since some moment in the past.
+double seconds_of(Clock clock);
+
+/// Some frames, each taken several times.
 struct Turn {
   int frames = 0;
-  double seconds = 0;  // tessellated and shown
-  double shown = 0;    // of these: shown
-  fast::FrameStats sum;
+  double seconds = 0;      // tessellated and shown, of each frame the least time of its repetitions
+  double spread = 1;       // the slowest repetition of all frames over the fastest
+  double shown_share = 0;  // of the time: shown
+  fast::FrameStats sum;    // of one repetition
 };
 
-/// At least one frame; more of them, evenly round, until the time is up.
-Turn turn(const Frame& frame, const fast::DepthOptions& depth, int frames, double seconds,
+/// At least one frame; more of them, evenly round, until the time is up; then all of them again.
+Turn turn(const Frame& frame, const fast::DepthOptions& depth, int frames, double seconds, Clock clock,
           const std::function<void(const fast::Camera&, const fast::DrawList<float>&)>& shown = {});
 
 /// Means per frame: triangles, strips, fans, pairs, singletons, culled share, limit points.
 nlohmann::ordered_json counts(const Turn& turn);
-/// Frames per second, and the shares of the stages in the
-/// whole time: heuristics, pairing, cracks, window, drawing.
+/// Frames per second, the spread, and the shares of the stages in the whole time: heuristics, pairing,
+/// cracks, window, drawing.
 nlohmann::ordered_json timing(const Turn& turn);
-
-/// The errors of three views, 120 degrees apart: the worst of each, and the mean of the means.
-PixelError turned_error(const data::ControlMesh& mesh, const PixelErrorMeter& meter,
-                        const fast::DepthOptions& depth, fast::Repair repair = fast::Repair::kFan);
+/// How a strategy looks: mean, median, percentile_99, share, missing, extra; see verify::Difference.
+nlohmann::ordered_json picture(const verify::Difference& difference);
 
 }  // namespace limitcheck::bench

@@ -11,6 +11,7 @@ import machine
 COUNT_TOLERANCE = 0.005  # counts of kernels repeat exactly, those of set-up, which allocates, within 0.0015
 TIME_EFFECT = 0.05       # smaller differences are not worth anybody's time
 TIME_ALPHA = 0.01        # of the test of each round
+SUSPECT = 0.5            # from this part of a limit on, a row is worth a look
 
 
 def samples(timing):
@@ -48,8 +49,9 @@ def time_row(name, judged):
     """A difference counts when every round shows it alike."""
     signs = {sign for _, _, sign in judged}
     verdict = {1: "slower", -1: "faster"}.get(signs.pop() if len(signs) == 1 else 0, "")
+    near = any(p < TIME_ALPHA and abs(ratio - 1) >= SUSPECT * TIME_EFFECT for ratio, p, _ in judged)
     return {"name": name, "kind": "time", "ratio": statistics.median(r for r, _, _ in judged),
-            "p": max(p for _, p, _ in judged), "verdict": verdict, "rounds": len(judged)}
+            "p": max(p for _, p, _ in judged), "verdict": verdict, "rounds": len(judged), "suspect": near and not verdict}
 
 
 def judge_times(a, b):
@@ -69,8 +71,25 @@ def judge_counts(a, b):
         x, y = a["instructions"][name], b["instructions"][name]
         ratio = y / x
         verdict = "more" if ratio > 1 + COUNT_TOLERANCE else "fewer" if ratio < 1 - COUNT_TOLERANCE else ""
-        rows.append({"name": name, "kind": "instructions", "ratio": ratio, "a": x, "b": y, "verdict": verdict})
+        near = abs(ratio - 1) > SUSPECT * COUNT_TOLERANCE and ratio > 1
+        rows.append({"name": name, "kind": "instructions", "ratio": ratio, "a": x, "b": y, "verdict": verdict,
+                     "suspect": near and not verdict})
     return rows
+
+
+def moved_functions(a, b, most=5):
+    """[(function, instructions in A, in B)] of two profiles {function: instructions}: those that moved most."""
+    moved = [(name, a.get(name, 0), b.get(name, 0)) for name in a.keys() | b.keys() if a.get(name, 0) != b.get(name, 0)]
+    return sorted(moved, key=lambda row: (-abs(row[2] - row[1]), row[0]))[:most]
+
+
+def worst_first(rows):
+    """What got worse, what is suspect, what got better, the rest; of each the furthest first."""
+    def place(row):
+        worse = row["verdict"] in ("slower", "more")
+        rank = 0 if worse else 1 if row["suspect"] else 2 if row["verdict"] else 3
+        return rank, -abs(math.log(row["ratio"])), row["name"]
+    return sorted(rows, key=place)
 
 
 def unmatched(a, b):
@@ -82,11 +101,14 @@ def names(record):
     return set(samples(record["rounds"][0])) | set(record["instructions"])
 
 
-def result(rows, only_a, only_b, differences=()):
-    """What a comparison says, as --json prints it."""
-    confirmed = [r for r in rows if r["verdict"] == "more" or (r["verdict"] == "slower" and r["rounds"] >= 2)]
-    return {"comparable": not differences, "differences": list(differences), "rows": rows, "only_a": only_a,
-            "only_b": only_b, "regressions": len(confirmed)}
+def result(rows, only_a, only_b, differences=(), times_decide=True):
+    """What a comparison says, as --json prints it. Times of two records, taken at different hours, decide nothing: identical
+    programs have differed by a factor of seven so. They are advisories."""
+    slower = [r for r in rows if r["verdict"] == "slower" and r["rounds"] >= 2]
+    more = [r for r in rows if r["verdict"] == "more"]
+    return {"comparable": not differences, "differences": list(differences), "rows": worst_first(rows), "only_a": only_a,
+            "only_b": only_b, "regressions": len(more) + (len(slower) if times_decide else 0),
+            "advisories": 0 if times_decide else len(slower)}
 
 
 def compare(a, b):
@@ -94,4 +116,4 @@ def compare(a, b):
     differences = machine.differences(a["identity"], b["identity"])
     if differences:
         return result([], [], [], differences)
-    return result(judge_counts(a, b) + judge_times(a, b), *unmatched(names(a), names(b)))
+    return result(judge_counts(a, b) + judge_times(a, b), *unmatched(names(a), names(b)), times_decide=False)

@@ -121,6 +121,9 @@ def run(kinds, programs, update, unknown_skips, write, progress, folder=BASELINE
         progress("")
         print(f"{kind}: {count} costs, {len(rows)} unlike the baseline"
               + (f" by more than {decide.COUNT_TOLERANCE:.1%}" if kind == "instructions" else ""))
+        if kind == "instructions":
+            print("  Counts are blind to caches and latency, to branches and to how well instructions overlap; times see these:\n"
+                  "  limitcheck bench compare --against FOLDER")
         for row in rows:
             print(told(*row))
         if rows:

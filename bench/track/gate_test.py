@@ -51,6 +51,10 @@ class MadeUp(unittest.TestCase):
     def test_what_equals_its_baseline_passes(self):
         self.assertEqual(self.run_gate()[0], 0)
 
+    def test_a_gate_that_passes_says_to_what_it_is_blind(self):
+        self.assertIn("blind to caches and latency", self.run_gate(["instructions"])[1])
+        self.assertNotIn("blind", self.run_gate(["exact"])[1])
+
     def test_one_flop_more_or_less_is_told_with_both_numbers_and_what_to_do(self):
         for flops, percent in ((9346, "+0.01%"), (9344, "-0.01%"), (18690, "+100.00%")):
             self.exact = {**self.exact, "flops/row-stream/torus/depth:3": flops}

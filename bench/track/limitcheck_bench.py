@@ -20,6 +20,7 @@ import trend  # noqa: E402
 import turns  # noqa: E402
 
 HELD, FINDINGS, BAD_INPUT = 0, 1, 2
+EXPLAINED = 3  # rows whose counts moved: so many are told by function
 
 
 class UsageError(Exception):
@@ -38,6 +39,9 @@ def write_whole(path, text):
     try:
         with os.fdopen(handle, "w", encoding="utf-8") as file:
             file.write(text)
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(name, 0o666 & ~mask)  # a temporary file is its owner's alone
         os.replace(name, path)
     except BaseException:
         os.unlink(name)
@@ -103,7 +107,13 @@ def in_turns(a, b, suite, counts_of_a, differences):
     if counts_of_a:
         of_b = {"instructions": measure.instruction_counts(b, progress)}
     lost, new = decide.unmatched(of_a["instructions"], of_b["instructions"])
-    return decide.result(decide.judge_counts(of_a, of_b) + rows, only_a + lost, only_b + new)
+    result = decide.result(decide.judge_counts(of_a, of_b) + rows, only_a + lost, only_b + new)
+    moved = [row for row in result["rows"] if row["kind"] == "instructions" and row["verdict"]]
+    for row in moved[:EXPLAINED]:
+        progress(f"functions of {row['name']}")
+        profiles = (measure.functions_of(side, row["name"]) for side in (a, b))
+        row["functions"] = decide.moved_functions(*profiles)
+    return result
 
 
 def compare_with_build(args):
@@ -117,7 +127,7 @@ def compare_records(args):
     """(result, note about how the times were compared)."""
     a = load(args.store, args.a)
     if args.b:
-        return decide.compare(a, load(args.store, args.b)), "times of two records"
+        return decide.compare(a, load(args.store, args.b)), "times of two records, which decide nothing"
     kept = pathlib.Path(a.get("kept", "/nowhere"))
     if (kept / "timing_turns").is_file():
         differences = machine.differences(a["identity"], measure.identity(args.programs))
@@ -125,7 +135,7 @@ def compare_records(args):
         return result, "times in turns with the kept programs"
     b = measure.measure(args.programs, a["suite"], counts=bool(a["instructions"]), progress=progress)
     lost = f"the programs of {args.a} are no longer in {kept}" if "kept" in a else f"the programs of {args.a} were not kept"
-    return decide.compare(a, b), f"{lost} (bench run --keep), so its times are of another hour: less sharp on a busy machine"
+    return decide.compare(a, b), f"{lost} (bench run --keep), so its times are of another hour, and decide nothing"
 
 
 def this_build(args):
@@ -144,11 +154,32 @@ def command_compare(args):
     progress("")
     if args.json:
         print(json.dumps(result, indent=1))
+    elif args.markdown and result["comparable"]:
+        print(markdown(*names, result))
     else:
         print_comparison(*names, result, note)
     if not result["comparable"]:
         return BAD_INPUT
     return FINDINGS if result["regressions"] or result["only_a"] else HELD
+
+
+def word(row):
+    return row["verdict"] or ("suspect" if row["suspect"] else "")
+
+
+def markdown(a, b, result):
+    """For a pull request: what is worth a look, worst first."""
+    rows = [row for row in result["rows"] if word(row)]
+    plural = "" if result["regressions"] == 1 else "s"
+    lines = [f"**{result['regressions']} regression{plural}**, {len(rows)} of {len(result['rows'])} rows worth a look "
+             f"(A = {a}, B = {b})", ""]
+    if rows:
+        lines += ["| | B / A | | benchmark |", "|---|---|---|---|"]
+    for row in rows:
+        of_kind = f"{row['a']} → {row['b']}" if "a" in row else f"p = {row['p']:.1e}"
+        lines.append(f"| {word(row)} | {row['ratio']:.3f} | {of_kind} | `{row['name']}` |")
+    lines += [f"- only in {side}: `{name}`" for side, names in (("A", result["only_a"]), ("B", result["only_b"])) for name in names]
+    return "\n".join(lines)
 
 
 def print_comparison(a, b, result, note):
@@ -160,12 +191,17 @@ def print_comparison(a, b, result, note):
     for row in result["rows"]:
         p = f"{row['p']:.1e}" if "p" in row else "exact"
         counts = f": {row['a']} -> {row['b']}" if row["verdict"] and "a" in row else ""
-        print(f"{row['verdict']:9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}{counts}")
+        print(f"{word(row):9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}{counts}")
+        for function, of_a, of_b in row.get("functions", ()):
+            print(f"{'':40}{of_b - of_a:+d} in {function}")
     for side, names in (("A", result["only_a"]), ("B", result["only_b"])):
         for name in names:
             print(f"only in {side}: {name}")
     lost = f", {len(result['only_a'])} benchmarks of A lost" if result["only_a"] else ""
     plural = "" if result["regressions"] == 1 else "s"
+    if result["advisories"]:
+        print(f"{result['advisories']} slower by times of different hours, which decide nothing: time both builds in turns "
+              "(limitcheck bench compare --against FOLDER, or bench run --keep)")
     print(f"{result['regressions']} regression{plural}{lost}. A difference in time counts when two rounds show at least "
           f"{decide.TIME_EFFECT:.0%} with p < {decide.TIME_ALPHA}; one in instructions from {decide.COUNT_TOLERANCE:.1%} on.")
 
@@ -180,9 +216,12 @@ def command_self_test(args):
 
 
 def command_trend(args):
-    records = [load(args.store, str(path)) for path in sorted(args.store.glob("*/*.json"))]
+    records = [{**load(args.store, str(path)), "label": path.stem} for path in sorted(args.store.glob("*/*.json"))]
     if not records:
         raise UsageError(f"{args.store} has no records; make one with `limitcheck bench run`")
+    if args.markdown:
+        print(trend.markdown(records))
+        return HELD
     write_whole(args.output, trend.page(records))
     print(f"{args.output}: {len(records)} records")
     return HELD
@@ -229,6 +268,7 @@ def parser():
     compare.add_argument("--suite", default="standard", help=f"with --against: {suites}")
     compare.add_argument("--no-counts", action="store_true", help="with --against: times only")
     compare.add_argument("--json", action="store_true", help="print one JSON document")
+    compare.add_argument("--markdown", action="store_true", help="print what is worth a look as Markdown, for a pull request")
     takes_store(compare)
     takes_programs(compare)
 
@@ -254,6 +294,7 @@ def parser():
     drawn = command("trend", command_trend, "draw the history of all records as a page")
     drawn.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("trend.html"), metavar="FILE",
                        help="the page (default: %(default)s)")
+    drawn.add_argument("--markdown", action="store_true", help="print the steps as Markdown instead")
     takes_store(drawn)
     return top
 

@@ -54,11 +54,39 @@ def counted_cases(programs):
     return lines[0], lines[1:]
 
 
-def instructions_of(programs, case):
+def callgrind(programs, case, profile):
     # The environment lies on the stack and moves it, and with it what the C library does by alignment.
-    _, text = run_program(["valgrind", "--tool=callgrind", "--collect-atstart=no", "--callgrind-out-file=/dev/null",
-                           str(programs / "instruction_case"), case], {"PATH": os.environ.get("PATH", os.defpath)})
-    return int(re.search(r"Collected : (\d+)", text).group(1))
+    return run_program(["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--callgrind-out-file={profile}",
+                        str(programs / "instruction_case"), case], {"PATH": os.environ.get("PATH", os.defpath)})[1]
+
+
+def instructions_of(programs, case):
+    return int(re.search(r"Collected : (\d+)", callgrind(programs, case, "/dev/null")).group(1))
+
+
+def own_costs(profile):
+    """{function: instructions in it, without those that it calls}, of a file of callgrind."""
+    names, costs, function, called = {}, {}, None, False
+    for line in profile.splitlines():
+        key, _, value = line.partition("=")
+        if key == "calls":
+            called = True  # the next line is the cost of the call
+        elif key in ("fn", "cfn"):
+            number, name = re.fullmatch(r"(\(\d+\))\s*(.*)", value).groups()
+            names.setdefault(number, name)
+            if key == "fn":
+                function = names[number]
+        elif function and re.match(r"[+*\d-]", line):
+            if not called:
+                costs[function] = costs.get(function, 0) + int(line.split()[-1])
+            called = False
+    return costs
+
+
+def functions_of(programs, case):
+    with tempfile.NamedTemporaryFile(suffix=".callgrind") as out:
+        callgrind(programs, case, out.name)
+        return own_costs(pathlib.Path(out.name).read_text(encoding="utf-8"))
 
 
 def instruction_counts(programs, progress, pattern=""):

@@ -20,7 +20,8 @@ PAGE = """<!doctype html>
 td,th{{padding:.1rem .8rem .1rem 0;text-align:left;vertical-align:top}}</style>
 <h1>Performance over time</h1>
 <p>One section per machine, compiler, flags and vector targets: figures of different sections are not comparable. One panel
-per benchmark, one point per record, in the order of their dates; a star marks a working tree with changes on top of its commit. Times are medians of all repetitions, the band holds the
+per benchmark, one point per record, in the order of their dates, under its label or commit; a star marks a working tree with changes. A dashed red line marks a step: a level that
+later records keep. Times are medians of all repetitions, the band holds the
 middle half of them; instruction counts are exact. Axes do not start at zero; they span at least 10 % either way.</p>
 {sections}</html>
 """
@@ -41,8 +42,51 @@ def times_of(record):
 
 
 def tick(number, record):
-    """"1a2b3c4 #7"; a star for a working tree with changes."""
-    return f"{record['commit'][:7]}{'*' if record['commit'].endswith('-dirty') else ''} #{number + 1}"
+    """"before #1": the label, or the commit with a star for a working tree with changes: "1a2b3c4* #7"."""
+    commit = f"{record['commit'][:7]}{'*' if record['commit'].endswith('-dirty') else ''}"
+    label = record.get("label", record["commit"])
+    return f"{commit if label == record['commit'] else label} #{number + 1}"
+
+
+def steps(points):
+    """Where a series moves and stays: indices of the first points of new levels. Counts, which repeat, move beyond their
+    tolerance from one record to the next. Of times the medians of up to three records on either side differ by what counts, and
+    no record's middle half reaches across: one slow record is no step."""
+    found = []
+    for k in range(1, len(points)):
+        start = max(found[-1] if found else 0, k - 3)
+        before, after = points[start:k], points[k:k + 3]
+        if points[k]["low"] is None:
+            if abs(after[0]["value"] / before[-1]["value"] - 1) > decide.COUNT_TOLERANCE:
+                found.append(k)
+            continue
+        ratio = statistics.median(p["value"] for p in after) / statistics.median(p["value"] for p in before)
+        apart = (min(p["low"] for p in after) > max(p["high"] for p in before)
+                 or max(p["high"] for p in after) < min(p["low"] for p in before))
+        if len(before) >= 2 and len(after) >= 2 and abs(ratio - 1) >= decide.TIME_EFFECT and apart:
+            found.append(k)
+    return found
+
+
+def by_machine(records):
+    groups = {}
+    for record in sorted(records, key=lambda r: r["date"]):
+        groups.setdefault(record["key"], []).append(record)
+    return groups
+
+
+def markdown(records):
+    """The steps of every series as a table, the largest first."""
+    rows = []
+    for some in by_machine(records).values():
+        for (kind, name), points in history(some).items():
+            for k in steps(points):
+                change = points[k]["value"] / points[k - 1]["value"] - 1
+                rows.append((change, f"| `{name}` | {kind} | {100 * change:+.1f} % | {points[k]['record']} |"))
+    lines = [f"{len(records)} records, {len(rows)} step{'' if len(rows) == 1 else 's'}", ""]
+    if rows:
+        lines += ["| benchmark | | change | from |", "|---|---|---|---|"]
+    return "\n".join(lines + [row for _, row in sorted(rows, reverse=True)])
 
 
 def history(records):
@@ -62,11 +106,12 @@ def panel(name, points, order):
     """One benchmark over all records of its machine; a record without it leaves a gap."""
     y = {"field": "value", "type": "quantitative", "title": points[0]["unit"], "axis": {"tickCount": 4},
          "scale": {"domain": [0.9 * min(p["value"] for p in points), 1.1 * max(p["value"] for p in points)], "clamp": True}}
-    x = {"field": "record", "type": "ordinal", "scale": {"domain": order}, "title": "commit",
+    x = {"field": "record", "type": "ordinal", "scale": {"domain": order}, "title": "record",
          "axis": {"labelAngle": -45, "labelOverlap": "greedy" if len(order) > 12 else False}}
     short = name.removesuffix("/real_time").removesuffix("/threads:1")
     title = re.sub(r"/(?=steady|scratch)", "\n", short).split("\n")  # in two lines
     known = {p["record"]: p for p in points}
+    moved = [points[k]["record"] for k in steps(points)]
     values = [known.get(record, {"record": record, "value": None, "low": None, "high": None}) for record in order]
     return {
         "title": {"text": title, "fontSize": 11, "anchor": "start"}, "width": 270, "height": 110, "data": {"values": values},
@@ -74,6 +119,8 @@ def panel(name, points, order):
             {"mark": {"type": "area", "opacity": 0.25},
              "encoding": {"x": x, "y": {**y, "field": "low"}, "y2": {"field": "high"}}},
             {"mark": {"type": "line", "point": True, "invalid": "break-paths-show-path-domains"}, "encoding": {"x": x, "y": y}},
+            {"mark": {"type": "rule", "strokeDash": [4, 3], "color": "#c0341d"}, "transform": [{"filter": {"field": "record", "oneOf": moved}}],
+             "encoding": {"x": x}},
         ],
     }
 
@@ -85,7 +132,7 @@ def specification(panels, order):
 
 def draw(spec):
     if not (REPORT / "node_modules").is_dir():
-        raise measure.MeasureError(f"drawing needs Vega-Lite: npm install --prefix {REPORT}")
+        raise measure.MeasureError(f"drawing needs Vega-Lite: npm ci --ignore-scripts --prefix {REPORT}")
     with tempfile.NamedTemporaryFile("w", suffix=".vl.json") as file:
         json.dump(spec, file)
         file.flush()
@@ -100,11 +147,8 @@ def fact(value):
 
 
 def page(records):
-    by_key = {}
-    for record in sorted(records, key=lambda r: r["date"]):
-        by_key.setdefault(record["key"], []).append(record)
     sections = []
-    for key, some in by_key.items():
+    for key, some in by_machine(records).items():
         facts = "".join(f"<tr><th>{html.escape(n)}<td>{fact(v)}" for n, v in some[0]["identity"].items())
         facts += f"<tr><th>records<td>{len(some)}, {fact(some[0]['date'][:10])} to {fact(some[-1]['date'][:10])}"
         sections.append(f"<h2>{html.escape(some[0]['identity']['machine'])} <small>{html.escape(key)}</small></h2><table>{facts}</table>")

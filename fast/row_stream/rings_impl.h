@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fast/row_stream/rings.h"
+#include "fast/vertex_normal.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -119,9 +120,14 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scra
     normal = {N::tangent(limit.along.x, limit.across.x), N::tangent(limit.along.y, limit.across.y),
               N::tangent(limit.along.z, limit.across.z)};
   } else {
-    bool degenerate = false;
-    normal = unit_normal(limit, centre, around, !open, degenerate);
-    degenerate_normals_ += degenerate ? 1 : 0;
+    constexpr double kFarthest = 4;  // in a mesh of size 1, see `place`
+    normal = vertex_normal<Wide>(
+        limit.along, limit.across, centre, around,
+        [&] {
+          ++degenerate_normals_;
+          return substitute_normal<Wide>(centre, {points + start, n}, open, kParallel<double>);
+        },
+        kFarthest);
   }
   put_corner(v, centre, weights, limit, normal);
 }
@@ -176,6 +182,7 @@ void BasicRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const R
       widen<T>(Vec3<T>{placement_.centre[0], placement_.centre[1], placement_.centre[2]});
   put(CornerBlock::kLimit, NumberTraits<T>::widen(placement_.unit) * limit.position + origin);
   put(CornerBlock::kLimit + 3, normal);
+  for (int c = 3; c < 6; ++c) head[CornerBlock::kLimit + c] = head[CornerBlock::kLimit + c] + T(0);  // no -0
 }
 
 }  // namespace limitcheck::fast::row_stream

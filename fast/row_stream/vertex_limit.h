@@ -5,13 +5,11 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <numbers>
 #include <span>
 #include <type_traits>
 #include <vector>
 
-#include "fast/adjacency.h"
 #include "fast/masks.h"
 #include "fast/vec3.h"
 
@@ -71,8 +69,7 @@ template <class S>
 RingWeights<S> RingWeights<S>::closed(int n) {
   RingWeights w;
   w.make_angles(n, n);
-  const S b = S(3) + S(2) * w.cosine[1];
-  const S a = S(5) / S(8) - b * b / S(64);
+  const S a = loop_a_of(w.cosine[1]);
   w.k0 = S(8) * a / S(n);
   w.k1 = S(5) - S(8) * a;
   w.limit = S(1) / (S(3) * S(n) / (S(8) * a) + S(n));
@@ -132,38 +129,6 @@ VertexLimit<W> open_limit(const Vec3<W>& v, std::span<const Vec3<W>> ring, const
   for (std::size_t k = 1; k + 1 < ring.size(); ++k)
     limit.across = limit.across + weights.sine[k] * (ring[k] - v);
   return limit;
-}
-
-/// The unit normal along x across; where they are parallel or vanish, |product| <= 1e-12 |along| |across|, or
-/// one of them is but the rounding error of its sum, the area-weighted normal of the faces round v, or (0, 0,
-/// 1). The mesh has size 1. [claim D12]
-template <class W>
-Vec3<W> unit_normal(const VertexLimit<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring, bool closed,
-                    bool& degenerate) {
-  using std::sqrt;
-  const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
-  Vec3<W> n = cross(limit.along, limit.across);
-  W size = length(n);
-  const W a = length(limit.along), b = length(limit.across);
-  degenerate = !(size > W(1e-12) * a * b);
-  if (a < W(1e-8) || b < W(1e-8)) [[unlikely]] {
-    W reach(0);
-    for (const Vec3<W>& r : ring) reach = reach + length(r - v);
-    degenerate = degenerate || !(a > W(1e-14) * reach) || !(b > W(1e-14) * reach);
-  }
-  if (degenerate) [[unlikely]] {
-    n = {};
-    W scale(0);
-    for (std::size_t k = 0; k + (closed ? 0 : 1) < ring.size(); ++k)
-      n = n + cross(ring[k] - v, ring[k + 1 < ring.size() ? k + 1 : 0] - v);
-    for (const Vec3<W>& r : ring) {
-      const W reach = length(r - v);
-      if (reach > scale) scale = reach;
-    }
-    size = length(n);
-    if (!(size > W(1e-12) * scale * scale)) n = {W(0), W(0), W(1)}, size = W(1);
-  }
-  return (W(1) / size) * n;
 }
 
 }  // namespace limitcheck::fast::row_stream

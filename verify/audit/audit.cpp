@@ -4,8 +4,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "data/bounding_box.h"
@@ -23,6 +25,35 @@ namespace {
 
 std::string label(const AuditSubject& s) {
   return s.options.empty() ? s.subject->name : fmt::format("{}:{}", s.subject->name, s.options);
+}
+
+bool has_boundary(const data::ControlMesh& mesh) {
+  const Lattice lattice(mesh, 0);
+  return std::any_of(lattice.edges().begin(), lattice.edges().end(),
+                     [](const Lattice::Edge& edge) { return edge.face[1] < 0; });
+}
+
+// Why a subject that says "not supported" offers what it was asked for, by what it declares; empty if it
+// does not, or if nobody declares such a thing: sizes beyond 2^-40 and 2^40, where a float's squares end, and
+// more triangles than 32-bit indices name.
+std::string contradicts_capabilities(const std::exception& error, const AuditSubject& audited,
+                                     const AuditMesh& mesh, std::span<const std::int32_t> asked) {
+  const auto* refusal = dynamic_cast<const SubjectError*>(&error);
+  if (refusal == nullptr || refusal->status() != LC_NOT_SUPPORTED ||
+      dynamic_cast<const NotAsked*>(refusal) != nullptr)
+    return {};
+  double size = 0, triangles = 0;
+  for (const Vector& p : mesh.mesh.positions) size = std::max(size, largest(p));
+  for (const std::int32_t depth : asked) triangles += depth < 0 ? 0 : std::ldexp(1.0, 2 * depth);
+  constexpr double kIndexed = 4294967295.0 / 6;  // halfedges included
+  if (size < std::ldexp(1.0, -40) || size > std::ldexp(1.0, 40) || triangles > kIndexed) return {};
+  try {
+    const lc_capabilities c = capabilities(*audited.subject, audited.options);
+    if (!has_boundary(mesh.mesh)) return "its capabilities do not exclude this";
+    if (c.boundary != LC_BOUNDARY_NONE) return "its capabilities say that it takes open meshes";
+  } catch (const SubjectError&) {  // then there is nothing to hold it to
+  }
+  return {};
 }
 
 }  // namespace
@@ -130,7 +161,9 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     row("tessellates", Status::kHeld, "");
     results.back().of = 1;
   } catch (const std::exception& error) {
-    row("tessellates", status_of(error), error.what());
+    const std::string contradiction = contradicts_capabilities(error, audited, mesh, asked);
+    row("tessellates", contradiction.empty() ? status_of(error) : Status::kFinding,
+        contradiction.empty() ? error.what() : fmt::format("{}; {}", error.what(), contradiction));
     results.back().of = 1;
     results.back().bad = is_bad(results.back());
     for (const Check& check : checks()) rows(check, Status::kNotRun, "there is no tessellation");
@@ -193,7 +226,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.triangles.size())) {
     const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
-    for (Result& r : check_relations(audited, evidence, threads_, told)) results.push_back(std::move(r));
+    for (Result& r : check_relations(audited, evidence, threads_, refusals_[name], told))
+      results.push_back(std::move(r));
   }
 }
 

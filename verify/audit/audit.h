@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "data/control_mesh.h"
 #include "verify/audit/audit_case.h"
 #include "verify/audit/reference_surface.h"
+#include "verify/audit/refusal.h"
 #include "verify/audit/result.h"
 
 namespace limitcheck::verify {
@@ -66,6 +68,7 @@ class Auditor {
   Level level_;
   std::size_t done_ = 0, total_ = 1;
   bool gave_up_ = false;
+  std::map<std::string, std::vector<Refusal>> refusals_;  // by each subject, asked for once
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>>
       cache_;  // of one mesh: by precision, kind of points and weights

@@ -27,6 +27,8 @@ struct AuditMesh {
 struct AuditSubject {
   const lc_subject* subject;
   std::string options;  // "key=value,key=value" or empty
+  /// The same behind verify/subject/in_turns.h, where that has to be in a process of the subject's own.
+  const lc_subject* in_turns = nullptr;
 };
 
 }  // namespace limitcheck::verify

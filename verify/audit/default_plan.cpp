@@ -43,6 +43,8 @@ const std::vector<Case>& small_cases() {
       {"wheel:64:1", 2},
       {"wheel:256:1", 1},
       {"bipyramid:33", 2},
+      // Indices of more than 16 bits; as a sample below, for subjects that cull.
+      {"crowd:16500", 0},
       // Geometry.
       {"flat", 3},
       {"needles", 3},

@@ -14,7 +14,7 @@ namespace limitcheck::verify {
 ///   at depths 0 and 1                the stock shapes
 ///   at depths 2, 3, 5 and 7          small meshes, those of data/generators/awkward_meshes.h among them
 ///   at unequal depths                random ones with culled faces, a view, face 0 culled, all faces culled
-///   a part of a large mesh           whose indices need more than 16 bits
+///   meshes of many tetrahedra        whose indices need more than 16 bits: one at depth 0, a part of another
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
 

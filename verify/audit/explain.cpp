@@ -14,7 +14,8 @@ const std::vector<Explanation>& explanations() {
       "verify/files, verify/projection: Newton's iteration on Stam's evaluator";
   static const std::vector<Explanation> all{
       {"tessellates", "The subject takes a valid control mesh and delivers.",
-       "It must, unless it says that it does not support what was asked.", "verify/subject/subject.h"},
+       "It must, unless its capabilities exclude what was asked. What they say must mean something.",
+       "verify/subject/subject.h"},
       {"written",
        "The arrays lie in the host's memory, are as long as announced, overlap nowhere, were filled to the "
        "last byte and not beyond; indices are in range; the control mesh was left alone.",
@@ -37,7 +38,7 @@ const std::vector<Explanation>& explanations() {
        "1e-3 rad in float, 1e-9 rad in double; doubling with each level beyond 5. More where the tangents "
        "t1, t2 "
        "are so short or so nearly parallel that rounding alone turns the normal farther, by "
-       "10 * 2^depth u M (|t1| + |t2|) / |t1 x t2|: the row says at how many points.",
+       "4 * 2^depth u M (|t1| + |t2|) / |t1 x t2|: the row says at how many points.",
        "differences of points 2^-depth apart lose a bit with each level; measured on float engines "
        "(verify/audit/bounds.h)"},
       {"normal-length", "Distance of the normals' length from 1.", "8 unit roundoffs.",
@@ -86,13 +87,16 @@ const std::vector<Explanation>& explanations() {
        "As for the others, with the larger coordinates.", kRelation},
       {"extreme-scale", "Sizes times 2^40 and 2^-40: squares overflow or vanish in float.", kTwice,
        kRelation},
+      {"state",
+       "Asked eight times, between other meshes and other depths, made again, beside another mesh of as many "
+       "vertices, with 8 threads: the bits of a process that was asked for nothing else.",
+       "No bit.", "verify/subject/in_turns.h; a program is given each mesh in a process of its own"},
       {"degenerate-geometry",
        "All control points on a line, or all the same: positions finite, normals finite and of unit length.",
        kNone, "the surface has no normal there, a renderer needs one all the same"},
       {"rejected-inputs",
-       "An edge with three faces, faces of opposite orientation, fans that meet in a vertex: "
-       "refused with "
-       "a message.",
+       "An edge with three faces, faces of opposite orientation, fans that meet in a vertex, faces without "
+       "vertices, a vertex that does not exist, a coordinate that is no number: refused with a message.",
        "None accepted.", "the scheme is defined on oriented manifolds only"},
 
       // Of finished tessellations (--tessellation).

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "verify/audit/judged.h"
 #include "verify/audit/table.h"
 #include "verify/mesh_output/atomic_file.h"
 
@@ -65,7 +66,11 @@ std::string to_json(const Report& report, const std::string& level) {
            {"sample", text(report.sample)},
            {"seconds", report.seconds},
            {"held", report.held()},
-           {"incomplete", text(report.incomplete)}};
+           {"incomplete", text(report.incomplete)},
+           {"never_judged", Json::array()}};
+  for (const NeverJudged& none : never_judged(report))
+    out["never_judged"].push_back(
+        {{"subject", none.subject}, {"check", none.check}, {"reason", text(none.reason)}});
   out["subjects"] = report.subjects;
   out["meshes"] = Json::array();
   for (const auto& m : report.meshes)

@@ -14,8 +14,8 @@ namespace {
 // From harmless to fatal: the worst of a row is its status.
 int gravity(Status status) {
   static constexpr Status kOrder[] = {Status::kHeld,    Status::kQualityWarning, Status::kNotSupported,
-                                      Status::kFinding, Status::kError,          Status::kTimeout,
-                                      Status::kCrash};
+                                      Status::kNotRun,  Status::kFinding,        Status::kError,
+                                      Status::kTimeout, Status::kCrash};
   return static_cast<int>(std::find(std::begin(kOrder), std::end(kOrder), status) - std::begin(kOrder));
 }
 
@@ -40,8 +40,13 @@ RelationRow::RelationRow(const AuditSubject& subject, const Evidence& e, std::st
 
 void RelationRow::ask(const std::string& what, const data::ControlMesh& mesh,
                       const std::function<void(Session&)>& work) {
+  ask(subject_, what, mesh, work);
+}
+
+void RelationRow::ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
+                      const std::function<void(Session&)>& work) {
   try {
-    Session session(*subject_.subject, mesh, subject_.options);
+    Session session(*subject.subject, mesh, subject.options);
     work(session);
     session.close();
   } catch (const std::exception& error) {

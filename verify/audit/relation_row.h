@@ -14,8 +14,8 @@
 namespace limitcheck::verify {
 
 /// What a failure of the subject's makes of its row. LC_NOT_SUPPORTED: no fault. LC_INVALID_INPUT: the
-/// subject refuses what is valid. A process that broke down: crash or timeout, or a finding if it merely
-/// answered nonsense.
+/// subject refuses what is valid, or (SubjectDied) declares what means nothing. A process that broke down:
+/// crash or timeout, or a finding if it merely answered nonsense.
 Status status_of(const std::exception& error);
 
 /// Every request is looked at, whatever became of the one before: the row has the worst status of all, and
@@ -28,6 +28,10 @@ class RelationRow {
   /// A session of its own for one mesh. `work` tessellates as often as it likes; whatever it or the end of
   /// the session throws is noted, with `what` as it is by then.
   void ask(const std::string& what, const data::ControlMesh& mesh, const std::function<void(Session&)>& work);
+
+  /// The same of another subject in its place.
+  void ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
+           const std::function<void(Session&)>& work);
 
   /// Notes what is wrong with the arrays themselves, unless the evidence has been told the like already.
   void inspect(const std::string& what, const Tessellation& t);

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "verify/audit/bounds.h"
-#include "verify/audit/refusal.h"
 #include "verify/audit/relation_row.h"
+#include "verify/audit/relation_state.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -80,13 +80,25 @@ class Relations {
     return row.take();
   }
 
-  Result rejected_inputs() const {
+  Result state(const Result& determinism) const {
+    RelationRow row = begin("state", "points", 0);
+    if (is_bad(determinism)) {
+      row.note(Status::kNotRun, "the same request twice gives other bits: see determinism");
+      return row.take();
+    }
+    ask_in_turns(row, subject_, e_, compared_);
+    return row.take();
+  }
+
+  Result rejected_inputs(std::vector<Refusal>& refusals) const {
     RelationRow row = begin("rejected-inputs", "meshes", 0);
-    for (const BrokenMesh& broken : broken_meshes()) {
-      const Refusal refusal = ask_for_refusal(subject_, broken.mesh, threads_);
+    if (refusals.empty()) refusals = ask_for_refusals(subject_, threads_);
+    for (std::size_t k = 0; k < refusals.size(); ++k) {
+      const Refusal& refusal = refusals[k];
       row.count(refusal.status != Status::kHeld, 1);
-      row.note(refusal.status,
-               refusal.message.empty() ? "" : fmt::format("{}: {}", broken.what, refusal.message));
+      row.note(refusal.status, refusal.message.empty()
+                                   ? ""
+                                   : fmt::format("{}: {}", broken_meshes()[k].what, refusal.message));
     }
     return row.take();
   }
@@ -122,13 +134,14 @@ const std::vector<std::string_view>& relation_rows() {
   static const std::vector<std::string_view> rows = [] {
     std::vector<std::string_view> names{"determinism"};
     for (const Relation& r : variant_relations()) names.push_back(r.row);
-    names.insert(names.end(), {"degenerate-geometry", "rejected-inputs"});
+    names.insert(names.end(), {"state", "degenerate-geometry", "rejected-inputs"});
     return names;
   }();
   return rows;
 }
 
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
+                                    std::vector<Refusal>& refusals,
                                     const std::function<void(std::string_view)>& on_row) {
   const Relations relations(subject, e, threads);
   std::vector<Result> results;
@@ -145,8 +158,9 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
   };
   add("determinism", [&] { return relations.determinism(); });
   for (const Relation& r : variant_relations()) add(r.row, [&] { return relations.relation(r); });
+  add("state", [&] { return relations.state(results.front()); });
   add("degenerate-geometry", [&] { return relations.degenerate_geometry(); });
-  add("rejected-inputs", [&] { return relations.rejected_inputs(); });
+  add("rejected-inputs", [&] { return relations.rejected_inputs(refusals); });
   return results;
 }
 

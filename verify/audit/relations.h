@@ -9,6 +9,7 @@
 
 #include "verify/audit/audit.h"
 #include "verify/audit/evidence.h"
+#include "verify/audit/refusal.h"
 
 namespace limitcheck::verify {
 
@@ -22,9 +23,10 @@ namespace limitcheck::verify {
 ///   scaling              times 2^10 and 2^-10
 ///   translation          moved by some diagonals (positions only: the rounding of the input turns normals)
 ///   extreme-scale        times 2^40 and 2^-40
+///   state                between other meshes and depths, made again, for the eighth time: the same bits
 ///   degenerate-geometry  all control points on a line, or the same: finite, normals of unit length
-///   rejected-inputs      meshes that are no manifold: refused; one without faces: refused, or nothing
-///                        delivered
+///   rejected-inputs      meshes that are no manifold, name vertices that do not exist or have coordinates
+///                        that are no numbers: refused; one without faces: refused, or nothing delivered
 /// The rows from face-order to extreme-scale hold if positions and normals differ by at most twice what one
 /// result may be off; a difference in bits beneath that is a quality warning where the numbers handed in are
 /// the same ones.
@@ -33,8 +35,10 @@ const std::vector<std::string_view>& relation_rows();
 /// One row for each. `e` is the evidence of the request as it was; never throws for what the subject does: a
 /// process that dies or hangs in one request makes its row a crash or a timeout, with the input that did it,
 /// and the next request gets a new process.
-///   on_row  called with the name of each row before it is looked at
+///   refusals  what the subject made of broken_meshes(); asked for if empty: it is the same for each mesh
+///   on_row    called with the name of each row before it is looked at
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
+                                    std::vector<Refusal>& refusals,
                                     const std::function<void(std::string_view)>& on_row = {});
 
 }  // namespace limitcheck::verify

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
@@ -63,6 +64,54 @@ TEST(Table, AMeshThatWasNotRunIsNeverCountedAsHeld) {
   report.results[0].status = Status::kNotRun;
   const std::string table = to_table(report, false);
   EXPECT_NE(table.find("held               1/2"), std::string::npos) << table;
+}
+
+TEST(Commands, RepeatAResultAtTheDepthsItHad) {
+  Report report = example();
+  report.depths = "plan";
+  Result r = report.results.back();
+  EXPECT_EQ(audit_command(r, "standard"), "limitcheck audit bad 'my cage.obj' --depth 2");
+  r.depths = "uniform";
+  r.depth = 7;
+  EXPECT_EQ(audit_command(r, "quick"), "limitcheck audit bad 'my cage.obj' --depth 7 --level quick");
+  r.depths = "random:1";
+  EXPECT_EQ(audit_command(r, "standard"), "limitcheck audit bad 'my cage.obj' --depth 7 --depths random:1");
+  r.sample = "100:1";
+  EXPECT_EQ(audit_command(r, "standard"),
+            "limitcheck audit bad 'my cage.obj' --depth 7 --depths random:1 --sample 100:1");
+}
+
+TEST(Table, OfAPlanSaysWhichDepthsWereLookedAt) {
+  Report report = example();
+  report.depths = "plan";
+  report.depth = 7;
+  for (const auto& [depth, depths, status] : {std::tuple{0, "uniform", Status::kHeld},
+                                              {1, "uniform", Status::kHeld},
+                                              {7, "uniform", Status::kHeld},
+                                              {5, "uniform", Status::kNotSupported},
+                                              {4, "view", Status::kFinding}}) {
+    Result r = report.results.front();
+    r.depth = depth;
+    r.depths = depths;
+    r.status = status;
+    report.results.push_back(r);
+  }
+  const std::string table = to_table(report, false);
+  EXPECT_NE(table.find("limitcheck 1.2.3: depths 0 to 7 on 2 meshes"), std::string::npos) << table;
+  EXPECT_NE(table.find(" 0-2 7*    "), std::string::npos) << "in the row:\n" << table;
+  EXPECT_NE(table.find("depths looked at: 0 1 2 7; *: view\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("on wheel:7 (view)"), std::string::npos) << table;
+}
+
+TEST(Json, SaysOfEachResultHowDeepItLooked) {
+  Report report = example();
+  report.results[3].depths = "random:1";
+  report.results[3].sample = "9:1";
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["results"][3]["depth"], 2);
+  EXPECT_EQ(json["results"][3]["depths"], "random:1");
+  EXPECT_EQ(json["results"][3]["sample"], "9:1");
+  EXPECT_TRUE(json["results"][0]["depths"].is_null());
 }
 
 TEST(Json, HasTheStableKeys) {

@@ -64,6 +64,27 @@ ControlMesh uv_sphere(int around, int down, bool residue) {
   return mesh;
 }
 
+// The same without the triangles that have no area, as three.js makes it: round each pole the triangles meet
+// in nothing but the place of their tips, and the boundary runs from each tip back to the circle. The two
+// tips next to a vertex of that circle are the ends of its boundary curve, 1e-16 apart.
+ControlMesh uv_sphere_with_open_poles(int around, int down) {
+  ControlMesh closed = uv_sphere(around, down, true), mesh;
+  const auto at_pole = [&](std::int32_t v) { return v <= around || v >= down * (around + 1); };
+  std::vector<std::int32_t> number(closed.positions.size(), -1);
+  for (auto t : closed.triangles) {
+    if (std::count_if(t.begin(), t.end(), at_pole) > 1) continue;
+    for (auto& v : t) {
+      if (number[v] < 0) {
+        number[v] = static_cast<std::int32_t>(mesh.positions.size());
+        mesh.positions.push_back(closed.positions[v]);
+      }
+      v = number[v];
+    }
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
 ControlMesh joined(const ControlMesh& a, const ControlMesh& b) {
   ControlMesh mesh = a;
   const auto first = static_cast<std::int32_t>(a.positions.size());

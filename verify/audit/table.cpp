@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "verify/audit/case_names.h"
+#include "verify/audit/judged.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -332,6 +333,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
   }
   out += fmt::format("\n{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
                      noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
+  for (const NeverJudged& none : never_judged(report)) out += none.text() + "\n";
   if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
   return out;
 }

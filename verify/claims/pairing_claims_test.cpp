@@ -44,7 +44,7 @@ struct Scene {
 };
 
 std::string text(double value) {
-  return fmt::format("{:.4g}", value);
+  return fmt::format("{:.2f}", value);
 }
 
 constexpr int kSeeds = 10;
@@ -197,6 +197,9 @@ TEST(Sec42_Singletons, AreUnderOnePercentWithTheCorrectedRuleAndTwiceAsManyAndMo
       EXPECT_GE(percent * printed, 1.0) << key;
       EXPECT_LE(percent * printed, 3.0) << key;
       EXPECT_GE(printed, 2 * corrected) << key;
+      if (strategy == Strategy::kCombined) {  // "about one percent" is taken for what rounds to one or two
+        EXPECT_LT(percent * printed, 2.5) << key;
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -16,15 +17,23 @@ const std::vector<Claim>& claim_register() {
     std::vector<Claim> list;
     for (const auto& row : json["claims"]) {
       const auto text = [&](const char* key) { return row.value(key, std::string()); };
-      Claim c{text("id"),       text("place"),  text("statement"),
-              text("verdict"),  text("detail"), text("note"),
-              text("measured"), text("why"),    {}};
+      Claim c{text("id"),   text("place"),   text("statement"), text("verdict"),
+              text("note"), text("finding"), text("why"),       {}};
       if (!row["check"].is_null()) c.check = row["check"].get<std::vector<std::string>>();
       list.push_back(std::move(c));
     }
     return list;
   }();
   return claims;
+}
+
+std::vector<std::pair<std::string, std::int64_t>> count_verdicts(const std::vector<const Claim*>& claims) {
+  std::vector<std::pair<std::string, std::int64_t>> counts;
+  const auto json = nlohmann::ordered_json::parse(kClaimRegister);
+  for (const auto& [verdict, meaning] : json["verdicts"].items())
+    counts.emplace_back(verdict, std::count_if(claims.begin(), claims.end(),
+                                               [&](const Claim* c) { return c->verdict == verdict; }));
+  return counts;
 }
 
 std::string_view word(ClaimOutcome outcome) {
@@ -59,7 +68,8 @@ std::string errata() {
   const struct {
     const char *verdict, *title, *column;
   } sections[]{{"misprint", "Wrong as printed", "correction"},
-               {"refuted", "Not true as a guarantee", "what is true"},
+               {"refuted", "Not true", "what is true"},
+               {"depends", "True or not by what is left open", "on what it depends"},
                {"ambiguous", "Left open by the text", "what is missing, and our reading"}};
   const auto cell = [](std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
@@ -71,9 +81,7 @@ std::string errata() {
                        section.title, section.column);
     for (const Claim& c : claim_register()) {
       if (c.verdict != section.verdict) continue;
-      const std::string note = c.note.empty() ? c.detail : c.note;
-      out += fmt::format("| {} | {} | {} | {}{}{} |\n", c.id, cell(c.place), cell(c.statement), cell(note),
-                         c.measured.empty() ? "" : " ", cell(c.measured));
+      out += fmt::format("| {} | {} | {} | {} |\n", c.id, cell(c.place), cell(c.statement), cell(c.note));
     }
   }
   return out;

@@ -2,6 +2,7 @@
 // The register of the paper's claims, and what becomes of each when its tests are run.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -12,7 +13,7 @@ namespace limitcheck::verify {
 
 /// A row of papers/mueller-havemann-2000/claims.json.
 struct Claim {
-  std::string id, place, statement, verdict, detail, note, measured, why;
+  std::string id, place, statement, verdict, note, finding, why;
   std::vector<std::string> check;  // "Suite.Name"; empty: not checkable, and `why`
 };
 
@@ -26,7 +27,8 @@ enum class ClaimOutcome {
   kNotCheckable  // no test could decide it
 };
 
-/// "held", "not held", "not run", "not checkable": stable.
+/// "held", "not held", "not run", "not checkable": stable. Of our tests, not of the paper: a misprint that is
+/// held is a misprint.
 std::string_view word(ClaimOutcome outcome);
 
 struct ClaimResult {
@@ -34,7 +36,12 @@ struct ClaimResult {
   ClaimOutcome outcome = ClaimOutcome::kNotRun;
   std::string message;                                       // of the first failure, or why it was not run
   std::vector<std::pair<std::string, std::string>> figures;  // what the tests recorded: name, value
+  std::string finding;  // the claim's, with its figures; empty unless its tests were run
 };
+
+/// How many claims there are of each verdict, in the register's order of verdicts: what we conclude about the
+/// paper, whatever our tests say today.
+std::vector<std::pair<std::string, std::int64_t>> count_verdicts(const std::vector<const Claim*>& claims);
 
 /// The test programs that stand beside this executable or in `folder`, as its claims_programs.txt lists them;
 /// those that are not built are left out. Empty where there is no such list: in an installation.

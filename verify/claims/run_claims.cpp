@@ -135,6 +135,26 @@ void take(const nlohmann::json& json, std::map<std::string, TestResult>& results
     }
 }
 
+// Puts the figures into the claim's finding. A name that no test recorded is a mistake in the register, and
+// red.
+void tell_finding(ClaimResult& r) {
+  const std::string& words = r.claim->finding;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t open = words.find('{', at), close = words.find('}', std::min(open, words.size()));
+    r.finding += words.substr(at, open - at);
+    if (open == std::string::npos || close == std::string::npos) return;
+    const std::string name = words.substr(open + 1, close - open - 1);
+    const auto figure = std::find_if(r.figures.begin(), r.figures.end(),
+                                     [&](const auto& recorded) { return recorded.first == name; });
+    r.finding += figure != r.figures.end() ? figure->second : "?";
+    if (figure == r.figures.end() && r.outcome == ClaimOutcome::kHeld) {
+      r.outcome = ClaimOutcome::kNotHeld;
+      r.message = fmt::format("no test records the figure '{}' that the finding names", name);
+    }
+    at = close + 1;
+  }
+}
+
 }  // namespace
 
 std::vector<ClaimResult> run_claims(
@@ -173,7 +193,7 @@ std::vector<ClaimResult> run_claims(
 
   std::vector<ClaimResult> out;
   for (const Claim* c : claims) {
-    ClaimResult r{c, c->check.empty() ? ClaimOutcome::kNotCheckable : ClaimOutcome::kHeld, c->why, {}};
+    ClaimResult r{c, c->check.empty() ? ClaimOutcome::kNotCheckable : ClaimOutcome::kHeld, c->why, {}, {}};
     for (const std::string& test : c->check) {
       const auto found = results.find(test);
       if (found == results.end()) {
@@ -191,6 +211,7 @@ std::vector<ClaimResult> run_claims(
       }
       r.figures.insert(r.figures.end(), found->second.figures.begin(), found->second.figures.end());
     }
+    if (r.outcome == ClaimOutcome::kHeld || r.outcome == ClaimOutcome::kNotHeld) tell_finding(r);
     out.push_back(std::move(r));
   }
   return out;

@@ -60,28 +60,32 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
   if (a.subject == "all") {
     if (!options.empty()) throw std::invalid_argument("--option needs one subject, not all");
     for (const lc_subject* s : verify::built_in_subjects()) {
-      const lc_subject* behind = doors.built_in(*s);
-      list.push_back({behind, ""});
+      const verify::AuditSubject plain = doors.built_in(*s);
+      list.push_back(plain);
+      const auto with = [&](std::string given) {
+        list.push_back({plain.subject, std::move(given), plain.in_turns});
+      };
       if (std::string_view(s->name) == "opensubdiv-bfr")
-        list.push_back({behind, fmt::format("approx-level={}", std::max(a.depth, 1))});
+        with(fmt::format("approx-level={}", std::max(a.depth, 1)));
       if (std::string_view(s->name) == "opensubdiv-far-patches")
-        list.push_back({behind, fmt::format("level={}", std::clamp(a.depth, 1, 10))});
+        with(fmt::format("level={}", std::clamp(a.depth, 1, 10)));
     }
     for (const verify::MissingSubject& m : verify::missing_subjects())
       fmt::print(stderr, "limitcheck: left out: {}\n", m.why);
     return list;
   }
-  const auto [subject, given] = doors.open(a.subject);
-  if (!given.empty()) options = given + (options.empty() ? "" : ",") + options;
+  verify::AuditSubject opened = doors.open(a.subject);
+  opened.options += (opened.options.empty() || options.empty() ? "" : ",") + options;
+  const lc_subject* subject = opened.subject;
   try {
-    (void)verify::capabilities(*subject, options);
+    (void)verify::capabilities(*subject, opened.options);
   } catch (const verify::SubjectDied&) {  // the audit reports it
   } catch (
       const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
     throw std::invalid_argument(fmt::format("{}{}{}", error.what(), subject->options ? "; options: " : "",
                                             subject->options ? subject->options : ""));
   }
-  return {{subject, options}};
+  return {opened};
 }
 
 // For --help.
@@ -205,6 +209,7 @@ int audit(Arguments a) {
     report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   else if (!report.looked())
     report.incomplete = "nothing was looked at: nothing that was asked for is supported";
+  const bool judged = judged_as_required(a.output, report);
   waive(a.output, audited, report);
 
   // Files first: who reads the table may go away. And a file that cannot be written does not cost the table.
@@ -229,6 +234,7 @@ int audit(Arguments a) {
   if (not_written) std::rethrow_exception(not_written);
   if (signal != 0) return kSignalled + signal;
   if (!report.looked()) return kBadInput;
+  if (!judged && std::none_of(report.results.begin(), report.results.end(), verify::is_bad)) return kBadInput;
   return report.held() ? kHeld : kFindings;
 }
 
@@ -288,7 +294,8 @@ void add_audit(CLI::App& app, int& exit_code) {
   auto files = std::make_shared<FilesArguments>();
   add_files_options(*command, *files);
   command->footer(
-      "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or nothing asked for is supported. Ctrl-C "
+      "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or what was asked for or required "
+      "is not supported. Ctrl-C "
       "ends with the report of what was looked at so far, marked as incomplete, and exit code 130 (SIGTERM "
       "143, SIGHUP 129); a second one at once.");
   command->callback([=, &exit_code] {

@@ -12,6 +12,7 @@
 
 #include "verify/audit/explain.h"
 #include "verify/audit/json.h"
+#include "verify/audit/judged.h"
 #include "verify/audit/junit.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/shrink.h"
@@ -28,6 +29,16 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
           "of at most 200 faces; thorough: on all")
       ->check(CLI::IsMember({"quick", "standard", "thorough"}))
       ->capture_default_str();
+  std::vector<std::string> checks;
+  for (const auto& e : verify::explanations())
+    if (!e.check.starts_with("file-")) checks.emplace_back(e.check);
+  command
+      .add_option("--require", a.required,
+                  "Checks, separated by commas, that must have looked at something, for each subject: else "
+                  "nothing is confirmed (exit code 2)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(checks))
+      ->type_name("CHECK,...");
   command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
   command.add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted for a while")
       ->check(CLI::ExistingFile)
@@ -164,6 +175,14 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
   }
   if (a.shrink_seconds <= 0 && !findings.empty())
     fmt::print(stderr, "{} witnesses in {}\n", findings.size(), folder);
+}
+
+bool judged_as_required(const OutputArguments& a, verify::Report& report) {
+  std::string missing;
+  for (const verify::NeverJudged& none : verify::never_judged(report, a.required))
+    missing += (missing.empty() ? "" : "; ") + none.text();
+  if (!missing.empty() && report.incomplete.empty()) report.incomplete = missing;
+  return missing.empty();
 }
 
 void write_junit(const OutputArguments& a, const verify::Report& report) {

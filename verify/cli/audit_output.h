@@ -12,6 +12,7 @@ namespace limitcheck::cli {
 
 struct OutputArguments {
   std::string level = "standard", junit, waivers, explain, witnesses;
+  std::vector<std::string> required;
   double shrink_seconds = 0;  // 0: not
 };
 
@@ -31,6 +32,9 @@ void waive(const OutputArguments& arguments, const std::vector<verify::AuditSubj
 /// in the order of report.subjects. Throws std::runtime_error, data::InputError: a file cannot be written.
 void write_witnesses(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
                      const std::vector<verify::AuditMesh>& meshes, const verify::Report& report, int threads);
+
+/// Whether each subject was judged by all that --require names; says in report.incomplete by what it was not.
+bool judged_as_required(const OutputArguments& arguments, verify::Report& report);
 
 /// Writes --junit, if it was given.
 void write_junit(const OutputArguments& arguments, const verify::Report& report);

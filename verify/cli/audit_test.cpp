@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "verify/cli/command_test.h"
@@ -91,6 +92,40 @@ TEST_F(AuditCommand, OurEngineHoldsAtRandomAndAtViewDependentDepths) {
     }
     for (const auto& row : report["results"]) EXPECT_EQ(row["status"], "held") << row;
   }
+}
+
+TEST_F(AuditCommand, WithoutMeshesAndDepthsFollowsThePlanAndWithDepthsAsksJustThose) {
+  const auto depths = [&](const std::string& arguments) {
+    const Outcome o = run("audit null --level quick --json - " + arguments);
+    EXPECT_EQ(o.code, 1) << o.err;
+    std::set<std::string> all;
+    const auto report = nlohmann::json::parse(o.out);
+    for (const auto& row : report["results"])
+      all.insert(row["depths"] == "uniform" ? std::to_string(row["depth"].get<int>())
+                                            : row["depths"].get<std::string>());
+    return all;
+  };
+  const auto plan = depths("");
+  for (const char* d : {"0", "1", "4", "7", "random:1", "view", "face0-culled", "all-culled"})
+    EXPECT_TRUE(plan.contains(d)) << d;
+  EXPECT_EQ(depths("--depth 1"), std::set<std::string>{"1"});
+  EXPECT_EQ(depths("octahedron"), std::set<std::string>{"4"});
+  EXPECT_EQ(depths("octahedron --depth 2 --depths random:5:visible"),
+            std::set<std::string>{"random:5:visible"});
+}
+
+TEST_F(AuditCommand, EndsWithTwoIfWhatIsRequiredWasNotJudged) {
+  const std::string cgal = "audit cgal octahedron --depth 1 --level quick ";
+  EXPECT_EQ(run(cgal).code, 0);
+  EXPECT_NE(run(cgal).out.find("normals of cgal were never judged"), std::string::npos);
+  EXPECT_EQ(run(cgal + "--require refined-positions,coverage").code, 0);
+  const Outcome o = run(cgal + "--require coverage,positions,normals --json report.json");
+  EXPECT_EQ(o.code, 2) << o.out;
+  EXPECT_NE(o.out.find("INCOMPLETE: positions of cgal were never judged"), std::string::npos) << o.out;
+  const auto report = nlohmann::json::parse(read("report.json"));
+  EXPECT_EQ(report["held"], false);
+  EXPECT_EQ(report["never_judged"][0]["check"], "normals");
+  EXPECT_EQ(run(cgal + "--require no-such-check").code, 2);
 }
 
 TEST_F(AuditCommand, WithoutRepairWatertightIsRedAtRandomAndAtViewDependentDepths) {

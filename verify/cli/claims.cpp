@@ -54,6 +54,27 @@ Coverage coverage(const std::vector<ClaimResult>& results) {
   return c;
 }
 
+std::vector<std::pair<std::string, std::int64_t>> verdicts(const std::vector<ClaimResult>& results) {
+  std::vector<const Claim*> claims;
+  for (const ClaimResult& r : results) claims.push_back(r.claim);
+  return verify::count_verdicts(claims);
+}
+
+/// Whether our tests of a claim agree with the verdict that the register has.
+std::string_view colour(ClaimOutcome outcome) {
+  switch (outcome) {
+    case ClaimOutcome::kHeld:
+      return "green";
+    case ClaimOutcome::kNotHeld:
+      return "red";
+    case ClaimOutcome::kNotRun:
+      return "not run";
+    case ClaimOutcome::kNotCheckable:
+      return "none";
+  }
+  return "not run";
+}
+
 std::string to_json(const std::vector<ClaimResult>& results) {
   Json out{{"program", "limitcheck claims"}, {"version", LIMITCHECK_VERSION}};
   Coverage c = coverage(results);
@@ -63,6 +84,8 @@ std::string to_json(const std::vector<ClaimResult>& results) {
                      {"not_held", c.outcomes[ClaimOutcome::kNotHeld]},
                      {"not_run", c.outcomes[ClaimOutcome::kNotRun]},
                      {"not_checkable", c.outcomes[ClaimOutcome::kNotCheckable]}};
+  out["verdicts"] = Json::object();
+  for (const auto& [verdict, count] : verdicts(results)) out["verdicts"][verdict] = count;
   out["claims"] = Json::array();
   const auto text = [](const std::string& s) { return s.empty() ? Json(nullptr) : Json(s); };
   for (const ClaimResult& r : results) {
@@ -73,6 +96,7 @@ std::string to_json(const std::vector<ClaimResult>& results) {
                              {"statement", r.claim->statement},
                              {"verdict", r.claim->verdict},
                              {"note", text(r.claim->note)},
+                             {"finding", text(r.finding)},
                              {"check", r.claim->check.empty() ? Json(nullptr) : Json(r.claim->check)},
                              {"outcome", verify::word(r.outcome)},
                              {"ran", r.outcome == ClaimOutcome::kHeld || r.outcome == ClaimOutcome::kNotHeld},
@@ -84,19 +108,22 @@ std::string to_json(const std::vector<ClaimResult>& results) {
 }
 
 std::string to_table(const std::vector<ClaimResult>& results) {
-  std::string out =
-      fmt::format("{:<4} {:<14} {:<14} {:<14} {}\n", "id", "place", "verdict", "outcome", "claim");
+  std::string out = fmt::format("{:<4} {:<14} {:<14} {:<10} {}\n", "id", "place", "we conclude", "our tests",
+                                "the paper says");
   for (const ClaimResult& r : results) {
-    out += fmt::format("{:<4} {:<14} {:<14} {:<14} {}\n", r.claim->id, r.claim->place, r.claim->verdict,
-                       verify::word(r.outcome), r.claim->statement);
-    if (!r.message.empty()) out += fmt::format("     {}\n", r.message.substr(0, r.message.find('\n')));
+    out += fmt::format("{:<4} {:<14} {:<14} {:<10} {}\n", r.claim->id, r.claim->place, r.claim->verdict,
+                       colour(r.outcome), r.claim->statement);
+    for (const std::string& line : {r.claim->note, r.finding, r.message.substr(0, r.message.find('\n'))})
+      if (!line.empty()) out += fmt::format("     {}\n", line);
   }
+  std::string conclusions;
+  for (const auto& [verdict, count] : verdicts(results))
+    if (count > 0) conclusions += fmt::format("{}{} {}", conclusions.empty() ? "" : ", ", verdict, count);
   Coverage c = coverage(results);
-  out += fmt::format(
-      "\n{} claims, {} with a check: {} held, {} not held, {} not run; {} not checkable\n"
-      "(held: the tests that re-derive the verdict ran and passed; a misprint that held is a misprint)\n",
-      c.claims, c.with_check, c.outcomes[ClaimOutcome::kHeld], c.outcomes[ClaimOutcome::kNotHeld],
-      c.outcomes[ClaimOutcome::kNotRun], c.outcomes[ClaimOutcome::kNotCheckable]);
+  out +=
+      fmt::format("\n{} claims of the paper: {}\nour tests: green {}, red {}, not run {}, none {}\n",
+                  c.claims, conclusions, c.outcomes[ClaimOutcome::kHeld], c.outcomes[ClaimOutcome::kNotHeld],
+                  c.outcomes[ClaimOutcome::kNotRun], c.outcomes[ClaimOutcome::kNotCheckable]);
   return out;
 }
 
@@ -122,7 +149,8 @@ int claims(const Arguments& a) {
 
 void add_claims(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("claims", "Rerun the paper's claims and say which verdicts hold");
+  CLI::App* command = app.add_subcommand(
+      "claims", "What we conclude about each claim of the paper, and whether our tests agree today");
   command->add_option("ID", a->ids, "Claims, as C14 (default: all)");
   command->add_flag("--json", a->json, "One JSON document instead of the table");
   command->add_flag("--errata", a->errata, "Write the errata of the paper as Markdown instead; runs nothing");
@@ -132,8 +160,10 @@ void add_claims(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingDirectory)
       ->type_name("FOLDER");
   command->footer(
-      "A claim whose tests are not here is reported as not run, never as held.\n"
-      "Exit codes: 0 all held, 1 something did not hold or was not run, 2 bad usage.");
+      "Two columns: what we conclude about the paper's sentence, with figures, and whether the tests behind "
+      "that\n"
+      "are green. A claim whose tests are not here is reported as not run, never as green.\n"
+      "Exit codes: 0 all green, 1 a test is red or was not run, 2 bad usage.");
   command->callback([a, &exit_code] { exit_code = claims(*a); });
 }
 

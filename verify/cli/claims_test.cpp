@@ -23,6 +23,16 @@ TEST_F(ClaimsCommand, WithoutItsTestProgramsNothingIsConfirmed) {
     EXPECT_FALSE(claim["message"].is_null()) << claim;
   }
   EXPECT_EQ(json["coverage"]["held"], 0);
+  EXPECT_EQ(json["verdicts"]["not checkable"], 5) << "what we conclude does not depend on what is installed";
+}
+
+TEST_F(ClaimsCommand, SaysWhatIsConcludedAndWhetherTheTestsAreGreenInColumnsOfTheirOwn) {
+  const Outcome o = run("claims C31 C80 --programs .");
+  EXPECT_NE(o.out.find("we conclude    our tests"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("refuted        not run "), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("not checkable  none"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("2 claims of the paper: refuted 1, not checkable 1"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("our tests: green 0, red 0, not run 1, none 1"), std::string::npos) << o.out;
 }
 
 TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {

@@ -70,28 +70,34 @@ void take_program(const DoorArguments& a, std::string& subject, std::vector<std:
   subject = "program:" + a.program;
 }
 
-const lc_subject* Doors::remote(Kind kind, const std::string& what) {
+const lc_subject* Doors::remote(Kind kind, const std::string& what, bool in_turns) {
   remote_.push_back(std::make_unique<verify::RemoteSubject>(
-      kind, what, verify::IsolationSettings{arguments_.limits, "/proc/self/exe", arguments_.witness_folder}));
+      kind, what,
+      verify::IsolationSettings{arguments_.limits, "/proc/self/exe", in_turns, arguments_.witness_folder}));
   return &remote_.back()->subject();
 }
 
-const lc_subject* Doors::built_in(const lc_subject& subject) {
-  return arguments_.isolate ? remote(Kind::kBuiltIn, subject.name) : &subject;
+verify::AuditSubject Doors::built_in(const lc_subject& subject) {
+  if (!arguments_.isolate) return {&subject, ""};
+  return {remote(Kind::kBuiltIn, subject.name), "", remote(Kind::kBuiltIn, subject.name, true)};
 }
 
-std::pair<const lc_subject*, std::string> Doors::open(const std::string& text) {
+verify::AuditSubject Doors::open(const std::string& text) {
   if (text.starts_with("program:")) return {remote(Kind::kProgram, text.substr(8)), ""};
 
   // A file name may contain a colon: the longest that exists wins.
   std::size_t colon = is_file(text) ? std::string::npos : text.find(':');
   const std::string name = text.substr(0, colon);
   const std::string options = colon == std::string::npos ? "" : text.substr(colon + 1);
-  if (const lc_subject* subject = verify::find_subject(name)) return {built_in(*subject), options};
+  if (const lc_subject* subject = verify::find_subject(name)) {
+    verify::AuditSubject found = built_in(*subject);
+    found.options = options;
+    return found;
+  }
   if (is_file(name) && !names_a_library(name) && ::access(name.c_str(), X_OK) == 0)
     return {remote(Kind::kProgram, as_command(name)), options};
   if (is_file(name) || name.find('/') != std::string::npos || names_a_library(name))
-    return {remote(Kind::kLibrary, name), options};
+    return {remote(Kind::kLibrary, name), options, remote(Kind::kLibrary, name, true)};
 
   for (const verify::MissingSubject& missing : verify::missing_subjects())
     if (missing.name == name) throw std::invalid_argument(missing.why);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "verify/audit/audit_case.h"
 #include "verify/subject/isolation/remote_subject.h"
 
 namespace limitcheck::cli {
@@ -31,14 +32,14 @@ class Doors {
   explicit Doors(DoorArguments arguments) : arguments_(std::move(arguments)) {}
 
   /// NAME, FILE.so, an executable, or program:COMMAND; all but the last may be followed by ":key=value,...".
-  /// Returns the subject and those options. Throws std::invalid_argument: there is no such subject.
-  std::pair<const lc_subject*, std::string> open(const std::string& text);
+  /// Returns the subject with those options. Throws std::invalid_argument: there is no such subject.
+  verify::AuditSubject open(const std::string& text);
 
   /// A built-in subject: itself, or in a process of its own with --isolate.
-  const lc_subject* built_in(const lc_subject& subject);
+  verify::AuditSubject built_in(const lc_subject& subject);
 
  private:
-  const lc_subject* remote(verify::RemoteSubject::Kind kind, const std::string& what);
+  const lc_subject* remote(verify::RemoteSubject::Kind kind, const std::string& what, bool in_turns = false);
 
   DoorArguments arguments_;
   std::vector<std::unique_ptr<verify::RemoteSubject>> remote_;

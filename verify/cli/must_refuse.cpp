@@ -15,16 +15,15 @@ namespace limitcheck::cli {
 
 data::ControlMesh open_broken_mesh(const std::string& file) {
   const data::io::PolygonSoup soup = data::io::read_soup(file);
-  const auto vertices = static_cast<std::int64_t>(soup.positions.size());
   data::ControlMesh mesh;
   mesh.positions = soup.positions;
   std::size_t begin = 0;
   for (const std::size_t end : soup.polygon_end) {
     const auto corner = [&](std::size_t k) {
-      if (soup.corners[k] < 0 || soup.corners[k] >= vertices)
+      if (!std::in_range<std::int32_t>(soup.corners[k]))
         throw data::InputError(
             "MESH_INDEX_OUT_OF_RANGE", file, 0,
-            fmt::format("a face names vertex {} (from 0), the mesh has {}", soup.corners[k], vertices));
+            fmt::format("a face names vertex {}: 32 bits do not name it", soup.corners[k]));
       return static_cast<std::int32_t>(soup.corners[k]);
     };
     for (std::size_t k = begin + 1; k + 1 < end; ++k)

@@ -9,8 +9,8 @@
 
 namespace limitcheck::cli {
 
-/// A file as it is, polygons cut as fans. Throws InputError: it cannot be read, or a face names a vertex that
-/// does not exist; std::invalid_argument: nothing is wrong with the mesh.
+/// A file as it is, polygons cut as fans. Throws InputError: it cannot be read, or an index has more than 32
+/// bits; std::invalid_argument: nothing is wrong with the mesh.
 data::ControlMesh open_broken_mesh(const std::string& file);
 
 /// One row `rejected-inputs` for each subject and mesh.

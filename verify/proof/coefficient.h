@@ -46,6 +46,7 @@ struct ProofNumberTraits {
   static long exponent(const C& a) { return a.is_zero() ? kZeroExponent : 0; }
   static long precision() { return 0; }
   static constexpr int kNormalThreshold = 0;
+  static constexpr int kRounding = 0;
   static double approximate(const C& a) { return a.approximation(); }
 };
 

@@ -3,6 +3,7 @@
 // become statuses with messages.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <new>
@@ -29,6 +30,16 @@ inline void refuse_too_many_triangles(const lc_mesh& mesh, int depth) {
   if (mesh.triangle_count > (std::int64_t{UINT32_MAX} / 6 >> (2 * depth))) {
     throw SubjectError(LC_NOT_SUPPORTED, "more triangles at this depth than 32-bit indices can name");
   }
+}
+
+/// Refuses a mesh that would be read beyond its arrays, or computed with what is no number. Whether it is a
+/// manifold is for the tessellator behind the door to see.
+inline void refuse_unusable(const lc_mesh& mesh) {
+  for (std::int64_t k = 0; k < 3 * mesh.vertex_count; ++k)
+    if (!std::isfinite(mesh.positions[k])) throw SubjectError(LC_INVALID_INPUT, "a coordinate is not finite");
+  for (std::int64_t k = 0; k < 3 * mesh.triangle_count; ++k)
+    if (mesh.triangles[k] < 0 || mesh.triangles[k] >= mesh.vertex_count)
+      throw SubjectError(LC_INVALID_INPUT, "a triangle names a vertex that does not exist");
 }
 
 /// The depth of a request that has one for all faces; 0 where there are no faces.
@@ -108,6 +119,7 @@ lc_subject make_subject(const char* name, const char* description, const char* o
       Options options(text);
       (void)T::capabilities(options);
       options.finish();
+      refuse_unusable(*mesh);
       *instance = new T(*mesh, options);
     });
   };

@@ -88,6 +88,19 @@ TEST(Agreement, OfTheNaiveSubdividerWithStamsEvaluator) {
   }
 }
 
+// Beyond the depths and valences of the other tests. A coordinate is rounded some eight times at each of
+// depth + 2 steps, by 2^-24 of the largest, which is less than the box; normals are differences of points
+// 2^-depth apart: 1e-3 rad at depth 5, twice that with each level (verify/audit/bounds.h).
+TEST(Agreement, OfRowStreamWithStamsEvaluatorAtDepthsSevenAndEightAndHighValences) {
+  for (const int depth : {7, 8}) {
+    for (const char* name : {"wheel:13:1", "wheel:14:1", "wheel:17:1", "wheel:33:1", "bipyramid:13"}) {
+      const Worst worst = against_stam("row-stream", "", name, depth);
+      EXPECT_LE(worst.position, std::sqrt(3.) * 8 * (depth + 2) * 0x1p-24) << name << " depth " << depth;
+      EXPECT_LE(worst.normal, std::ldexp(1e-3, depth - 5)) << name << " depth " << depth;
+    }
+  }
+}
+
 // Vertices are merged where they agree in every bit and
 // nowhere else: the triangles are those of the subdivider.
 TEST(Naive, HandsOnEveryBitOfTheSubdivider) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "verify/subject/coordinate_range.h"
@@ -18,35 +19,59 @@ const char* text(const std::string& options) {
   return options.empty() ? nullptr : options.c_str();
 }
 
+// What is wrong with them, or nothing. As numbers: an enumeration from outside may hold any.
+std::string impossible(const lc_capabilities& c) {
+  const auto number = [](const auto& value) {
+    std::int32_t n = 0;
+    static_assert(sizeof value == sizeof n);
+    std::memcpy(&n, &value, sizeof n);
+    return n;
+  };
+  struct Choice {
+    const char* name;
+    std::int32_t value;
+  };
+  for (const Choice& choice : {Choice{"precision", number(c.precision)},
+                               {"weights", number(c.weights)},
+                               {"boundary", number(c.boundary)},
+                               {"points", number(c.points)},
+                               {"normals", c.normals},
+                               {"per_face_depth", c.per_face_depth},
+                               {"exact_lattice", c.exact_lattice}})
+    if (choice.value != 0 && choice.value != 1)
+      return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
+  if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
+  return {};
+}
+
 }  // namespace
 
 lc_capabilities capabilities(const lc_subject& subject, const std::string& options) {
   if (subject.abi != LC_SUBJECT_ABI) {
-    throw SubjectError(LC_NOT_SUPPORTED,
-                       fmt::format("the subject was built for interface {}, this program has {}", subject.abi,
-                                   LC_SUBJECT_ABI));
+    throw NotAsked(fmt::format("the subject was built for interface {}, this program has {}", subject.abi,
+                               LC_SUBJECT_ABI));
   }
   lc_capabilities result{};
   detail::call(subject, "capabilities",
                [&](const char** message) { return subject.capabilities(text(options), &result, message); });
-  if (result.precision != LC_FLOAT32 && result.precision != LC_FLOAT64) {
-    throw SubjectError(LC_FAILED,
-                       fmt::format("{}: unknown precision {}", subject.name, int{result.precision}));
-  }
+  if (const std::string wrong = impossible(result); !wrong.empty())
+    throw SubjectDied(SubjectDied::Kind::kProtocol,
+                      fmt::format("{}: its capabilities are impossible: {}", subject.name, wrong));
   return result;
 }
 
-Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options)
+Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options, Input input)
     : subject_(subject),
       options_(std::move(options)),
       capabilities_(verify::capabilities(subject, options_)),
       mesh_(mesh) {
-  for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
-    if (!std::ranges::all_of(mesh_.positions[v], [](double x) { return std::isfinite(x); }))
-      throw SubjectError(LC_INVALID_INPUT, fmt::format("vertex {} has no finite position", v));
   const bool single = capabilities_.precision == LC_FLOAT32;
-  if (const std::string reason = out_of_range(mesh_, !single); !reason.empty())
-    throw SubjectError(LC_NOT_SUPPORTED, reason);
+  if (input == Input::kValid) {
+    for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
+      if (!std::ranges::all_of(mesh_.positions[v], [](double x) { return std::isfinite(x); }))
+        throw SubjectError(LC_INVALID_INPUT, fmt::format("vertex {} has no finite position", v));
+    if (const std::string reason = out_of_range(mesh_, !single); !reason.empty()) throw NotAsked(reason);
+  }
   positions_.reserve(3 * mesh_.positions.size());
   for (auto& position : mesh_.positions)
     for (double& x : position) {
@@ -96,13 +121,11 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   if (!face_depth.empty()) {
     const auto [least, most] = std::minmax_element(face_depth.begin(), face_depth.end());
     if (*most > capabilities_.max_depth) {
-      throw SubjectError(LC_NOT_SUPPORTED, fmt::format("{}: depth {} is beyond its largest, {}",
-                                                       subject_.name, *most, capabilities_.max_depth));
+      throw NotAsked(fmt::format("{}: depth {} is beyond its largest, {}", subject_.name, *most,
+                                 capabilities_.max_depth));
     }
     if (capabilities_.per_face_depth == 0 && (*least != *most || *least == -1)) {
-      throw SubjectError(
-          LC_NOT_SUPPORTED,
-          fmt::format("{}: takes one depth for the whole mesh, not one per face", subject_.name));
+      throw NotAsked(fmt::format("{}: takes one depth for the whole mesh, not one per face", subject_.name));
     }
   }
 

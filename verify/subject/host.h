@@ -129,15 +129,21 @@ class Tessellation {
   std::vector<Overrun> overruns_;
 };
 
-/// The capabilities of a subject under these options. Throws SubjectError.
+/// The capabilities of a subject under these options. Throws SubjectError; SubjectDied (kProtocol) if it
+/// declares what means nothing.
 lc_capabilities capabilities(const lc_subject& subject, const std::string& options = {});
 
 /// One control mesh in the hands of one subject: create() ... destroy().
 class Session {
  public:
-  /// Rounds the positions to the subject's precision and calls create(). `mesh` is valid (data/validate.h).
-  /// Throws SubjectError: the subject refuses, a coordinate is not finite, or coordinate_range.h refuses.
-  Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {});
+  /// What is handed over: valid meshes (data/validate.h), or whatever it is, to see the subject refuse it.
+  enum class Input { kValid, kAsItIs };
+
+  /// Rounds the positions to the subject's precision and calls create().
+  /// Throws SubjectError: the subject refuses; of valid input, a coordinate is not finite, or
+  /// coordinate_range.h refuses (NotAsked).
+  Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {},
+          Input input = Input::kValid);
   ~Session();
   /// destroy(), once. Throws SubjectError: the subject breaks down while it cleans up.
   void close();
@@ -154,8 +160,8 @@ class Session {
   /// Tessellates.
   ///   face_depth   one per control face: 0..max_depth, or -1 (culled)
   ///   threads      at most so many, >= 1
-  /// Throws SubjectError: the subject fails; or, without asking it, LC_NOT_SUPPORTED if the depths are beyond
-  /// max_depth or differ although it cannot. Throws std::invalid_argument: wrong number of depths, depth <
+  /// Throws SubjectError: the subject fails; NotAsked if the depths are beyond max_depth or differ although
+  /// it cannot. Throws std::invalid_argument: wrong number of depths, depth <
   /// -1, threads < 1.
   Tessellation tessellate(std::span<const std::int32_t> face_depth, int threads = 1);
   /// The same depth for all faces.

@@ -220,7 +220,7 @@ V ModelRules::normal(const Topology& topology, const std::vector<V>& points, std
   }
   if (is("zero_where_tangents_vanish") && length(cross(t.first, t.second)) == 0) return {};
   if (taken_as_vanishing(t, p)) return {0, 0, 1};
-  V result = reference::unit_normal<double>(t.first, t.second, facets).direction;
+  V result = reference::unit_normal<double>(t, facets).direction;
   if (open && n > 4 && is("boundary_normals_inside")) result *= -1;
   if (is("quick_root")) {  // 1 / sqrt(x) by the bits of x, with one step of Newton's
     const V c = cross(t.first, t.second);

@@ -37,7 +37,7 @@ extern "C" {
 /* How a call went. */
 typedef enum lc_status {
   LC_OK = 0,
-  LC_NOT_SUPPORTED = 1, /* the subject does not offer what was asked; not a fault */
+  LC_NOT_SUPPORTED = 1, /* its capabilities exclude what was asked, or a size nobody declares: no fault */
   LC_INVALID_INPUT = 2, /* the subject refuses this mesh or these options */
   LC_FAILED = 3         /* it tried and could not */
 } lc_status;

@@ -21,6 +21,12 @@ class SubjectError : public std::runtime_error {
   lc_status status_;
 };
 
+/// The host has not asked: what was wanted is beyond what the subject declares, or beyond the door itself.
+class NotAsked : public SubjectError {
+ public:
+  explicit NotAsked(const std::string& message) : SubjectError(LC_NOT_SUPPORTED, message) {}
+};
+
 /// A subject that runs in a process of its own (verify/subject/isolation/) has broken down there. what()
 /// tells how, what it last wrote on standard error, and the command that repeats it.
 class SubjectDied : public SubjectError {

@@ -161,6 +161,14 @@ TEST_F(Breakdown, ALibraryThatCrashesWhileItIsLoadedIsAFinding) {
   EXPECT_EQ(report["results"][0]["status"], "crash");
 }
 
+TEST_F(Breakdown, CapabilitiesThatMeanNothingAreAFinding) {
+  const json report =
+      report_of("audit " + library("hostile") + " octahedron --json - --options do=weights", 1);
+  EXPECT_EQ(report["results"][0]["status"], "finding");
+  EXPECT_NE(report["results"][0]["message"].get<std::string>().find("weights is 9"), std::string::npos)
+      << report["results"][0];
+}
+
 // What a program may answer wrongly, and what the audit calls it.
 TEST_F(Breakdown, ProgramsThatBreakTheProtocolAreFindings) {
   const std::string hello =
@@ -194,7 +202,8 @@ TEST_F(Breakdown, ProgramsThatBreakTheProtocolAreFindings) {
       {"answer '{\"status\": \"ok\", \"vertices\": 100, \"triangles\": 1}'; printf 'short'", "crash",
        "exit status 0 before its answer"},
       {"answer '{\"status\": \"failed\", \"message\": \"no luck\"}'", "error", "no luck"},
-      {"answer '{\"status\": \"not-supported\", \"message\": \"no luck\"}'", "not-supported", "no luck"},
+      {"answer '{\"status\": \"not-supported\", \"message\": \"no luck\"}'", "finding",
+       "no luck; its capabilities do not exclude this"},
   };
   // Answers line by line, so that nothing lies in the pipe before it is asked for.
   write("answer",

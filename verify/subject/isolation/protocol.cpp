@@ -154,6 +154,7 @@ Capabilities read_capabilities(Source& source) {
     throw Error(
         fmt::format("it speaks version {} of the protocol, this program speaks {}", version, kVersion));
   header.refuse_unless_ok();
+  if (header.has("impossible")) throw Error(header.text("impossible"));  // the worker has seen it
 
   Capabilities result;
   lc_capabilities& c = result.values;

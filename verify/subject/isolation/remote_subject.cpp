@@ -202,6 +202,7 @@ std::unique_ptr<ChildProcess> RemoteSubject::start() const {
       command = {"/bin/sh", "-c", what_};
       break;
   }
+  if (settings_.in_turns) command.emplace_back("--in-turns");
   return std::make_unique<ChildProcess>(command, settings_.limits);
 }
 

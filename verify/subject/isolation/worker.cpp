@@ -84,7 +84,12 @@ struct Loaded {
 };
 
 nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options) {
-  const lc_capabilities c = capabilities(subject, options);
+  lc_capabilities c{};
+  try {
+    c = capabilities(subject, options);
+  } catch (const SubjectDied& wrong) {
+    return {{"limitcheck", protocol::kVersion}, {"status", "ok"}, {"impossible", wrong.what()}};
+  }
   return {{"limitcheck", protocol::kVersion},
           {"status", "ok"},
           {"precision", c.precision == LC_FLOAT32 ? "float32" : "float64"},

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A subject in C: the tessellator of loop.h behind limitcheck's door. */
 #include <limitcheck/subject.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +18,11 @@ static lc_status create(const lc_mesh* mesh, const char* options, void** instanc
   (void)options;
   if (mesh->vertex_count == 0 || mesh->triangle_count == 0)
     return *message = "there are no triangles", LC_INVALID_INPUT;
+  for (int64_t k = 0; k < 3 * mesh->vertex_count; ++k)
+    if (!isfinite(mesh->positions[k])) return *message = "a coordinate is not finite", LC_INVALID_INPUT;
+  for (int64_t k = 0; k < 3 * mesh->triangle_count; ++k)
+    if (mesh->triangles[k] < 0 || mesh->triangles[k] >= mesh->vertex_count)
+      return *message = "a triangle names a vertex that does not exist", LC_INVALID_INPUT;
   Mesh m = mesh_allocate(mesh->vertex_count, mesh->triangle_count), *kept = malloc(sizeof *kept);
   memcpy(m.p, mesh->positions, (size_t)m.vertices * sizeof(Vec));
   memcpy(m.from, mesh->triangles, (size_t)m.halves * sizeof(int32_t));

@@ -33,6 +33,13 @@ struct Mesh {
   /// Finds the neighbours. Throws std::invalid_argument if the triangles are no oriented manifold.
   void connect() {
     if (triangles.empty()) throw std::invalid_argument("there are no triangles");
+    for (const Vec& p : positions)
+      for (const double x : p)
+        if (!std::isfinite(x)) throw std::invalid_argument("a coordinate is not finite");
+    for (const Triangle& t : triangles)
+      for (const int v : t.v)
+        if (v < 0 || v >= static_cast<int>(positions.size()))
+          throw std::invalid_argument("a triangle names a vertex that does not exist");
     std::map<int, int> faces;
     for (const Triangle& t : triangles)
       for (std::size_t k = 0; k < 3; ++k, ++faces[t.v[k % 3]])

@@ -8,7 +8,7 @@ import json
 import sys
 from array import array
 from collections import Counter
-from math import cos, pi, sin, sqrt
+from math import cos, isfinite, pi, sin, sqrt
 
 
 def weighted(terms):
@@ -130,6 +130,10 @@ while line := sys.stdin.buffer.readline():
         try:
             if not faces:
                 raise ValueError("there are no triangles")
+            if not all(map(isfinite, xyz)):
+                raise ValueError("a coordinate is not finite")
+            if min(corners) < 0 or max(corners) >= question["vertices"]:
+                raise ValueError("a triangle names a vertex that does not exist")
             control = Mesh([tuple(xyz[k:k + 3]) for k in range(0, len(xyz), 3)],
                            [(v, face, ((0, 0), (1, 0), (0, 1))) for face, v in enumerate(faces)])
             write({})

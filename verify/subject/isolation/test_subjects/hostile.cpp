@@ -41,6 +41,9 @@ bool is_the_case(const std::string& which, const lc_mesh& mesh) {
       if (mesh.positions[3 * v + axis] != mesh.positions[axis]) return false;
     return true;
   };
+  static int made = 0;  // in this process
+  if (++made > 1 && which == "another") return mesh.vertex_count == 6;
+  if (which == "another") return false;
   if (which == "broken") return mesh.vertex_count == 7 && mesh.triangle_count == 4;
   if (mesh.vertex_count != 6) return false;
   if (which == "mirrored") return mesh.triangles[0] == 0 && mesh.triangles[1] == 4;
@@ -114,8 +117,11 @@ extern "C" const lc_subject* lc_subject_get(std::uint32_t) {
   static lc_subject subject = good();
   subject.name = "hostile";
   subject.options = "do=THING, on=CASE";
-  subject.capabilities = [](const char*, lc_capabilities* out, const char** message) {
-    return good().capabilities(nullptr, out, message);
+  subject.capabilities = [](const char* options, lc_capabilities* out, const char** message) {
+    const lc_status status = good().capabilities(nullptr, out, message);
+    const int nine = 9;
+    if (option(options, "do") == "weights") std::memcpy(&out->weights, &nine, sizeof nine);
+    return status;
   };
   subject.create = [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
     auto* made = new Instance;

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Where the pictures are taken: cameras, colours and frames.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "bench/render/renderer.h"
+#include "bench/reproduction/scene.h"
+#include "data/generators/bumpy_sphere.h"
+#include "fast/frame.h"
+
+namespace limitcheck::bench {
+
+inline constexpr int kSize = 800;
+
+/// Looks at the origin from so many degrees round it and from a little above.
+inline fast::Camera camera_at(double degrees, double distance) {
+  fast::Camera camera;
+  const double angle = degrees * std::numbers::pi / 180;
+  camera.eye = {distance * std::sin(angle), .35 * distance, distance * std::cos(angle)};
+  camera.field_of_view = 40;
+  camera.width = camera.height = kSize;
+  return camera;
+}
+
+/// Light for shallow, dark for deep; readable without colour vision.
+inline Colour depth_colour(int depth) {
+  constexpr Colour scale[] = {{.99f, .91f, .15f}, {.56f, .84f, .27f}, {.13f, .66f, .52f},
+                              {.17f, .45f, .56f}, {.25f, .27f, .53f}, {.27f, .0f, .33f}};
+  return scale[std::min(depth, 5)];
+}
+
+struct Lines {
+  std::vector<Segment> segments;
+  Colour colour;
+};
+inline constexpr Colour kRed{.8f, .1f, .1f}, kBlue{.05f, .2f, .75f};
+
+/// A mesh, its frames and their pictures.
+class Studio {
+ public:
+  explicit Studio(data::ControlMesh mesh) : mesh_(std::move(mesh)) {}
+
+  fast::DrawList<float> frame(const fast::DepthOptions& depth, const fast::Camera& seen_by,
+                              const fast::CrackOptions& cracks = {}) const {
+    fast::TessellatorOptions options;
+    options.cracks = cracks;
+    fast::Tessellator<float> tessellator(mesh_, options);
+    fast::DrawList<float> out;
+    tessellator.frame(depth, seen_by, out);
+    return out;
+  }
+  Image shot(const fast::DrawList<float>& frame, const fast::Camera& camera, const Appearance& appearance,
+             const std::vector<Lines>& lines = {}) {
+    static Renderer renderer(kSize, kSize, 4);
+    renderer.begin(camera, 20);
+    renderer.draw(frame, appearance);
+    for (const Lines& some : lines) renderer.draw(some.segments, some.colour);
+    return renderer.image();
+  }
+  const data::ControlMesh& mesh() const { return mesh_; }
+
+ private:
+  data::ControlMesh mesh_;
+};
+
+/// Strips by depth, fans in orange.
+inline Appearance by_depth(bool wireframe) {
+  Appearance a;
+  a.colour = [](const fast::Draw& draw) {
+    return draw.kind == fast::Kind::kFan ? Colour{.85f, .45f, .1f} : depth_colour(draw.depth);
+  };
+  a.wireframe = wireframe;
+  return a;
+}
+
+inline fast::DepthOptions strategy(fast::Strategy name, int depth = 4) {
+  fast::DepthOptions options;
+  options.strategy = name;
+  options.depth = depth;
+  return options;
+}
+
+inline Studio bumpy(int faces) {
+  return Studio(data::bumpy_sphere(faces, kSphereSeed));
+}
+
+/// Depths 1 and 4 side by side, near and from the side: the cracks that they leave, or what became of them.
+Image cracks_close_up(fast::Repair repair);
+/// The two beside each other.
+Image cracks_and_repair();
+/// One fan, every triangle in one shade: its centre on the flat triangle, and on the limit surface.
+Image fan_centres();
+/// A control mesh, and its coarse tessellation coloured by how far each triangle is off the surface.
+Image error_beside_control_mesh();
+
+}  // namespace limitcheck::bench

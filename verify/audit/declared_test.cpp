@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// What a subject declares, it is held to; what nobody looked at is said.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+
+#include "data/generators/named_mesh.h"
+#include "verify/audit/audit.h"
+#include "verify/audit/judged.h"
+#include "verify/audit/table.h"
+#include "verify/audit/test_rows.h"
+#include "verify/subject/host.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+namespace {
+
+const lc_subject& good() {
+  return *lc_subject_naive();
+}
+
+lc_capabilities declared;  // by the subject under test
+std::string refuses;       // what it does not take all the same
+
+lc_subject particular() {
+  declared = capabilities(good());
+  refuses.clear();
+  lc_subject s = good();
+  s.name = "particular";
+  s.capabilities = [](const char*, lc_capabilities* out, const char**) {
+    *out = declared;
+    return LC_OK;
+  };
+  s.create = [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
+    *message = "not today";
+    if (refuses == "open" && mesh->triangle_count < 2 * (mesh->vertex_count - 2)) return LC_NOT_SUPPORTED;
+    if (refuses == "all") return LC_NOT_SUPPORTED;
+    return good().create(mesh, options, instance, message);
+  };
+  s.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out, const char** message) {
+    *message = "not today";
+    if (refuses == "depth 2" && request->face_depth[0] == 2) return LC_NOT_SUPPORTED;
+    if (refuses == "culled" && request->face_depth[0] == -1) return LC_NOT_SUPPORTED;
+    return good().tessellate(instance, request, out, message);
+  };
+  return s;
+}
+
+Result tessellates(const lc_subject& subject, AuditMesh mesh) {
+  return row(Auditor(2, 1).run({&subject, ""}, mesh), "tessellates");
+}
+AuditMesh mesh(const std::string& name, std::vector<std::int32_t> depths = {}) {
+  return {name, data::named_mesh(name), std::move(depths)};
+}
+
+TEST(Declared, ARefusalOfWhatIsDeclaredIsAFinding) {
+  const lc_subject subject = particular();
+  refuses = "open";
+  EXPECT_EQ(tessellates(subject, mesh("fan:3:1")).status, Status::kFinding);
+  EXPECT_EQ(tessellates(subject, mesh("octahedron")).status, Status::kHeld);
+  refuses = "depth 2";
+  EXPECT_EQ(tessellates(subject, mesh("octahedron")).status, Status::kFinding);
+  refuses = "culled";
+  EXPECT_EQ(tessellates(subject, mesh("tetrahedron", {-1, 1, 1, 2})).status, Status::kFinding);
+  EXPECT_EQ(tessellates(subject, mesh("tetrahedron", {-1, -1, -1, -1})).status, Status::kFinding);
+  EXPECT_NE(tessellates(subject, mesh("tetrahedron", {-1, 1, 1, 2})).message.find("not today"),
+            std::string::npos);
+}
+
+TEST(Declared, ARefusalOfWhatIsNotDeclaredIsNone) {
+  const lc_subject subject = particular();
+  declared.boundary = LC_BOUNDARY_NONE;
+  refuses = "open";
+  EXPECT_EQ(tessellates(subject, mesh("fan:3:1")).status, Status::kNotSupported);
+  declared.max_depth = 1;
+  EXPECT_EQ(tessellates(subject, mesh("octahedron")).status, Status::kNotSupported);
+  declared.max_depth = 4;
+  declared.per_face_depth = 0;
+  EXPECT_EQ(tessellates(subject, mesh("tetrahedron", {0, 1, 1, 2})).status, Status::kNotSupported);
+  refuses = "all";  // sizes are declared by nobody
+  EXPECT_EQ(tessellates(subject, mesh("tiny-box")).status, Status::kNotSupported);
+  EXPECT_EQ(tessellates(subject, mesh("cube")).status, Status::kFinding);
+}
+
+TEST(Declared, CapabilitiesThatMeanNothingAreAFinding) {
+  const lc_subject subject = particular();
+  const auto finding = [&](const char* what) {
+    const Result r = tessellates(subject, mesh("tetrahedron"));
+    EXPECT_EQ(r.status, Status::kFinding) << what << ": " << r.message;
+    EXPECT_NE(r.message.find(what), std::string::npos) << r.message;
+    declared = capabilities(good());
+  };
+  const auto set = [](auto& value, int number) { std::memcpy(&value, &number, sizeof number); };
+  set(declared.weights, 9);
+  finding("weights is 9");
+  set(declared.precision, 7);
+  finding("precision is 7");
+  set(declared.boundary, -1);
+  finding("boundary is -1");
+  set(declared.points, 2);
+  finding("points is 2");
+  declared.normals = 5;
+  finding("normals is 5");
+  declared.per_face_depth = 2;
+  finding("per_face_depth is 2");
+  declared.exact_lattice = 3;
+  finding("exact_lattice is 3");
+  declared.max_depth = -1;
+  finding("max_depth is -1");
+}
+
+TEST(Declared, AllCulledIsToDeliverNothingAndIsNoFault) {
+  const auto culled = [](const lc_subject& subject) {
+    return Auditor(2, 1).run({&subject, ""}, mesh("octahedron", std::vector<std::int32_t>(8, -1)));
+  };
+  for (const char* name : {"naive", "sliding-window", "row-stream", "model"}) {
+    const auto results = culled(*find_subject(name));
+    for (const Result& r : results) EXPECT_FALSE(is_bad(r)) << name << " " << r.check << ": " << r.message;
+    EXPECT_EQ(row(results, "tessellates").status, Status::kHeld) << name;
+    EXPECT_EQ(row(results, "coverage").status, Status::kHeld) << name;
+  }
+  // One that displays all the same.
+  lc_subject shows = good();
+  shows.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out,
+                        const char** message) {
+    const std::vector<std::int32_t> depths(8, 1);
+    lc_request all = *request;
+    all.face_depth = depths.data();
+    return good().tessellate(instance, &all, out, message);
+  };
+  EXPECT_EQ(row(culled(shows), "coverage").status, Status::kFinding);
+}
+
+Report report_of(const char* subject) {
+  Report report;
+  report.subjects = {subject};
+  report.meshes = {{"octahedron", 6, 8}};
+  report.results = Auditor(1, 1).run({find_subject(subject), ""}, mesh("octahedron"));
+  return report;
+}
+
+TEST(NeverJudged, IsSaidOfNormalsThatASubjectDoesNotDeliver) {
+  const Report cgal = report_of("cgal");
+  const auto missing = never_judged(cgal);
+  ASSERT_EQ(missing.size(), 1U) << "its refined points are judged";
+  EXPECT_EQ(missing[0].check, "normals");
+  EXPECT_NE(to_table(cgal, false).find("normals of cgal were never judged"), std::string::npos);
+  EXPECT_TRUE(never_judged(report_of("naive")).empty());
+}
+
+TEST(NeverJudged, ARequiredCheckIsMetByThatCheckOnly) {
+  const Report cgal = report_of("cgal");
+  EXPECT_EQ(never_judged(cgal, {"positions"}).size(), 1U);
+  EXPECT_EQ(never_judged(cgal, {"refined-positions", "coverage"}).size(), 0U);
+  EXPECT_EQ(never_judged(cgal, {"state"}).size(), 1U) << "no row at all";
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

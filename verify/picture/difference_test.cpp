@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "verify/picture/difference.h"
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr int kWidth = 20, kHeight = 10;
+
+/// A rectangle of one shade before nothing.
+Picture rectangle(int x0, int y0, int x1, int y1, float shade = 100) {
+  Picture p{kWidth, kHeight, std::vector<float>(kWidth * kHeight, Picture::kNothing)};
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) p.shade[static_cast<std::size_t>(y * kWidth + x)] = shade;
+  return p;
+}
+
+Difference difference(const Picture& truth, const Picture& seen) {
+  DifferenceMeter meter;
+  meter.add(truth, seen);
+  return meter.result();
+}
+
+TEST(Difference, OfAPictureToItselfIsZero) {
+  const Picture p = rectangle(2, 2, 12, 8);
+  const Difference d = difference(p, p);
+  EXPECT_EQ(d.pixels, 60);
+  EXPECT_EQ(d.mean + d.median + d.percentile_99 + d.share + d.contour, 0);
+  EXPECT_EQ(d.missing + d.extra + d.largest_gap, 0);
+}
+
+TEST(Difference, AHoleIsMissingAndCountsAsAFullError) {
+  const Picture truth = rectangle(2, 2, 12, 8);
+  Picture seen = truth;
+  for (const int x : {5, 6, 7})
+    for (const int y : {4, 5}) seen.shade[static_cast<std::size_t>(y * kWidth + x)] = Picture::kNothing;
+  seen.shade[static_cast<std::size_t>(2 * kWidth + 11)] = Picture::kNothing;  // and a pixel apart from it
+  const Difference d = difference(truth, seen);
+  EXPECT_EQ(d.missing, 7);
+  EXPECT_EQ(d.extra, 0);
+  EXPECT_EQ(d.largest_gap, 6);
+  EXPECT_DOUBLE_EQ(d.mean, 7 * 255. / 60);
+  EXPECT_DOUBLE_EQ(d.share, 7. / 60);
+  EXPECT_EQ(d.median, 0);
+  EXPECT_EQ(d.percentile_99, 255);
+  EXPECT_EQ(d.contour, 1) << "each is beside one that is drawn";
+}
+
+TEST(Difference, AShiftedSurfaceIsMissingOnOneSideAndExtraOnTheOther) {
+  const Difference d = difference(rectangle(2, 2, 12, 8), rectangle(5, 2, 15, 8));
+  EXPECT_EQ(d.missing, 18);
+  EXPECT_EQ(d.extra, 18);
+  EXPECT_EQ(d.pixels, 78);
+  EXPECT_EQ(d.contour, 3);
+  EXPECT_DOUBLE_EQ(d.share, 36. / 78);
+}
+
+TEST(Difference, ContourIsTheDistanceFromWhatIsDrawnAlsoAcrossCorners) {
+  const Difference d = difference(rectangle(2, 2, 12, 8), rectangle(2, 2, 9, 4));
+  EXPECT_DOUBLE_EQ(d.contour, 5) << "the pixel (11, 7) from (8, 3): a right triangle of 3, 4 and 5";
+}
+
+TEST(Difference, CountsShadesThatDifferByMoreThanFour) {
+  const Picture truth = rectangle(2, 2, 12, 8);
+  EXPECT_EQ(difference(truth, rectangle(2, 2, 12, 8, 104)).share, 0);
+  const Difference d = difference(truth, rectangle(2, 2, 12, 8, 105));
+  EXPECT_EQ(d.share, 1);
+  EXPECT_EQ(d.mean, 5);
+  EXPECT_EQ(d.median, 5);
+}
+
+TEST(Difference, TakesPairsTogether) {
+  DifferenceMeter meter;
+  meter.add(rectangle(0, 0, 10, 10), rectangle(0, 0, 10, 10));
+  meter.add(rectangle(0, 0, 10, 10), rectangle(0, 0, 10, 10, 110));
+  EXPECT_EQ(meter.result().pixels, 200);
+  EXPECT_DOUBLE_EQ(meter.result().mean, 5);
+}
+
+TEST(Difference, WantsPicturesOfOneSize) {
+  Picture other = rectangle(2, 2, 12, 8);
+  other.width = kHeight, other.height = kWidth;
+  DifferenceMeter meter;
+  EXPECT_THROW(meter.add(rectangle(2, 2, 12, 8), other), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "verify/subject/in_turns.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data/shapes.h"
+
+namespace limitcheck::verify {
+namespace {
+
+const lc_subject* inner = nullptr;  // the functions of a subject are not told whose they are
+
+// Memory for answers that nobody looks at, as the door promises it.
+struct Scratch {
+  std::vector<std::unique_ptr<void, decltype(&std::free)>> blocks;
+
+  static void* allocate(void* host, std::size_t bytes) {
+    const std::size_t whole = (bytes / 64 + 1) * 64;
+    void* block = std::aligned_alloc(64, whole);
+    if (block == nullptr) return nullptr;
+    std::memset(block, 0xFF, whole);
+    static_cast<Scratch*>(host)->blocks.emplace_back(block, &std::free);
+    return block;
+  }
+};
+
+// One mesh in the hands of the inner subject.
+class Instance {
+ public:
+  Instance(std::vector<double> positions, std::vector<std::int32_t> triangles, std::string options)
+      : positions_(std::move(positions)), triangles_(std::move(triangles)), options_(std::move(options)) {}
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+  ~Instance() {
+    try {
+      destroy();
+    } catch (...) {  // there is another failure to tell
+    }
+  }
+
+  lc_status create(const char** message) {
+    const lc_mesh mesh{positions_.data(), static_cast<std::int64_t>(positions_.size() / 3), triangles_.data(),
+                       faces()};
+    const lc_status status =
+        inner->create(&mesh, options_.empty() ? nullptr : options_.c_str(), &made_, message);
+    alive_ = status == LC_OK;
+    return status;
+  }
+  void destroy() {
+    if (!alive_) return;
+    alive_ = false;
+    inner->destroy(made_);
+  }
+  lc_status tessellate(const lc_request& request, lc_tessellation* out, const char** message) {
+    return inner->tessellate(made_, &request, out, message);
+  }
+  void release(lc_tessellation* out) { inner->release(made_, out); }
+
+  /// Tessellates, and looks away.
+  lc_status disturb(std::int32_t depth, const char** message) {
+    Scratch scratch;
+    const std::vector<std::int32_t> depths(static_cast<std::size_t>(faces()), depth);
+    const lc_request request{depths.data(), 1, &scratch, &Scratch::allocate};
+    lc_tessellation out{};
+    const lc_status status = tessellate(request, &out, message);
+    if (status == LC_OK) release(&out);
+    return status;
+  }
+
+  std::int64_t faces() const { return static_cast<std::int64_t>(triangles_.size() / 3); }
+  std::int64_t vertices() const { return static_cast<std::int64_t>(positions_.size() / 3); }
+  const std::string& options() const { return options_; }
+
+  /// As many vertices and faces, each vertex with another number and, times two, at another place.
+  std::unique_ptr<Instance> look_alike() const {
+    std::vector<double> positions(positions_.size());
+    const auto last = static_cast<std::size_t>(vertices()) - 1;
+    for (std::size_t v = 0; v <= last; ++v)
+      for (std::size_t k = 0; k < 3; ++k) positions[3 * (last - v) + k] = 2 * positions_[3 * v + k];
+    std::vector<std::int32_t> triangles = triangles_;
+    for (std::int32_t& v : triangles) v = static_cast<std::int32_t>(last) - v;
+    return std::make_unique<Instance>(std::move(positions), std::move(triangles), options_);
+  }
+
+ private:
+  std::vector<double> positions_;
+  std::vector<std::int32_t> triangles_;
+  std::string options_;
+  void* made_ = nullptr;
+  bool alive_ = false;
+};
+
+std::unique_ptr<Instance> instance_of(const data::ControlMesh& mesh, const std::string& options) {
+  std::vector<double> positions;
+  std::vector<std::int32_t> triangles;
+  for (const auto& p : mesh.positions) positions.insert(positions.end(), p.begin(), p.end());
+  for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  return std::make_unique<Instance>(std::move(positions), std::move(triangles), options);
+}
+
+// The mesh that is asked for, and those in between.
+struct Turns {
+  std::unique_ptr<Instance> mine, other, alike;
+  std::int32_t max_depth = 0;
+  std::size_t turn = 0;
+
+  lc_status create(const char** message) {
+    lc_status status = other->create(message);
+    if (status == LC_OK) status = other->disturb(std::min(1, max_depth), message);
+    return status == LC_OK ? mine->create(message) : status;
+  }
+
+  // What comes before the next request (kTurns).
+  lc_status disturb(const lc_request& request, const char** message) {
+    const std::int32_t* end = request.face_depth + mine->faces();
+    const std::int32_t deepest = std::max(0, *std::max_element(request.face_depth, end));
+    switch (turn++) {
+      case 1:
+        return mine->disturb(deepest == 1 || max_depth == 0 ? 0 : 1, message);
+      case 2:
+        return other->disturb(std::min(2, max_depth), message);
+      case 3: {
+        alike = mine->look_alike();
+        const lc_status status = alike->create(message);
+        return status == LC_OK ? alike->disturb(deepest, message) : status;
+      }
+      case 4:
+        other->destroy();
+        return LC_OK;
+      case 7: {
+        mine->destroy();
+        lc_status status = other->create(message);
+        if (status == LC_OK) status = other->disturb(0, message);
+        return status == LC_OK ? mine->create(message) : status;
+      }
+      default:
+        return LC_OK;
+    }
+  }
+
+  void destroy() const {
+    mine->destroy();
+    if (alike) alike->destroy();
+    other->destroy();
+  }
+};
+
+}  // namespace
+
+InTurns::InTurns(const lc_subject& of) : subject_(of) {
+  inner = &of;
+  subject_.create = [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
+    lc_capabilities capabilities{};
+    lc_status status = inner->capabilities(options, &capabilities, message);
+    if (status != LC_OK) return status;
+    auto turns = std::make_unique<Turns>();
+    turns->max_depth = capabilities.max_depth;
+    const std::string given = options != nullptr ? options : "";
+    turns->mine = std::make_unique<Instance>(
+        std::vector<double>(mesh->positions, mesh->positions + 3 * mesh->vertex_count),
+        std::vector<std::int32_t>(mesh->triangles, mesh->triangles + 3 * mesh->triangle_count), given);
+    turns->other = instance_of(mesh->vertex_count == 6 ? data::icosahedron() : data::octahedron(), given);
+    status = turns->create(message);
+    if (status == LC_OK) *instance = turns.release();
+    return status;
+  };
+  subject_.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out,
+                           const char** message) {
+    auto& turns = *static_cast<Turns*>(instance);
+    const lc_status status = turns.disturb(*request, message);
+    return status == LC_OK ? turns.mine->tessellate(*request, out, message) : status;
+  };
+  subject_.release = [](void* instance, lc_tessellation* out) {
+    static_cast<Turns*>(instance)->mine->release(out);
+  };
+  subject_.destroy = [](void* instance) {
+    const std::unique_ptr<Turns> turns(static_cast<Turns*>(instance));
+    turns->destroy();
+  };
+}
+
+InTurns::~InTurns() {
+  inner = nullptr;
+}
+
+}  // namespace limitcheck::verify

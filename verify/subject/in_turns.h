@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A subject that is asked for other things in between: what it keeps from one request for the next shows.
+#pragma once
+
+#include <array>
+
+#include "verify/subject/subject.h"
+
+namespace limitcheck::verify {
+
+/// What has happened before each request to tessellate is passed on, in this order; behind the last one,
+/// nothing more.
+inline constexpr std::array<const char*, 8> kTurns{
+    "after another mesh",
+    "after another depth",
+    "after another mesh that is alive beside it",
+    "beside another mesh of as many vertices and faces, with 8 threads",
+    "after the other mesh was destroyed",
+    "for the seventh time since it was made",
+    "for the eighth time since it was made",
+    "made again after another mesh"};
+
+/// Behind the door of `inner`: create() first makes another mesh and tessellates it, then the one that is
+/// asked for; each tessellate() is passed on after the turn above. All other meshes are valid and closed. A
+/// failure in a turn is a failure of the request. One at a time in a process.
+class InTurns {
+ public:
+  explicit InTurns(const lc_subject& inner);
+  ~InTurns();
+  InTurns(const InTurns&) = delete;
+  InTurns& operator=(const InTurns&) = delete;
+
+  const lc_subject& subject() const { return subject_; }
+
+ private:
+  lc_subject subject_;
+};
+
+}  // namespace limitcheck::verify

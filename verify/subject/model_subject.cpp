@@ -10,6 +10,7 @@
 //             faces
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <memory>
@@ -58,10 +59,28 @@ class ModelSubject {
  public:
   static lc_capabilities capabilities(Options& options) {
     const Settings settings(options);
-    const lc_precision precision = settings.single ? LC_FLOAT32 : LC_FLOAT64;
-    if (settings.refined)
-      return {precision, settings.weights, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, kDeepest, 0, 0, 1};
-    return {precision, settings.weights, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
+    lc_capabilities c{settings.single ? LC_FLOAT32 : LC_FLOAT64,
+                      settings.weights,
+                      LC_BOUNDARY_SPLINE,
+                      LC_POINTS_LIMIT,
+                      kDeepest,
+                      1,
+                      1,
+                      1};
+    if (settings.refined) {
+      c.points = LC_POINTS_REFINED;
+      c.normals = c.per_face_depth = 0;
+    }
+    // What C++ does not let an enumeration hold, a subject in C does.
+    const auto set = [&](std::string_view mutation, auto& value, std::int32_t number) {
+      if (settings.mutation == mutation) std::memcpy(&value, &number, sizeof value);
+    };
+    set("weights_9", c.weights, 9);
+    set("boundary_of_minus_1", c.boundary, -1);
+    set("points_of_no_kind", c.points, 2);
+    set("no_depth_at_all", c.max_depth, -1);
+    set("normals_true", c.normals, -1);
+    return c;
   }
 
   ModelSubject(const lc_mesh& mesh, Options& options) : ModelSubject(mesh, Settings(options)) {}
@@ -84,7 +103,7 @@ class ModelSubject {
       : settings_(settings), rules_(settings.mutation, family(settings.weights), settings.refined) {
     try {
       data::ControlMesh control = control_mesh(mesh);
-      refuse(control);
+      if (!rules_.is("accepts_nan") && !rules_.is("accepts_wild_indices")) refuse_unusable(mesh);
       remember(control);
       mesh_ = std::make_unique<ModelMesh>(control);
     } catch (const std::invalid_argument& error) {
@@ -102,13 +121,6 @@ class ModelSubject {
     for (std::size_t v = 0; v < control_mesh(mesh).positions.size(); ++v)
       if (mesh_->topology.ring(static_cast<std::int32_t>(v)).size() > 50 && rules_.is("valence_50_at_most"))
         throw SubjectError(LC_INVALID_INPUT, "more than 50 neighbours");
-  }
-
-  // What no mesh may have. Indices out of range are the topology's business.
-  void refuse(const data::ControlMesh& control) const {
-    for (const auto& p : control.positions)
-      if (!std::isfinite(p[0] + p[1] + p[2]) && !rules_.is("accepts_nan"))
-        throw std::invalid_argument("a control point is not finite");
   }
 
   // What mutants keep from one mesh to the next.
@@ -189,9 +201,21 @@ class ModelSubject {
 }  // namespace
 
 extern "C" const lc_subject* lc_subject_model() {
-  static const lc_subject subject = make_subject<ModelSubject>(
-      "model", "a plain tessellator that is right, or wrong in one stated way",
-      "mutation=NAME (default none), precision=double|float (default double), weights=loop|warren "
-      "(default loop), points=limit|refined (default limit)");
+  static const lc_subject subject = [] {
+    lc_subject model = make_subject<ModelSubject>(
+        "model", "a plain tessellator that is right, or wrong in one stated way",
+        "mutation=NAME (default none), precision=double|float (default double), weights=loop|warren "
+        "(default loop), points=limit|refined (default limit)");
+    // It refuses by itself what it cannot use: some mutants do not.
+    model.create = [](const lc_mesh* mesh, const char* text, void** instance, const char** message) {
+      return detail::guarded(message, [&] {
+        Options options(text);
+        auto made = std::make_unique<ModelSubject>(*mesh, options);
+        options.finish();
+        *instance = made.release();
+      });
+    };
+    return model;
+  }();
   return &subject;
 }

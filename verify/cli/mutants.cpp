@@ -29,24 +29,25 @@ std::string to_json(const KillTable& table) {
                               {"check", k.mutant->check},
                               {"killed", !k.killed_by.empty()},
                               {"killed_by_check", k.by_its_check()},
-                              {"killed_by", k.killed_by}});
+                              {"killed_by", k.killed_by},
+                              {"case", k.on.empty() ? Json(nullptr) : Json(k.on)}});
   out["idle_checks"] = table.idle;
   out["red_on_correct_subjects"] = table.red_on_correct;
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_table(const KillTable& table) {
-  std::string out = fmt::format("{:<26} {:<5} {:<26} {:<8} {}\n", "mutant", "claim", "meant for", "verdict",
-                                "also killed by");
+  std::string out = fmt::format("{:<26} {:<5} {:<26} {:<8} {:<28} {}\n", "mutant", "claim", "meant for",
+                                "verdict", "on", "also killed by");
   for (const Kill& k : table.kills) {
     auto others = k.killed_by;
     others.erase(k.mutant->check);
-    out += fmt::format("{:<26} {:<5} {:<26} {:<8} {}\n", k.mutant->name,
+    out += fmt::format("{:<26} {:<5} {:<26} {:<8} {:<28} {}\n", k.mutant->name,
                        k.mutant->claim.empty() ? "-" : k.mutant->claim, k.mutant->check,
                        k.by_its_check()      ? "killed"
                        : k.killed_by.empty() ? "SURVIVED"
                                              : "ASTRAY",
-                       fmt::join(others, ", "));
+                       k.on.empty() ? "-" : k.on, fmt::join(others, ", "));
   }
   const auto killed =
       std::count_if(table.kills.begin(), table.kills.end(), [](const Kill& k) { return k.by_its_check(); });

@@ -4,12 +4,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
-#include "data/generators/named_mesh.h"
-#include "data/splitmix64.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/checks.h"
+#include "verify/audit/default_plan.h"
 #include "verify/audit/relations.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/model_rules.h"
@@ -20,51 +20,84 @@ namespace {
 
 constexpr const char* kBase = "model";
 
-// The row that each planted fault is meant for.
-const std::map<std::string, std::string>& meant() {
-  static const std::map<std::string, std::string> table{
-      {"nan_position", "finite"},
-      {"infinite_position", "finite"},
-      {"nan_normal", "finite"},
-      {"unwritten_position", "written"},
-      {"unwritten_normal", "written"},
-      {"unwritten_triangle", "written"},
-      {"wrong_limit_mask", "positions"},
-      {"wrong_edge_mask", "positions"},
-      {"flipped_normals", "normals"},
-      {"one_flipped_normal", "normals"},
-      {"long_normals", "normal-length"},
-      {"shifted_provenance", "positions"},
-      {"mirrored_provenance", "orientation"},
-      {"swapped_points", "positions"},
-      {"provenance_out_of_range", "written"},
-      {"flipped_orientation", "orientation"},
-      {"one_flipped_triangle", "orientation"},
-      {"missing_triangle", "coverage"},
-      {"duplicated_triangle", "coverage"},
-      {"wrong_triangle_face", "coverage"},
-      {"index_out_of_range", "written"},
-      {"t_vertex", "t-vertices"},
-      {"one_ulp_crack", "shared-positions"},
-      {"one_ulp_normal", "shared-normals"},
-      {"negative_count", "written"},
-      {"count_too_large", "written"},
-      {"foreign_memory", "written"},
-      {"write_behind", "written"},
-      {"write_before", "written"},
-      {"modified_mesh", "written"},
-      {"overlapping_arrays", "written"},
+// The row that each planted fault is meant for, and the subject it is planted in.
+struct Meant {
+  const char* check;
+  const char* subject = kBase;
+};
+const std::map<std::string, Meant>& meant() {
+  static const std::map<std::string, Meant> table{
+      {"nan_position", {"finite"}},
+      {"infinite_position", {"finite"}},
+      {"nan_normal", {"finite"}},
+      {"unwritten_position", {"written"}},
+      {"unwritten_normal", {"written"}},
+      {"unwritten_triangle", {"written"}},
+      {"wrong_limit_mask", {"positions"}},
+      {"wrong_edge_mask", {"positions"}},
+      {"flipped_normals", {"normals"}},
+      {"one_flipped_normal", {"normals"}},
+      {"long_normals", {"normal-length"}},
+      {"shifted_provenance", {"positions"}},
+      {"mirrored_provenance", {"orientation"}},
+      {"swapped_points", {"positions"}},
+      {"provenance_out_of_range", {"written"}},
+      {"flipped_orientation", {"orientation"}},
+      {"one_flipped_triangle", {"orientation"}},
+      {"missing_triangle", {"coverage"}},
+      {"duplicated_triangle", {"coverage"}},
+      {"wrong_triangle_face", {"coverage"}},
+      {"index_out_of_range", {"written"}},
+      {"t_vertex", {"t-vertices"}},
+      {"one_ulp_crack", {"shared-positions"}},
+      {"one_ulp_normal", {"shared-normals"}},
+      {"negative_count", {"written"}},
+      {"count_too_large", {"written"}},
+      {"foreign_memory", {"written"}},
+      {"write_behind", {"written"}},
+      {"write_before", {"written"}},
+      {"modified_mesh", {"written"}},
+      {"overlapping_arrays", {"written"}},
+      {"unwritten_provenance", {"written"}},
+      {"unwritten_triangle_face", {"written"}},
+      {"snapped_positions", {"watertight"}},
+      {"face_twice", {"coverage"}},
+      {"edges_of_genus_0", {"positions"}},
+      {"edges_of_genus_1", {"positions"}},
+      {"second_component", {"normals"}},
+      {"third_component", {"positions"}},
+      {"welded_components", {"positions"}},
+      {"flat_box", {"finite"}},
+      {"edge_without_length", {"finite"}},
+      {"unmoved_vertices", {"refined-positions", "cgal"}},
+      {"indices_of_16_bits", {"positions", "row-stream"}},  // the model refines the whole of a large mesh
   };
   return table;
 }
 
-AuditMesh mesh(const std::string& name, bool random_depths) {
-  AuditMesh m{name, data::named_mesh(name)};
-  if (!random_depths) return m;
-  data::SplitMix64 random(1);
-  for (std::size_t f = 0; f < m.mesh.triangles.size(); ++f)
-    m.face_depth.push_back(static_cast<std::int32_t>(random.next() % 4) - 1);
-  return m;
+bool is_relation(const std::string& check) {
+  const auto& rows = relation_rows();
+  return std::find(rows.begin(), rows.end(), check) != rows.end();
+}
+
+// Triangles at the deepest level: what a case costs without its relations.
+double cost(const AuditMesh& m) {
+  const auto& shown = m.sample ? m.sample->part() : m.mesh;
+  return std::ldexp(static_cast<double>(shown.triangles.size()), 2 * m.depth);
+}
+
+// The model refines all faces of a mesh to the deepest level: more than these it is not asked for.
+constexpr double kModelTriangles = 70000;
+bool too_much(const AuditMesh& m) {
+  return std::ldexp(static_cast<double>(m.mesh.triangles.size()), 2 * m.depth) > kModelTriangles;
+}
+bool is_model(const std::string& subject, const std::string& options) {
+  return subject == kBase || options.find(fmt::format("of={}", kBase)) != std::string::npos;
+}
+
+std::string label(const AuditMesh& m) {
+  return m.depths.empty() || m.depths == "uniform" ? fmt::format("{} (depth {})", m.name, m.depth)
+                                                   : fmt::format("{} ({})", m.name, m.depths);
 }
 
 }  // namespace
@@ -74,15 +107,16 @@ const std::vector<Mutant>& mutants() {
     std::vector<Mutant> all;
     for (const Fault& f : faults()) {
       if (f.name == "none") continue;
-      const std::string name(f.name);
-      const auto check = meant().find(name);
-      all.push_back({name, std::string(f.description), "faulty", faulty_options(name, kBase),
-                     check == meant().end() ? "" : check->second, ""});
+      const auto found = meant().find(std::string(f.name));
+      const Meant to = found == meant().end() ? Meant{""} : found->second;
+      all.push_back({std::string(f.name), std::string(f.description), "faulty",
+                     faulty_options(f.name, to.subject), to.check, ""});
     }
     for (const Mutation& m : mutations())
       if (m.name != "none")
         all.push_back({std::string(m.name), std::string(m.description), kBase,
-                       fmt::format("mutation={}", m.name), std::string(m.check), std::string(m.claim)});
+                       fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
+                       std::string(m.check), std::string(m.claim)});
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
                    faulty_options("wrong_edge_mask", "cgal"), "refined-positions", ""});
     return all;
@@ -96,31 +130,48 @@ bool KillTable::held() const {
 }
 
 KillTable run_mutants(const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step) {
-  constexpr int kDepth = 2;
-  const std::vector<AuditMesh> meshes{mesh("bumpy:60", false), mesh("ragged-disc", false),
-                                      mesh("octahedron", true), mesh("wheel:5:2", true)};
-  std::vector<AuditSubject> subjects{{find_subject(kBase), ""}, {find_subject("sliding-window"), ""}};
-  const std::size_t correct = subjects.size();
-  for (const Mutant& m : mutants()) subjects.push_back({find_subject(m.subject), m.options});
-
+  constexpr int kThreads = 2;
   KillTable table;
-  for (const Mutant& m : mutants()) table.kills.push_back({&m, {}});
+  for (const Mutant& m : mutants()) table.kills.push_back({&m, {}, ""});
+  std::vector<AuditMesh> plan = default_plan(Level::kStandard);
+  const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
+                                          {find_subject("row-stream"), "repair=stitch"},
+                                          {find_subject("sliding-window"), "precision=double,repair=stitch"}};
+  const std::size_t total = plan.size() * correct.size() + table.kills.size();
   std::size_t done = 0;
-  for (const AuditMesh& m : meshes) {
-    Auditor auditor(kDepth, 2, {}, Level::kThorough);
-    for (std::size_t s = 0; s < subjects.size(); ++s, ++done) {
-      if (on_step)
-        on_step(fmt::format("{} on {}", s < correct ? subjects[s].subject->name : mutants()[s - correct].name,
-                            m.name),
-                done, subjects.size() * meshes.size());
-      for (const Result& r : auditor.run(subjects[s], m)) {
-        if (!is_bad(r)) continue;
-        if (s < correct)
+  const auto step = [&](const std::string& subject, const AuditMesh& m) {
+    if (on_step) on_step(fmt::format("{} on {}", subject, label(m)), done, total);
+  };
+
+  // Right subjects: the plan as it is.
+  Auditor auditor(0, kThreads, {}, Level::kStandard);
+  for (const AuditMesh& m : plan)
+    for (const AuditSubject& s : correct) {
+      step(s.subject->name, m);
+      ++done;
+      if (is_model(s.subject->name, s.options) && too_much(m)) continue;
+      for (const Result& r : auditor.run(s, m))
+        if (is_bad(r))
           table.red_on_correct.push_back(
-              fmt::format("{} / {} / {}: {}", r.subject, r.mesh, r.check, r.message));
-        else
-          table.kills[s - correct].killed_by.insert(r.check);
-      }
+              fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
+    }
+
+  // Mutants: cheap cases first, each until its own check has found it.
+  std::stable_sort(plan.begin(), plan.end(),
+                   [](const AuditMesh& a, const AuditMesh& b) { return cost(a) < cost(b); });
+  for (AuditMesh& m : plan) {
+    const bool relations = m.relations;
+    for (Kill& k : table.kills) {
+      const bool relation = is_relation(k.mutant->check);
+      if (k.by_its_check() || (relation && !relations)) continue;
+      if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
+      step(k.mutant->name, m);
+      m.relations = relation;
+      for (const Result& r : auditor.run({find_subject(k.mutant->subject), k.mutant->options}, m))
+        if (is_bad(r)) k.killed_by.insert(r.check);
+      if (!k.by_its_check()) continue;
+      k.on = label(m);
+      ++done;
     }
   }
 

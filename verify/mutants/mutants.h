@@ -22,7 +22,8 @@ const std::vector<Mutant>& mutants();
 
 struct Kill {
   const Mutant* mutant;
-  std::set<std::string> killed_by;  // rows that were red
+  std::set<std::string> killed_by;  // rows that were red, up to the case in which its check was
+  std::string on;                   // that case: "octahedron (depth 1)"
   bool by_its_check() const { return killed_by.contains(mutant->check); }
 };
 
@@ -33,7 +34,8 @@ struct KillTable {
   bool held() const;
 };
 
-/// Audits all mutants and the subjects they come from, on three small meshes. About a minute.
+/// Audits right subjects in all cases of the default plan (audit/default_plan.h), and each mutant in its
+/// cases, the cheap ones first, until the check meant for it is red.
 ///   on_step  called with what is being done, how much is done, of how much
 KillTable run_mutants(const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step = {});
 

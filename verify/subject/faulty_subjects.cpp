@@ -62,31 +62,21 @@ class FaultySubject {
   };
 
   FaultySubject(const lc_mesh& mesh, const Inner& inner)
-      : lent_(mesh), fault_(inner.fault), session_(inner.subject, control_mesh(mesh), inner.options) {}
+      : lent_(mesh), fault_(inner.fault), session_(inner.subject, taken(mesh, inner.fault), inner.options) {}
+
+  static data::ControlMesh taken(const lc_mesh& mesh, std::size_t fault) {
+    data::ControlMesh result = control_mesh(mesh);
+    if (const auto take = planted_faults<double>()[fault].take) take(result);
+    return result;
+  }
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) {
     const Tessellation good = session_.tessellate(
         std::span(request.face_depth, static_cast<std::size_t>(lent_.triangle_count)), request.threads);
-    Copy<Real> copy = copy_of<Real>(good);
+    Copy<Real> copy{copy_of<Real>(good)};
     planted_faults<Real>()[fault_].plant(session_.mesh(), copy);
     deliver(copy, request, out);
-  }
-
-  template <class Real>
-  static Copy<Real> copy_of(const Tessellation& good) {
-    Copy<Real> copy;
-    for (std::int64_t v = 0; v < good.vertex_count(); ++v) {
-      const auto cast = [](const std::array<double, 3>& p) {
-        return std::array<Real, 3>{static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])};
-      };
-      copy.positions.push_back(cast(good.position(v)));
-      if (good.has_normals()) copy.normals.push_back(cast(good.normal(v)));
-    }
-    copy.provenance.assign(good.provenance().begin(), good.provenance().end());
-    copy.triangles.assign(good.triangles().begin(), good.triangles().end());
-    copy.triangle_face.assign(good.triangle_face().begin(), good.triangle_face().end());
-    return copy;
   }
 
   template <class Real>
@@ -94,16 +84,7 @@ class FaultySubject {
     const auto output =
         allocate_output<Real>(request, out, static_cast<std::int64_t>(copy.positions.size()),
                               static_cast<std::int64_t>(copy.triangles.size()), !copy.normals.empty());
-    for (std::size_t k = 0; k < copy.positions.size(); ++k) {
-      std::copy(copy.positions[k].begin(), copy.positions[k].end(), output.positions + 3 * k);
-      if (output.normals != nullptr)
-        std::copy(copy.normals[k].begin(), copy.normals[k].end(), output.normals + 3 * k);
-    }
-    std::copy(copy.provenance.begin(), copy.provenance.end(), output.provenance);
-    for (std::size_t k = 0; k < copy.triangles.size(); ++k) {
-      std::copy(copy.triangles[k].begin(), copy.triangles[k].end(), output.triangles + 3 * k);
-    }
-    std::copy(copy.triangle_face.begin(), copy.triangle_face.end(), output.triangle_face);
+    fill(output, copy);
 
     if (copy.overrun) output.positions[3 * copy.positions.size()] = Real(1);
     if (copy.underrun) output.positions[-1] = Real(1);

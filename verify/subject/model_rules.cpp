@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verify/subject/model_rules.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -18,84 +20,25 @@ double turn(double fraction) {
   return 2 * std::numbers::pi * fraction;
 }
 
-std::vector<V> ring_of(const Topology& topology, const std::vector<V>& points, std::int32_t v) {
+std::vector<V> ring_of(const Topology& topology, const std::vector<V>& points, std::int32_t v,
+                       std::size_t first = 0) {
   std::vector<V> ring;
   for (const std::int32_t r : topology.ring(v)) ring.push_back(points[static_cast<std::size_t>(r)]);
+  if (!topology.on_boundary(v))
+    std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first % ring.size()), ring.end());
   return ring;
 }
 
-}  // namespace
-
-std::span<const Mutation> mutations() {
-  static const std::vector<Mutation> list{
-      {"none", "nothing: right in every check", ""},
-      // Subdivision.
-      {"warren_weights", "a(n) = 3/8 for n > 3, as Warren has it", "positions"},
-      {"warren_declared", "declares Warren's weights and has Loop's", "positions"},
-      {"warren_limit_of_loop", "Warren's weights, declared, but the limit mask of Loop's", "positions"},
-      {"weight_1e-6_at_valence_5", "a(5) is 1e-6 too large, and nothing else", "positions"},
-      {"square_forgotten", "a(n) = 5/8 - (3 + 2 cos)/64", "positions"},
-      {"half_angle", "a(n) with cos(pi/n)", "positions"},
-      {"valence_one_less", "a(n - 1) at valence n > 3", "positions"},
-      {"vertices_stay", "control vertices are not moved by a step", "positions"},
-      {"ring_off_by_one", "the last neighbour is left out, the first counted twice", "positions"},
-      {"midpoints", "edge points half and half", "positions"},
-      {"edge_weight_1e-6", "edge weights 3/8 + 1e-6 and 3/8 - 1e-6", "positions"},
-      {"one_flap", "edge points 3/8, 3/8, 1/4, 0", "positions"},
-      {"indices_modulo_n", "indices taken modulo n: v_n is the centre", "positions", "C13"},
-      {"one_step_missing", "one step less than asked for at the vertices", "positions"},
-      // Boundary.
-      {"boundary_edge_flap", "boundary edge points 3/8, 3/8, 1/4", "positions"},
-      {"boundary_vertex_5_8", "boundary vertices 3/16, 5/8, 3/16", "positions"},
-      {"boundary_limit_hoppe", "boundary limit (3 v + ends) / 5", "positions"},
-      {"biermann_edges", "Biermann's rule on edges at irregular boundary vertices", "positions"},
-      {"boundary_tangent_trap", "the tangent mask of another boundary rule from four faces on", "normals"},
-      {"boundary_tangent_mean", "across the boundary: towards the mean of the neighbours", "normals"},
-      // Limit.
-      {"no_limit", "points of the refined mesh instead of the limit", "positions"},
-      {"limit_mask_of_six", "the limit mask of valence 6 at all valences", "positions"},
-      {"limit_weight_misread", "limit weight (3n/8) a(n) instead of 3n/(8 a(n))", "positions", "C14"},
-      {"divided_tangents", "tangents divided by the sums of their weights, as printed", "normals", "C16"},
-      {"affine_tangents", "tangents taken as affine combinations: points, not directions", "normals", "C15"},
-      {"tangents_exchanged", "second tangent x first: normals point inside", "normals", "C17"},
-      {"sines_of_n_plus_1", "tangent masks with n + 1 in place of n", "normals"},
-      {"mean_facet_normals", "mean normals of the refined facets instead of limit normals", "normals"},
-      {"first_facet_normal", "the normal of one facet at the vertex", "normals-against-positions"},
-      {"tilted_normals", "normals tilted by 1e-3 rad", "normals-against-positions"},
-      {"nan_where_tangents_vanish", "no substitute where the tangents vanish", "degenerate-geometry"},
-      {"float_squares", "squared lengths of normals in float: overflow far from size 1", "extreme-scale"},
-      // Display.
-      {"printed_cone_depth", "depth 0 for all faces, which the printed inequality allows", "coverage", "C27"},
-      {"one_level_short", "faces of depth 2 and more are displayed one level short", "coverage"},
-      {"culled_shown", "culled faces are displayed", "coverage"},
-      {"one_strip_more", "the last strip of each face is sent twice: 2^m + 1 strips", "coverage", "C50"},
-      {"buffer_as_printed", "memory by the printed sum, 5 + 6 * 50 vectors short", "written", "C48"},
-      {"no_repair", "faces of different depths meet without repair", "t-vertices", "C56"},
-      {"fan_needs_two", "fans only where two or more neighbours are deeper", "t-vertices", "C57"},
-      {"exchanged_depths", "fan borders take the neighbour's depth, fans among themselves too", "watertight",
-       "C58"},
-      {"fan_twice", "the last triangle of each fan is sent twice", "coverage"},
-      {"printed_b1", "centre of a fan with the printed first basis function", "positions", "C69"},
-      {"flat_centre", "centre of a fan: mean of the limit corners", "positions", "C62"},
-      {"control_centroid", "centre of a fan: mean of the control corners", "positions"},
-      {"centre_without_ghosts", "centres at the boundary from the border points only", "positions", "C63"},
-      {"flat_centre_normal", "normal at the centre: that of the control face", "normals"},
-      // Relations.
-      {"gap_1e-9", "odd faces keep their border points 1e-9 of the box away", "continuity"},
-      {"by_face_number", "points inside odd faces are 1e-9 of the box off", "face-order"},
-      {"by_vertex_number", "odd control vertices are 1e-9 of the box off", "vertex-order"},
-      {"by_first_corner", "points inside faces lean towards the first corner", "corner-rotation"},
-      {"right_half", "points with positive x are 1e-9 of the box off", "mirror"},
-      {"along_z", "z is stretched by 1e-9", "rotation"},
-      {"about_origin", "everything is stretched by 1e-9 from the origin", "translation"},
-      {"absolute_offset", "everything is moved by 1e-9 of the unit of length", "scaling"},
-      {"every_other_time", "every other call: one ulp in one point", "determinism"},
-      {"by_threads", "with more than one thread: one ulp in one point", "determinism"},
-      {"refuses_boundaries", "calls a valid mesh with boundary invalid", "tessellates"},
-      {"accepts_anything", "takes what is no manifold, and delivers nothing", "rejected-inputs", "C06"},
-  };
-  return list;
+V in_float(const V& p) {
+  return {static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y)),
+          static_cast<double>(static_cast<float>(p.z))};
 }
+
+double length(const V& p) {
+  return std::sqrt(dot(p, p));
+}
+
+}  // namespace
 
 double ModelRules::alpha(int n) const {
   const double s = 3 + 2 * std::cos(turn((is("half_angle") ? .5 : 1.) / n));
@@ -104,6 +47,11 @@ double ModelRules::alpha(int n) const {
   if (is("half_angle")) return 5. / 8 - s * s / 64;
   if (is("valence_one_less") && n > 3) return reference::loop_a<double>(n - 1);
   if (is("vertices_stay")) return 0;
+  if (is("weights_of_16")) n = std::min(n, 16);
+  if (is("weights_of_32")) n = std::min(n, 32);
+  if (is("weights_below_64") && n == 64) return 0;
+  if (is("weight_at_infinity") && n >= 20) return 15. / 64;
+  if (is("valence_in_8_bits") && n % 256 == 0) return 0;
   const auto weights = is("warren_declared") ? reference::Weights::kLoop : weights_;
   return reference::ring_weight<double>(n, weights) + (n == 5 && is("weight_1e-6_at_valence_5") ? 1e-6 : 0);
 }
@@ -118,6 +66,10 @@ V ModelRules::vertex_point(const Topology& topology, const std::vector<V>& point
   V sum{};
   for (const V& r : ring) sum += r - p;
   if (is("ring_off_by_one")) sum += ring.front() - ring.back();
+  if (is("valence_3_pairs") && ring.size() == 3)
+    for (const std::int32_t r : topology.ring(v))
+      if (!topology.on_boundary(r) && topology.ring(r).size() == 3)
+        sum += points[static_cast<std::size_t>(r)] - p;
   const auto n = static_cast<int>(ring.size());
   return p + sum * (alpha(n) / n);
 }
@@ -139,6 +91,8 @@ V ModelRules::edge_point(const Topology& topology, const std::vector<V>& points,
   }
   V p = reference::interior_edge_point(a, b, c, d);
   if (is("edge_weight_1e-6")) p += (a - b) * 1e-6;
+  if (is("lower_end")) p += (e.a < e.b ? a - b : b - a) * 1e-9;
+  if (is("left_flap")) p += (c - d) * 1e-9;
   if (is("biermann_edges") && topology.on_boundary(e.a) != topology.on_boundary(e.b)) {
     const bool first = topology.on_boundary(e.a);
     const auto faces = static_cast<double>(topology.ring(first ? e.a : e.b).size()) - 1;
@@ -148,37 +102,68 @@ V ModelRules::edge_point(const Topology& topology, const std::vector<V>& points,
   return p;
 }
 
-std::vector<V> ModelRules::refine(const Topology& topology, const std::vector<V>& points) const {
+std::vector<V> ModelRules::refine(const Topology& topology, const std::vector<V>& points, int depth) const {
   std::vector<V> out;
   out.reserve(points.size() + topology.edges().size());
   for (std::size_t v = 0; v < points.size(); ++v)
     out.push_back(vertex_point(topology, points, static_cast<std::int32_t>(v)));
-  for (const Edge& e : topology.edges()) out.push_back(edge_point(topology, points, e));
+  for (const Edge& e : topology.edges())
+    out.push_back(depth == 1 && is("midpoints_at_depth_1")
+                      ? (points[static_cast<std::size_t>(e.a)] + points[static_cast<std::size_t>(e.b)]) * .5
+                      : edge_point(topology, points, e));
   return out;
 }
 
-V ModelRules::limit(const Topology& topology, const std::vector<V>& points, std::int32_t v) const {
+V ModelRules::limit(const Topology& topology, const std::vector<V>& points, std::int32_t v, int depth,
+                    std::size_t first) const {
   const V& p = points[static_cast<std::size_t>(v)];
-  if (is("no_limit")) return p;
-  const std::vector<V> ring = ring_of(topology, points, v);
+  if (refined_ || is("no_limit") || (is("no_limit_at_depth_0") && depth == 0) ||
+      (is("no_limit_from_depth_5") && depth >= 5) ||
+      (is("valence_in_8_bits") && topology.ring(v).size() == 256))
+    return p;
+  const std::vector<V> ring = ring_of(topology, points, v, first);
   if (topology.on_boundary(v)) {
     if (is("boundary_limit_hoppe")) return p * .6 + (ring.front() + ring.back()) * .2;
+    if (is("corners_stay") && ring.size() == 2) return p;
     return reference::boundary_limit<double>(p, ring.front(), ring.back());
   }
+  if (is("limits_in_float")) {
+    V sum{};
+    for (const V& r : ring) sum = in_float(sum + in_float(r - p));
+    const double a8 = 8 * reference::loop_a<double>(static_cast<int>(ring.size()));
+    return p + sum * (a8 / (static_cast<double>(ring.size()) * (3 + a8)));
+  }
   const auto n = static_cast<double>(ring.size());
-  if (!is("limit_mask_of_six") && !is("limit_weight_misread"))
+  double weight = 3 * n / (8 * reference::loop_a<double>(static_cast<int>(n)));
+  if (is("limit_mask_of_six")) {
+    weight = n;
+  } else if (is("limit_weight_misread")) {
+    weight = 3 * n / 8 * reference::loop_a<double>(static_cast<int>(n));
+  } else if (is("limit_weight_at_valence_3") && ring.size() == 3) {
+    weight *= 1.1;
+  } else if (is("limit_weights_1e-4")) {
+    weight *= 1.0001;
+  } else {
     return reference::interior_limit<double>(
         p, ring, is("warren_declared") || is("warren_limit_of_loop") ? reference::Weights::kLoop : weights_);
-  const double weight =
-      is("limit_mask_of_six") ? n : 3 * n / 8 * reference::loop_a<double>(static_cast<int>(n));
+  }
   V sum = p * weight;
   for (const V& r : ring) sum += r;
   return sum * (1 / (weight + n));
 }
 
-V ModelRules::normal(const Topology& topology, const std::vector<V>& points, std::int32_t v) const {
+bool ModelRules::taken_as_vanishing(const reference::Tangents<double>& t, const V& p) const {
+  const double a = length(t.first), b = length(t.second), sine = length(cross(t.first, t.second));
+  const auto square = static_cast<float>(a) * static_cast<float>(a);
+  return (is("fixed_epsilon") && sine < 1e-15) || (is("epsilon_of_coordinates") && a < 1e-4 * length(p)) ||
+         (is("thin_is_none") && sine < 1e-3 * a * b) || (is("squares_underflow") && square == 0) ||
+         (is("squares_overflow") && !std::isfinite(square));
+}
+
+V ModelRules::normal(const Topology& topology, const std::vector<V>& points, std::int32_t v,
+                     std::size_t first) const {
   const V& p = points[static_cast<std::size_t>(v)];
-  const std::vector<V> ring = ring_of(topology, points, v);
+  const std::vector<V> ring = ring_of(topology, points, v, first);
   const bool open = topology.on_boundary(v);
   const std::size_t n = ring.size();
   reference::Tangents<double> t =
@@ -233,7 +218,21 @@ V ModelRules::normal(const Topology& topology, const std::vector<V>& points, std
     const double length = std::sqrt(dot(c, c));
     if (!std::isfinite(static_cast<float>(length) * static_cast<float>(length))) return {};
   }
+  if (is("zero_where_tangents_vanish") && length(cross(t.first, t.second)) == 0) return {};
+  if (taken_as_vanishing(t, p)) return {0, 0, 1};
   V result = reference::unit_normal<double>(t, facets).direction;
+  if (open && n > 4 && is("boundary_normals_inside")) result *= -1;
+  if (is("quick_root")) {  // 1 / sqrt(x) by the bits of x, with one step of Newton's
+    const V c = cross(t.first, t.second);
+    const auto x = static_cast<float>(dot(c, c));
+    const auto y = std::bit_cast<float>(0x5f3759dfU - (std::bit_cast<std::uint32_t>(x) >> 1));
+    if (x > 0) result = c * static_cast<double>(y * (1.5F - .5F * x * y * y));
+  }
+  if (is("two_components")) {  // z by the other two, in float
+    result = in_float(result);
+    result.z =
+        std::copysign(std::sqrt(std::max(0., 1 - result.x * result.x - result.y * result.y)), result.z);
+  }
   if (is("tilted_normals")) {
     const V aside = cross(result, std::abs(result.x) < .5 ? V{1, 0, 0} : V{0, 1, 0});
     result = reference::unit(result + aside * (1e-3 / std::sqrt(dot(aside, aside))));

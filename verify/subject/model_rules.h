@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/masks.h"
 #include "reference/topology.h"
 #include "reference/vec3.h"
 #include "reference/weights.h"
@@ -16,6 +17,7 @@ struct Mutation {
   std::string_view name, description;
   std::string_view check;       // the row of the audit meant for it
   std::string_view claim = {};  // of the paper, where this is the paper taken literally
+  bool in_float = false;        // delivered in float: small faults hide in wider bounds
 };
 
 /// All mutations of the model; the first is "none".
@@ -23,27 +25,35 @@ std::span<const Mutation> mutations();
 
 /// The rules under one mutation, in double. Points are those of a mesh at some level.
 ///   weights   the family that the subject declares
+///   refined   limit() leaves points as they are
 class ModelRules {
  public:
   using V = reference::Vec3<double>;
-  ModelRules(std::string_view mutation, reference::Weights weights)
-      : mutation_(mutation), weights_(weights) {}
+  ModelRules(std::string_view mutation, reference::Weights weights, bool refined)
+      : mutation_(mutation), weights_(weights), refined_(refined) {}
 
   bool is(std::string_view name) const { return mutation_ == name; }
+  reference::Weights weights() const { return weights_; }
 
-  /// One step: vertex points in the order of the vertices, then edge points in the order of the edges.
-  std::vector<V> refine(const reference::Topology& topology, const std::vector<V>& points) const;
-  V limit(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
-  V normal(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
+  /// One step of `depth`: vertex points in the order of the vertices, then edge points in the order of the
+  /// edges.
+  std::vector<V> refine(const reference::Topology& topology, const std::vector<V>& points, int depth) const;
+  /// At level `depth`, sums over the ring of an interior vertex begun at its neighbour `first`.
+  V limit(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v, int depth,
+          std::size_t first = 0) const;
+  V normal(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v,
+           std::size_t first = 0) const;
 
  private:
   double alpha(int n) const;
+  bool taken_as_vanishing(const reference::Tangents<double>& t, const V& p) const;
   V vertex_point(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
   V edge_point(const reference::Topology& topology, const std::vector<V>& points,
                const reference::Edge& edge) const;
 
   std::string_view mutation_;
   reference::Weights weights_;
+  bool refined_;
 };
 
 }  // namespace limitcheck::verify

@@ -88,6 +88,14 @@ std::size_t split_off(Copy<Real>& out, const HalfFan& fan) {
 
 }  // namespace
 
+std::int32_t control_vertex(const data::ControlMesh& mesh, const lc_provenance& p) {
+  const bool first = p.i == 0 && p.j == 0;
+  if (!first && p.i != p.denominator && p.j != p.denominator) return -1;
+  const std::size_t k = first ? 0 : p.i == p.denominator ? 1 : 2;
+  if (p.face < 0 || static_cast<std::size_t>(p.face) >= mesh.triangles.size()) return -1;
+  return mesh.triangles[static_cast<std::size_t>(p.face)][k];
+}
+
 template <class Real>
 const std::vector<PlantedFault<Real>>& planted_faults() {
   using Mesh = const data::ControlMesh&;
@@ -97,7 +105,7 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
     std::fill_n(reinterpret_cast<unsigned char*>(&value), sizeof value, 0xFF);
     return value;
   }();
-  static const std::vector<PlantedFault<Real>> faults{
+  static const std::vector<PlantedFault<Real>> in_what_is_delivered{
       {{"none", "nothing: the subject as it is"}, [](Mesh, Out) {}},
 
       // Values.
@@ -119,15 +127,18 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
        }},
       {{"unwritten_triangle", "the corners of one triangle are left unwritten"},
        [](Mesh, Out out) { out.triangles[some_triangle(out)].fill(0xFFFFFFFFu); }},
+      {{"unwritten_provenance", "the place of one vertex is left unwritten"},
+       [](Mesh, Out out) {
+         out.provenance[some_vertex(out)] = {-1, 0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu};
+       }},
+      {{"unwritten_triangle_face", "the control face of one triangle is left unwritten"},
+       [](Mesh, Out out) { out.triangle_face[some_triangle(out)] = -1; }},
       {{"wrong_limit_mask", "points at control vertices lie a hundredth of the way to the control vertex"},
        [](Mesh mesh, Out out) {
          for (std::size_t v = 0; v < out.positions.size(); ++v) {
-           const lc_provenance& p = out.provenance[v];
-           const bool corner = p.i == p.denominator || p.j == p.denominator || (p.i == 0 && p.j == 0);
-           if (!corner) continue;
-           const auto k = p.i == p.denominator ? 1u : p.j == p.denominator ? 2u : 0u;
-           const auto& control =
-               mesh.positions[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(p.face)][k])];
+           const std::int32_t at = control_vertex(mesh, out.provenance[v]);
+           if (at < 0) continue;
+           const auto& control = mesh.positions[static_cast<std::size_t>(at)];
            for (std::size_t c = 0; c < 3; ++c) {
              out.positions[v][c] +=
                  static_cast<Real>(0.01 * (control[c] - static_cast<double>(out.positions[v][c])));
@@ -135,12 +146,23 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
          }
        }},
       {{"wrong_edge_mask", "points that are not control vertices are 1e-5 too far from the origin"},
-       [](Mesh, Out out) {
+       [](Mesh mesh, Out out) {
          for (std::size_t v = 0; v < out.positions.size(); ++v) {
-           const lc_provenance& p = out.provenance[v];
-           if (p.i == p.denominator || p.j == p.denominator || (p.i == 0 && p.j == 0)) continue;
+           if (control_vertex(mesh, out.provenance[v]) >= 0) continue;
            for (Real& x : out.positions[v]) x *= Real(1.00001);
          }
+       }},
+      {{"unmoved_vertices", "points at control vertices are the control vertices"},
+       [](Mesh mesh, Out out) {
+         for (std::size_t v = 0; v < out.positions.size(); ++v)
+           if (const std::int32_t at = control_vertex(mesh, out.provenance[v]); at >= 0)
+             for (std::size_t c = 0; c < 3; ++c)
+               out.positions[v][c] = static_cast<Real>(mesh.positions[static_cast<std::size_t>(at)][c]);
+       }},
+      {{"snapped_positions", "positions are multiples of a fiftieth: small triangles collapse"},
+       [](Mesh, Out out) {
+         for (auto& p : out.positions)
+           for (Real& x : p) x = std::round(x * 50) / 50;
        }},
       {{"flipped_normals", "all normals point inside"},
        [](Mesh, Out out) {
@@ -203,6 +225,18 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
          out.triangles.push_back(copy);
          out.triangle_face.push_back(out.triangle_face[t]);
        }},
+      {{"face_twice", "the triangles of the last control face are there twice"},
+       [](Mesh, Out out) {
+         const std::size_t count = out.triangles.size();
+         some_triangle(out);
+         const std::int32_t face = out.triangle_face.back();
+         for (std::size_t t = 0; t < count; ++t) {
+           if (out.triangle_face[t] != face) continue;
+           const auto copy = out.triangles[t];
+           out.triangles.push_back(copy);
+           out.triangle_face.push_back(face);
+         }
+       }},
       {{"wrong_triangle_face", "one triangle names another control face"},
        [](Mesh mesh, Out out) {
          auto& face = out.triangle_face[some_triangle(out)];
@@ -249,7 +283,12 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
       {{"overlapping_arrays", "positions and normals are one array"},
        [](Mesh, Out out) { out.overlap = true; }},
   };
-  return faults;
+  static const std::vector<PlantedFault<Real>> all = [] {
+    std::vector<PlantedFault<Real>> list = in_what_is_delivered, more = mesh_faults<Real>();
+    list.insert(list.end(), more.begin(), more.end());
+    return list;
+  }();
+  return all;
 }
 
 template const std::vector<PlantedFault<float>>& planted_faults();

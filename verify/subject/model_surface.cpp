@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "verify/subject/model_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace limitcheck::verify {
+namespace {
+
+using V = ModelRules::V;
+
+// Edge points between faces that are shown and faces that are not, as if the latter were not there.
+void cut_holes(const ModelMesh& from, const std::vector<V>& points, std::span<const std::int32_t> shown,
+               std::vector<V>& next) {
+  for (std::size_t f = 0; f < shown.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t edge = from.topology.edge(f, k);
+      const auto& e = from.topology.edges()[static_cast<std::size_t>(edge)];
+      const std::int32_t g = from.neighbour(f, k);
+      if (g >= 0 && (shown[f] < 0) != (shown[static_cast<std::size_t>(g)] < 0))
+        next[points.size() + static_cast<std::size_t>(edge)] =
+            (points[static_cast<std::size_t>(e.a)] + points[static_cast<std::size_t>(e.b)]) * .5;
+    }
+}
+
+// One step of smoothing.
+void smooth(const reference::Topology& topology, std::vector<V>& limits) {
+  const std::vector<V> before = limits;
+  for (const auto& e : topology.edges())
+    for (const auto& [to, from] : {std::pair(e.a, e.b), std::pair(e.b, e.a)})
+      limits[static_cast<std::size_t>(to)] +=
+          (before[static_cast<std::size_t>(from)] - before[static_cast<std::size_t>(to)]) *
+          (1e-3 / static_cast<double>(topology.ring(to).size()));
+}
+
+}  // namespace
+
+ModelMesh::ModelMesh(const data::ControlMesh& given)
+    : control(given), topology(given.positions.size(), given.triangles) {
+  if (control.triangles.empty()) throw std::invalid_argument("the mesh has no faces");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = control.positions[0][axis], high = low;
+    for (const auto& p : control.positions) {
+      low = std::min(low, p[axis]);
+      high = std::max(high, p[axis]);
+    }
+    size = std::hypot(size, high - low);
+    largest = std::max({largest, -low, high});
+  }
+}
+
+std::int32_t ModelMesh::neighbour(std::size_t face, int k) const {
+  const std::int32_t v = control.triangles[face][static_cast<std::size_t>(k)];
+  const auto around = topology.faces(v);
+  const auto sector = static_cast<std::size_t>(topology.sector(face, k));
+  if (sector == 0 && topology.on_boundary(v)) return -1;
+  return around[(sector + around.size() - 1) % around.size()];
+}
+
+int ModelMesh::neighbour_depth(std::span<const std::int32_t> depth, std::size_t face, int k) const {
+  const std::int32_t g = neighbour(face, k);
+  return g < 0 || depth[static_cast<std::size_t>(g)] < 0 ? depth[face] : depth[static_cast<std::size_t>(g)];
+}
+
+ModelLevel::ModelLevel(const ModelMesh& from, const ModelRules& rules, int depth,
+                       std::span<const std::int32_t> shown)
+    : mesh(from.control) {
+  for (std::size_t v = 0; v < from.control.positions.size(); ++v) {
+    const auto& p = from.control.positions[v];
+    points.push_back({p[0], p[1], p[2]});
+    if (rules.is("by_vertex_number") && v % 2 == 1) points.back().x += 1e-9 * from.size;
+  }
+  for (int step = 0; step < depth; ++step) {
+    std::vector<V> next = rules.refine(mesh.topology(), points, depth);
+    const bool last = step + 1 == depth;
+    if (last && ((step > 0 && rules.is("one_step_missing")) || (depth % 2 == 1 && rules.is("odd_depths"))))
+      std::copy(points.begin(), points.end(), next.begin());
+    if (step == 0 && rules.is("culled_are_holes")) cut_holes(from, points, shown, next);
+    points = std::move(next);
+    mesh.refine();
+  }
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const auto k = static_cast<std::int32_t>(v);
+    limits.push_back(rules.limit(mesh.topology(), points, k, depth));
+    normals.push_back(rules.normal(mesh.topology(), points, k));
+  }
+  if (rules.is("limits_smoothed")) smooth(mesh.topology(), limits);
+}
+
+}  // namespace limitcheck::verify

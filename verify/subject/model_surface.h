@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A control mesh as the model keeps it, and its points and normals at one level. Private to it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "reference/refine.h"
+#include "reference/topology.h"
+#include "verify/subject/model_rules.h"
+
+namespace limitcheck::verify {
+
+struct ModelMesh {
+  /// Throws std::invalid_argument: `control` has no faces or is no manifold.
+  explicit ModelMesh(const data::ControlMesh& control);
+
+  /// The face beyond the edge from corner k to the next, or -1.
+  std::int32_t neighbour(std::size_t face, int k) const;
+  /// The depth of that face; the face's own where there is none, or it is culled.
+  int neighbour_depth(std::span<const std::int32_t> depth, std::size_t face, int k) const;
+
+  data::ControlMesh control;
+  reference::Topology topology;
+  double size = 0, largest = 0;  // diagonal of the box, largest coordinate
+};
+
+/// Points and normals at the vertices of the deepest level.
+struct ModelLevel {
+  reference::RefinedMesh<double> mesh;  // where they are: its own points are not used
+  std::vector<ModelRules::V> points, limits, normals;
+
+  /// `shown` are the depths of the frame, -1 for culled faces.
+  ModelLevel(const ModelMesh& from, const ModelRules& rules, int depth, std::span<const std::int32_t> shown);
+};
+
+}  // namespace limitcheck::verify

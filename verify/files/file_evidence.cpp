@@ -94,7 +94,7 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
       if (used[k] == 0) continue;
       const Vector& p = e.position(static_cast<std::int32_t>(k));
-      e.foot[k] = claim[k].face >= 0 ? e.surface.at(claim[k], p) : e.surface.closest(p, slack);
+      e.foot[k] = claim[k].face >= 0 ? e.surface.at(claim[k], p) : e.surface.closest(p);
       e.place[k] = snapped(e, e.foot[k], slack);
     }
     const std::lock_guard lock(mutex);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "data/bounding_box.h"
 #include "reference/stam.h"
@@ -61,21 +60,19 @@ Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
   return foot;
 }
 
-Foot ClosestPoint::closest(const Vector& p, double enough) const {
+Foot ClosestPoint::closest(const Vector& p) const {
   // A nearer point that could only be nearer by rounding is not worth looking for.
   const double rounding = 1e-16 * diagonal_;
   Minimum best;
   best.distance = std::numeric_limits<double>::infinity();
   double at_least = best.distance;
   int descents = 0;
-  std::optional<std::size_t> settled;  // the piece of a foot that is near enough
   tree_.near(p, [&](std::size_t index) {
     const auto corners = lattice_.corners(index);
     const OnTriangle flat = closest_on_triangle(p, corners);
     const double bound = flat.distance - lattice_.deviation(index);
     at_least = std::min(at_least, bound);
     if (bound >= best.distance - rounding) return best.distance - rounding;
-    if (settled && lattice_.touch(*settled, index)) return best.distance - rounding;
 
     const Piece piece = lattice_.piece(index);
     for (int k = 0; k < 3; ++k) {  // where Newton's iteration may be slow: at extraordinary vertices
@@ -92,7 +89,6 @@ Foot ClosestPoint::closest(const Vector& p, double enough) const {
       const Minimum found = descend(*surface_, domain_, p, piece.parameter(flat.weight), diagonal_);
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
         best = found;
-      if (best.stationary && best.distance <= enough) settled = lattice_.piece_at(best.at);
     }
     return best.distance - rounding;
   });

@@ -40,11 +40,7 @@ class ClosestPoint {
   ///            for points nearer than the smallest radius of curvature;
   ///            see the test for measurements.
   ///            Where several points are nearest, one
-  ///   enough   once there is a stationary foot no farther than this, pieces that touch the one it lies in
-  ///   are
-  ///            not searched any more: if the surface comes back to p within its next neighbourhood, the
-  ///            distance may be too large, but is no larger than `enough`
-  Foot closest(const Vector& p, double enough = 0) const;
+  Foot closest(const Vector& p) const;
 
   /// The surface at a point of the domain: `distance` and the rest as if p projected there.
   Foot at(const FacePoint& where, const Vector& p) const;

@@ -131,34 +131,6 @@ TEST(Projection, ThePointItWasOffsetFromIsTheFoot) {
   RecordProperty("worst_in_diagonals", std::to_string(worst * 1e12) + "e-12");
 }
 
-// Points as files in float have them. On embedded surfaces nothing is lost by not searching on round a foot
-// that is near enough.
-TEST(Projection, NearEnoughFindsTheSameFoot) {
-  for (const std::string& name : meshes()) {
-    const data::ControlMesh mesh = data::named_mesh(name);
-    const ClosestPoint closest(mesh, 1 << 12);
-    data::SplitMix64 random(5);
-    for (int n = 0; n < 100; ++n) {
-      Vector p = closest.at(random_point(random, mesh.triangles.size()), {}).position;
-      for (double& x : p) x = static_cast<float>(x);
-      const Foot all = closest.closest(p), enough = closest.closest(p, 1e-6 * closest.diagonal());
-      EXPECT_NEAR(enough.distance, all.distance, 1e-14 * closest.diagonal()) << name << " point " << n;
-      EXPECT_EQ(enough.at_least > enough.distance, false) << name;
-    }
-  }
-}
-
-TEST(Projection, APieceOfTheLatticeIsFoundByAPointInIt) {
-  const data::ControlMesh mesh = data::named_mesh("holes");
-  const ClosestPoint closest(mesh, 1 << 14);
-  const SurfaceLattice& lattice = closest.lattice();
-  for (std::size_t k = 0; k < lattice.size(); k += 7) {
-    const Piece piece = lattice.piece(k);
-    EXPECT_EQ(lattice.piece_at(piece.parameter({1. / 3, 1. / 3, 1. / 3})), k);
-    for (const auto& corner : piece.at) EXPECT_TRUE(lattice.touch(lattice.piece_at({piece.face, corner}), k));
-  }
-}
-
 // Random points near and far, against all limit points of a deep lattice.
 TEST(Projection, NoSampleOfTheSurfaceIsNearerAndNoneIsBelowTheProvedBound) {
   int gaps = 0, all = 0;

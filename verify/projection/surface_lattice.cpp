@@ -89,22 +89,6 @@ Piece SurfaceLattice::piece(std::size_t index) const {
   return p;
 }
 
-std::size_t SurfaceLattice::piece_at(const FacePoint& at) const {
-  const auto n = std::int64_t{1} << depth_;
-  const double a = std::ldexp(at.l[1], depth_), b = std::ldexp(at.l[2], depth_);
-  const auto j = std::min(static_cast<std::int64_t>(b), n - 1);
-  const auto i = std::min(static_cast<std::int64_t>(a), n - 1 - j);
-  // On the row there are pieces both upright and not; the last one is upright.
-  const bool upright = i + j == n - 1 || (a - static_cast<double>(i)) + (b - static_cast<double>(j)) <= 1;
-  const std::int64_t row = j * (upright ? n : n - 1) - j * (j - 1) / 2;
-  return static_cast<std::size_t>(at.face * n * n + (upright ? 0 : n * (n + 1) / 2) + row + i);
-}
-
-bool SurfaceLattice::touch(std::size_t a, std::size_t b) const {
-  const auto &x = triangles_[a], &y = triangles_[b];
-  return std::find_first_of(x.begin(), x.end(), y.begin(), y.end()) != x.end();
-}
-
 std::array<Piece, 4> SurfaceLattice::split(const Piece& piece,
                                            const reference::StamEvaluator<double>& surface) const {
   std::array<std::array<double, 3>, 3> at;  // middles of the edges 01, 12, 20

@@ -47,10 +47,6 @@ class SurfaceLattice {
   std::size_t size() const { return triangles_.size(); }
   Piece piece(std::size_t index) const;
   std::array<Vector, 3> corners(std::size_t index) const;
-  /// A piece that has this point of the domain.
-  std::size_t piece_at(const FacePoint& at) const;
-  /// Whether two pieces have a corner in common.
-  bool touch(std::size_t a, std::size_t b) const;
   double deviation(std::size_t index) const { return deviation_[index]; }
   double largest_deviation() const;
 

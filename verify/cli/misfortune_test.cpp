@@ -202,7 +202,7 @@ TEST_F(Misfortune, TheHostsOwnLackOfMemoryIsNotBlamedOnTheSubject) {
       "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
       "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line\nhead -c 144 > /dev/null\n"
       "echo '{\"status\": \"ok\"}'\nread -r line\n"
-      "echo '{\"status\": \"ok\", \"vertices\": 40000000, \"triangles\": 4}'\nsleep 10\n");
+      "echo '{\"status\": \"ok\", \"vertices\": 40000000, \"triangles\": 4}'\nsleep 1\n");
   const Outcome o = shell(
       "ulimit -v 1500000; limitcheck audit --program 'bash many.sh' tetrahedron --depth 0 --level quick "
       "--json -");

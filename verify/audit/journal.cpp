@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/journal.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::json;
+
+// JSON has no NaN and no infinity.
+Json to_json(double x) {
+  return std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x);
+}
+double number(const Json& json) {
+  return json.is_string() ? std::strtod(json.get_ref<const std::string&>().c_str(), nullptr)
+                          : json.get<double>();
+}
+Json to_json(const std::optional<double>& x) {
+  return x ? to_json(*x) : Json(nullptr);
+}
+std::optional<double> maybe(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional(number(json));
+}
+Json to_json(const std::vector<double>& list) {
+  Json out = Json::array();
+  for (const double x : list) out.push_back(to_json(x));
+  return out;
+}
+std::vector<double> numbers_of(const Json& json) {
+  std::vector<double> list;
+  for (const Json& x : json) list.push_back(number(x));
+  return list;
+}
+
+// The members are taken apart by their number: one more, and this does not compile until it is kept, too.
+Json to_json(const Witness& w) {
+  const auto& [face, l1, l2, vertex, triangle, expected, got, digits] = w;
+  return Json::array({face, l1, l2, vertex, triangle, to_json(expected), to_json(got), digits});
+}
+Witness witness(const Json& j) {
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), numbers_of(j.at(5)), numbers_of(j.at(6)), j.at(7)};
+}
+Json to_json(const Result& r) {
+  const auto& [subject, mesh, check, depth, in_float, status, bad, of, worst, bound, rms, p99, unit, absolute,
+               ulps, place, message] = r;
+  return Json::array({subject, mesh, check, depth, in_float, static_cast<int>(status), bad, of,
+                      to_json(worst), to_json(bound), to_json(rms), to_json(p99), unit, to_json(absolute),
+                      to_json(ulps), place ? to_json(*place) : Json(nullptr), message});
+}
+Result result(const Json& j) {
+  return {j.at(0),         j.at(1),
+          j.at(2),         j.at(3),
+          j.at(4),         static_cast<Status>(j.at(5).get<int>()),
+          j.at(6),         j.at(7),
+          maybe(j.at(8)),  maybe(j.at(9)),
+          maybe(j.at(10)), maybe(j.at(11)),
+          j.at(12),        maybe(j.at(13)),
+          maybe(j.at(14)), j.at(15).is_null() ? std::nullopt : std::optional(witness(j.at(15))),
+          j.at(16)};
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path file, const std::string& what, bool resume) : file_(std::move(file)) {
+  std::string kept = what + "\n";
+  if (resume) {
+    std::ifstream in(file_, std::ios::binary);
+    std::string line;
+    if (!std::getline(in, line))
+      throw std::invalid_argument(fmt::format("--resume: there is no {}", file_.string()));
+    if (line != what)
+      throw std::invalid_argument(fmt::format(
+          "--resume: {} is of another audit: of other subjects, meshes or options", file_.string()));
+    while (std::getline(in, line) && !in.eof()) {
+      const Json json = Json::parse(line, nullptr, false);
+      if (!json.is_object()) break;
+      std::vector<Result> rows;
+      for (const Json& row : json.at("rows")) rows.push_back(result(row));
+      known_[{json.at("subject"), json.at("mesh")}] = std::move(rows);
+      kept += line + "\n";
+    }
+  }
+  out_.open(file_, std::ios::binary | std::ios::trunc);
+  out_ << kept << std::flush;
+}
+
+std::optional<std::vector<Result>> Journal::recall(const std::string& subject,
+                                                   const std::string& mesh) const {
+  const auto found = known_.find({subject, mesh});
+  return found == known_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Journal::keep(const std::string& subject, const std::string& mesh, const std::vector<Result>& results) {
+  Json rows = Json::array();
+  for (const Result& r : results) rows.push_back(to_json(r));
+  out_ << Json{{"subject", subject}, {"mesh", mesh}, {"rows", std::move(rows)}}.dump(
+              -1, ' ', false, Json::error_handler_t::replace)
+       << '\n'
+       << std::flush;
+}
+
+void Journal::remove() {
+  out_.close();
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
+}  // namespace limitcheck::verify

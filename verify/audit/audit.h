@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "verify/audit/journal.h"
 #include "verify/audit/reference_surface.h"
 #include "verify/audit/result.h"
 #include "verify/audit/sample.h"
@@ -63,9 +64,13 @@ class Auditor {
 
   /// Whether an interrupt left something out.
   bool gave_up() const { return gave_up_; }
+  /// Whether a lack of memory, of this program and not of a subject, left something out.
+  bool out_of_memory() const { return out_of_memory_; }
 
-  /// All of them, results ordered by subject, then mesh.
-  std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes);
+  /// All of them, results ordered by subject, then mesh. What the journal knows is not looked at again; what
+  /// is looked at, as a whole, is kept there.
+  std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes,
+                          Journal* journal = nullptr);
 
  private:
   // Adds rows to `results` as they come, so that an end in between leaves what there is.
@@ -78,7 +83,7 @@ class Auditor {
   std::function<void(const AuditStep&)> on_step_;
   Level level_;
   std::size_t done_ = 0, total_ = 1;
-  bool gave_up_ = false;
+  bool gave_up_ = false, out_of_memory_ = false;
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>> cache_;  // of one mesh: by precision and kind of points
 };

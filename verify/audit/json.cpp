@@ -58,6 +58,7 @@ std::string to_json(const Report& report, const std::string& level) {
            {"sample", text(report.sample)},
            {"seconds", report.seconds},
            {"held", report.held()},
+           {"containment", text(report.containment)},
            {"incomplete", text(report.incomplete)}};
   out["subjects"] = report.subjects;
   out["meshes"] = Json::array();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <utility>
 
 namespace limitcheck::verify {
@@ -44,6 +45,8 @@ void RelationRow::ask(const std::string& what, const data::ControlMesh& mesh,
     Session session(*subject_.subject, mesh, subject_.options);
     work(session);
     session.close();
+  } catch (const std::bad_alloc&) {
+    throw;  // no memory of this program's
   } catch (const std::exception& error) {
     const Status status = status_of(error);
     if (status != Status::kNotSupported) ++r_.bad;

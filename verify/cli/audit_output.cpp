@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <stdexcept>
 
+#include "data/io/whole_content.h"
 #include "verify/audit/explain.h"
 #include "verify/audit/json.h"
 #include "verify/audit/junit.h"
@@ -17,6 +17,7 @@
 #include "verify/audit/shrink.h"
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
+#include "verify/cli/finite.h"
 
 namespace limitcheck::cli {
 
@@ -45,6 +46,7 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
           "that as --witnesses does (default folder: limitcheck-witness)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.01, 86400.0))
+      ->check(kFinite)
       ->expected(0, 1)
       ->default_str("20");
   command
@@ -78,8 +80,7 @@ bool explained(const OutputArguments& a) {
 void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& subjects,
            verify::Report& report) {
   if (a.waivers.empty()) return;
-  std::ifstream in(a.waivers, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = data::io::whole_content(a.waivers);
   std::map<std::string, std::string> versions;
   for (std::size_t s = 0; s < subjects.size() && s < report.subjects.size(); ++s)
     versions[report.subjects[s]] =
@@ -159,6 +160,20 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
   }
   if (a.shrink_seconds <= 0 && !findings.empty())
     fmt::print(stderr, "{} witnesses in {}\n", findings.size(), folder);
+}
+
+void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs) {
+  std::error_code ignored;
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      const auto& [option, file] = outputs[k];
+      const auto& [other, other_file] = outputs[j];
+      if (file.empty() || file == "-" || other_file.empty()) continue;
+      if (std::filesystem::weakly_canonical(file, ignored) ==
+              std::filesystem::weakly_canonical(other_file, ignored) ||
+          std::filesystem::equivalent(file, other_file, ignored))
+        throw std::invalid_argument(fmt::format("{} and {} name the same file: {}", other, option, file));
+    }
 }
 
 void write_junit(const OutputArguments& a, const verify::Report& report) {

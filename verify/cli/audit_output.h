@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "verify/audit/audit.h"
@@ -31,6 +32,10 @@ void waive(const OutputArguments& arguments, const std::vector<verify::AuditSubj
 /// in the order of report.subjects. Throws std::runtime_error, data::InputError: a file cannot be written.
 void write_witnesses(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
                      const std::vector<verify::AuditMesh>& meshes, const verify::Report& report, int threads);
+
+/// Outputs as pairs of option and file name, "-" or "" for none. Throws std::invalid_argument: two of them
+/// are one and the same file.
+void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs);
 
 /// Writes --junit, if it was given.
 void write_junit(const OutputArguments& arguments, const verify::Report& report);

@@ -103,6 +103,7 @@ void Journal::keep(const std::string& subject, const std::string& mesh, const st
               -1, ' ', false, Json::error_handler_t::replace)
        << '\n'
        << std::flush;
+  if (!out_) remove();  // half a line is of no use
 }
 
 void Journal::remove() {

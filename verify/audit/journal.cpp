@@ -139,6 +139,7 @@ void Journal::keep(const std::string& subject, std::size_t number, const std::ve
               -1, ' ', false, Json::error_handler_t::replace)
        << '\n'
        << std::flush;
+  if (!out_) remove();  // half a line is of no use
 }
 
 void Journal::remove() {

@@ -196,7 +196,7 @@ const std::vector<Behaviour>& program_behaviours() {
       {"chatter", "protocol", "where a line with a JSON object belongs it wrote \"hello there\""},
       {"chatter at hello", "protocol", "where a line with a JSON object belongs"},
       {"no_end_of_line", "protocol", "without a line end"},
-      {"nested", "protocol", "where a line with a JSON object belongs"},
+      {"nested", "protocol", "its JSON nests 60000 deep"},
       {"nested_value", "protocol", "its JSON nests 12001 deep"},
       {"not_utf8", "protocol", "broke the protocol"},
       {"more", "protocol", "wrote more on its standard output than it announced"},

@@ -275,6 +275,9 @@ void ChildProcess::ask(std::string_view request) {
       request.remove_prefix(static_cast<std::size_t>(n));
       watch_limits();
     } else if (n < 0 && errno == EPIPE) {
+      // What has spoken before it was asked, and left, is judged by what it said.
+      pollfd said{pipe_[kOut], POLLIN, 0};
+      if (!answered_ && ::poll(&said, 1, 0) == 1 && (said.revents & POLLIN) != 0) return;
       ended();
     } else if (n < 0 && errno != EAGAIN && errno != EINTR) {
       refuse("cannot write to the process");

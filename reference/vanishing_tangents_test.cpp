@@ -221,9 +221,9 @@ TEST(TangentDirections, AtAnExtraordinaryCornerAreTheEdgesOfARegularRing) {
       ring.push_back(hub + a * std::cos(t) + b * std::sin(t));
     }
     const auto s = StamEvaluator<double>(wheel_of(hub, ring)).evaluate(0, 0., 0.);
-    EXPECT_FALSE(s.first_exist);
-    EXPECT_LE(magnitude(s.d1 - (ring[0] - hub)), 1e-15) << n;
-    EXPECT_LE(magnitude(s.d2 - (ring[1] - hub)), 2e-15) << n;
+    EXPECT_TRUE(s.at_corner);
+    EXPECT_LE(magnitude(s.t1 - (ring[0] - hub)), 1e-15) << n;
+    EXPECT_LE(magnitude(s.t2 - (ring[1] - hub)), 2e-15) << n;
   }
 }
 

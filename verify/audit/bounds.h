@@ -47,23 +47,20 @@ inline double normal_bound(lc_precision precision, int depth) {
   return std::ldexp(radians, std::max(0, depth - 5)) * 57.295779513082320877;
 }
 
-/// What rounding alone may do to a normal where the tangents are short or nearly parallel, in degrees.
+/// What rounding the points that the tangents are made of does to a normal, in degrees: no engine of this
+/// precision can do better where the tangents are short or nearly parallel, however it gets them.
 ///
-/// A point of level k has an error of the order of u M (M: largest coordinate). Subdivision hands such errors
-/// on as it does the points themselves, so in a difference over the last level's steps, as a tangent per unit
-/// of l1 or l2, it counts 2^k; over all levels, 2^(depth + 1). The error e of both tangents t1, t2 turns
-/// their product by
+/// A point has an error of the order of u M (M: largest coordinate). With two roundings for each coordinate
+/// and the weights of the regular tangent mask, 8/6 in sum, a tangent is off by e = sqrt(3) * 2 * 8/6 u M at
+/// worst, less than 5 u M, per unit of l1 or l2. The error e of both tangents t1, t2 turns their product by
 ///     asin(e (|t1| + |t2|) / |t1 x t2|),
-/// anywhere from an e that reaches the shorter height of their parallelogram on. With two roundings for each
-/// coordinate and the weights of the regular tangent mask, 8/6 in sum, e is sqrt(3) * 2 * 8/6 * 2^(depth + 1)
-/// u M at worst, about 10 * 2^depth u M. Signs are never all the worst: float and double engines stay below
-/// 1.0 * 2^depth u M, on bumpy spheres of 4000 faces, high valences, boundaries and tori flattened to 1 :
-/// 1e5, at depths 0 to 5. The bound is four times that. A point is ill-conditioned from where it exceeds
-/// normal_bound, which holds elsewhere.
+/// anywhere from an e that reaches the shorter height of their parallelogram on. A point is ill-conditioned
+/// from where this exceeds normal_bound, which holds elsewhere and has room for what differences over the
+/// last level's steps lose on ordinary meshes. What they lose on needles beyond that is the engine's loss: it
+/// can be avoided, by an origin nearby, and is reported.
 ///   condition  (|t1| + |t2|) / |t1 x t2|
-inline double conditioned_normal_bound(lc_precision precision, int depth, double magnitude,
-                                       double condition) {
-  const double sine = std::ldexp(4 * unit_roundoff(precision), depth) * magnitude * condition;
+inline double conditioned_normal_bound(lc_precision precision, double magnitude, double condition) {
+  const double sine = 5 * unit_roundoff(precision) * magnitude * condition;
   return sine < 1 ? std::asin(sine) * 57.295779513082320877 : 180;
 }
 

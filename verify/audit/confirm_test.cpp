@@ -105,13 +105,13 @@ TEST(Condition, IsThatOfTheTangents) {
   }
 }
 
-// By hand: 4 * 2^3 * 2^-24 * 3 * 1000 = 0.0057 rad.
+// By hand: 5 * 2^-24 * 3 * 1000 = 0.00089 rad.
 TEST(Condition, TurnsANormalByTheErrorOfTheTangents) {
-  EXPECT_NEAR(conditioned_normal_bound(LC_FLOAT32, 3, 3, 1000), std::asin(32 * 0x1p-24 * 3000) * 180 / M_PI,
+  EXPECT_NEAR(conditioned_normal_bound(LC_FLOAT32, 3, 1000), std::asin(5 * 0x1p-24 * 3000) * 180 / M_PI,
               1e-12);
-  EXPECT_NEAR(conditioned_normal_bound(LC_FLOAT64, 0, 1, 1), 4 * 0x1p-53 * 180 / M_PI, 1e-25);
-  EXPECT_EQ(conditioned_normal_bound(LC_FLOAT32, 0, 1, 1e30), 180);
-  EXPECT_EQ(conditioned_normal_bound(LC_FLOAT32, 0, 1, std::numeric_limits<double>::infinity()), 180);
+  EXPECT_NEAR(conditioned_normal_bound(LC_FLOAT64, 1, 1), 5 * 0x1p-53 * 180 / M_PI, 1e-25);
+  EXPECT_EQ(conditioned_normal_bound(LC_FLOAT32, 1, 1e30), 180);
+  EXPECT_EQ(conditioned_normal_bound(LC_FLOAT32, 1, std::numeric_limits<double>::infinity()), 180);
 }
 
 TEST(Condition, IsFiniteAndScalesAtEveryPointOfEveryStockShape) {

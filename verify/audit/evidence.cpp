@@ -32,9 +32,9 @@ Witness Evidence::at_vertex(std::int64_t vertex) const {
 }
 
 double Evidence::normal_bound_at(Lattice::Id id) const {
-  return std::max(normal_bound(capabilities.precision, lattice.depth()),
-                  conditioned_normal_bound(capabilities.precision, lattice.depth(), magnitude,
-                                           reference.normal_condition(id)));
+  return std::max(
+      normal_bound(capabilities.precision, lattice.depth()),
+      conditioned_normal_bound(capabilities.precision, magnitude, reference.normal_condition(id)));
 }
 
 Witness Evidence::at_point(Lattice::Id id) const {

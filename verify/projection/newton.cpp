@@ -22,7 +22,7 @@ class Descent {
   Minimum run() {
     const FacePoint start = at_;
     const double from_start = distance_;
-    if (!s_.first_exist) leave_corner();
+    if (s_.at_corner) leave_corner();
     if (newton() && distance_ <= from_start) return {at_, position_, distance_, true};
     if (from_start < distance_) evaluate(start);
     pattern_search();
@@ -45,7 +45,7 @@ class Descent {
     distance_ = norm(position_ - p_);
   }
 
-  // An extraordinary corner has no derivatives to go by, a point near it does.
+  // An extraordinary corner has no derivatives to go by (none, or they vanish), a point near it does.
   void leave_corner() {
     constexpr double kAside = 1. / 256;
     FacePoint aside = at_;
@@ -63,7 +63,7 @@ class Descent {
   // Newton's step, or Gauss and Newton's where the second derivatives do not make for a minimum; kept on the
   // boundary where it would leave the surface.
   bool step(Step& out) const {
-    if (!s_.first_exist) return false;
+    if (s_.at_corner) return false;
     const Vector r = position_ - p_, d1 = vector(s_.d1), d2 = vector(s_.d2);
     const double g1 = dot(r, d1), g2 = dot(r, d2);
     const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);

@@ -54,8 +54,9 @@ Outcome outcome_of(const RemoteSubject& remote, const std::string& options) {
   }
 }
 
-// Processes with the mark in their environment, alive.
+// Processes with the mark of this one in their environment, alive. Other tests run at the same time.
 std::vector<std::string> strays() {
+  const std::string mark = kMark + ("=" + std::to_string(getpid())) + '\0';
   std::vector<std::string> found;
   std::error_code error;
   for (fs::directory_iterator p("/proc", error), end; !error && p != end; p.increment(error)) {
@@ -66,7 +67,7 @@ std::vector<std::string> strays() {
     const std::size_t name_end = state.rfind(") ");
     const bool dead =
         name_end != std::string::npos && std::string("ZX").find(state[name_end + 2]) != std::string::npos;
-    if (text.find(kMark) != std::string::npos && !dead) found.push_back(p->path().filename());
+    if (text.find(mark) != std::string::npos && !dead) found.push_back(p->path().filename());
   }
   return found;
 }
@@ -87,7 +88,7 @@ class Behaviours : public testing::TestWithParam<bool> {
     fs::create_directories(folder_);
     before_ = fs::current_path();
     fs::current_path(folder_);
-    setenv(kMark, "1", 1);
+    setenv(kMark, std::to_string(getpid()).c_str(), 1);
     settings_.worker = LIMITCHECK_PROGRAM;
     settings_.limits.memory_mib = 300;
     settings_.limits.processes = 50;

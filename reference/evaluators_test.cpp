@@ -232,7 +232,7 @@ TEST(Evaluators, DerivativesAtExtraordinaryCornersAreWhatTheyTendToOrDoNotExist)
       const auto follow = [&](const Vec3<Big>& limit, const Vec3<Big>& a, const Vec3<Big>& b, bool exists,
                               double rate, const char* what) {
         if (exists)
-          EXPECT_LE(length(b - limit), 1000 * pow(Big(rate), 900))
+          EXPECT_LE(length(b - limit), 1000 * pow(Big(rate), 900) + length(limit) * Big("1e-96"))
               << c.mesh << " face " << face << ' ' << what;
         else
           EXPECT_NEAR(static_cast<Big>(length(b) / length(a)).convert_to<double>(), rate, 1e-9)
@@ -275,7 +275,7 @@ TEST(Evaluators, StamEqualsSubdivisionAndRefinementUnderWarrensWeights) {
         EXPECT_LE(length(p.normal - limits.normals[v]), Big("1e-90")) << name;
       }
     }
-    const bool same = name == "tetrahedron" || name == "wheel:3" || name == "fan:4";
+    const bool same = name == "tetrahedron" || name == "wheel:3" || name == "fan:4" || name == "holes";
     EXPECT_EQ(most < Big("1e-90"), same) << name << ' ' << most;
   }
   std::printf("worst relative difference %.2g\n", worst);

@@ -79,7 +79,8 @@ def main():
     if not args.only:
         for name in selected:
             record.fail(name, "not made yet")
-    signal.signal(signal.SIGTERM, interrupt)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, interrupt)
     try:
         make(selected, Workshop(programs, args.output, args.quick), record)
     except KeyboardInterrupt:

@@ -37,8 +37,8 @@ MORE_PICTURES = {
 CHARTS = {
     "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres; logarithmic, and below on a linear scale with the uniform depths that "
                                "the adaptive strategies compete with. One thread: processor time."),
-    "figure-12": ("Figure 12", "Triangles per frame, and control faces culled, of so many: the same for both adaptive strategies, one rule "
-                               "decides."),
+    "figure-12": ("Figure 12", "Triangles per frame, and how many control faces are culled: as many by either adaptive strategy, since both "
+                               "cull by the same rule."),
 }
 NO_NUMBERS = (
     "<p>Figures 11 and 12 of the paper are diagrams, and its text has none of their numbers: no frame rate, triangle count or culled share "

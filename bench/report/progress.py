@@ -26,7 +26,12 @@ def run(command, label, expected, stdout):
                             of = f" of about {expected:.0f}" if expected else ""
                             print(f"\r\033[K{label}: {time.monotonic() - start:.0f}{of} s", end="", file=sys.stderr, flush=True)
             except BaseException:
-                process.kill()
+                # Asked first: a program may have started others, and have files to clear away.
+                process.terminate()
+                try:
+                    process.wait(timeout=5)
+                finally:
+                    process.kill()
                 raise
         words.seek(0)
         return process.returncode, words.read().decode(errors="replace").strip()

@@ -18,12 +18,14 @@ from page_test import RESULTS  # noqa: E402
 TOP = pathlib.Path(__file__).resolve().parents[2]
 # Stands for limitcheck, reproduction and throughput_bench: leaves the results of page_test.
 PROGRAM = """#!/usr/bin/python3
-import json, os, pathlib, sys, time
+import json, os, pathlib, signal, sys, time
 results = json.loads(pathlib.Path(__file__).with_name("results.json").read_text())
 words = sys.argv[1:]
 if os.environ.get("BREAKS") in words:
     sys.exit("something went wrong here")
 if os.environ.get("HANGS") in words:
+    if "CLEARS" in os.environ:
+        signal.signal(signal.SIGTERM, lambda *_: pathlib.Path(os.environ["CLEARS"]).write_text("cleared") and sys.exit(143))
     time.sleep(60)
 if "-o" in words:
     part, folder = words[2], pathlib.Path(words[1])
@@ -136,6 +138,18 @@ class Reproduce(unittest.TestCase):
         self.assertEqual(self.run_it("--only", "proofs", "--only", "throughput"), 0)
         self.assertIn("throughput", self.sections())
         self.assertFalse("(proofs): interrupted" in self.page)
+
+    def test_an_interrupt_lets_the_program_clear_up(self):
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
+            cleared = self.build / f"cleared-{number}"
+            with self.start("--only", "claims", HANGS="claims", CLEARS=str(cleared)) as process:
+                self.wait_for("claims.json.partial")
+                time.sleep(1)
+                process.send_signal(number)
+                process.communicate(timeout=30)
+            self.assertEqual(process.returncode, 1)
+            self.assertTrue(cleared.exists(), f"signal {number}")
+            self.assertFalse(list(self.out.glob("*.partial")))
 
     def test_killed_outright_it_does_not_count_as_made(self):
         with self.start("--only", "claims", HANGS="claims") as process:

@@ -68,7 +68,9 @@ class Stage {
     this.camera.near = size / 1000;
     this.camera.far = size * 100;
     this.controls.target.copy(target);
-    this.camera.position.copy(eye);
+    // On a narrow screen further away, so that nothing is cut off at the sides.
+    const narrow = Math.max(1, (1.15 * this.canvas.clientHeight) / this.canvas.clientWidth);
+    this.camera.position.copy(target).addScaledVector(eye.clone().sub(target), narrow);
     this.controls.update();
   }
   draw() {

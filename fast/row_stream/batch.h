@@ -70,7 +70,7 @@ void put_group(const BasicRings<N>& rings, const Place* places, int width, int d
       const std::int32_t next = at[lane] + 1;
       at[lane] = next == period[lane] ? 0 : next;
     }
-    to_lanes<group, T>(column, has_local_origin(depth) ? centre : nullptr, 3, lanes, out);
+    to_lanes<group, T>(column, rings.placement().has_local_origin(depth) ? centre : nullptr, 3, lanes, out);
   }
 }
 
@@ -97,7 +97,7 @@ void put_ghost(const BasicRings<N>& rings, Place a, int corner, int depth, int l
   const ControlPoint<T>& p = rings.points()[static_cast<std::size_t>(ghost)];
   for (int k = 0; k < 2; ++k) out[k * lanes] = T(0);
   for (int k = CornerBlock::kCentre; k < CornerBlock::kWindow + 3 * window_width(corner, depth); ++k)
-    out[k * lanes] = k >= CornerBlock::kWindow && has_local_origin(depth)
+    out[k * lanes] = k >= CornerBlock::kWindow && rings.placement().has_local_origin(depth)
                          ? T(0)
                          : p[static_cast<std::size_t>((k - CornerBlock::kCentre) % 3)];
 }

@@ -33,14 +33,16 @@ class EdgeStrip {
   /// blocks are left alone.
   HWY_ATTR void refine(const Scalar* p, int p_first, const Scalar* q, int q_first) {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
-    if (has_local_origin(depth_)) choose_origin<N>(p, q, origin);
+    if (placement_.has_local_origin(depth_)) choose_origin<N>(p, q, origin);
     for (int c = 0; c < 3; ++c)
       centre_[c] = N::fma(origin[c], N::splat(placement_.unit), N::splat(placement_.centre[c]));
-    take_block<N>(p, p_first, edge_window_width(depth_), origin, has_local_origin(depth_), block_[0]);
-    take_block<N>(q, q_first, edge_window_width(depth_), origin, has_local_origin(depth_), block_[1]);
+    take_block<N>(p, p_first, edge_window_width(depth_), origin, placement_.has_local_origin(depth_),
+                  block_[0]);
+    take_block<N>(q, q_first, edge_window_width(depth_), origin, placement_.has_local_origin(depth_),
+                  block_[1]);
 
     take_ends(0);
-    if (has_local_origin(depth_)) reconcile();
+    if (placement_.has_local_origin(depth_)) reconcile();
     for (int level = 0; level < depth_; ++level) refine_level(level);
   }
 

@@ -2,6 +2,7 @@
 // Where the numbers of one batch of pairs lie: shared by the gatherer, which fills them, and the kernels.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -41,17 +42,17 @@ struct CornerBlock {
   static constexpr int kCentre = 2;        // c
   static constexpr int kDifference = 5;    // d
   static constexpr int kLimit = 8;         // limit position and unit normal, in the caller's coordinates
-  static constexpr int kWindow = 14;       // window_width entries, less c if has_local_origin; overwritten
+  static constexpr int kWindow = 14;       // window_width entries, less c with local origins; overwritten
 };
 
-/// From this depth on every control edge and every pair has an origin of its own, near it: differences of
-/// points are then formed from small numbers, and normals gain what the mesh is larger than an edge. The
-/// edges' points come from strips along them, which both faces compute alike. Below it the strips would cost
-/// more than normals need.
+/// From a depth on every control edge and every pair has an origin of its own, near it: differences of points
+/// are then formed from small numbers, and normals gain what the mesh is larger than an edge. The edges'
+/// points come from strips along them, which both faces compute alike. Below depth 4 the strips would cost
+/// more than normals need, but for meshes of many vertices with needles: these have origins of their own from
+/// depth 1 on.
 inline constexpr int kLocalFrom = 4;
-constexpr bool has_local_origin(int depth) {
-  return depth >= kLocalFrom;
-}
+inline constexpr std::size_t kManyVertices = 8192;
+inline constexpr double kNeedle = 0x1p-11;  ///< height of a triangle beside the size of the mesh
 
 constexpr int corner_block_size(int depth) {
   return CornerBlock::kWindow + 3 * window_width(kA, depth);
@@ -70,9 +71,6 @@ constexpr int rows_offset(int level) {
   return offset;
 }
 constexpr int kBorderSize = 9;  // centre, first and last core entry
-constexpr int border_offset(int depth) {
-  return rows_offset(depth + 1);
-}
 
 /// Likewise for a control edge: two corner blocks, whose
 /// windows have the edge in the middle of a core of three.
@@ -92,6 +90,11 @@ constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
 }
 
+/// The strips are done before the rows begin, and work where those will be.
+constexpr int border_offset(int depth) {
+  return std::max(rows_offset(depth + 1), edge_work_size(depth));
+}
+
 /// Of the five edges of a pair, those whose points are kept: A D, B C and A C, which cross the rows, and D C,
 /// the last row.
 inline constexpr int kKeptEdges = 4;
@@ -99,19 +102,18 @@ constexpr int strips_offset(int depth) {
   return border_offset(depth) + 4 * kBorderSize * (depth + 1);
 }
 constexpr int work_size(int depth) {
-  return strips_offset(depth) + (has_local_origin(depth) ? kKeptEdges * edge_output_size(depth) : 0);
+  return strips_offset(depth) + kKeptEdges * edge_output_size(depth);
 }
-/// The strips are done before the rows begin, and work where those will be.
-static_assert(edge_work_size(kLocalFrom) <= rows_offset(kLocalFrom + 1) &&
-              edge_work_size(kMaxDepth) <= rows_offset(kMaxDepth + 1));
 
 /// From the kernel's coordinates to the caller's: position = centre + unit * x.
 template <class T>
 struct Placement {
   T centre[3];
   T unit;
+  int local_from = kLocalFrom;  // edges and pairs have origins of their own from this depth on, 1 at least
 
   static Placement identity() { return {{T(0), T(0), T(0)}, T(1)}; }
+  bool has_local_origin(int depth) const { return depth >= local_from; }
 };
 
 /// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where

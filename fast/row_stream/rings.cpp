@@ -8,6 +8,25 @@
 
 namespace limitcheck::fast::row_stream {
 
+namespace {
+
+/// Whether a mesh of many vertices has a triangle that is lower than `height`, though not flat.
+bool has_needles(const data::ControlMesh& mesh, double height) {
+  if (mesh.positions.size() < kManyVertices) return false;
+  const auto vertex = [&](std::int32_t v) {
+    const auto& p = mesh.positions[static_cast<std::size_t>(v)];
+    return Vec3<double>{p[0], p[1], p[2]};
+  };
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    const Vec3<double> a = vertex(t[0]), e = vertex(t[1]) - a, f = vertex(t[2]) - a, g = f - e;
+    const Vec3<double> c = cross(e, f);
+    const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), dot(g, g)});
+    return area > 0 && area < height * height * longest;
+  });
+}
+
+}  // namespace
+
 template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh) {
   PlacedPoints<T> placed{{}, Placement<T>::identity()};
@@ -36,7 +55,8 @@ PlacedPoints<T> place(const data::ControlMesh& mesh) {
                              static_cast<T>((p[2] - centre[2]) * inverse), T(0)});
   }
   placed.placement = {{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
-                      static_cast<T>(unit)};
+                      static_cast<T>(unit),
+                      has_needles(mesh, kNeedle * extent) ? 1 : kLocalFrom};
   return placed;
 }
 

@@ -29,7 +29,7 @@ class Stream {
 
   HWY_ATTR void run() {
     for (int c = 0; c < 3; ++c) centre_[c] = N::splat(placement_.centre[c]);
-    if (has_local_origin(depth_)) move_origin();
+    if (placement_.has_local_origin(depth_)) move_origin();
     for (int corner = 0; corner < 4; ++corner) refine_corner(corner);
     for (int j = -1; j <= 2; ++j) receive(0, j);
   }
@@ -136,7 +136,7 @@ class Stream {
     const int size = 1 << depth_;
     const LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride,
                           target_.lane_stride);
-    if (has_local_origin(depth_)) {
+    if (placement_.has_local_origin(depth_)) {
       if (j == 0) return;
       if (j == size) {
         scatter_kept<N>(strip(kDC, 0), size, target_.base + j * target_.row_stride, target_.lane_stride);

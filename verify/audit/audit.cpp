@@ -91,8 +91,13 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     if (interrupted() == 0) judge(audited, mesh, results);
   } catch (const Interrupted&) {
   } catch (const std::bad_alloc&) {
-    cache_.clear();
     no_memory = true;
+  } catch (const HostOutOfMemory&) {
+    no_memory = true;
+  }
+  if (no_memory) {
+    cache_.clear();
+    out_of_memory_ = true;
   }
   // Of a sample, however far it came: faces as the whole numbers them.
   if (mesh.sample)
@@ -123,8 +128,8 @@ void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bo
     r.subject = label(audited);
     r.mesh = mesh.name;
     r.check = check;
-    r.status = no_memory ? Status::kError : Status::kNotRun;
-    r.message = no_memory ? "out of memory" : "interrupted";
+    r.status = Status::kNotRun;
+    r.message = no_memory ? "this program ran out of memory" : "interrupted";
     results.push_back(std::move(r));
   }
 }
@@ -160,6 +165,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     tessellation.emplace(session->tessellate(asked, threads_));
     row("tessellates", Status::kHeld, "");
     results.back().of = 1;
+  } catch (const std::bad_alloc&) {
+    throw;  // no memory of this program's
   } catch (const std::exception& error) {
     const std::string contradiction = contradicts_capabilities(error, audited, mesh, asked);
     row("tessellates", contradiction.empty() ? status_of(error) : Status::kFinding,
@@ -189,6 +196,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   std::string no_reference;
   try {
     truth.prepare(points);
+  } catch (const std::bad_alloc&) {
+    throw;  // no memory of this program's
   } catch (const std::exception& error) {
     no_reference = fmt::format("the reference failed: {}", error.what());
   }
@@ -203,6 +212,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   // The subject is done, and may still break down while it cleans up.
   try {
     session->close();
+  } catch (const std::bad_alloc&) {
+    throw;  // no memory of this program's
   } catch (const std::exception& error) {
     Result& tessellates = results.front();
     tessellates.status = status_of(error);
@@ -219,6 +230,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     }
     try {
       for (Result& r : check.run(evidence)) results.push_back(std::move(r));
+    } catch (const std::bad_alloc&) {
+      throw;  // no memory of this program's
     } catch (const std::exception& error) {
       rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
@@ -232,14 +245,19 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
 }
 
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
-                                 const std::vector<AuditMesh>& meshes) {
+                                 const std::vector<AuditMesh>& meshes, Journal* journal) {
   // Mesh by mesh, so that subjects share the reference; told subject by subject.
   done_ = 0;
   total_ = subjects.size() * meshes.size();
   std::vector<std::vector<Result>> of_subject(subjects.size());
-  for (const AuditMesh& mesh : meshes)
-    for (std::size_t s = 0; s < subjects.size(); ++s, ++done_)
-      for (Result& r : run(subjects[s], mesh)) of_subject[s].push_back(std::move(r));
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    for (std::size_t s = 0; s < subjects.size(); ++s, ++done_) {
+      const std::string name = label(subjects[s]);
+      auto known = journal != nullptr ? journal->recall(name, m) : std::nullopt;
+      std::vector<Result> results = known ? std::move(*known) : run(subjects[s], meshes[m]);
+      if (journal != nullptr && !known && !gave_up_ && !out_of_memory_) journal->keep(name, m, results);
+      for (Result& r : results) of_subject[s].push_back(std::move(r));
+    }
   std::vector<Result> all;
   for (auto& results : of_subject)
     all.insert(all.end(), std::make_move_iterator(results.begin()), std::make_move_iterator(results.end()));

@@ -10,6 +10,7 @@
 
 #include "data/control_mesh.h"
 #include "verify/audit/audit_case.h"
+#include "verify/audit/journal.h"
 #include "verify/audit/reference_surface.h"
 #include "verify/audit/refusal.h"
 #include "verify/audit/result.h"
@@ -46,9 +47,13 @@ class Auditor {
 
   /// Whether an interrupt left something out.
   bool gave_up() const { return gave_up_; }
+  /// Whether a lack of memory, of this program and not of a subject, left something out.
+  bool out_of_memory() const { return out_of_memory_; }
 
-  /// All of them, results ordered by subject, then mesh.
-  std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes);
+  /// All of them, results ordered by subject, then mesh. What the journal knows is not looked at again; what
+  /// is looked at, as a whole, is kept there.
+  std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes,
+                          Journal* journal = nullptr);
 
  private:
   // Adds rows to `results` as they come, so that an end in between leaves what there is.
@@ -67,7 +72,7 @@ class Auditor {
   std::function<void(const AuditStep&)> on_step_;
   Level level_;
   std::size_t done_ = 0, total_ = 1;
-  bool gave_up_ = false;
+  bool gave_up_ = false, out_of_memory_ = false;
   std::map<std::string, std::vector<Refusal>> refusals_;  // by each subject, asked for once
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>>

@@ -25,6 +25,8 @@ const std::vector<Case>& small_cases() {
       {"tetrahedron", 7},
       {"wheel:5:1", 5},
       {"bipyramid:5", 5},
+      {"wheel:7:1", 6},
+      {"triangle-pair", 7},
       // Unequal depths and culled faces.
       {"bumpy:60", 4, "random:1", true},
       {"ragged-disc", 3, "random:2"},
@@ -33,11 +35,11 @@ const std::vector<Case>& small_cases() {
       {"wheel:5:2", 2, "face0-culled"},
       {"octahedron", 2, "all-culled"},
       // Topology.
-      {"handles:1", 2},
+      {"handles:1", 2, "uniform", true},
       {"handles:2", 3},
       {"three-components", 3},
       {"touching-components", 3},
-      {"stellated", 3},
+      {"stellated", 3, "uniform", true},
       {"wheel:20:1", 3},
       {"wheel:33:1", 2},
       {"wheel:64:1", 2},

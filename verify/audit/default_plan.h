@@ -12,7 +12,7 @@ namespace limitcheck::verify {
 ///   at depth 4, with the relations   the worst cases known (data/worst_cases.h; not at kQuick), bumpy:800,
 ///                                    and the stock shapes (data/generators/named_mesh.h)
 ///   at depths 0 and 1                the stock shapes
-///   at depths 2, 3, 5 and 7          small meshes, those of data/generators/awkward_meshes.h among them
+///   at depths 2, 3, 5, 6 and 7       small meshes, those of data/generators/awkward_meshes.h among them
 ///   at unequal depths                random ones with culled faces, a view, face 0 culled, all faces culled
 ///   meshes of many tetrahedra        whose indices need more than 16 bits: one at depth 0, a part of another
 /// Throws data::InputError as worst_case_meshes() does.

@@ -34,7 +34,8 @@ TEST(DefaultPlan, AsksForEveryDepthUpToSevenAndForUnequalDepths) {
   std::set<std::string> depths;
   for (const AuditMesh& m : default_plan(Level::kStandard))
     depths.insert(m.depths == "uniform" ? fmt::format("{}", m.depth) : m.depths);
-  for (const char* d : {"0", "1", "2", "3", "4", "5", "7", "random:1", "view", "face0-culled", "all-culled"})
+  for (const char* d :
+       {"0", "1", "2", "3", "4", "5", "6", "7", "random:1", "view", "face0-culled", "all-culled"})
     EXPECT_TRUE(depths.contains(d)) << d;
 }
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/face_depths.h"
+#include "data/io/whole_content.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
+#include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
+#include "data/io/whole_content.h"
 #include "data/splitmix64.h"
 #include "verify/audit/vector.h"
 
@@ -58,8 +61,10 @@ FaceDepths random_depths(const Depths& depths, std::size_t faces, int deepest) {
 }
 
 FaceDepths read_depths(const std::string& file, std::size_t faces, int deepest) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::invalid_argument(fmt::format("--depths: cannot read {}", file));
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw std::invalid_argument(fmt::format("--depths: cannot read {}", file));
+  std::istringstream in(data::io::whole_content(file));
   FaceDepths depths;
   for (std::string word; in >> word;) {
     std::int32_t depth = 0;

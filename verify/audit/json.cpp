@@ -66,6 +66,7 @@ std::string to_json(const Report& report, const std::string& level) {
            {"sample", text(report.sample)},
            {"seconds", report.seconds},
            {"held", report.held()},
+           {"containment", text(report.containment)},
            {"incomplete", text(report.incomplete)},
            {"never_judged", Json::array()}};
   for (const NeverJudged& none : never_judged(report))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <utility>
 
 namespace limitcheck::verify {
@@ -49,6 +50,8 @@ void RelationRow::ask(const AuditSubject& subject, const std::string& what, cons
     Session session(*subject.subject, mesh, subject.options);
     work(session);
     session.close();
+  } catch (const std::bad_alloc&) {
+    throw;  // no memory of this program's
   } catch (const std::exception& error) {
     const Status status = status_of(error);
     if (status != Status::kNotSupported) ++r_.bad;

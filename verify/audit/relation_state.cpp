@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include "verify/subject/in_turns.h"
@@ -29,8 +30,9 @@ bool same_arrays(const Tessellation& a, const Tessellation& b) {
 
 void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence& e,
                   const Compared& compared) {
-  InTurns here(*subject.subject);
-  const AuditSubject turns{subject.in_turns != nullptr ? subject.in_turns : &here.subject(), subject.options};
+  std::optional<InTurns> here;
+  if (subject.in_turns == nullptr) here.emplace(*subject.subject);
+  const AuditSubject turns{here ? &here->subject() : subject.in_turns, subject.options};
   const Variant mine = identity(e);
   std::string what = kTurns[0];
   row.ask(turns, what, e.mesh, [&](Session& session) {

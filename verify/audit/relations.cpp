@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "verify/audit/bounds.h"
@@ -149,6 +150,8 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
     if (on_row) on_row(name);
     try {
       results.push_back(find());
+    } catch (const std::bad_alloc&) {
+      throw;  // no memory of this program's
     } catch (const std::exception& error) {
       Result failed = e.result(std::string(name));
       failed.status = Status::kError;

@@ -88,7 +88,8 @@ struct Report {
   std::vector<std::string> subjects;
   std::vector<Result> results;
   double seconds = 0;
-  std::string incomplete;  // "interrupted by SIGINT": not all was looked at; empty: all was
+  std::string containment;  // how the processes of isolated subjects were held; empty: there were none
+  std::string incomplete;   // "interrupted by SIGINT": not all was looked at; empty: all was
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
   bool looked() const {

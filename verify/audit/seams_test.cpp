@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -134,6 +135,7 @@ std::vector<AuditMesh> meshes() {
       {"cut-knot", cut_knot(12, 5)},
       {"uv-sphere", uv_sphere(6, 5, false)},
       {"uv-sphere-residue", uv_sphere(6, 5, true)},
+      {"uv-sphere-open-poles", uv_sphere_with_open_poles(6, 5)},
       {"touching-vertices",
        joined(data::tetrahedron(), moved(data::tetrahedron(), {tip[1][0] - tip[0][0], tip[1][1] - tip[0][1],
                                                                tip[1][2] - tip[0][2]}))},

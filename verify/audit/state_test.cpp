@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/test_rows.h"
+#include "verify/subject/in_turns.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -19,10 +23,11 @@ namespace {
 // The recursive subdivider, with a memory that it should not have: one word says which.
 struct Forgetful {
   void* inner;
-  std::int64_t faces;
+  std::int64_t vertices, faces;
+  std::vector<double> positions;
   int calls = 0;
-  std::int32_t deepest = 0;  // of all requests so far
-  int destroyed = 0;         // other instances, before this was made
+  std::int32_t deepest = -1, last = -1, first = -1;  // depths of the requests so far
+  int destroyed = 0;                                 // other instances, before this was made
 };
 std::string fault;            // of the subject under test
 int alive = 0;                // instances
@@ -32,17 +37,28 @@ const lc_subject& good() {
   return *lc_subject_naive();
 }
 
+// The positions of the first mesh that had as many vertices and faces.
+std::map<std::pair<std::int64_t, std::int64_t>, std::vector<double>> cache;
+const std::vector<double>& first_of_its_counts(const Forgetful& self) {
+  return cache.try_emplace({self.vertices, self.faces}, self.positions).first->second;
+}
+
 bool goes_wrong(Forgetful& self, const lc_request& request) {
   std::int32_t depth = 0;
   for (std::int64_t f = 0; f < self.faces; ++f) depth = std::max(depth, request.face_depth[f]);
-  const bool wrong = (fault == "after_another_depth" && self.deepest > 0 && depth != self.deepest) ||
+  const bool wrong = (fault == "after_a_smaller_depth" && self.last >= 0 && self.last < depth) ||
+                     (fault == "after_a_greater_depth" && self.deepest > depth) ||
                      (fault == "beside_another" && alive > 1) ||
                      (fault == "after_another_mesh" && last_faces != 0 && last_faces != self.faces) ||
                      (fault == "after_another_was_destroyed" && destroyed > self.destroyed) ||
+                     (fault == "first_depth_again" && self.first >= 0 && self.first != depth) ||
+                     (fault == "known_by_its_counts" && first_of_its_counts(self) != self.positions) ||
                      (fault == "eighth_call" && self.calls == 7) ||
                      (fault == "eight_threads" && request.threads == 8);
   ++self.calls;
   self.deepest = std::max(self.deepest, depth);
+  self.last = depth;
+  if (self.first < 0) self.first = depth;
   last_faces = self.faces;
   return wrong;
 }
@@ -52,7 +68,9 @@ lc_subject forgetful() {
   s.name = "forgetful";
   s.create = [](const lc_mesh* mesh, const char*, void** instance, const char** message) {
     auto self = std::make_unique<Forgetful>();
+    self->vertices = mesh->vertex_count;
     self->faces = mesh->triangle_count;
+    self->positions.assign(mesh->positions, mesh->positions + 3 * mesh->vertex_count);
     const lc_status status = good().create(mesh, nullptr, &self->inner, message);
     if (status != LC_OK) return status;
     ++alive;
@@ -102,6 +120,19 @@ TEST(State, OfASubjectWithoutMemoryHolds) {
   }
 }
 
+// As in a process of its own: what it knows by then, it knows from the turns.
+TEST(State, OfASubjectThatKnowsMeshesAgainByTheirCountsIsAFinding) {
+  fault = "known_by_its_counts";
+  alive = destroyed = 0;
+  const lc_subject plain = *lc_subject_naive(), subject = forgetful();
+  cache.clear();
+  InTurns turns(subject);
+  const AuditSubject audited{&plain, "", &turns.subject()};
+  const auto results =
+      Auditor(2, 1, {}, Level::kStandard).run(audited, {"tetrahedron", data::named_mesh("tetrahedron")});
+  EXPECT_EQ(row(results, "state").status, Status::kFinding);
+}
+
 class Remembers : public testing::TestWithParam<const char*> {};
 
 TEST_P(Remembers, IsAFindingOfStateAndNotOfDeterminism) {
@@ -112,8 +143,9 @@ TEST_P(Remembers, IsAFindingOfStateAndNotOfDeterminism) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachWay, Remembers,
-                         testing::Values("after_another_depth", "beside_another", "after_another_mesh",
-                                         "after_another_was_destroyed", "eighth_call", "eight_threads"),
+                         testing::Values("after_a_smaller_depth", "after_a_greater_depth", "beside_another",
+                                         "after_another_mesh", "after_another_was_destroyed",
+                                         "first_depth_again", "eighth_call", "eight_threads"),
                          [](const auto& of) { return std::string(of.param); });
 
 // A point that is no number is `finite`'s business: it is the same one each time.

@@ -290,6 +290,8 @@ std::string to_table(const Report& report, bool colour, bool all) {
       "limitcheck {}: {} on {} ({} faces)\n", report.version, depth,
       report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),
       faces);
+  if (!report.containment.empty())
+    out += fmt::format("subjects in processes of their own: {}\n", report.containment);
   const auto row = [&](auto... cell) {
     return fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", cell...);
   };

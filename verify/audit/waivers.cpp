@@ -5,10 +5,13 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <stdexcept>
+
+#include "data/json_nesting.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -36,8 +39,38 @@ bool covers(const Waiver& w, const Result& r, const std::map<std::string, std::s
 
 }  // namespace
 
+namespace {
+
+bool is_a_day(const std::string& date) {
+  const auto number = [&](std::size_t at, std::size_t count) { return std::stoi(date.substr(at, count)); };
+  return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
+                                     std::chrono::month(static_cast<unsigned>(number(5, 2))),
+                                     std::chrono::day(static_cast<unsigned>(number(8, 2))))
+      .ok();
+}
+
+// Of a key that occurs twice the parser would keep one, and nobody knows which.
+nlohmann::json parse_without_duplicates(const std::string& text) {
+  using Json = nlohmann::json;
+  if (data::json_nesting(text) > 32) throw std::invalid_argument("waivers: brackets nest more than 32 deep");
+  std::vector<std::set<std::string>> keys;
+  return Json::parse(
+      text,
+      [&](int, Json::parse_event_t event, Json& value) {
+        if (event == Json::parse_event_t::object_start) keys.emplace_back();
+        if (event == Json::parse_event_t::object_end) keys.pop_back();
+        if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+          throw std::invalid_argument(
+              fmt::format("waivers: \"{}\" stands twice in one object", value.get<std::string>()));
+        return true;
+      },
+      false);
+}
+
+}  // namespace
+
 std::vector<Waiver> parse_waivers(const std::string& text) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto json = parse_without_duplicates(text);
   if (json.is_discarded() || !json.is_object() || !json.contains("waivers") || !json["waivers"].is_array())
     throw std::invalid_argument("waivers: not a JSON object with an array \"waivers\"");
   static const std::set<std::string> known{"subject", "versions", "check", "shape",
@@ -66,7 +99,8 @@ std::vector<Waiver> parse_waivers(const std::string& text) {
     w.reason = field(row, "reason", nullptr);
     w.link = field(row, "link", "");
     w.expires = field(row, "expires", nullptr);
-    if (!std::regex_match(w.expires, date)) refuse("\"expires\" is no date as 2027-01-31");
+    if (!std::regex_match(w.expires, date) || !is_a_day(w.expires))
+      refuse("\"expires\" is no date as 2027-01-31");
     if (row.contains("versions")) {
       if (!row["versions"].is_object()) refuse("\"versions\" is not an object");
       w.from = field(row["versions"], "from", "");

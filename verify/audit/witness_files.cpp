@@ -4,6 +4,8 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include "data/io/write.h"
 #include "reference/certified.h"
@@ -40,21 +42,45 @@ void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
   json["limit_normal"] = vector(point.normal);
 }
 
+// A folder that appears whole or not at all, in the place of an older one.
+class Partial {
+ public:
+  explicit Partial(std::filesystem::path place)
+      : place_(std::move(place)), folder_(place_.string() + ".partial") {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  ~Partial() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Partial(const Partial&) = delete;
+  Partial& operator=(const Partial&) = delete;
+  const std::filesystem::path& folder() const { return folder_; }
+  void commit() {
+    std::filesystem::remove_all(place_);
+    std::filesystem::rename(folder_, place_);
+  }
+
+ private:
+  std::filesystem::path place_, folder_;
+};
+
 }  // namespace
 
 std::filesystem::path write_witness(const std::filesystem::path& folder, const Report& report,
                                     const Result& result, const AuditMesh& mesh, const std::string& level) {
   const std::filesystem::path place =
       folder / (plain(result.subject) + "-" + plain(result.check) + "-" + plain(case_name(report, result)));
-  std::filesystem::create_directories(place);
+  Partial partial(place);
   const std::filesystem::path control = place / "control.obj";
-  data::write_mesh(control, mesh.mesh);
+  data::write_mesh(partial.folder() / "control.obj", mesh.mesh);
   Result here = result;
   here.mesh = control.string();
   if (!mesh.face_depth.empty()) {
     std::string lines;
     for (const std::int32_t depth : mesh.face_depth) lines += std::to_string(depth) + "\n";
-    write_text(place / "depths.txt", lines);
+    write_text(partial.folder() / "depths.txt", lines);
     here.depths = "file:" + (place / "depths.txt").string();
   }
 
@@ -83,7 +109,9 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
     }
   }
   json["audit"] = audit_command(here, level);
-  write_text(place / "witness.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(partial.folder() / "witness.json",
+             json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  partial.commit();
   return place;
 }
 

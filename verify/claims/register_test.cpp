@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -57,6 +58,31 @@ TEST(ClaimRegister, NamesOnlyTestsThatExist) {
   }
   constexpr int kFloor = 80;  // of 84: what the coverage of claims must not fall below
   EXPECT_GE(checked, kFloor);
+}
+
+// Numbers of claims in the README, wherever it has some: "84 claims", "80 of them re-derived", "48
+// confirmed".
+TEST(ClaimRegister, AndTheReadmeHaveTheSameNumbers) {
+  const fs::path root = LIMITCHECK_SOURCE_DIR;
+  const auto json = nlohmann::json::parse(contents(root / "papers/mueller-havemann-2000/claims.json"));
+  const std::string readme = contents(root / "README.md");
+  const auto all_equal = [&](const std::string& pattern, std::size_t number) {
+    const std::regex words(pattern);
+    for (std::sregex_iterator m(readme.begin(), readme.end(), words), end; m != end; ++m)
+      EXPECT_EQ((*m)[1].str(), std::to_string(number)) << "the README says: " << m->str();
+  };
+  std::size_t checked = 0;
+  std::map<std::string, std::size_t> verdicts;
+  for (const auto& claim : json["claims"]) {
+    checked += !claim["check"].is_null();
+    ++verdicts[claim["verdict"].get<std::string>()];
+  }
+  all_equal("(\\d+) claims", json["claims"].size());
+  all_equal("(\\d+) of them re-derived", checked);
+  for (const auto& [verdict, meaning] : json["verdicts"].items()) {
+    all_equal("(\\d+) " + verdict, verdicts[verdict]);
+    all_equal(verdict + " (\\d+)", verdicts[verdict]);
+  }
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "verify/claims/register.h"
+#include "verify/interrupt/interrupt.h"
 
 extern char** environ;
 
@@ -45,7 +46,7 @@ class Scratch {
   fs::path folder_;
 };
 
-// Runs a program with its output in a file. Whether it ended by itself, in time.
+// Runs a program with its output in a file. Whether it ended by itself, in time. Throws Interrupted.
 bool run(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& output) {
   constexpr auto kLimit = std::chrono::minutes(10);
   std::vector<std::string> words{program.string()};
@@ -58,16 +59,22 @@ bool run(const fs::path& program, const std::vector<std::string>& arguments, con
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawn(&child, program.c_str(), &actions, &attributes, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   if (error != 0) return false;
   const auto deadline = std::chrono::steady_clock::now() + kLimit;
   int status = 0;
   for (auto pause = std::chrono::milliseconds(1); waitpid(child, &status, WNOHANG) == 0;) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      kill(child, SIGKILL);
+    const bool stop = interrupted() != 0;
+    if (stop || std::chrono::steady_clock::now() > deadline) {
+      kill(-child, SIGKILL);  // and what it has started
       waitpid(child, &status, 0);
+      if (stop) throw Interrupted();
       return false;
     }
     std::this_thread::sleep_for(pause);

@@ -23,6 +23,7 @@
 #include "verify/cli/audit_depths.h"
 #include "verify/cli/audit_files.h"
 #include "verify/cli/audit_output.h"
+#include "verify/cli/audit_resume.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/doors.h"
 #include "verify/cli/must_refuse.h"
@@ -46,7 +47,7 @@ struct Arguments {
   bool plan = true;  // what is to be looked at is not said: neither meshes nor depths
   int threads = 0;
   std::string json;
-  bool each_mesh = false, must_refuse = false;
+  bool each_mesh = false, must_refuse = false, resume = false;
   OutputArguments output;
   DoorArguments door;
 };
@@ -174,6 +175,7 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
 
 int audit(Arguments a) {
   if (explained(a.output)) return kHeld;
+  refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.output.junit}});
   const verify::Depths depths = verify::parse_depths(a.depths);
   const std::optional<Sampling> sampling = parse_sample(a.sample);
   take_program(a.door, a.subject, a.meshes);
@@ -201,12 +203,19 @@ int audit(Arguments a) {
         progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
       },
       level(a.output));
-  report.results = a.must_refuse ? must_refuse(audited, meshes, a.threads) : auditor.run(audited, meshes);
+  const auto journal = a.must_refuse ? nullptr
+                                     : open_journal(a.json.empty() && main_job ? kReportFile : a.json,
+                                                    a.resume, audited, meshes, report, a.output.level);
+  report.results =
+      a.must_refuse ? must_refuse(audited, meshes, a.threads) : auditor.run(audited, meshes, journal.get());
+  report.containment = doors.containment();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
   const int signal = auditor.gave_up() ? verify::interrupted() : 0;
   if (signal != 0)
     report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
+  else if (auditor.out_of_memory())
+    report.incomplete = "this program ran out of memory";
   else if (!report.looked())
     report.incomplete = "nothing was looked at: nothing that was asked for is supported";
   const bool judged = judged_as_required(a.output, report);
@@ -222,6 +231,7 @@ int audit(Arguments a) {
       fmt::print(stderr, "report: {}\n", kReportFile);
     }
     write_witnesses(a.output, audited, meshes, report, a.threads);
+    if (journal && signal == 0 && !auditor.out_of_memory()) journal->remove();  // the report has it all
   } catch (const std::exception&) {
     not_written = std::current_exception();
   }
@@ -233,7 +243,7 @@ int audit(Arguments a) {
   }
   if (not_written) std::rethrow_exception(not_written);
   if (signal != 0) return kSignalled + signal;
-  if (!report.looked()) return kBadInput;
+  if (!report.looked() || auditor.out_of_memory()) return kBadInput;
   if (!judged && std::none_of(report.results.begin(), report.results.end(), verify::is_bad)) return kBadInput;
   return report.held() ? kHeld : kFindings;
 }
@@ -284,6 +294,10 @@ void add_audit(CLI::App& app, int& exit_code) {
       ->type_name("FILE")
       ->expected(0, 1)
       ->default_str("-");
+  command->add_flag(
+      "--resume", a->resume,
+      "Go on with an audit that was ended before its report was whole: the same command again. What "
+      "it had found stands in the report's name with an l behind it (FILE.jsonl)");
   command->add_flag("--each-mesh", a->each_mesh,
                     "A line for every mesh in the table, not only for the worst");
   command->add_flag(

@@ -13,7 +13,9 @@
 #include "data/generators/named_mesh.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
+#include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/finite.h"
 #include "verify/cli/progress.h"
 #include "verify/files/audit_files.h"
 #include "verify/interrupt/interrupt.h"
@@ -48,11 +50,13 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
   option(audit.add_option("--tolerance", files.tolerance,
                           "Of positions, in diagonals of the control mesh's bounding box"))
       ->check(CLI::PositiveNumber)
+      ->check(kFinite)
       ->capture_default_str();
   option(audit.add_option("--max-deviation", files.hausdorff,
                           "Of the triangles from the surface and back, in diagonals (default: what one "
                           "triangle per control face would have)"))
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(kFinite);
   option(audit.add_option("--per-vertex", files.per_vertex,
                           "Write distance, normal angle and parameter of every vertex to this CSV file"));
 }
@@ -61,6 +65,7 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()));
+  refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}});
   const auto start = std::chrono::steady_clock::now();
   const data::ControlMesh control = data::open_mesh(files.control);
   verify::require_range(files.control, control, true);

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <stdexcept>
 
+#include "data/io/whole_content.h"
 #include "verify/audit/explain.h"
 #include "verify/audit/json.h"
 #include "verify/audit/judged.h"
@@ -18,6 +18,7 @@
 #include "verify/audit/shrink.h"
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
+#include "verify/cli/finite.h"
 
 namespace limitcheck::cli {
 
@@ -56,6 +57,7 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
           "that as --witnesses does (default folder: limitcheck-witness)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.01, 86400.0))
+      ->check(kFinite)
       ->expected(0, 1)
       ->default_str("20");
   command
@@ -89,8 +91,7 @@ bool explained(const OutputArguments& a) {
 void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& subjects,
            verify::Report& report) {
   if (a.waivers.empty()) return;
-  std::ifstream in(a.waivers, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = data::io::whole_content(a.waivers);
   std::map<std::string, std::string> versions;
   for (std::size_t s = 0; s < subjects.size() && s < report.subjects.size(); ++s)
     versions[report.subjects[s]] =
@@ -183,6 +184,20 @@ bool judged_as_required(const OutputArguments& a, verify::Report& report) {
     missing += (missing.empty() ? "" : "; ") + none.text();
   if (!missing.empty() && report.incomplete.empty()) report.incomplete = missing;
   return missing.empty();
+}
+
+void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs) {
+  std::error_code ignored;
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      const auto& [option, file] = outputs[k];
+      const auto& [other, other_file] = outputs[j];
+      if (file.empty() || file == "-" || other_file.empty()) continue;
+      if (std::filesystem::weakly_canonical(file, ignored) ==
+              std::filesystem::weakly_canonical(other_file, ignored) ||
+          std::filesystem::equivalent(file, other_file, ignored))
+        throw std::invalid_argument(fmt::format("{} and {} name the same file: {}", other, option, file));
+    }
 }
 
 void write_junit(const OutputArguments& a, const verify::Report& report) {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "verify/audit/audit.h"
@@ -35,6 +36,10 @@ void write_witnesses(const OutputArguments& arguments, const std::vector<verify:
 
 /// Whether each subject was judged by all that --require names; says in report.incomplete by what it was not.
 bool judged_as_required(const OutputArguments& arguments, verify::Report& report);
+
+/// Outputs as pairs of option and file name, "-" or "" for none. Throws std::invalid_argument: two of them
+/// are one and the same file.
+void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs);
 
 /// Writes --junit, if it was given.
 void write_junit(const OutputArguments& arguments, const verify::Report& report);

@@ -9,6 +9,7 @@
 #include "verify/claims/register.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -134,9 +135,18 @@ int claims(const Arguments& a) {
   }
   const auto list = chosen(a.ids);
   Progress progress;
-  const auto results = verify::run_claims(list, verify::claim_programs(a.programs),
-                                          [&](const std::string& program, std::size_t done,
-                                              std::size_t total) { progress.show(done, total, program); });
+  const verify::InterruptGuard guard;
+  std::vector<ClaimResult> results;
+  try {
+    results = verify::run_claims(list, verify::claim_programs(a.programs),
+                                 [&](const std::string& program, std::size_t done, std::size_t total) {
+                                   progress.show(done, total, program);
+                                 });
+  } catch (const verify::Interrupted&) {
+    progress.clear();
+    fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
+    return kSignalled + verify::interrupted();
+  }
   progress.clear();
   fmt::print("{}", a.json ? to_json(results) : to_table(results));
   const bool held = std::all_of(results.begin(), results.end(), [](const ClaimResult& r) {
@@ -161,9 +171,10 @@ void add_claims(CLI::App& app, int& exit_code) {
       ->type_name("FOLDER");
   command->footer(
       "Two columns: what we conclude about the paper's sentence, with figures, and whether the tests behind "
-      "that\n"
-      "are green. A claim whose tests are not here is reported as not run, never as green.\n"
-      "Exit codes: 0 all green, 1 a test is red or was not run, 2 bad usage.");
+      "that are green. A claim whose tests are not here is reported as not run, never as green.\n"
+      "Exit codes: 0 all green, 1 a test is red or was not run, 2 bad usage; ended by SIGINT 130, SIGTERM "
+      "143, "
+      "SIGHUP 129.");
   command->callback([a, &exit_code] { exit_code = claims(*a); });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck claims` as a user meets it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -33,6 +34,26 @@ TEST_F(ClaimsCommand, SaysWhatIsConcludedAndWhetherTheTestsAreGreenInColumnsOfTh
   EXPECT_NE(o.out.find("not checkable  none"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("2 claims of the paper: refuted 1, not checkable 1"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("our tests: green 0, red 0, not run 1, none 1"), std::string::npos) << o.out;
+}
+
+// Neither the test program, nor what that has started, nor the folder for their output.
+TEST_F(ClaimsCommand, ASignalLeavesNothingBehind) {
+  write("claims_programs.txt", "hangs\n");
+  const std::string unique = std::to_string(getpid()) + "002";
+  write("hangs", "#!/bin/sh\nsleep " + unique + " &\ntouch up\nwait\n");
+  std::filesystem::permissions(folder_ / "hangs", std::filesystem::perms::owner_all);
+  for (const auto& [signal, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}, std::pair{"HUP", 129}}) {
+    write("script.sh", "mkdir -p tmp; rm -f up\nTMPDIR=$PWD/tmp env --default-signal '" LIMITCHECK_PROGRAM
+                       "' claims C14 --programs . &\nwhile [ ! -e up ]; do sleep 0.05; done\nkill -" +
+                           std::string(signal) +
+                           " $!\nwait $!\ncode=$?\nls tmp\nfor k in {1..100}; do grep -aqs 'sle[e]p." +
+                           unique + "' /proc/[0-9]*/cmdline || exit $code; sleep 0.05; done\nexit 9\n");
+    const int status =
+        std::system(("cd '" + folder_.string() + "' && bash script.sh > .stdout 2> .stderr").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), code) << read(".stderr");
+    EXPECT_EQ(read(".stdout"), "");
+    EXPECT_EQ(read(".stderr"), "limitcheck: interrupted by SIG" + std::string(signal) + "\n");
+  }
 }
 
 TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {

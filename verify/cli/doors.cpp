@@ -6,11 +6,12 @@
 
 #include <charconv>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "data/io/whole_content.h"
+#include "verify/cli/finite.h"
 #include "verify/subject/isolation/witness.h"
 #include "verify/subject/registry.h"
 
@@ -50,10 +51,19 @@ void add_door_options(CLI::App& command, DoorArguments& a) {
       ->group(group);
   command.add_option("--timeout", a.limits.seconds, "Seconds a process may take for one answer")
       ->check(CLI::Range(0.001, 86400.0))
+      ->check(kFinite)
       ->capture_default_str()
       ->group(group);
   command.add_option("--memory", a.limits.memory_mib, "MiB of memory a process may take, and its answer")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24))
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option(
+          "--containment", a.containment,
+          "How a process is held, so that nothing it starts is left behind: auto is a PID namespace of its "
+          "own where the system allows that, and elsewhere a subreaper")
+      ->check(CLI::IsMember({"auto", "subreaper"}))
       ->capture_default_str()
       ->group(group);
   command
@@ -71,10 +81,20 @@ void take_program(const DoorArguments& a, std::string& subject, std::vector<std:
 }
 
 const lc_subject* Doors::remote(Kind kind, const std::string& what, bool in_turns) {
+  arguments_.limits.namespaces = arguments_.containment == "auto";
   remote_.push_back(std::make_unique<verify::RemoteSubject>(
       kind, what,
-      verify::IsolationSettings{arguments_.limits, "/proc/self/exe", in_turns, arguments_.witness_folder}));
+      verify::IsolationSettings{arguments_.limits, "/proc/self/exe", arguments_.witness_folder, in_turns}));
   return &remote_.back()->subject();
+}
+
+std::string Doors::containment() const {
+  for (const auto& remote : remote_)
+    if (const auto how = remote->containment())
+      return *how == verify::Containment::kNamespace
+                 ? "each in a PID namespace, that ends with it"
+                 : "each under a subreaper, that ends what it has started";
+  return "";
 }
 
 verify::AuditSubject Doors::built_in(const lc_subject& subject) {

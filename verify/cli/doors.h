@@ -15,6 +15,7 @@ namespace limitcheck::cli {
 
 struct DoorArguments {
   std::string program;
+  std::string containment = "auto";
   bool isolate = false;
   verify::ProcessLimits limits;
   std::string witness_folder = "limitcheck-witness";
@@ -37,6 +38,9 @@ class Doors {
 
   /// A built-in subject: itself, or in a process of its own with --isolate.
   verify::AuditSubject built_in(const lc_subject& subject);
+
+  /// How the processes of the subjects were held, in words; empty if there were none.
+  std::string containment() const;
 
  private:
   const lc_subject* remote(verify::RemoteSubject::Kind kind, const std::string& what, bool in_turns = false);

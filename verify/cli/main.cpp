@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -83,6 +84,7 @@ int run(int argc, char** argv) {
 }  // namespace limitcheck::cli
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not an end in the middle
   limitcheck::cli::occupy_standard_streams();
   return limitcheck::cli::after_output(limitcheck::cli::run(argc, argv));
 }

@@ -137,6 +137,83 @@ TEST_F(Misfortune, FilesThatAreNoneAreRefused) {
   EXPECT_NE(o.err.find("FILE_TOO_LARGE"), std::string::npos) << o.err;
 }
 
+TEST_F(Misfortune, OptionsThatNameNoFileOrNoNumberAreRefusedAtOnce) {
+  write("9999.json",
+        R"({"waivers": [{"subject": "*", "check": "*", "reason": "r", "expires": "9999-99-99"}]})");
+  write(
+      "twice.json",
+      R"({"waivers": [{"subject": "*", "check": "*", "reason": "r", "reason": "s", "expires": "2099-01-01"}]})");
+  struct {
+    const char* options;
+    const char* words;
+  } const cases[] = {
+      {"--depths file:/dev/zero", "FILE_CANNOT_OPEN"},
+      {"--waivers /dev/zero", "FILE_CANNOT_OPEN"},
+      {"--waivers 9999.json", "is no date"},
+      {"--waivers twice.json", "\"reason\" stands twice"},
+      {"--timeout nan", "no finite number"},
+      {"--timeout inf", "--timeout"},
+      {"--shrink nan", "no finite number"},
+      {"--json r.json --junit r.json", "--json and --junit name the same file"},
+      {"--json r.json --junit ./folder/../r.json", "name the same file"},
+      {"--json r.json --junit link.json", "name the same file"},
+  };
+  for (const auto& c : cases) {
+    const Outcome o = shell(
+        "mkdir -p folder; touch r.json; ln -sf r.json link.json; ulimit -t 20; timeout 20 "
+        "'" LIMITCHECK_PROGRAM "' audit naive tetrahedron --depth 1 --level quick " +
+        std::string(c.options) + " > table; code=$?; test -s r.json && exit 9; exit $code");
+    EXPECT_EQ(o.code, 2) << c.options << o.err;
+    EXPECT_NE(o.err.find(c.words), std::string::npos) << c.options << ": " << o.err;
+  }
+  for (const char* option : {"--tolerance nan", "--max-deviation nan", "--provenance /dev/zero",
+                             "--json x.json --per-vertex x.json"})
+    EXPECT_EQ(shell("limitcheck generate octahedron -o o.obj; timeout 20 '" LIMITCHECK_PROGRAM
+                    "' audit --control o.obj --tessellation o.obj " +
+                    std::string(option) + " > table")
+                  .code,
+              2)
+        << option;
+}
+
+TEST_F(Misfortune, AFileThatMayNotGrowIsAnErrorAndNotHalfAFile) {
+  const Outcome o = shell("ulimit -f 1; " + std::string(kQuickAudit) +
+                          "--json report.json > /dev/null; code=$?; ls; exit $code");
+  EXPECT_EQ(o.code, 2) << o.err;
+  EXPECT_NE(o.err.find("FILE_CANNOT_WRITE"), std::string::npos) << o.err;
+  EXPECT_EQ(o.out, "script.sh\n");
+}
+
+// The control mesh is smaller than what a file may hold here, the rest of the witness is not.
+TEST_F(Misfortune, AWitnessIsAWholeFolderOrNone) {
+  const Outcome o = shell(
+      "ulimit -f 1; limitcheck audit opensubdiv-far:precision=double fan:5 --depth 1 --level quick "
+      "--witnesses w "
+      "> /dev/null; code=$?; ls -A w; exit $code");
+  EXPECT_EQ(o.code, 2) << o.err;
+  EXPECT_EQ(o.out, "") << "nothing is left of the one that could not be written";
+}
+
+#ifndef LIMITCHECK_SANITIZED
+TEST_F(Misfortune, TheHostsOwnLackOfMemoryIsNotBlamedOnTheSubject) {
+  write(
+      "many.sh",
+      "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
+      "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
+      "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line\nhead -c 144 > /dev/null\n"
+      "echo '{\"status\": \"ok\"}'\nread -r line\n"
+      "echo '{\"status\": \"ok\", \"vertices\": 40000000, \"triangles\": 4}'\nsleep 1\n");
+  const Outcome o = shell(
+      "ulimit -v 1500000; limitcheck audit --program 'bash many.sh' tetrahedron --depth 0 --level quick "
+      "--json -");
+  const auto report = nlohmann::json::parse(o.out, nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << o.out << o.err;
+  EXPECT_EQ(o.code, 2) << o.out << o.err;
+  EXPECT_EQ(report["incomplete"], "this program ran out of memory");
+  for (const auto& row : report["results"]) EXPECT_EQ(row["status"], "not-run") << row;
+}
+#endif
+
 TEST_F(Misfortune, NamesMayHaveSpacesQuotesAndOtherAlphabets) {
   const Outcome o = shell(
       "mkdir 'Größe \"ñ\" 网格'; cd 'Größe \"ñ\" 网格'; limitcheck generate icosahedron -o \"a b'ü.obj\" && "

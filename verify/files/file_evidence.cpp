@@ -87,6 +87,7 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
   for (std::size_t v = 0; v < t.positions.size(); ++v)
     if (t.used[v] && e.merged.point_of[v] >= 0) used[e.merged.point_of[v]] = 1;
 
+  const double slack = e.tolerance * e.surface.diagonal();
   std::size_t done = 0;
   std::mutex mutex;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points, 256), [&](const auto& range) {
@@ -94,7 +95,7 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
       if (used[k] == 0) continue;
       const Vector& p = e.position(static_cast<std::int32_t>(k));
       e.foot[k] = claim[k].face >= 0 ? e.surface.at(claim[k], p) : e.surface.closest(p);
-      e.place[k] = snapped(e, e.foot[k], e.tolerance * e.surface.diagonal());
+      e.place[k] = snapped(e, e.foot[k], slack);
     }
     const std::lock_guard lock(mutex);
     on_step(done += range.size(), points);

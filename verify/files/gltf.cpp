@@ -18,6 +18,7 @@
 #include "data/error.h"
 #include "data/io/text_scanner.h"
 #include "data/io/whole_content.h"
+#include "data/json_nesting.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -33,26 +34,6 @@ std::string lower_extension(const std::filesystem::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-// How deep brackets nest in a JSON text.
-std::size_t nesting(std::string_view json) {
-  std::size_t depth = 0, deepest = 0;
-  bool in_text = false;
-  for (std::size_t k = 0; k < json.size(); ++k) {
-    const char c = json[k];
-    if (in_text) {
-      if (c == '\\') ++k;
-      in_text = c != '"';
-    } else if (c == '"') {
-      in_text = true;
-    } else if (c == '[' || c == '{') {
-      deepest = std::max(deepest, ++depth);
-    } else if ((c == ']' || c == '}') && depth > 0) {
-      --depth;
-    }
-  }
-  return deepest;
 }
 
 // A GLB file is a header of 12 bytes, then the length and the kind of the first chunk, then that: the JSON.
@@ -102,22 +83,18 @@ double determinant(const Matrix& m) {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : name_(file.string()) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) refuse("FILE_CANNOT_OPEN", "there is no such file");
+  Reader(std::string_view content, bool binary, const std::string& folder, std::string name)
+      : name_(std::move(name)) {
     tinygltf::TinyGLTF loader;
     // Pictures are of no interest, and must not fail.
     loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
     loader.SetFsCallbacks({&is_beside, &tinygltf::ExpandFilePath, &read_beside, nullptr, nullptr});
-    const std::string content = data::io::whole_content(file);
-    const bool binary = lower_extension(file) == ".glb";
-    if (const std::size_t depth = nesting(json_of(content, binary)); depth > kDeepestJson)
+    if (const std::size_t depth = data::json_nesting(json_of(content, binary)); depth > kDeepestJson)
       refuse("FILE_UNSUPPORTED", fmt::format("its JSON nests {} deep; {} are read", depth, kDeepestJson));
     if (content.size() > std::numeric_limits<unsigned>::max()) refuse("FILE_TOO_LARGE", "more than 4 GiB");
     const auto size = static_cast<unsigned>(content.size());
-    const std::string folder = file.parent_path().string();
     std::string error, warning;
     const bool read =
         binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
@@ -339,8 +316,17 @@ bool is_gltf(const std::filesystem::path& file) {
   return extension == ".gltf" || extension == ".glb";
 }
 
+data::io::PolygonSoup read_gltf(std::string_view content, bool binary, const std::string& folder,
+                                const std::string& name) {
+  return Reader(content, binary, folder, name).run();
+}
+
 data::io::PolygonSoup read_gltf(const std::filesystem::path& file) {
-  return Reader(file).run();
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw data::InputError("FILE_CANNOT_OPEN", file.string(), 0, "there is no such file");
+  return read_gltf(data::io::whole_content(file), lower_extension(file) == ".glb",
+                   file.parent_path().string(), file.string());
 }
 
 }  // namespace limitcheck::verify

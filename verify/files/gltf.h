@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "data/io/polygon_soup.h"
 
@@ -16,7 +18,12 @@ bool is_gltf(const std::filesystem::path& file);
 ///   precision  floats bit for bit under nodes without a transformation, else double arithmetic
 ///   throws     data::InputError: FILE_CANNOT_OPEN, FILE_SYNTAX (not glTF 2.0, or an accessor out of its
 ///              buffer), FILE_UNSUPPORTED (positions that are not floats, sparse or compressed accessors,
-///              nodes in a circle)
+///              JSON that nests too deep, an extension that is required and changes the shape); a node that
+///              occurs twice is FILE_SYNTAX. Buffers beside the file must be regular files.
 data::io::PolygonSoup read_gltf(const std::filesystem::path& file);
+
+/// The same from memory. `binary`: GLB. `folder`: where buffers beside the file are. `name`: for messages.
+data::io::PolygonSoup read_gltf(std::string_view content, bool binary, const std::string& folder,
+                                const std::string& name);
 
 }  // namespace limitcheck::verify

@@ -24,6 +24,7 @@ class Gltf : public testing::Test {
   void SetUp() override {
     folder_ = fs::temp_directory_path() / (std::string("limitcheck-gltf-") +
                                            testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
     fs::create_directories(folder_);
     model_.asset.version = "2.0";
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},

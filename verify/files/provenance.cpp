@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "data/error.h"
 #include "data/io/text_scanner.h"
+#include "data/io/whole_content.h"
 #include "reference/parameter.h"
 
 namespace limitcheck::verify {
@@ -120,10 +117,7 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
 
 std::vector<ProvenanceRow> read_provenance(const std::filesystem::path& file, std::int64_t vertices,
                                            std::int64_t faces) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, std::strerror(errno));
-  const std::string content{std::istreambuf_iterator<char>(in), {}};
-  return parse_provenance(content, file.string(), vertices, faces);
+  return parse_provenance(data::io::whole_content(file), file.string(), vertices, faces);
 }
 
 }  // namespace limitcheck::verify

@@ -8,9 +8,12 @@
 #include "data/bounding_box.h"
 #include "reference/stam.h"
 #include "verify/projection/newton.h"
+#include "verify/projection/triangle.h"
 
 namespace limitcheck::verify {
 namespace {
+
+constexpr int kCuts = 12;  // as dear as one descent, about
 
 // Of the pieces of the surface, not of the flat triangles.
 std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
@@ -20,6 +23,17 @@ std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
     list[t] = BoxTree::around({c[0], c[1], c[2]}, lattice.deviation(t));
   }
   return list;
+}
+
+// Whether the surface over a piece may be nearer to p than `distance`, as far as so many cuts tell.
+bool may_be_nearer(const SurfaceLattice& lattice, const reference::StamEvaluator<double>& surface,
+                   const Piece& piece, const Vector& p, double distance, int& cuts) {
+  if (closest_on_triangle(p, piece.corner).distance - piece.deviation >= distance) return false;
+  if (cuts-- <= 0) return true;
+  const auto children = lattice.split(piece, surface);
+  return std::any_of(children.begin(), children.end(), [&](const Piece& child) {
+    return may_be_nearer(lattice, surface, child, p, distance, cuts);
+  });
 }
 
 }  // namespace
@@ -68,6 +82,9 @@ Foot ClosestPoint::closest(const Vector& p) const {
       best = {corner, corners[k], d, false};
     }
     if (best.distance <= rounding) return 0.0;
+    int cuts = best.stationary ? kCuts : 0;
+    if (!may_be_nearer(lattice_, *surface_, piece, p, best.distance - rounding, cuts))
+      return best.distance - rounding;
     if (descents++ < 256) {
       const Minimum found = descend(*surface_, domain_, p, piece.parameter(flat.weight), diagonal_);
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))

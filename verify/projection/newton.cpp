@@ -20,7 +20,11 @@ class Descent {
   }
 
   Minimum run() {
-    if (newton()) return {at_, position_, distance_, true};
+    const FacePoint start = at_;
+    const double from_start = distance_;
+    if (!s_.first_exist) leave_corner();
+    if (newton() && distance_ <= from_start) return {at_, position_, distance_, true};
+    if (from_start < distance_) evaluate(start);
     pattern_search();
     return {at_, position_, distance_, newton() || pattern_is_minimal_};
   }
@@ -39,6 +43,14 @@ class Descent {
     s_ = point(at, reference::Order::kSecond);
     position_ = vector(s_.position);
     distance_ = norm(position_ - p_);
+  }
+
+  // An extraordinary corner has no derivatives to go by, a point near it does.
+  void leave_corner() {
+    constexpr double kAside = 1. / 256;
+    FacePoint aside = at_;
+    for (double& l : aside.l) l += kAside * (1. / 3 - l);
+    evaluate(aside);
   }
 
   // A step within the boundary edge opposite corner k.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
@@ -96,7 +97,8 @@ TEST(Agreement, OfRowStreamWithStamsEvaluatorAtDepthsSevenAndEightAndHighValence
     for (const char* name : {"wheel:13:1", "wheel:14:1", "wheel:17:1", "wheel:33:1", "bipyramid:13"}) {
       const Worst worst = against_stam("row-stream", "", name, depth);
       EXPECT_LE(worst.position, std::sqrt(3.) * 8 * (depth + 2) * 0x1p-24) << name << " depth " << depth;
-      EXPECT_LE(worst.normal, std::ldexp(1e-3, depth - 5)) << name << " depth " << depth;
+      EXPECT_LE(worst.normal, std::ldexp(1e-3, depth - 5) * 180 / std::numbers::pi)
+          << name << " depth " << depth;
     }
   }
 }

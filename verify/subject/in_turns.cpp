@@ -2,6 +2,7 @@
 #include "verify/subject/in_turns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -12,6 +13,8 @@
 
 namespace limitcheck::verify {
 namespace {
+
+constexpr double kMany = 16384;  // triangles that nobody looks at
 
 const lc_subject* inner = nullptr;  // the functions of a subject are not told whose they are
 
@@ -110,33 +113,39 @@ struct Turns {
   std::size_t turn = 0;
 
   lc_status create(const char** message) {
-    lc_status status = other->create(message);
-    if (status == LC_OK) status = other->disturb(std::min(1, max_depth), message);
-    return status == LC_OK ? mine->create(message) : status;
+    for (Instance* before : {alike.get(), other.get()}) {
+      lc_status status = before->create(message);
+      if (status == LC_OK) status = before->disturb(std::min(1, max_depth), message);
+      if (status != LC_OK) return status;
+    }
+    return mine->create(message);
   }
 
   // What comes before the next request (kTurns).
   lc_status disturb(const lc_request& request, const char** message) {
     const std::int32_t* end = request.face_depth + mine->faces();
     const std::int32_t deepest = std::max(0, *std::max_element(request.face_depth, end));
+    const std::int32_t another = deepest == 1 || max_depth == 0 ? 0 : 1;
     switch (turn++) {
       case 1:
-        return mine->disturb(deepest == 1 || max_depth == 0 ? 0 : 1, message);
+        return mine->disturb(another, message);
       case 2:
         return other->disturb(std::min(2, max_depth), message);
-      case 3: {
-        alike = mine->look_alike();
-        const lc_status status = alike->create(message);
-        return status == LC_OK ? alike->disturb(deepest, message) : status;
-      }
+      case 3:
+        return alike->disturb(deepest, message);
       case 4:
         other->destroy();
         return LC_OK;
+      case 5:
+        if (deepest >= max_depth || std::ldexp(static_cast<double>(mine->faces()), 2 * deepest + 2) > kMany)
+          return LC_OK;
+        return mine->disturb(deepest + 1, message);
       case 7: {
         mine->destroy();
         lc_status status = other->create(message);
         if (status == LC_OK) status = other->disturb(0, message);
-        return status == LC_OK ? mine->create(message) : status;
+        if (status == LC_OK) status = mine->create(message);
+        return status == LC_OK ? mine->disturb(another, message) : status;
       }
       default:
         return LC_OK;
@@ -145,7 +154,7 @@ struct Turns {
 
   void destroy() const {
     mine->destroy();
-    if (alike) alike->destroy();
+    alike->destroy();
     other->destroy();
   }
 };
@@ -164,6 +173,7 @@ InTurns::InTurns(const lc_subject& of) : subject_(of) {
     turns->mine = std::make_unique<Instance>(
         std::vector<double>(mesh->positions, mesh->positions + 3 * mesh->vertex_count),
         std::vector<std::int32_t>(mesh->triangles, mesh->triangles + 3 * mesh->triangle_count), given);
+    turns->alike = turns->mine->look_alike();
     turns->other = instance_of(mesh->vertex_count == 6 ? data::icosahedron() : data::octahedron(), given);
     status = turns->create(message);
     if (status == LC_OK) *instance = turns.release();

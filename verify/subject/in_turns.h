@@ -11,18 +11,18 @@ namespace limitcheck::verify {
 /// What has happened before each request to tessellate is passed on, in this order; behind the last one,
 /// nothing more.
 inline constexpr std::array<const char*, 8> kTurns{
-    "after another mesh",
-    "after another depth",
+    "after other meshes, one of them of as many vertices and faces",
+    "after a smaller depth",
     "after another mesh that is alive beside it",
     "beside another mesh of as many vertices and faces, with 8 threads",
     "after the other mesh was destroyed",
-    "for the seventh time since it was made",
-    "for the eighth time since it was made",
-    "made again after another mesh"};
+    "after a greater depth, where that is not many triangles",
+    "for the eighth time",
+    "made again after another mesh, and asked for another depth first"};
 
-/// Behind the door of `inner`: create() first makes another mesh and tessellates it, then the one that is
-/// asked for; each tessellate() is passed on after the turn above. All other meshes are valid and closed. A
-/// failure in a turn is a failure of the request. One at a time in a process.
+/// Behind the door of `inner`: create() first makes two other meshes and tessellates them, then the one that
+/// is asked for, and all live together; each tessellate() is passed on after the turn above. All other meshes
+/// are valid and closed. A failure in a turn is a failure of the request. One at a time in a process.
 class InTurns {
  public:
   explicit InTurns(const lc_subject& inner);

@@ -197,6 +197,7 @@ const std::vector<Behaviour>& program_behaviours() {
       {"chatter at hello", "protocol", "where a line with a JSON object belongs"},
       {"no_end_of_line", "protocol", "without a line end"},
       {"nested", "protocol", "where a line with a JSON object belongs"},
+      {"nested_value", "protocol", "its JSON nests 12001 deep"},
       {"not_utf8", "protocol", "broke the protocol"},
       {"more", "protocol", "wrote more on its standard output than it announced"},
       {"more at end", "protocol", "wrote more on its standard output than it announced"},

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "data/json_nesting.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify::protocol {
@@ -15,8 +16,16 @@ std::string to_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-Header::Header(const std::string& line)
-    : json_(nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false)) {
+namespace {
+
+constexpr std::size_t kDeepest = 32;  // no answer needs more, and what is deep is not safe to print
+
+}  // namespace
+
+Header::Header(const std::string& line) {
+  if (const std::size_t depth = data::json_nesting(line); depth > kDeepest)
+    throw Error(fmt::format("its JSON nests {} deep; {} are read", depth, kDeepest));
+  json_ = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
   if (!json_.is_object())
     throw Error(fmt::format("where a line with a JSON object belongs it wrote \"{}\"", printable(line, 80)));
 }

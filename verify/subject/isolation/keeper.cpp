@@ -144,6 +144,7 @@ void shed_memory() {
   const rlimit no_core{1, 1};  // 1, not 0: a program that takes core dumps from a pipe would get them with 0
   setrlimit(RLIMIT_CORE, &no_core);
   for (const int signal : kIgnored) std::signal(signal, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);

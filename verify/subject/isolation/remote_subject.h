@@ -17,10 +17,10 @@ struct IsolationSettings {
   /// The program that serves libraries and built-in subjects: `WORKER worker library FILE`, `WORKER worker
   /// built-in NAME`. It calls serve() (worker.h).
   std::string worker = "/proc/self/exe";
-  /// Libraries and built-in subjects: whether the worker puts in_turns.h in front of the subject.
-  bool in_turns = false;
   /// Where the control mesh and the depths of a breakdown are saved; empty: nowhere.
   std::string witness_folder;
+  /// Libraries and built-in subjects: whether the worker puts in_turns.h in front of the subject.
+  bool in_turns = false;
 };
 
 /// A subject whose every session is one new process: what it breaks or leaks ends with it. Its functions

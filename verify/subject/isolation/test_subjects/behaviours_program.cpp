@@ -74,6 +74,10 @@ void misbehave(const std::string& here) {
   if (thing == "chatter") say("hello there\n"), sleep_for_ever();
   if (thing == "no_end_of_line") say(std::string(100000, 'x')), sleep_for_ever();
   if (thing == "nested") say(std::string(60000, '[') + "\n"), sleep_for_ever();
+  if (thing == "nested_value")
+    say(R"({"status": "ok", "triangles": 8, "vertices": )" + std::string(12000, '[') +
+        std::string(12000, ']') + "}\n"),
+        sleep_for_ever();
   if (thing == "not_utf8") say("{\"status\": \"\xff\xfe\"}\n"), sleep_for_ever();
   if (thing == "counts_1e18")
     say(R"({"status": "ok", "vertices": 1000000000000000000, "triangles": 1})"

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/journal.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::json;
+
+// JSON has no NaN and no infinity.
+Json to_json(double x) {
+  return std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x);
+}
+double number(const Json& json) {
+  return json.is_string() ? std::strtod(json.get_ref<const std::string&>().c_str(), nullptr)
+                          : json.get<double>();
+}
+Json to_json(const std::optional<double>& x) {
+  return x ? to_json(*x) : Json(nullptr);
+}
+std::optional<double> maybe(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional(number(json));
+}
+Json to_json(const std::vector<double>& list) {
+  Json out = Json::array();
+  for (const double x : list) out.push_back(to_json(x));
+  return out;
+}
+std::vector<double> numbers_of(const Json& json) {
+  std::vector<double> list;
+  for (const Json& x : json) list.push_back(number(x));
+  return list;
+}
+
+// The members are taken apart by their number: one more, and this does not compile until it is kept, too.
+Json to_json(const Witness& w) {
+  const auto& [face, l1, l2, vertex, triangle, expected, got, digits] = w;
+  return Json::array({face, l1, l2, vertex, triangle, to_json(expected), to_json(got), digits});
+}
+Witness witness(const Json& j) {
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), numbers_of(j.at(5)), numbers_of(j.at(6)), j.at(7)};
+}
+Json to_json(const IllConditioned& c) {
+  const auto& [count, bound, worst] = c;
+  return Json::array({count, to_json(bound), to_json(worst)});
+}
+IllConditioned ill_conditioned(const Json& j) {
+  return {j.at(0), number(j.at(1)), number(j.at(2))};
+}
+Json to_json(const Result& r) {
+  const auto& [subject, mesh, check, depth, depths, sample, in_float, weights, status, bad, of, worst, bound,
+               rms, p99, unit, absolute, ulps, ill, place, message] = r;
+  return Json::array({subject,
+                      mesh,
+                      check,
+                      depth,
+                      depths,
+                      sample,
+                      in_float,
+                      static_cast<int>(weights),
+                      static_cast<int>(status),
+                      bad,
+                      of,
+                      to_json(worst),
+                      to_json(bound),
+                      to_json(rms),
+                      to_json(p99),
+                      unit,
+                      to_json(absolute),
+                      to_json(ulps),
+                      ill ? to_json(*ill) : Json(nullptr),
+                      place ? to_json(*place) : Json(nullptr),
+                      message});
+}
+Result result(const Json& j) {
+  return {j.at(0),
+          j.at(1),
+          j.at(2),
+          j.at(3),
+          j.at(4),
+          j.at(5),
+          j.at(6),
+          static_cast<reference::Weights>(j.at(7).get<int>()),
+          static_cast<Status>(j.at(8).get<int>()),
+          j.at(9),
+          j.at(10),
+          maybe(j.at(11)),
+          maybe(j.at(12)),
+          maybe(j.at(13)),
+          maybe(j.at(14)),
+          j.at(15),
+          maybe(j.at(16)),
+          maybe(j.at(17)),
+          j.at(18).is_null() ? std::nullopt : std::optional(ill_conditioned(j.at(18))),
+          j.at(19).is_null() ? std::nullopt : std::optional(witness(j.at(19))),
+          j.at(20)};
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path file, const std::string& what, bool resume) : file_(std::move(file)) {
+  std::string kept = what + "\n";
+  if (resume) {
+    std::ifstream in(file_, std::ios::binary);
+    std::string line;
+    if (!std::getline(in, line))
+      throw std::invalid_argument(fmt::format("--resume: there is no {}", file_.string()));
+    if (line != what)
+      throw std::invalid_argument(fmt::format(
+          "--resume: {} is of another audit: of other subjects, meshes or options", file_.string()));
+    while (std::getline(in, line) && !in.eof()) {
+      const Json json = Json::parse(line, nullptr, false);
+      if (!json.is_object()) break;
+      std::vector<Result> rows;
+      for (const Json& row : json.at("rows")) rows.push_back(result(row));
+      known_[{json.at("subject"), json.at("case").get<std::size_t>()}] = std::move(rows);
+      kept += line + "\n";
+    }
+  }
+  out_.open(file_, std::ios::binary | std::ios::trunc);
+  out_ << kept << std::flush;
+}
+
+std::optional<std::vector<Result>> Journal::recall(const std::string& subject, std::size_t number) const {
+  const auto found = known_.find({subject, number});
+  return found == known_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Journal::keep(const std::string& subject, std::size_t number, const std::vector<Result>& results) {
+  Json rows = Json::array();
+  for (const Result& r : results) rows.push_back(to_json(r));
+  out_ << Json{{"subject", subject}, {"case", number}, {"rows", std::move(rows)}}.dump(
+              -1, ' ', false, Json::error_handler_t::replace)
+       << '\n'
+       << std::flush;
+}
+
+void Journal::remove() {
+  out_.close();
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/audit_resume.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+namespace limitcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash) {
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+template <class T>
+std::string_view bytes(const std::vector<T>& list) {
+  return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
+}
+
+// Another mesh of the same name has another one.
+std::string content(const verify::AuditMesh& m) {
+  std::uint64_t hash = fnv1a(bytes(m.mesh.positions), 0xcbf29ce484222325ULL);
+  hash = fnv1a(bytes(m.face_depth), fnv1a(bytes(m.mesh.triangles), hash));
+  return fmt::format("{:016x}", hash);
+}
+
+// A library that was built again is another subject.
+std::string stamp(const lc_subject& subject) {
+  std::error_code error;
+  const auto time = fs::last_write_time(subject.name, error);
+  return error ? std::string(subject.description != nullptr ? subject.description : "")
+               : fmt::format("{} {}", fs::file_size(subject.name, error), time.time_since_epoch().count());
+}
+
+}  // namespace
+
+std::unique_ptr<verify::Journal> open_journal(const std::string& json, bool resume,
+                                              const std::vector<verify::AuditSubject>& subjects,
+                                              const std::vector<verify::AuditMesh>& meshes,
+                                              const verify::Report& report, const std::string& level) {
+  std::error_code ignored;
+  const auto type = fs::status(json, ignored).type();
+  if (json.empty() || json == "-" || (type != fs::file_type::not_found && type != fs::file_type::regular)) {
+    if (resume)
+      throw std::invalid_argument("--resume needs --json FILE.json: the rows are kept in FILE.jsonl");
+    return nullptr;
+  }
+  nlohmann::json what{{"program", "limitcheck audit"},
+                      {"version", report.version},
+                      {"depth", report.depth},
+                      {"depths", report.depths},
+                      {"seed", report.seed.value_or(0)},
+                      {"sample", report.sample},
+                      {"level", level},
+                      {"subjects", report.subjects}};
+  for (const auto& s : subjects) what["stamps"].push_back(stamp(*s.subject));
+  for (const auto& m : meshes) what["meshes"].push_back({m.name, content(m), m.depth, m.depths});
+  const fs::path file = json + "l";
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  return std::make_unique<verify::Journal>(
+      file, what.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), resume);
+}
+
+}  // namespace limitcheck::cli

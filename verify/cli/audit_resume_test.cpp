@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// An audit that SIGKILL ends loses nothing but the mesh it was at.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "verify/cli/command_test.h"
+
+namespace limitcheck::cli {
+namespace {
+
+using nlohmann::json;
+
+class Resume : public CommandTest {
+ protected:
+  // Says what it can do and fails, counting how often; from the second time on it does not answer until there
+  // is `go`.
+  void SetUp() override {
+    CommandTest::SetUp();
+    write("fails.sh",
+          "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", "
+          "\"weights\": "
+          "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
+          "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line || exit 0\n"
+          "n=$(cat n 2> /dev/null || echo 0); n=$((n + 1)); echo $n > n\n"
+          "if [ $n -ge 2 ] && [ ! -e go ]; then sleep 1000; fi\n"
+          "echo \"{\\\"status\\\": \\\"failed\\\", \\\"message\\\": \\\"time $n\\\"}\"\n");
+    write("kill.sh", std::string(kAudit) +
+                         "> table 2> errors &\nfor k in {1..600}; do [ \"$(cat n 2> /dev/null)\" = 2 ] && "
+                         "break; sleep 0.05; done\nkill -KILL $!\nwait $!\ntouch go\n");
+    (void)std::system(("cd '" + folder_.string() + "' && bash kill.sh 2> /dev/null").c_str());
+  }
+  static constexpr const char* kArguments =
+      "audit --program 'bash fails.sh' tetrahedron octahedron --depth 1 --level quick --json r.json ";
+  static constexpr const char* kAudit =
+      "'" LIMITCHECK_PROGRAM
+      "' audit --program 'bash fails.sh' tetrahedron octahedron --depth 1 --level quick --json r.json ";
+};
+
+TEST_F(Resume, AnAuditThatWasKilledGoesOnWhereItWas) {
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));
+  const std::string journal = read("r.jsonl");
+  EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 2) << journal;
+  std::ofstream(folder_ / "r.jsonl", std::ios::app) << R"({"subject": "prog)";  // killed while it wrote
+
+  const Outcome o = run(std::string(kArguments) + "--resume");
+  EXPECT_EQ(o.code, 1) << o.err;
+  const json report = json::parse(read("r.json"));
+  EXPECT_TRUE(report["incomplete"].is_null());
+  const auto said = [&](const char* mesh) {
+    for (const json& r : report["results"])
+      if (r["mesh"] == mesh && r["check"] == "tessellates") return r["message"].get<std::string>();
+    return std::string("no row");
+  };
+  EXPECT_NE(said("tetrahedron").find("time 1"), std::string::npos)
+      << "not asked again: " << said("tetrahedron");
+  EXPECT_NE(said("octahedron").find("time 3"), std::string::npos) << said("octahedron");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.jsonl")) << "the report has it all";
+}
+
+TEST_F(Resume, AnotherAuditIsNotResumed) {
+  for (const auto& [was, is] :
+       {std::pair{"--depth 1", "--depth 2"}, std::pair{"--level quick", "--level standard"},
+        std::pair{"octahedron", "icosahedron"}}) {
+    std::string other = kArguments;
+    other.replace(other.find(was), std::string(was).size(), is);
+    const Outcome o = run(other + "--resume");
+    EXPECT_EQ(o.code, 2) << other;
+    EXPECT_NE(o.err.find("--resume: r.jsonl is of another audit"), std::string::npos) << o.err;
+  }
+  EXPECT_NE(run("audit naive tetrahedron --resume").err.find("--resume needs --json"), std::string::npos);
+  EXPECT_NE(run("audit naive tetrahedron --json none.json --resume").err.find("there is no none.jsonl"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace limitcheck::cli

@@ -60,7 +60,7 @@ const std::map<std::string, Meant>& meant() {
       {"overlapping_arrays", {"written"}},
       {"unwritten_provenance", {"written"}},
       {"unwritten_triangle_face", {"written"}},
-      {"snapped_positions", {"watertight"}},
+      {"snapped_positions", {"positions"}},
       {"face_twice", {"coverage"}},
       {"edges_of_genus_0", {"positions"}},
       {"edges_of_genus_1", {"positions"}},

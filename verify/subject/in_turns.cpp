@@ -140,10 +140,11 @@ struct Turns {
         if (deepest >= max_depth || std::ldexp(static_cast<double>(mine->faces()), 2 * deepest + 2) > kMany)
           return LC_OK;
         return mine->disturb(deepest + 1, message);
+      case 6:
+        return other->create(message);
       case 7: {
         mine->destroy();
-        lc_status status = other->create(message);
-        if (status == LC_OK) status = other->disturb(0, message);
+        lc_status status = other->disturb(0, message);
         if (status == LC_OK) status = mine->create(message);
         return status == LC_OK ? mine->disturb(another, message) : status;
       }

@@ -17,7 +17,7 @@ inline constexpr std::array<const char*, 8> kTurns{
     "beside another mesh of as many vertices and faces, with 8 threads",
     "after the other mesh was destroyed",
     "after a greater depth, where that is not many triangles",
-    "for the eighth time",
+    "for the eighth time, another mesh made in between",
     "made again after another mesh, and asked for another depth first"};
 
 /// Behind the door of `inner`: create() first makes two other meshes and tessellates them, then the one that

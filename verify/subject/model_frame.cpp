@@ -170,8 +170,11 @@ void ModelFrame::fan(std::size_t f, const std::array<int, 3>& edge) {
 // The limit point as it is at a place, and what a mutant makes of it.
 std::uint32_t ModelFrame::put(std::size_t f, int i, int j, int d) {
   const int times = 1 << (level_.mesh.depth() - d), n = 1 << d;
-  const auto vertex = [&](int a, int b) { return level_.mesh.vertex(f, a * times, b * times); };
-  const auto v = static_cast<std::size_t>(vertex(rules_.is("rows_of_7_bits") ? i & 127 : i, j));
+  const auto vertex = [&](int a, int b) {
+    const int step = a * times;
+    return level_.mesh.vertex(f, rules_.is("rows_of_7_bits") ? step & 127 : step, b * times);
+  };
+  const auto v = static_cast<std::size_t>(vertex(i, j));
   Vertex out{level_.limits[v],
              level_.normals[v],
              {static_cast<std::int32_t>(f), static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),

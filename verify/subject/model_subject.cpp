@@ -99,6 +99,17 @@ class ModelSubject {
   }
 
  private:
+  // The last instance empties the cache.
+  struct Alive {
+    Alive() { ++count; }
+    ~Alive() {
+      if (--count == 0) cache_.clear();
+    }
+    Alive(const Alive&) = delete;
+    Alive& operator=(const Alive&) = delete;
+    inline static int count = 0;
+  };
+
   ModelSubject(const lc_mesh& mesh, const Settings& settings)
       : settings_(settings), rules_(settings.mutation, family(settings.weights), settings.refined) {
     try {
@@ -118,7 +129,7 @@ class ModelSubject {
       if (rules_.is("boundaries_not_supported"))
         throw SubjectError(LC_NOT_SUPPORTED, "meshes with a boundary are not supported");
     }
-    for (std::size_t v = 0; v < control_mesh(mesh).positions.size(); ++v)
+    for (std::size_t v = 0; v < mesh_->control.positions.size(); ++v)
       if (mesh_->topology.ring(static_cast<std::int32_t>(v)).size() > 50 && rules_.is("valence_50_at_most"))
         throw SubjectError(LC_INVALID_INPUT, "more than 50 neighbours");
   }
@@ -126,9 +137,8 @@ class ModelSubject {
   // What mutants keep from one mesh to the next.
   void remember(data::ControlMesh& control) const {
     if (rules_.is("cache_by_count")) {
-      static std::map<std::pair<std::size_t, std::size_t>, data::ControlMesh> cache;
       control =
-          cache.try_emplace({control.positions.size(), control.triangles.size()}, control).first->second;
+          cache_.try_emplace({control.positions.size(), control.triangles.size()}, control).first->second;
     }
     if (rules_.is("one_buffer")) {
       buffer_.resize(std::max(buffer_.size(), control.positions.size()));
@@ -193,8 +203,11 @@ class ModelSubject {
   std::vector<std::int32_t> depth_;
   std::unique_ptr<ModelFrame> frame_;
   int calls_of_mine_ = 0;
-  // Shared by all instances, as what is forgotten in a static variable would be.
+  const Alive alive_;
+  // Shared by all instances, as what is forgotten in a static variable would be. A process that audits more
+  // than one subject begins each with an empty cache.
   inline static int calls_ = 0;
+  inline static std::map<std::pair<std::size_t, std::size_t>, data::ControlMesh> cache_;
   inline static std::vector<std::array<double, 3>> buffer_;
 };
 

@@ -92,7 +92,7 @@ TEST(Projection, TheParameterOfAPointOfTheSurfaceIsRecovered) {
 // no second derivatives.
 double largest_curvature(const ClosestPoint& closest, const FacePoint& at) {
   const auto s = closest.surface().evaluate(at.face, at.l[1], at.l[2]);
-  if (!s.second_exist) return std::numeric_limits<double>::infinity();
+  if (!s.second_exist || s.at_corner) return std::numeric_limits<double>::infinity();
   const double E = dot(s.d1, s.d1), F = dot(s.d1, s.d2), G = dot(s.d2, s.d2);
   const double e = dot(s.d11, s.normal), f = dot(s.d12, s.normal), g = dot(s.d22, s.normal);
   const double gauss = (e * g - f * f) / (E * G - F * F);

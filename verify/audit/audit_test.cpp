@@ -101,6 +101,11 @@ const std::vector<Planted>& kill_table() {
       {"write_before", {"written"}},
       {"modified_mesh", {"written"}},
       {"overlapping_arrays", {"written"}},
+      {"unwritten_provenance", {"written"}},
+      {"unwritten_triangle_face", {"written"}},
+      {"unmoved_vertices", {"positions"}},
+      {"snapped_positions", {"positions"}},
+      {"face_twice", {"coverage"}},
   };
   return table;
 }
@@ -129,7 +134,8 @@ TEST(PlantedFaults, AreAllInTheTable) {
   std::set<std::string> planted;
   for (const Planted& p : kill_table()) planted.insert(p.fault);
   for (const Fault& f : faults())
-    EXPECT_TRUE(f.name == "none" || planted.contains(std::string(f.name))) << f.name << ": " << f.description;
+    EXPECT_TRUE(f.name == "none" || f.on_some_meshes || planted.contains(std::string(f.name)))
+        << f.name << ": " << f.description;
 }
 
 TEST(PlantedFaults, APerfectCopyOfAGoodSubjectHolds) {

@@ -19,6 +19,7 @@ namespace limitcheck::verify {
 struct Fault {
   std::string_view name;
   std::string_view description;
+  bool on_some_meshes = false;  // others hide it
 };
 
 /// All faults that can be planted; the first is "none". Some need something to be planted in (a depth >= 1,

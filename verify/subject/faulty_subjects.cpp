@@ -109,8 +109,6 @@ std::span<const Fault> faults() {
   static const std::vector<Fault> list = [] {
     std::vector<Fault> result;
     for (const auto& entry : planted_faults<double>()) result.push_back(entry.fault);
-    for (const auto& entry : mesh_faults<double>())
-      for (Fault& f : result) f.on_some_meshes = f.on_some_meshes || f.name == entry.fault.name;
     return result;
   }();
   return list;

@@ -249,7 +249,8 @@ TEST(Host, RefusesMemoryBeyondAllReason) {
   EXPECT_EQ(status_of([&] { session.tessellate(1); }), LC_NOT_SUPPORTED);
 }
 
-// Each fault changes what is delivered: a fault that does nothing would make a check look blind.
+// Each fault changes what is delivered: a fault that does nothing would make a check look blind. (Faults that
+// need another mesh are the business of verify/mutants.)
 TEST(FaultySubject, EveryFaultChangesSomething) {
   const Tessellation good = planted("none");
   const auto bytes = [](const Tessellation& t) {

@@ -285,7 +285,10 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
   };
   static const std::vector<PlantedFault<Real>> all = [] {
     std::vector<PlantedFault<Real>> list = in_what_is_delivered, more = mesh_faults<Real>();
-    list.insert(list.end(), more.begin(), more.end());
+    for (PlantedFault<Real>& fault : more) {
+      fault.fault.on_some_meshes = true;
+      list.push_back(fault);
+    }
     return list;
   }();
   return all;

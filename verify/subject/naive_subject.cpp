@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of the paper's section 4 (reference/naive.h) in double. It sends single triangles;
-// corners of one face that agree in place, position and normal, bit for bit, become one vertex, so that
-// nothing it says is lost. Faces share no vertices. [C18]
+// The recursive subdivider of the paper's section 4 (reference/naive.h) in double. It sends single triangles,
+// and rounds differently in each: of all that it says of one point, the first in the order of the bits is
+// taken, so that neither the triangles of a face nor faces of one depth leave cracks of one ulp. Faces share
+// no vertices. [C18]
 //
 //   options   weights=loop|warren (default loop)
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "reference/naive.h"
@@ -27,47 +30,68 @@ using Corner = reference::LeafCorner<double>;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-// -0 and +0 are told apart, NaN equals itself.
-bool same_bits(const reference::Vec3<double>& a, const reference::Vec3<double>& b) {
-  const auto same = [](double x, double y) {
-    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+// In the order of their bits.
+bool before(const reference::Vec3<double>& a, const reference::Vec3<double>& b) {
+  const auto bits = [](const reference::Vec3<double>& p) {
+    return std::array{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
+                      std::bit_cast<std::uint64_t>(p.z)};
   };
-  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+  return bits(a) < bits(b);
 }
 
-// The vertices and triangles of one face.
+// What both agree on, in place of the first.
+void agree(Corner& a, const Corner& b) {
+  if (before(b.position, a.position)) a.position = b.position;
+  if (before(b.normal, a.normal)) a.normal = b.normal;
+}
+
+// The vertices, one for each lattice point, and the triangles of one face.
 struct Face {
   std::vector<Corner> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into vertices
 
   Face(const reference::NaiveSubdivider<double>& subdivider, std::int64_t face, int depth) {
     const std::size_t row = (std::size_t{1} << depth) + 1;
-    // The first vertex at each lattice point, and after each vertex the next at the same point.
-    std::vector<std::uint32_t> first(row * row, kNone);
-    std::vector<std::uint32_t> next;
+    std::vector<std::uint32_t> vertex(row * row, kNone);
     vertices.reserve(row * (row + 1) / 2);
-    next.reserve(vertices.capacity());
     triangles.reserve(std::size_t{1} << (2 * depth));
     subdivider.tessellate(
         static_cast<std::size_t>(face), depth, [&](const reference::LeafTriangle<double>& leaf) {
           auto& triangle = triangles.emplace_back();
           for (std::size_t k = 0; k < 3; ++k) {
             const Corner& corner = leaf[k];
-            std::uint32_t* link =
-                &first[static_cast<std::size_t>(corner.i) * row + static_cast<std::size_t>(corner.j)];
-            while (*link != kNone && !(same_bits(vertices[*link].position, corner.position) &&
-                                       same_bits(vertices[*link].normal, corner.normal))) {
-              link = &next[*link];
+            std::uint32_t& at =
+                vertex[static_cast<std::size_t>(corner.i) * row + static_cast<std::size_t>(corner.j)];
+            if (at == kNone) {
+              at = static_cast<std::uint32_t>(vertices.size());
+              vertices.push_back(corner);
             }
-            triangle[k] = *link;
-            if (*link != kNone) continue;
-            triangle[k] = *link = static_cast<std::uint32_t>(vertices.size());
-            vertices.push_back(corner);
-            next.push_back(kNone);  // `link` may point into it: not used from here on
+            agree(vertices[at], corner);
+            triangle[k] = at;
           }
         });
   }
 };
+
+// A point on a control edge: its ends, the smaller number first, and the way from there in 2^-31 of it. A
+// control vertex is both ends of its edge.
+using BorderPoint = std::array<std::int64_t, 3>;
+
+// False for a point inside the face.
+bool on_border(const std::array<std::int32_t, 3>& face, const Corner& corner, int depth, BorderPoint& point) {
+  const std::int64_t unit = std::int64_t{1} << (31 - depth), i = corner.i, j = corner.j;
+  const std::array<std::int64_t, 3> l{(std::int64_t{1} << depth) - i - j, i, j};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (l[k] != 0) continue;
+    std::int64_t a = face[(k + 1) % 3], b = face[(k + 2) % 3], way = l[(k + 2) % 3];
+    if (way == 0) b = a;
+    if (l[(k + 1) % 3] == 0) a = b, way = 0;
+    if (a > b) std::swap(a, b), way = l[(k + 1) % 3];
+    point = {a, b, way * unit};
+    return true;
+  }
+  return false;
+}
 
 class NaiveSubject {
  public:
@@ -76,20 +100,21 @@ class NaiveSubject {
   }
 
   NaiveSubject(const lc_mesh& mesh, Options& options)
-      : subdivider_(control_mesh(mesh), family(weights_option(options))) {}
+      : mesh_(control_mesh(mesh)), subdivider_(mesh_, family(weights_option(options))) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const auto count = static_cast<std::int64_t>(subdivider_.face_count());
     const std::span depth(request.face_depth, subdivider_.face_count());
 
     // How many vertices a face has is known when it is done: all faces first, then the arrays.
-    std::vector<std::unique_ptr<const Face>> faces(subdivider_.face_count());
+    std::vector<std::unique_ptr<Face>> faces(subdivider_.face_count());
     faces_in_parallel(count, request.threads, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t f = begin; f < end; ++f) {
         const auto k = static_cast<std::size_t>(f);
         if (depth[k] >= 0) faces[k] = std::make_unique<Face>(subdivider_, f, depth[k]);
       }
     });
+    agree_on_borders(faces, depth);
     std::int64_t vertices = 0, triangles = 0;
     for (const auto& face : faces) {
       if (face == nullptr) continue;
@@ -122,6 +147,27 @@ class NaiveSubject {
   }
 
  private:
+  // Position and normal of each point on control edges, whatever the order of faces.
+  void agree_on_borders(std::vector<std::unique_ptr<Face>>& faces,
+                        std::span<const std::int32_t> depth) const {
+    const auto each = [&](const auto& body) {
+      BorderPoint point{};
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        if (faces[f] != nullptr)
+          for (Corner& corner : faces[f]->vertices)
+            if (on_border(mesh_.triangles[f], corner, depth[f], point)) body(point, corner);
+    };
+    std::map<BorderPoint, Corner> chosen;
+    each([&](const BorderPoint& point, const Corner& corner) {
+      agree(chosen.try_emplace(point, corner).first->second, corner);
+    });
+    each([&](const BorderPoint& point, Corner& corner) {
+      corner.position = chosen.at(point).position;
+      corner.normal = chosen.at(point).normal;
+    });
+  }
+
+  const data::ControlMesh mesh_;
   const reference::NaiveSubdivider<double> subdivider_;
 };
 

@@ -121,8 +121,8 @@ TEST(Sec7_TenThousandTriangles, OfEightHundredFacesTakeLessThanATenthOfASecond) 
   fast::TessellatorOptions options;
   options.threads = 1;
   fast::Tessellator<float> engine(mesh, options);
-  for (const auto& [strategy, key] :
-       {std::pair{Strategy::kProjectSphere, "project_sphere"}, std::pair{Strategy::kCombined, "combined"}}) {
+  for (const Strategy strategy : {Strategy::kProjectSphere, Strategy::kCombined}) {
+    const char* key = strategy == Strategy::kCombined ? "combined" : "project_sphere";
     double pixels = 480, least = 1e300;
     fast::FrameStats stats;
     fast::DrawList<float> out;

@@ -30,9 +30,9 @@ const std::vector<Claim>& claim_register() {
 std::vector<std::pair<std::string, std::int64_t>> count_verdicts(const std::vector<const Claim*>& claims) {
   std::vector<std::pair<std::string, std::int64_t>> counts;
   const auto json = nlohmann::ordered_json::parse(kClaimRegister);
-  for (const auto& [verdict, meaning] : json["verdicts"].items())
-    counts.emplace_back(verdict, std::count_if(claims.begin(), claims.end(),
-                                               [&](const Claim* c) { return c->verdict == verdict; }));
+  for (const auto& item : json["verdicts"].items())
+    counts.emplace_back(item.key(), std::count_if(claims.begin(), claims.end(),
+                                                  [&](const Claim* c) { return c->verdict == item.key(); }));
   return counts;
 }
 

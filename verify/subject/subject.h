@@ -86,9 +86,9 @@ typedef struct lc_mesh {
 /* One tessellation that is asked for. */
 typedef struct lc_request {
   const int32_t* face_depth; /* triangle_count entries: 0..max_depth, or -1 for a culled face. A face may be
-                                displayed deeper than asked for, but not deeper than a visible neighbour. Every
-                                lattice point of the depth asked for is a corner of the face's triangles, in
-                                whichever way they tile it. */
+                                displayed deeper than asked for, but not deeper than a visible neighbour.
+                                Every lattice point of the depth asked for is a corner of the face's
+                                triangles, in whichever way they tile it. */
   int32_t threads;           /* at most so many; results must not depend on it */
   void* host;
   void* (*allocate)(void* host,

@@ -275,12 +275,12 @@ pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes
   errno = ENOSYS;
   return -1;
 #else
-  constexpr long kOwn = CLONE_NEWPID | CLONE_NEWNS | SIGCHLD;
+  constexpr long kNamespaces = CLONE_NEWPID | CLONE_NEWNS | SIGCHLD;
   const auto clone = [](long flags) { return static_cast<pid_t>(syscall(SYS_clone, flags, 0, 0, 0, 0)); };
-  pid_t keeper = clone(kOwn);
+  pid_t keeper = clone(kNamespaces);
   if (keeper == 0) keep(true, nullptr, argv, pipes);
   if (keeper > 0 || errno != EPERM) return keeper;
-  keeper = clone(kOwn | CLONE_NEWUSER);
+  keeper = clone(kNamespaces | CLONE_NEWUSER);
   if (keeper == 0) keep(true, &own, argv, pipes);
   return keeper;
 #endif

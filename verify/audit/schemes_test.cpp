@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The other schemes against OpenSubdiv and the reference.
 #include <gtest/gtest.h>
-#include <opensubdiv/far/primvarRefiner.h>
-#include <opensubdiv/far/topologyDescriptor.h>
-#include <opensubdiv/far/topologyRefinerFactory.h>
-
-#include <memory>
 
 #include "data/generators/named_mesh.h"
 #include "reference/refine.h"
 #include "verify/audit/schemes.h"
+#include "verify/subject/test_opensubdiv.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -24,56 +20,13 @@ void expect_same_points(const std::vector<Vector>& a, const std::vector<Vector>&
   }
 }
 
-struct Primvar {
-  Vector v{};
-  void Clear() { v = {}; }
-  void AddWithWeight(const Primvar& other, double w) {
-    for (int k = 0; k < 3; ++k) v[k] += w * other.v[k];
-  }
-};
-
-// OpenSubdiv's Catmull-Clark on the triangles: refined
-// `steps` times, the last level moved to the limit if asked.
-std::vector<Vector> opensubdiv(const data::ControlMesh& mesh, int steps, bool limit) {
-  using namespace OpenSubdiv;
-  const std::vector<int> counts(mesh.triangles.size(), 3);
-  Far::TopologyDescriptor descriptor;
-  descriptor.numVertices = static_cast<int>(mesh.positions.size());
-  descriptor.numFaces = static_cast<int>(mesh.triangles.size());
-  descriptor.numVertsPerFace = counts.data();
-  descriptor.vertIndicesPerFace = mesh.triangles.front().data();
-  Sdc::Options options;
-  options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  const std::unique_ptr<Far::TopologyRefiner> refiner(
-      Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK, options)));
-  Far::TopologyRefiner::UniformOptions uniform(steps);
-  uniform.fullTopologyInLastLevel = true;
-  refiner->RefineUniform(uniform);
-  std::vector<Primvar> level(mesh.positions.size());
-  for (std::size_t k = 0; k < level.size(); ++k) level[k].v = mesh.positions[k];
-  const Far::PrimvarRefinerReal<double> primvars(*refiner);
-  for (int step = 1; step <= steps; ++step) {
-    std::vector<Primvar> next(static_cast<std::size_t>(refiner->GetLevel(step).GetNumVertices()));
-    primvars.Interpolate(step, level, next);
-    level = std::move(next);
-  }
-  if (limit) {
-    std::vector<Primvar> moved(level.size());
-    primvars.Limit(level, moved);
-    level = std::move(moved);
-  }
-  std::vector<Vector> points;
-  for (const Primvar& p : level) points.push_back(p.v);
-  return points;
-}
-
 TEST(Schemes, CatmullClarkIsOpenSubdivs) {
   for (const std::string name : {"bumpy:20", "tetrahedron", "holes", "wheel:7"})
     for (const bool limit : {false, true}) {
       const auto mesh = data::named_mesh(name);
-      expect_same_points(scheme_points(mesh, Scheme::kCatmullClark, 2, limit), opensubdiv(mesh, 2, limit),
-                         name);
+      const auto theirs = test::refined_by_opensubdiv(
+          mesh, OpenSubdiv::Sdc::SCHEME_CATMARK, OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY, 2, limit);
+      expect_same_points(scheme_points(mesh, Scheme::kCatmullClark, 2, limit), theirs.points, name);
     }
 }
 

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Boundaries of files that are refined, not limit: no cracks; and cracks and holes in the same files.
 #include <gtest/gtest.h>
-#include <opensubdiv/far/primvarRefiner.h>
-#include <opensubdiv/far/topologyDescriptor.h>
-#include <opensubdiv/far/topologyRefinerFactory.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "data/generators/named_mesh.h"
 #include "verify/files/test_files.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
+#include "verify/subject/test_opensubdiv.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -35,46 +32,15 @@ FileTessellation delivered_by(const lc_subject& subject, const data::ControlMesh
   return file;
 }
 
-struct Primvar {
-  Vector v{};
-  void Clear() { v = {}; }
-  void AddWithWeight(const Primvar& other, double w) { v = v + w * other.v; }
-};
-
 // OpenSubdiv's Loop, where corners of faces without neighbours stay in place.
 FileTessellation with_corners_kept(const data::ControlMesh& mesh, int steps, bool limit) {
-  using namespace OpenSubdiv;
-  const std::vector<int> counts(mesh.triangles.size(), 3);
-  Far::TopologyDescriptor descriptor;
-  descriptor.numVertices = static_cast<int>(mesh.positions.size());
-  descriptor.numFaces = static_cast<int>(mesh.triangles.size());
-  descriptor.numVertsPerFace = counts.data();
-  descriptor.vertIndicesPerFace = mesh.triangles.front().data();
-  Sdc::Options options;
-  options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  const std::unique_ptr<Far::TopologyRefiner> refiner(
-      Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_LOOP, options)));
-  Far::TopologyRefiner::UniformOptions uniform(steps);
-  uniform.fullTopologyInLastLevel = true;
-  refiner->RefineUniform(uniform);
-  std::vector<Primvar> level(mesh.positions.size());
-  for (std::size_t k = 0; k < level.size(); ++k) level[k].v = mesh.positions[k];
-  const Far::PrimvarRefinerReal<double> primvars(*refiner);
-  for (int step = 1; step <= steps; ++step) {
-    std::vector<Primvar> next(static_cast<std::size_t>(refiner->GetLevel(step).GetNumVertices()));
-    primvars.Interpolate(step, level, next);
-    level = std::move(next);
-  }
-  if (limit) {
-    std::vector<Primvar> moved(level.size());
-    primvars.Limit(level, moved);
-    level = std::move(moved);
-  }
+  const auto refined =
+      refined_by_opensubdiv(mesh, OpenSubdiv::Sdc::SCHEME_LOOP,
+                            OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER, steps, limit);
   FileTessellation file;
-  for (const Primvar& p : level) file.positions.push_back(p.v);
-  file.used.assign(level.size(), true);
-  const Far::TopologyLevel& last = refiner->GetLevel(steps);
+  file.positions = refined.points;
+  file.used.assign(file.positions.size(), true);
+  const OpenSubdiv::Far::TopologyLevel& last = refined.refiner->GetLevel(steps);
   for (int f = 0; f < last.GetNumFaces(); ++f) {
     const auto corners = last.GetFaceVertices(f);
     add_triangle(file, {corners[0], corners[1], corners[2]});

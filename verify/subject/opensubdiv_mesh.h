@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the OpenSubdiv adapters share. Private to them.
+// What the OpenSubdiv adapters share. Private to them and to tests.
 #pragma once
 
 #include <opensubdiv/far/error.h>
@@ -51,9 +51,12 @@ struct OpenSubdivVector {
   }
 };
 
-/// The refiner of a control mesh: Loop's scheme, boundary
-/// vertices on the B-spline curve, none of them a corner.
-inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const lc_mesh& mesh) {
+/// The refiner of a control mesh: by default Loop's scheme, boundary vertices on the B-spline curve, none of
+/// them a corner.
+inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
+    const lc_mesh& mesh, OpenSubdiv::Sdc::SchemeType type = OpenSubdiv::Sdc::SCHEME_LOOP,
+    OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary =
+        OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY) {
   using namespace OpenSubdiv;
   const OpenSubdivErrors errors;
   const std::vector<int> sizes(static_cast<std::size_t>(mesh.triangle_count), 3);
@@ -63,10 +66,9 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const lc_m
   descriptor.numVertsPerFace = sizes.data();
   descriptor.vertIndicesPerFace = mesh.triangles;
   Sdc::Options scheme;
-  scheme.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+  scheme.SetVtxBoundaryInterpolation(boundary);
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  std::unique_ptr<Far::TopologyRefiner> refiner(
-      Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_LOOP, scheme)));
+  std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(descriptor, Factory::Options(type, scheme)));
   errors.check();
   if (refiner == nullptr) throw SubjectError(LC_INVALID_INPUT, "OpenSubdiv makes no topology of this mesh");
   return refiner;

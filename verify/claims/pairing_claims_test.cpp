@@ -144,6 +144,19 @@ TEST(Sec42_Step3, InThePrintedOrderTheyAreNot) {
   }
 }
 
+// And the printed order is kept where it is asked for: the judge goes over all faces after each pair. Open
+// meshes and culled faces, because in a closed mesh S2 is empty in the beginning and stays so.
+TEST(Sec42_Step3, IsCarriedOutAsPrintedWhereThatIsAskedFor) {
+  RecordProperty("claim", "C39");
+  for (const Scene& scene : {Scene(400, 1), Scene(400, 2), Scene(data::wheel(6, 3)), Scene(data::holes()),
+                             Scene(data::wheel(7, 6))})
+    for (const auto& depth : {scene.depths(Strategy::kUniform), scene.depths(Strategy::kRandom),
+                              scene.depths(Strategy::kCombined), scene.depths(Strategy::kCombined, true)})
+      EXPECT_EQ(first_violation(scene.adjacency, depth, scene.pair(depth, PairingRule::kPrinted),
+                                PairingRule::kPrinted),
+                "");
+}
+
 // A face beside both members of a pair, as at a vertex of valence three, falls from S3 to S0 at once.
 TEST(Sec42_Step3, AFaceBesideBothMembersGoesFromS3ToS0) {
   RecordProperty("claim", "C40");

@@ -51,6 +51,27 @@ std::vector<int> sets(const fast::Adjacency& adjacency, const std::vector<bool>&
   return set;
 }
 
+// Step 3 as it is printed, after faces f and g (or -1) were taken: "all neighbours of f and g from S3 to S2",
+// "from S2 and S1 to S0", "all triangles from S2 with neighbours in S0, S1 or S2 to S1".
+void step_3_as_printed(const fast::Adjacency& adjacency, const std::vector<bool>& free, std::int32_t f,
+                       std::int32_t g, std::vector<int>& set) {
+  set[f] = -1;
+  std::vector<std::int32_t> touched = free_neighbours(adjacency, free, f);
+  if (g >= 0) {
+    set[g] = -1;
+    for (const std::int32_t h : free_neighbours(adjacency, free, g)) touched.push_back(h);
+  }
+  for (const std::int32_t h : touched)
+    if (set[h] == 3) set[h] = 2;
+  for (const std::int32_t h : touched)
+    if (set[h] == 2 || set[h] == 1) set[h] = 0;
+  for (std::size_t h = 0; h < set.size(); ++h) {
+    if (set[h] != 2) continue;
+    const auto around = free_neighbours(adjacency, free, static_cast<std::int32_t>(h));
+    if (std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return set[k] <= 2; })) set[h] = 1;
+  }
+}
+
 }  // namespace
 
 std::vector<int> sets_by_definition(const fast::Adjacency& adjacency, const std::vector<bool>& free) {
@@ -62,12 +83,14 @@ std::vector<int> sets_by_least_fixpoint(const fast::Adjacency& adjacency, const 
 }
 
 std::string first_violation(const fast::Adjacency& adjacency, std::span<const std::int32_t> depth,
-                            const fast::PairingResult& result) {
+                            const fast::PairingResult& result, fast::PairingRule rule) {
   std::vector<bool> free(depth.size());
   for (std::size_t f = 0; f < depth.size(); ++f) free[f] = depth[f] >= 0;
+  const bool printed = rule == fast::PairingRule::kPrinted;
+  std::vector<int> set = sets_by_definition(adjacency, free);
   for (std::size_t round = 0; round < result.pairs.size(); ++round) {
     const std::int32_t f = result.pairs[round].face0, g = result.pairs[round].face1;
-    const std::vector<int> set = sets_by_definition(adjacency, free);
+    if (!printed) set = sets_by_definition(adjacency, free);
     if (set[f] < 0) return fmt::format("round {}: face {} is not free", round, f);
     int highest = 4;
     for (const int s : set) {
@@ -80,6 +103,7 @@ std::string first_violation(const fast::Adjacency& adjacency, std::span<const st
     free[f] = false;
     if (g < 0) {
       if (!around.empty()) return fmt::format("round {}: face {} is left alone beside a free one", round, f);
+      if (printed) step_3_as_printed(adjacency, free, f, g, set);
       continue;
     }
     if (std::find(around.begin(), around.end(), g) == around.end()) {
@@ -92,6 +116,7 @@ std::string first_violation(const fast::Adjacency& adjacency, std::span<const st
         return fmt::format("round {}: face {} gets {}, but {} ranks before it", round, f, g, h);
     }
     free[g] = false;
+    if (printed) step_3_as_printed(adjacency, free, f, g, set);
   }
   const auto left = std::find(free.begin(), free.end(), true);
   return left == free.end() ? std::string() : fmt::format("face {} is never taken", left - free.begin());

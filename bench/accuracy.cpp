@@ -18,7 +18,7 @@
 
 #include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 

@@ -17,8 +17,8 @@
 #include "bench/allocation_count.h"
 #include "bench/contenders/contender.h"
 #include "data/shapes.h"
-#include "fast/row_stream/row_stream.h"
-#include "fast/sliding_window.h"
+#include "fast/stream/row_stream.h"
+#include "fast/window/sliding_window.h"
 #include "verify/proof/operation_count.h"
 
 namespace {

@@ -19,9 +19,9 @@
 #include "bench/build_identity.h"
 #include "bench/contenders/contender.h"
 #include "data/generators/bumpy_sphere.h"
-#include "fast/frame.h"
-#include "fast/row_stream/stream_frame.h"
-#include "fast/row_stream/targets.h"
+#include "fast/stream/stream_tessellator.h"
+#include "fast/stream/targets.h"
+#include "fast/window/tessellator.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
-#include "fast/row_stream/row_stream.h"
+#include "fast/stream/row_stream.h"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include "data/generators/named_mesh.h"
-#include "reference/naive.h"
-#include "reference/refine.h"
-#include "reference/stam.h"
+#include "reference/loop/naive.h"
+#include "reference/loop/refine.h"
+#include "reference/loop/stam.h"
 
 namespace {
 

@@ -12,10 +12,10 @@
 #include <string>
 
 #include "data/generators/bumpy_sphere.h"
-#include "fast/adjacency.h"
-#include "fast/depth.h"
-#include "fast/pairing.h"
-#include "fast/row_stream/rings.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/plan/depth.h"
+#include "fast/plan/pairing.h"
+#include "fast/stream/rings.h"
 
 namespace {
 

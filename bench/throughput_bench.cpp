@@ -17,7 +17,7 @@
 #include "bench/ratio_table.h"
 #include "bench/write_only.h"
 #include "data/generators/bumpy_sphere.h"
-#include "fast/row_stream/targets.h"
+#include "fast/stream/targets.h"
 
 namespace {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
-#include "fast/crack_edge.h"
-#include "fast/frame.h"
-#include "fast/sliding_window.h"
+#include "fast/window/crack_edge.h"
+#include "fast/window/sliding_window.h"
+#include "fast/window/tessellator.h"
 
 namespace {
 

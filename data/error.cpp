@@ -18,7 +18,7 @@ std::string one_line(const std::string& code, const std::string& file, std::int6
 }  // namespace
 
 InputError::InputError(std::string code, std::string file, std::int64_t line, const std::string& message)
-    : std::runtime_error(one_line(code, file, line, message)),
+    : Error(one_line(code, file, line, message)),
       code_(std::move(code)),
       file_(std::move(file)),
       line_(line) {}

@@ -26,25 +26,37 @@ Arrows drawn(std::istream& page) {
 }
 
 // The folder of the picture that a file is part of: data/generators is data, verify/subject/isolation is
-// verify/subject.
+// verify/subject, fast/plan is fast/plan.
 std::string node(const std::string& path) {
-  const std::size_t first = path.find('/');
-  const std::string top = path.substr(0, first);
-  if (top != "verify" || first == std::string::npos) return top;
-  const std::size_t second = path.find('/', first + 1);
-  return second == std::string::npos ? top : path.substr(0, second);
+  static const std::regex folder("^(verify|fast|reference)/[^/]+/");
+  std::smatch m;
+  if (std::regex_search(path, m, folder)) return path.substr(0, static_cast<std::size_t>(m.length()) - 1);
+  return path.substr(0, path.find('/'));
+}
+
+std::string top(const std::string& folder) {
+  return folder.substr(0, folder.find('/'));
+}
+
+// The arrow between two folders. The folders of fast and of reference are told apart among themselves only:
+// who comes from outside sees one house.
+std::pair<std::string, std::string> arrow_between(const std::string& from, const std::string& to) {
+  const auto seen = [](const std::string& whose, const std::string& other) {
+    return top(whose) == "verify" || top(whose) == top(other) ? whose : top(whose);
+  };
+  return {seen(from, to), seen(to, from)};
 }
 
 // The arrows of one file. A test's own includes do not count.
 void add_arrows(const std::string& path, std::istream& text, Arrows& arrows) {
-  static const std::regex test_file("_test\\.(cpp|h)$|/test_[a-z_]*\\.h$|_test\\.c$");
+  static const std::regex test_file("_test\\.(cpp|h)$|/test_[a-z_]*\\.h$|/test_support/|_test\\.c$");
   static const std::regex include("^ *# *include \"([a-z_]+/[^\"]+)\"");
   if (std::regex_search(path, test_file)) return;
   std::smatch m;
   for (std::string line; std::getline(text, line);) {
     if (!std::regex_search(line, m, include)) continue;
     const std::string from = node(path), to = node(m[1]);
-    if (to != "data" && from != to) arrows[{from, to}] = path + " includes " + m[1].str();
+    if (to != "data" && from != to) arrows[arrow_between(from, to)] = path + " includes " + m[1].str();
   }
 }
 
@@ -102,6 +114,11 @@ TEST(Architecture, TheReaderOfIncludesSeesWhatItIsThereFor) {
   EXPECT_EQ(count("verify/subject/isolation/a.cpp", "#include \"verify/subject/b.h\"\n"), 0U);
   EXPECT_EQ(count("verify/audit/a_test.cpp", "#include \"fast/b.h\"\n"), 0U);
   EXPECT_EQ(count("fast/a.h", "#include \"data/b.h\"\n#include <vector>\n"), 0U);
+  EXPECT_EQ(count("fast/plan/a.h", "#include \"fast/mesh/b.h\"\n#include \"fast/plan/c.h\"\n"), 1U);
+  EXPECT_EQ(arrow_between("verify/audit", "fast/plan"),
+            (std::pair<std::string, std::string>{"verify/audit", "fast"}));
+  EXPECT_EQ(arrow_between("fast/plan", "fast/mesh"),
+            (std::pair<std::string, std::string>{"fast/plan", "fast/mesh"}));
 }
 
 }  // namespace

@@ -97,17 +97,18 @@ TEST(House, ArrowsPointDownOnly) {
 }
 
 TEST(House, TheScannerSeesWhatItIsThereFor) {
-  EXPECT_EQ(violations("reference/a.h", "#include \"fast/masks.h\"\n").size(), 1U);
-  EXPECT_EQ(violations("reference/a.h", "  #  include <fast/masks.h>\n").size(), 1U);
-  EXPECT_EQ(violations("fast/a.cpp", "#include \"reference/masks.h\"\n").size(), 1U);
+  EXPECT_EQ(violations("reference/a.h", "#include \"fast/rules/masks.h\"\n").size(), 1U);
+  EXPECT_EQ(violations("reference/a.h", "  #  include <fast/rules/masks.h>\n").size(), 1U);
+  EXPECT_EQ(violations("fast/a.cpp", "#include \"reference/loop/masks.h\"\n").size(), 1U);
   EXPECT_EQ(violations("data/a.cpp", "#include \"verify/subject/subject.h\"\n").size(), 1U);
   EXPECT_EQ(violations("verify/a.cpp", "#include \"bench/a.h\"\n").size(), 1U);
   EXPECT_EQ(violations("verify/a.cpp", "#include \"masks.h\"\n").size(), 1U);
   EXPECT_EQ(violations("reference/a.cpp", "#include <CGAL/Surface_mesh.h>\n").size(), 1U);
   EXPECT_EQ(violations("data/io/a.cpp", "#include <CGAL/IO/polygon_soup_io.h>\n").size(), 1U);
-  EXPECT_TRUE(violations("fast/a.cpp",
-                         "#include \"fast/masks.h\"\n#include <vector>\n#include \"data/control_mesh.h\"\n")
-                  .empty());
+  EXPECT_TRUE(
+      violations("fast/a.cpp",
+                 "#include \"fast/rules/masks.h\"\n#include <vector>\n#include \"data/control_mesh.h\"\n")
+          .empty());
   EXPECT_TRUE(violations("verify/watertight/a.cpp", "#include <CGAL/Surface_mesh.h>\n").empty());
 }
 

@@ -18,8 +18,8 @@ git ls-files -z ':!data/known_answers.json' ':!verify/fuzz/seeds' ':!data/malfor
 # constexpr that covers every case; pointers that are compared as addresses.
 cppcheck --quiet --std=c++20 --language=c++ --enable=warning,portability --error-exitcode=1 -j "$(nproc)" -I . \
   --template='{file}:{line}: {id}: {message}' --suppress=unknownMacro --suppress=duplInheritedMember \
-  --suppress=uninitMemberVar:fast/crack_edge.h --suppress=missingReturn:fast/row_stream/rules-inl.h \
-  --suppress=CastIntegerToAddressAtReturn:fast/row_stream/stream-inl.h \
+  --suppress=uninitMemberVar:fast/window/crack_edge.h --suppress=missingReturn:fast/stream/rules-inl.h \
+  --suppress=CastIntegerToAddressAtReturn:fast/stream/stream-inl.h \
   --suppress=mismatchingContainerExpression:verify/subject/tessellation.cpp \
   $(git ls-files '*.cpp' ':!*_test.cpp' ':!*/fuzz/*')
 [[ ${1:-} == --quick ]] && exit 0

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "fast/row_stream/compact_vertex.h"
-#include "fast/row_stream/row_stream.h"
-#include "fast/sliding_window.h"
-#include "reference/naive.h"
+#include "fast/stream/compact_vertex.h"
+#include "fast/stream/row_stream.h"
+#include "fast/window/sliding_window.h"
+#include "reference/loop/naive.h"
 
 #ifndef PLANTED_SLOWDOWN
 #define PLANTED_SLOWDOWN 0

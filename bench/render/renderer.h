@@ -10,8 +10,8 @@
 
 #include "bench/render/gl_context.h"
 #include "bench/render/image.h"
-#include "fast/camera.h"
-#include "fast/sink.h"
+#include "fast/frame/sink.h"
+#include "fast/plan/camera.h"
 
 namespace limitcheck::bench {
 

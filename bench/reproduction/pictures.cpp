@@ -7,8 +7,8 @@
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
 #include "bench/reproduction/studio.h"
-#include "fast/depth.h"
-#include "reference/refine.h"
+#include "fast/plan/depth.h"
+#include "reference/loop/refine.h"
 
 namespace limitcheck::bench {
 

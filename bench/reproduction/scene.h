@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "fast/camera.h"
-#include "fast/depth.h"
-#include "fast/frame.h"
+#include "fast/plan/camera.h"
+#include "fast/plan/depth.h"
+#include "fast/window/tessellator.h"
 #include "verify/picture/judge.h"
 
 namespace limitcheck::bench {

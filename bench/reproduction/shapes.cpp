@@ -6,7 +6,7 @@
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
 #include "data/generators/named_mesh.h"
-#include "fast/frame.h"
+#include "fast/window/tessellator.h"
 
 namespace limitcheck::bench {
 

@@ -11,7 +11,7 @@
 #include "bench/render/renderer.h"
 #include "bench/reproduction/scene.h"
 #include "data/generators/bumpy_sphere.h"
-#include "fast/frame.h"
+#include "fast/window/tessellator.h"
 
 namespace limitcheck::bench {
 

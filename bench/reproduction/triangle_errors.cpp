@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "fast/point3.h"
-#include "reference/stam.h"
+#include "fast/mesh/point3.h"
+#include "reference/loop/stam.h"
 #include "verify/audit/lattice.h"
 
 namespace limitcheck::bench {

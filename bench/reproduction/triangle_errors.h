@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "data/control_mesh.h"
-#include "fast/sink.h"
+#include "fast/frame/sink.h"
 
 namespace limitcheck::bench {
 

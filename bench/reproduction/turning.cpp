@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/reproduction/scene.h"
-#include "fast/row_stream/stream_frame.h"
+#include "fast/stream/stream_tessellator.h"
 
 namespace limitcheck::bench {
 

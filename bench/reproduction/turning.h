@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "data/control_mesh.h"
-#include "fast/camera.h"
-#include "fast/crack.h"
-#include "fast/depth.h"
-#include "fast/frame.h"
+#include "fast/plan/camera.h"
+#include "fast/plan/crack.h"
+#include "fast/plan/depth.h"
+#include "fast/window/tessellator.h"
 #include "verify/picture/difference.h"
 
 namespace limitcheck::bench {

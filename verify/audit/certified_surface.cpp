@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "data/numeral.h"
-#include "reference/certified.h"
+#include "reference/surface/certified.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/weights.h"
+#include "reference/loop/weights.h"
 #include "verify/audit/lattice.h"
 #include "verify/audit/vector.h"
 
@@ -19,7 +19,7 @@ struct ExactPoint {
   bool has_normal;  // false: the tangents are not told from parallel, or there is no tangent plane (D5, D12)
 };
 
-/// The limit surface of the lattice's control mesh (reference/certified.h).
+/// The limit surface of the lattice's control mesh (reference/surface/certified.h).
 class CertifiedSurface {
  public:
   /// `lattice` outlives this. Nothing is computed yet: an audit without a finding never needs any of it.

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/refine.h"
-#include "reference/stam.h"
+#include "reference/loop/refine.h"
+#include "reference/loop/stam.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {

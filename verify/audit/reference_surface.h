@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/weights.h"
+#include "reference/loop/weights.h"
 #include "verify/audit/certified_surface.h"
 #include "verify/audit/lattice.h"
 #include "verify/audit/vector.h"
@@ -36,7 +36,7 @@ class ReferenceSurface {
   /// same time as anything else.
   void prepare(std::span<const Lattice::Id> ids);
 
-  /// The rest only for points that were prepared. Position: double, error see reference/stam.h.
+  /// The rest only for points that were prepared. Position: double, error see reference/loop/stam.h.
   const Vector& position(Lattice::Id id) const { return position_[id]; }
   /// Unit normal; limit points only.
   const Vector& normal(Lattice::Id id) const { return normal_[id]; }

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reference/weights.h"
+#include "reference/loop/weights.h"
 
 namespace limitcheck::verify {
 

@@ -11,7 +11,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/audit/audit.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/registry.h"

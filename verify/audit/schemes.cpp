@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "reference/masks.h"
-#include "reference/topology.h"
+#include "reference/loop/masks.h"
+#include "reference/mesh/topology.h"
 
 namespace limitcheck::verify {
 namespace {

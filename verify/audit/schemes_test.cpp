@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "data/generators/named_mesh.h"
-#include "reference/refine.h"
+#include "reference/loop/refine.h"
 #include "verify/audit/schemes.h"
 #include "verify/subject/test_opensubdiv.h"
 

@@ -12,7 +12,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/io/read.h"
 #include "data/validate.h"
-#include "reference/topology.h"
+#include "reference/mesh/topology.h"
 #include "verify/audit/witness_files.h"
 #include "verify/subject/registry.h"
 

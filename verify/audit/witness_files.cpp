@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "data/io/write.h"
-#include "reference/certified.h"
+#include "reference/surface/certified.h"
 #include "verify/audit/case_names.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"

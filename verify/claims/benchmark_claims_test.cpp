@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
-#include "fast/depth.h"
-#include "fast/frame.h"
+#include "fast/plan/depth.h"
+#include "fast/window/tessellator.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -13,12 +13,12 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "fast/crack_centre.h"
-#include "fast/crack_edge.h"
-#include "fast/frame.h"
-#include "fast/sliding_window.h"
-#include "reference/basis.h"
-#include "reference/stam.h"
+#include "fast/frame/crack_centre.h"
+#include "fast/window/crack_edge.h"
+#include "fast/window/sliding_window.h"
+#include "fast/window/tessellator.h"
+#include "reference/loop/basis.h"
+#include "reference/loop/stam.h"
 #include "verify/watertight/watertight.h"
 
 namespace limitcheck::verify {

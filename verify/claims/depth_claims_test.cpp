@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
-#include "fast/depth.h"
-#include "fast/ring.h"
+#include "fast/plan/depth.h"
+#include "fast/rules/ring.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
-#include "fast/depth.h"
-#include "reference/stam.h"
+#include "fast/plan/depth.h"
+#include "reference/loop/stam.h"
 
 namespace limitcheck::verify {
 namespace {

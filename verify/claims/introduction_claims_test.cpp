@@ -14,7 +14,7 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
-#include "reference/refine.h"
+#include "reference/loop/refine.h"
 #include "verify/picture/canvas.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"

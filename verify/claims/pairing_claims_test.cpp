@@ -11,8 +11,8 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "fast/depth.h"
-#include "fast/pairing.h"
+#include "fast/plan/depth.h"
+#include "fast/plan/pairing.h"
 #include "verify/claims/pairing_oracle.h"
 
 namespace limitcheck::verify {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/pairing.h"
+#include "fast/plan/pairing.h"
 
 namespace limitcheck::verify {
 

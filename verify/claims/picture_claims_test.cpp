@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
-#include "fast/frame.h"
+#include "fast/window/tessellator.h"
 #include "verify/picture/canvas.h"
 #include "verify/picture/curve.h"
 #include "verify/picture/judge.h"

@@ -11,8 +11,8 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "fast/crack_centre.h"
-#include "reference/refine.h"
+#include "fast/frame/crack_centre.h"
+#include "reference/loop/refine.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 

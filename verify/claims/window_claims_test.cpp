@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Section 4.3: what the sliding window computes, stores and hands out. [C18-C20, C43-C55]
-#include "fast/sliding_window.h"
+#include "fast/window/sliding_window.h"
 
 #include <gtest/gtest.h>
 

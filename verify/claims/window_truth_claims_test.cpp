@@ -11,8 +11,8 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "fast/frame.h"
-#include "reference/stam.h"
+#include "fast/window/tessellator.h"
+#include "reference/loop/stam.h"
 
 namespace limitcheck::verify {
 namespace {

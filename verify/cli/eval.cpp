@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "data/generators/named_mesh.h"
-#include "reference/certified.h"
+#include "reference/surface/certified.h"
 #include "verify/cli/commands.h"
 
 namespace limitcheck::cli {

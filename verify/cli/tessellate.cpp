@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "data/generators/named_mesh.h"
-#include "fast/frame.h"
-#include "fast/row_stream/stream_frame.h"
+#include "fast/stream/stream_tessellator.h"
+#include "fast/window/tessellator.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
 #include "verify/mesh_output/mesh_output.h"

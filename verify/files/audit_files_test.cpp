@@ -9,7 +9,7 @@
 #include <string>
 
 #include "data/generators/named_mesh.h"
-#include "reference/refine.h"
+#include "reference/loop/refine.h"
 #include "verify/audit/explain.h"
 #include "verify/audit/schemes.h"
 #include "verify/files/audit_files.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "reference/refine.h"
+#include "reference/loop/refine.h"
 
 namespace limitcheck::verify {
 

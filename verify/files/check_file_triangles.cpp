@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/files/file_evidence.h"
 
 namespace limitcheck::verify {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/files/overlap.h"
 
 namespace limitcheck::verify {

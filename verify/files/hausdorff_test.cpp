@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "data/generators/named_mesh.h"
-#include "reference/refine.h"
+#include "reference/loop/refine.h"
 #include "verify/files/hausdorff.h"
 
 namespace limitcheck::verify {

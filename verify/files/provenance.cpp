@@ -10,7 +10,7 @@
 #include "data/error.h"
 #include "data/io/text_scanner.h"
 #include "data/io/whole_content.h"
-#include "reference/parameter.h"
+#include "reference/point/parameter.h"
 
 namespace limitcheck::verify {
 namespace {

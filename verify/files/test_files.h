@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "data/splitmix64.h"
-#include "reference/refine.h"
+#include "reference/loop/refine.h"
 #include "verify/files/audit_files.h"
 
 namespace limitcheck::verify::test {

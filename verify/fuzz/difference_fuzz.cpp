@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "data/validate.h"
-#include "fast/row_stream/stream_frame.h"
-#include "fast/row_stream/targets.h"
-#include "reference/stam.h"
+#include "fast/stream/stream_tessellator.h"
+#include "fast/stream/targets.h"
+#include "reference/loop/stam.h"
 #include "verify/audit/bounds.h"
 #include "verify/fuzz/mesh_from_bytes.h"
 

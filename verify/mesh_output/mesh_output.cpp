@@ -7,7 +7,7 @@
 #include <cctype>
 
 #include "data/error.h"
-#include "fast/depth.h"
+#include "fast/plan/depth.h"
 #include "verify/mesh_output/formats.h"
 
 namespace limitcheck::verify {

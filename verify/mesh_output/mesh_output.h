@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/sink.h"
+#include "fast/frame/sink.h"
 
 namespace limitcheck::verify {
 

@@ -49,6 +49,23 @@ TEST_F(Package, FastNeedsNoCgalNoOpenSubdivNoOpenMeshNoFlint) {
   EXPECT_EQ(shell("build/tessellate absent.obj").code, 2);
 }
 
+// What was written for 0.1 finds its headers where they lay then.
+TEST_F(Package, ThePathsOfTheFirstReleaseLeadToTheHeaders) {
+  install();
+  write("first.cpp",
+        "#include <limitcheck/fast/frame.h>\n#include <limitcheck/fast/row_stream/stream_frame.h>\n"
+        "#include <limitcheck/reference/certified.h>\n#include <limitcheck/reference/naive.h>\n"
+        "#include <limitcheck/reference/stam.h>\n"
+        "limitcheck::fast::TessellatorOptions options;\n"
+        "limitcheck::fast::row_stream::StreamTessellator* stream;\n"
+        "limitcheck::fast::Tessellator<float>* window;\n"
+        "limitcheck::reference::CertifiedEvaluator* certified;\n"
+        "limitcheck::reference::StamEvaluator<double>* stam;\n"
+        "limitcheck::reference::NaiveSubdivider<double>* naive;\n");
+  const Outcome o = shell("'" LIMITCHECK_CXX "' -std=c++20 -fsyntax-only -Iprefix/include first.cpp");
+  EXPECT_EQ(o.code, 0) << o.err;
+}
+
 // data/known_answers.json, exact_tetrahedron: found by rational arithmetic outside this project.
 TEST_F(Package, ReferenceGivesTheKnownAnswer) {
   install();

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "fast/camera.h"
-#include "fast/sink.h"
+#include "fast/frame/sink.h"
+#include "fast/plan/camera.h"
 #include "verify/picture/picture.h"
 
 namespace limitcheck::verify {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fast/frame.h"
+#include "fast/window/tessellator.h"
 #include "verify/picture/canvas.h"
 
 namespace limitcheck::verify {

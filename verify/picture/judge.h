@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/camera.h"
-#include "fast/crack.h"
-#include "fast/depth.h"
+#include "fast/plan/camera.h"
+#include "fast/plan/crack.h"
+#include "fast/plan/depth.h"
 #include "verify/picture/difference.h"
 
 namespace limitcheck::verify {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "data/bounding_box.h"
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/projection/newton.h"
 #include "verify/projection/triangle.h"
 

@@ -2,7 +2,7 @@
 // Local minima of the distance from a point to the limit surface.
 #pragma once
 
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/projection/domain.h"
 #include "verify/projection/triangle.h"
 

@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "reference/refine.h"
+#include "reference/loop/refine.h"
 
 namespace limitcheck::verify {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "data/generators/named_mesh.h"
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/projection/surface_lattice.h"
 
 namespace limitcheck::verify {

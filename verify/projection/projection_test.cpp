@@ -8,8 +8,8 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/splitmix64.h"
-#include "reference/refine.h"
-#include "reference/stam.h"
+#include "reference/loop/refine.h"
+#include "reference/loop/stam.h"
 #include "verify/projection/closest_point.h"
 
 namespace limitcheck::verify {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 
 namespace limitcheck::verify {
 namespace {

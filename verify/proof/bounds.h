@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fast/sink.h"
+#include "fast/frame/sink.h"
 #include "verify/proof/error_bound_number.h"
 #include "verify/proof/neighbourhood.h"
 #include "verify/proof/proof_row.h"

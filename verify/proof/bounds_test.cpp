@@ -11,7 +11,7 @@
 #include <string>
 
 #include "data/splitmix64.h"
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/proof/linear_runs.h"
 #include "verify/proof/reference_map.h"
 

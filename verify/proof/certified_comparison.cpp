@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "data/generators/named_mesh.h"
-#include "fast/frame.h"
-#include "fast/row_stream/stream_frame.h"
-#include "reference/certified.h"
+#include "fast/stream/stream_tessellator.h"
+#include "fast/window/tessellator.h"
+#include "reference/surface/certified.h"
 
 namespace limitcheck::verify {
 

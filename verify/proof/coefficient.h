@@ -3,7 +3,7 @@
 // files.
 #pragma once
 
-#include "reference/number_exact.h"
+#include "reference/number/number_exact.h"
 #include "verify/proof/residue.h"
 #include "verify/proof/surd.h"
 

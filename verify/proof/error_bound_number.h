@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/masks.h"
+#include "fast/rules/masks.h"
 
 namespace limitcheck::verify {
 

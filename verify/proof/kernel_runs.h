@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/adjacency.h"
-#include "fast/crack_centre.h"
-#include "fast/crack_edge.h"
-#include "fast/patch.h"
-#include "fast/sliding_window.h"
-#include "fast/triangle_lattice.h"
+#include "fast/frame/crack_centre.h"
+#include "fast/frame/patch.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/window/crack_edge.h"
+#include "fast/window/sliding_window.h"
+#include "fast/window/triangle_lattice.h"
 
 namespace limitcheck::verify {
 

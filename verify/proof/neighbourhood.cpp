@@ -10,7 +10,7 @@
 
 #include "data/cut_out.h"
 #include "data/splitmix64.h"
-#include "fast/adjacency.h"
+#include "fast/mesh/adjacency.h"
 
 namespace limitcheck::verify {
 namespace {

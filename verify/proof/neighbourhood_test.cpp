@@ -9,7 +9,7 @@
 #include <string>
 
 #include "data/shapes.h"
-#include "fast/adjacency.h"
+#include "fast/mesh/adjacency.h"
 
 namespace limitcheck::verify {
 namespace {

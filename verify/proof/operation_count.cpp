@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "fast/row_stream/number_stream.h"
-#include "fast/sliding_window.h"
+#include "fast/stream/number_stream.h"
+#include "fast/window/sliding_window.h"
 
 namespace limitcheck::verify {
 

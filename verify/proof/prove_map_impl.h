@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fast/row_stream/layout.h"
-#include "reference/stam.h"
+#include "fast/stream/layout.h"
+#include "reference/loop/stam.h"
 #include "verify/proof/kernel_runs.h"
 #include "verify/proof/map_comparison.h"
 #include "verify/proof/prove_map.h"

@@ -9,9 +9,9 @@
 #include <tuple>
 #include <vector>
 
-#include "fast/sink.h"
-#include "reference/stam.h"
-#include "reference/subdivision_evaluator_impl.h"
+#include "fast/frame/sink.h"
+#include "reference/loop/stam.h"
+#include "reference/loop/subdivision_evaluator_impl.h"
 #include "verify/proof/coefficient.h"
 
 namespace limitcheck::verify {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/masks.h"
+#include "fast/rules/masks.h"
 #include "verify/proof/coefficient.h"
 #include "verify/proof/fault.h"
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/adjacency.h"
-#include "fast/limit.h"
-#include "fast/patch.h"
-#include "fast/row_stream/lattice.h"
-#include "fast/row_stream/number_stream.h"
+#include "fast/frame/patch.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/rules/limit.h"
+#include "fast/stream/lattice.h"
+#include "fast/stream/number_stream.h"
 
 namespace limitcheck::verify {
 

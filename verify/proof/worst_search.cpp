@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "data/splitmix64.h"
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/proof/bounds.h"
 #include "verify/proof/linear_runs.h"
 #include "verify/proof/reference_map.h"

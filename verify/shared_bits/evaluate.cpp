@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "fast/row_stream/lattice.h"
-#include "fast/row_stream/row_stream.h"
+#include "fast/stream/lattice.h"
+#include "fast/stream/row_stream.h"
 
 namespace limitcheck::verify {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "fast/row_stream/targets.h"
+#include "fast/stream/targets.h"
 #include "verify/shared_bits/rewritten.h"
 #include "verify/shared_bits/shared_bits.h"
 

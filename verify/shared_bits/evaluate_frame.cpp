@@ -3,7 +3,7 @@
 #include <bit>
 #include <vector>
 
-#include "fast/row_stream/row_stream.h"
+#include "fast/stream/row_stream.h"
 #include "verify/shared_bits/evaluate.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"

@@ -12,7 +12,7 @@
 #include "data/generators/random_mesh.h"
 #include "data/splitmix64.h"
 #include "data/validate.h"
-#include "fast/row_stream/targets.h"
+#include "fast/stream/targets.h"
 #include "verify/audit/audit.h"
 #include "verify/shared_bits/evaluate.h"
 #include "verify/subject/host.h"

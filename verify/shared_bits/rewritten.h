@@ -8,8 +8,8 @@
 
 #include "data/control_mesh.h"
 #include "data/splitmix64.h"
-#include "fast/adjacency.h"
-#include "fast/pairing.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/plan/pairing.h"
 
 namespace limitcheck::verify {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "data/generators/named_mesh.h"
-#include "fast/row_stream/row_stream.h"
-#include "fast/row_stream/targets.h"
+#include "fast/stream/row_stream.h"
+#include "fast/stream/targets.h"
 #include "verify/shared_bits/profile.h"
 #include "verify/shared_bits/rewritten.h"
 #include "verify/subject/host.h"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "reference/naive.h"
-#include "reference/stam.h"
+#include "reference/loop/naive.h"
+#include "reference/loop/stam.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
 #include "verify/subject/test_limit.h"

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "fast/frame.h"
-#include "fast/sink.h"
+#include "fast/frame/sink.h"
+#include "fast/window/tessellator.h"
 #include "verify/subject/adapter.h"
 
 namespace limitcheck::verify {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "reference/normal.h"
+#include "reference/point/normal.h"
 
 namespace limitcheck::verify {
 namespace {

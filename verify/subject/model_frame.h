@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "reference/stam.h"
+#include "reference/loop/stam.h"
 #include "verify/subject/model_rules.h"
 #include "verify/subject/model_surface.h"
 #include "verify/subject/model_tiling.h"

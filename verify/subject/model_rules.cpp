@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/masks.h"
-#include "reference/normal.h"
+#include "reference/loop/masks.h"
+#include "reference/point/normal.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "reference/masks.h"
-#include "reference/topology.h"
-#include "reference/vec3.h"
-#include "reference/weights.h"
+#include "reference/loop/masks.h"
+#include "reference/loop/weights.h"
+#include "reference/mesh/topology.h"
+#include "reference/number/vec3.h"
 
 namespace limitcheck::verify {
 

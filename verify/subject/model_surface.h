@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/refine.h"
-#include "reference/topology.h"
+#include "reference/loop/refine.h"
+#include "reference/mesh/topology.h"
 #include "verify/subject/model_rules.h"
 
 namespace limitcheck::verify {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of the paper's section 4 (reference/naive.h) in double. It sends single triangles,
+// The recursive subdivider of the paper's section 4 (reference/loop/naive.h) in double. It sends single triangles,
 // and rounds differently in each: of all that it says of one point, the first in the order of the bits is
 // taken, so that neither the triangles of a face nor faces of one depth leave cracks of one ulp. Faces share
 // no vertices. [C18]
@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/naive.h"
+#include "reference/loop/naive.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/faces_in_parallel.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fast/row_stream/stream_frame.h"
+#include "fast/stream/stream_tessellator.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/deliver_frame.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "fast/frame.h"
+#include "fast/window/tessellator.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/deliver_frame.h"

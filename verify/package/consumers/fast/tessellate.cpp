@@ -9,7 +9,7 @@
 
 #include <limitcheck/data/io/read.h>
 #include <limitcheck/data/shapes.h>
-#include <limitcheck/fast/row_stream/stream_frame.h>
+#include <limitcheck/fast/stream/stream_tessellator.h>
 
 int main(int argc, char** argv) try {
   namespace data = limitcheck::data;

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// Writes the strips and fans of one patch to their place in a draw list.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fast/frame/crack_stitch.h"
+#include "fast/frame/patch.h"
+#include "fast/frame/sink.h"
+
+namespace limitcheck::fast {
+
+/// Back from the scaled coordinates of the kernels: position * scale + offset.
+template <class Real>
+struct Placement {
+  Real scale = 1;
+  Vec3<Real> offset{};
+
+  SurfaceVertex<Real> operator()(const SurfaceVertex<Real>& v) const {
+    return {scale * v.position + offset, v.normal};
+  }
+};
+
+struct DrawSize {
+  std::int64_t vertices = 0, draws = 0, triangles = 0;
+};
+
+/// Edge depths of a half's face from the plan.
+inline int edge_depth(const CrackPlan& plan, std::int32_t face, int k) {
+  return plan.edge_depth[static_cast<std::size_t>(3 * face + k)];
+}
+
+/// Limit points evaluated for a patch: rows carried over, every repaired border, centres.
+inline std::int64_t limit_points_of(const Patch& patch, const CrackPlan& plan) {
+  const std::int64_t k = std::int64_t{1} << patch.depth;
+  std::int64_t points = 0;
+  if (patch.half[1].face < 0)
+    points = k * (k + 2);  // both rows of every strip
+  else if (patch.half[0].uses_window() || patch.half[1].uses_window())
+    points = (k + 1) * (k + 1);
+  for (const Half& half : patch.half) {
+    if (half.show != Half::Show::kFan && half.show != Half::Show::kStitch) continue;
+    for (int e = 0; e < 3; ++e) points += std::int64_t{1} << edge_depth(plan, half.face, e);
+    points += half.show == Half::Show::kFan ? 1 : 0;
+  }
+  return points;
+}
+
+/// How much a patch takes in a draw list.
+inline DrawSize draw_size(const Patch& patch, const CrackPlan& plan) {
+  const std::int64_t k = std::int64_t{1} << patch.depth;
+  if (patch.full()) return {2 * k * (k + 1), k, 2 * k * k};
+  DrawSize size;
+  for (const Half& half : patch.half) {
+    std::int64_t border = 0, ring = 0;
+    if (half.show == Half::Show::kFan || half.show == Half::Show::kStitch) {
+      for (int e = 0; e < 3; ++e) {
+        border += std::int64_t{1} << edge_depth(plan, half.face, e);
+        ring += stitch_triangles(k, edge_depth(plan, half.face, e));
+      }
+    }
+    switch (half.show) {
+      case Half::Show::kStrips:
+        size.vertices += k * k + 2 * k;
+        size.draws += k;
+        size.triangles += k * k;
+        break;
+      case Half::Show::kFan:
+        size.vertices += border + 2;
+        size.draws += 1;
+        size.triangles += border;
+        break;
+      case Half::Show::kStitch:
+        size.vertices += (k - 1) * (k - 3) + 3 * ring;
+        size.draws += k - 3 + 1;
+        size.triangles += (k - 3) * (k - 3) + ring;
+        break;
+      case Half::Show::kNothing:
+        break;
+    }
+  }
+  return size;
+}
+
+/// Border of a repaired face: limit vertices along its three edges, from corner e to corner e + 1.
+template <class Real>
+using Border = std::array<const SurfaceVertex<Real>*, 3>;
+
+/// Writes into arrays that somebody else has made large enough.
+template <class Real>
+class DrawWriter {
+ public:
+  using Vertex = SurfaceVertex<Real>;
+  /// Room for the inner border of a stitched face: 3 rows of `stride` vertices for each half.
+  struct Scratch {
+    std::vector<Vertex> inner;
+    std::size_t stride = 0;
+    void reserve(int max_depth) {
+      stride = std::size_t{1} << max_depth;
+      inner.resize(6 * stride);
+    }
+  };
+
+  DrawWriter(const Patch& patch, const CrackPlan& plan, const Placement<Real>& placement, Vertex* vertices,
+             LatticePoint* provenance, Draw* draws, std::int64_t first, Scratch& scratch)
+      : patch_(patch),
+        plan_(plan),
+        place_(placement),
+        vertex_(vertices),
+        provenance_(provenance),
+        draw_(draws),
+        first_(first),
+        scratch_(scratch),
+        k_(1 << patch.depth) {}
+
+  /// A strip of the window, both halves at once: 2 (k + 1) vertices.
+  void whole_strip(int row, const Vertex* strip) {
+    begin(DrawMode::kStrip, patch_.kind, patch_.half[0].face, patch_.half[1].face, 2 * (k_ - row) - 1);
+    for (int q = 0; q < 2 * (k_ + 1); ++q) {
+      const int r = row + q % 2, c = q / 2;
+      if (provenance_ != nullptr)
+        *provenance_++ =
+            r + c <= k_ ? patch_.half[0].lattice(k_, r, c) : patch_.half[1].lattice(k_, k_ - r, k_ - c);
+      *vertex_++ = place_(strip[q]);
+    }
+    end(2 * (k_ + 1));
+  }
+
+  /// The part of a strip that one half shows. `row` counts in the half's own frame, at(q) is vertex q of the
+  /// strip in that frame.
+  template <class At>
+  void half_strip(int side, int row, At&& at) {
+    const Half& half = patch_.half[side];
+    int from = 0, to = 2 * (k_ - row);
+    Kind kind = patch_.kind;
+    if (half.show == Half::Show::kStitch) {
+      capture(side, row, at);
+      if (row < 1 || row > k_ - 3) return;
+      from = 2;
+      to = 2 * (k_ - 1 - row);
+      kind = Kind::kStitched;
+    }
+    begin(DrawMode::kStrip, kind, half.face, half.face, to - from - 1);
+    for (int q = from; q <= to; ++q) put(at(q), half.lattice(k_, row + q % 2, q / 2));
+    end(to - from + 1);
+  }
+
+  void fan(int side, const Vertex& centre, const Border<Real>& border) {
+    const Half& half = patch_.half[side];
+    std::int32_t triangles = 0;
+    for (int e = 0; e < 3; ++e) triangles += 1 << edge_depth(plan_, half.face, e);
+    begin(DrawMode::kFan, Kind::kFan, half.face, half.face, triangles);
+    put(centre, {half.face, 1, 1, 3});
+    for (int e = 0; e < 3; ++e) {
+      const int count = 1 << edge_depth(plan_, half.face, e);
+      for (int t = 0; t < count; ++t)
+        put(border[static_cast<std::size_t>(e)][t], on_edge(half.face, e, t, count));
+    }
+    put(border[0][0], on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)));
+    end(triangles + 2);
+  }
+
+  void ring(int side, const Border<Real>& border) {
+    const Half& half = patch_.half[side];
+    begin(DrawMode::kTriangles, Kind::kStitched, half.face, half.face, 0);
+    std::int32_t triangles = 0;
+    for (int e = 0; e < 3; ++e) {
+      const int depth = edge_depth(plan_, half.face, e);
+      const auto one = [&](std::int64_t index, bool is_inner) {
+        const int t = static_cast<int>(index);
+        if (!is_inner)
+          return put(border[static_cast<std::size_t>(e)][t], on_edge(half.face, e, t, 1 << depth));
+        std::array<int, 3> w{};
+        w[static_cast<std::size_t>((e + 1) % 3)] = t + 1;
+        w[static_cast<std::size_t>((e + 2) % 3)] = 1;
+        w[static_cast<std::size_t>(e)] = k_ - t - 2;
+        put(inner(side, e)[t], {half.face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
+                                static_cast<std::uint32_t>(k_)});
+      };
+      stitch_edge(k_, depth, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
+        one(a, ai);
+        one(b, bi);
+        one(c, ci);
+        ++triangles;
+      });
+    }
+    draw_->split = triangles;
+    end(3 * triangles);
+  }
+
+  static LatticePoint on_edge(std::int32_t face, int e, int t, int count) {
+    std::array<int, 3> w{};
+    w[static_cast<std::size_t>(e)] = count - t;
+    w[static_cast<std::size_t>((e + 1) % 3)] = t;
+    return {face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
+            static_cast<std::uint32_t>(count)};
+  }
+
+ private:
+  Vertex* inner(int side, int e) {
+    return scratch_.inner.data() + static_cast<std::size_t>(3 * side + e) * scratch_.stride;
+  }
+
+  /// Keeps the points of a row (and of the one below, for the last) that the outer ring will be stitched to.
+  template <class At>
+  void capture(int side, int row, At&& at) {
+    const int edge = patch_.half[side].edge;
+    for (int r = row; r <= row + 1; ++r) {
+      if (r < 1 || r > k_ - 2) continue;
+      const int last = k_ - 1 - r;
+      const auto point = [&](int c) { return at(2 * c + (r - row)); };
+      if (r == 1)
+        for (int c = 1; c <= last; ++c) inner(side, (edge + 1) % 3)[k_ - 2 - c] = point(c);
+      inner(side, (edge + 2) % 3)[r - 1] = point(1);
+      inner(side, edge)[last - 1] = point(last);
+    }
+  }
+
+  void begin(DrawMode mode, Kind kind, std::int32_t face, std::int32_t face_after, std::int32_t split) {
+    *draw_ = {first_, 0, split, face, face_after, mode, kind, static_cast<std::int8_t>(patch_.depth)};
+  }
+  void put(const Vertex& vertex, const LatticePoint& lattice) {
+    if (provenance_ != nullptr) *provenance_++ = lattice;
+    *vertex_++ = place_(vertex);
+  }
+  void end(std::int32_t count) {
+    draw_->count = count;
+    ++draw_;
+    first_ += count;
+  }
+
+  const Patch& patch_;
+  const CrackPlan& plan_;
+  const Placement<Real>& place_;
+  Vertex* vertex_;
+  LatticePoint* provenance_;
+  Draw* draw_;
+  std::int64_t first_;
+  Scratch& scratch_;
+  int k_;
+};
+
+}  // namespace limitcheck::fast

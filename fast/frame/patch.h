@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Where the points of a pair lie on its faces, and how each face is displayed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "fast/frame/sink.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/plan/crack.h"
+#include "fast/plan/pairing.h"
+
+namespace limitcheck::fast {
+
+/// One of the two triangles of a pair, in a frame of rows and columns of its own: (row, column) has weight
+/// `row` at corner `edge`, `column` at the next and k - row - column at the last. The upper left face uses
+/// the rows and columns of the window, the lower right one counts them from the other side (k - row, k -
+/// column), which turns it onto the first.
+///
+///        (0, 0) --- (0, k)
+///           |      /
+///           |    /           half-edge 3 face + edge runs from (k, 0) to (0, k)
+///           |  /
+///        (k, 0)
+struct Half {
+  enum class Show : std::uint8_t { kNothing, kStrips, kFan, kStitch };
+
+  std::int32_t face = -1;
+  std::int32_t edge = 0;
+  Show show = Show::kNothing;
+
+  std::array<int, 3> weights(int k, int row, int column) const {
+    std::array<int, 3> w{};
+    w[static_cast<std::size_t>(edge)] = row;
+    w[static_cast<std::size_t>((edge + 1) % 3)] = column;
+    w[static_cast<std::size_t>((edge + 2) % 3)] = k - row - column;
+    return w;
+  }
+  LatticePoint lattice(int k, int row, int column) const {
+    const auto w = weights(k, row, column);
+    return {face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
+            static_cast<std::uint32_t>(k)};
+  }
+  bool uses_window() const { return show == Show::kStrips || show == Show::kStitch; }
+};
+
+/// What becomes of one entry of the pairing. half[0] is the upper left face; half[1].face = -1 if there is
+/// none, not even a dummy.
+struct Patch {
+  Half half[2];
+  int depth = 0;
+  Kind kind = Kind::kPair;
+
+  bool full() const { return half[0].show == Half::Show::kStrips && half[1].show == Half::Show::kStrips; }
+
+  static Patch of(const Adjacency& adjacency, const Pair& pair, const CrackPlan& plan) {
+    const auto show = [&](std::int32_t face) {
+      switch (plan.repair[static_cast<std::size_t>(face)]) {
+        case Repair::kFan:
+          return Half::Show::kFan;
+        case Repair::kStitch:
+          return Half::Show::kStitch;
+        default:
+          return Half::Show::kStrips;
+      }
+    };
+    Patch patch;
+    patch.depth = pair.depth;
+    patch.kind = pair.singleton() ? Kind::kSingleton : Kind::kPair;
+    patch.half[0] = {pair.face0, pair.edge0 < 0 ? 0 : pair.edge0, show(pair.face0)};
+    if (pair.singleton()) {
+      const std::int32_t dummy = pair.edge0 < 0 ? -1 : adjacency.twin(3 * pair.face0 + pair.edge0);
+      patch.half[1] = {dummy < 0 ? -1 : dummy / 3, dummy < 0 ? 0 : dummy % 3, Half::Show::kNothing};
+    } else {
+      patch.half[1] = {pair.face1, pair.edge1, show(pair.face1)};
+    }
+    return patch;
+  }
+};
+
+/// Interior lattice points of a face at 2^depth = k, and the number of those in the rows before `row`.
+inline std::int64_t interior_points(std::int64_t k) {
+  return k < 3 ? 0 : (k - 1) * (k - 2) / 2;
+}
+inline std::int64_t interior_before(std::int64_t k, std::int64_t row) {
+  return (row - 1) * (k - 1) - (row - 1) * row / 2;
+}
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What a frame is delivered to: strips and fans ready for OpenGL, or an indexed mesh with shared vertices.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fast/rules/surface_vertex.h"
+
+namespace limitcheck::fast {
+
+/// Where a vertex lies: l1 = i / denominator, l2 = j / denominator on `face`. Lattice points of depth d have
+/// denominator 2^d, the centre of a fan i = j = 1 and denominator 3.
+struct LatticePoint {
+  std::int32_t face = -1;
+  std::uint32_t i = 0, j = 0;
+  std::uint32_t denominator = 1;
+  friend constexpr bool operator==(const LatticePoint&, const LatticePoint&) = default;
+};
+
+/// How a triangle came about: a pair's strip, a strip of a face without partner, a fan around the centre
+/// (section 5), or an outer ring stitched to finer borders.
+enum class Kind : std::uint8_t { kPair, kSingleton, kFan, kStitched };
+
+/// How the vertices of a draw make triangles, as in OpenGL.
+enum class DrawMode : std::uint8_t { kStrip, kFan, kTriangles };
+
+/// One call of the graphics library: `count` vertices from `first`, or all of them if they come by
+/// themselves. The first `split` triangles belong to control face `face`, the rest to `face_after`. Of a
+/// strip or fan they are count - 2.
+struct Draw {
+  std::int64_t first = 0;
+  std::int32_t count = 0;
+  std::int32_t split = 0;
+  std::int32_t face = -1, face_after = -1;
+  DrawMode mode = DrawMode::kStrip;
+  Kind kind = Kind::kPair;
+  std::int8_t depth = 0;  // of the pair
+
+  std::int32_t triangle_count() const { return (mode == DrawMode::kTriangles ? count / 3 : count - 2); }
+  /// The three vertices of triangle t, counted from the first vertex of the draw, counter-clockwise.
+  std::array<std::int32_t, 3> triangle(std::int32_t t) const;
+  std::int32_t face_of(std::int32_t t) const { return t < split ? face : face_after; }
+};
+
+/// A whole frame as strips and fans. `provenance` has one entry per vertex, or none.
+template <class Real>
+struct DrawList {
+  std::vector<SurfaceVertex<Real>> vertices;
+  std::vector<LatticePoint> provenance;
+  std::vector<Draw> draws;
+};
+
+/// Takes the draws one after the other, in the order of the pairs, always on the thread that called frame().
+/// The vertices are the tessellator's own and last only for the call.
+template <class Real>
+class DrawSink {
+ public:
+  virtual ~DrawSink() = default;
+  virtual void draw(const Draw& draw, std::span<const SurfaceVertex<Real>> vertices,
+                    std::span<const LatticePoint> provenance) = 0;
+};
+
+/// A whole frame as one mesh: every point of a control vertex or control edge appears once.
+///   triangles       vertex indices, counter-clockwise from outside
+///   triangle_face   the control face each triangle is part of;  triangle_kind  how it came about
+///   provenance      one entry per vertex (a shared vertex names any one of its faces), or none
+template <class Real>
+struct IndexedMesh {
+  std::vector<SurfaceVertex<Real>> vertices;
+  std::vector<LatticePoint> provenance;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::int32_t> triangle_face;
+  std::vector<Kind> triangle_kind;
+};
+
+inline std::array<std::int32_t, 3> Draw::triangle(std::int32_t t) const {
+  switch (mode) {
+    case DrawMode::kFan:
+      return {0, t + 1, t + 2};
+    case DrawMode::kTriangles:
+      return {3 * t, 3 * t + 1, 3 * t + 2};
+    default:
+      return t % 2 == 0 ? std::array{t, t + 1, t + 2} : std::array{t + 1, t, t + 2};
+  }
+}
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Crack prevention between faces of different depth.
+// [mueller2000, section 5]
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fast/mesh/adjacency.h"
+
+namespace limitcheck::fast {
+
+/// What becomes of a face with deeper neighbours.
+enum class Repair : std::uint8_t {
+  kFan,     // the paper's: a fan around the centre, no interior points
+  kStitch,  // ours: keep the interior points, stitch the outer ring (a fan below depth 2, which has none)
+  kNone     // leave the cracks
+};
+
+/// Where the middle of a fan lies.
+enum class FanCentre : std::uint8_t {
+  kLimit,       // the limit position of (1/3, 1/3, 1/3)
+  kFlatLimit,   // centroid of the three corners' limit positions
+  kFlatControl  // centroid of the control triangle [C62]
+};
+
+/// Up to which depth a face collects points on its edge to a neighbour.                           [C57, C58]
+enum class EdgeDepthRule : std::uint8_t {
+  kMaximum,     // max of both faces: symmetric, no cracks
+  kRespective,  // the neighbour's depth, as printed: two adjacent fans exchange depths
+  kTwoOrMore    // as kMaximum, but only faces with two or more deeper neighbours are repaired
+};
+
+/// How cracks are closed; the defaults leave none.
+struct CrackOptions {
+  Repair repair = Repair::kFan;
+  FanCentre centre = FanCentre::kLimit;
+  EdgeDepthRule rule = EdgeDepthRule::kMaximum;
+};
+
+/// Per face, which are repaired, and the depth of each of its edges.
+struct CrackPlan {
+  std::vector<std::int8_t> edge_depth;  // 3 per face, edge k from corner k to k + 1; -1 on culled faces
+  std::vector<Repair> repair;           // per face; kNone: ordinary strips
+  std::int64_t fans = 0, stitched = 0;
+};
+
+/// After pairing: `depth` is final, -1 = culled; a culled neighbour counts as the face's own depth.
+CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
+                      const CrackOptions& options = {});
+
+}  // namespace limitcheck::fast

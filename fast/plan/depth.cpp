@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "fast/plan/depth.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "data/splitmix64.h"
+#include "fast/rules/ring.h"
+
+namespace limitcheck::fast {
+
+namespace {
+
+constexpr std::array<std::pair<Strategy, std::string_view>, 6> kNames{
+    {{Strategy::kUniform, "uniform"},
+     {Strategy::kRandom, "random"},
+     {Strategy::kProjectSphere, "project-sphere"},
+     {Strategy::kCurvature, "curvature"},
+     {Strategy::kCombined, "combined"},
+     {Strategy::kCustom, "custom"}}};
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("depth: " + what);
+}
+
+// A hash of (seed, face).
+std::uint64_t mix(std::uint64_t z) {
+  return data::SplitMix64(z).next();
+}
+
+bool uses_sphere(Strategy s) {
+  return s == Strategy::kProjectSphere || s == Strategy::kCombined;
+}
+bool uses_cone(Strategy s) {
+  return s == Strategy::kCurvature || s == Strategy::kCombined;
+}
+
+double checked_cosine(double degrees) {
+  if (!(degrees > 0 && degrees <= 180)) refuse("the angle must lie in (0, 180] degrees");
+  return std::cos(degrees * std::numbers::pi / 180);
+}
+
+// Isolated: a thread that waits here must not pick up a
+// task of the caller that comes back to the same call_once.
+template <class Body>
+void for_each_index(std::size_t count, const Body& body) {
+  constexpr std::size_t kGrain = 512;
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) body(static_cast<std::int32_t>(i));
+    });
+  });
+}
+
+}  // namespace
+
+std::string_view name(Strategy strategy) {
+  for (const auto& [value, text] : kNames) {
+    if (value == strategy) return text;
+  }
+  return "?";
+}
+
+Strategy parse_strategy(std::string_view text) {
+  std::string all;
+  for (const auto& [value, known] : kNames) {
+    if (text == known) return value;
+    all += all.empty() ? "" : ", ";
+    all += known;
+  }
+  refuse("unknown strategy '" + std::string(text) + "'; known: " + all);
+}
+
+bool DepthOptions::culls() const {
+  return cull.value_or(uses_sphere(strategy) || uses_cone(strategy));
+}
+
+DepthHeuristics::DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth)
+    : mesh_(mesh), adjacency_(adjacency), max_depth_(max_depth) {
+  if (max_depth < 0 || max_depth > kDeepest) {
+    refuse("the maximum " + std::to_string(max_depth) + " is not in 0.." + std::to_string(kDeepest));
+  }
+  const std::size_t vertices = mesh.positions.size();
+  limit_.resize(vertices);
+  normal_.resize(vertices);
+  std::atomic<std::int64_t> degenerate_count{0};
+  tbb::enumerable_thread_specific<Ring> rings;
+  for_each_index(vertices, [&](std::int32_t v) {
+    Ring& ring = rings.local();
+    ring.gather(mesh_, adjacency_, v);
+    bool degenerate = false;
+    limit_[v] = ring.limit_position();
+    normal_[v] = ring.limit_normal(&degenerate);
+    if (degenerate && ring.faces() > 0) ++degenerate_count;
+  });
+  degenerate_normals_ = degenerate_count;
+  spheres_.resize(mesh.triangles.size());
+  for_each_index(spheres_.size(), [&](std::int32_t f) {
+    const Point3 a = to_point(mesh_.positions[adjacency_.corner(f, 0)]),
+                 b = to_point(mesh_.positions[adjacency_.corner(f, 1)]),
+                 c = to_point(mesh_.positions[adjacency_.corner(f, 2)]);
+    const Point3 centroid = (1. / 3) * (a + b + c);
+    spheres_[f] = {centroid, std::max({length(a - centroid), length(b - centroid), length(c - centroid)})};
+  });
+}
+
+bool DepthHeuristics::faces_away(std::int32_t v, const Camera& camera) const {
+  return dot(normal_[v], limit_[v] - camera.eye) >= 0;
+}
+
+std::vector<std::uint8_t> DepthHeuristics::away(const Camera& camera) const {
+  std::vector<std::uint8_t> result(limit_.size());
+  for_each_index(result.size(), [&](std::int32_t v) { result[v] = faces_away(v, camera); });
+  return result;
+}
+
+Facing DepthHeuristics::facing(std::int32_t face, std::span<const std::uint8_t> away) const {
+  const int count =
+      away[adjacency_.corner(face, 0)] + away[adjacency_.corner(face, 1)] + away[adjacency_.corner(face, 2)];
+  return count == 3 ? Facing::kBack : count == 0 ? Facing::kFront : Facing::kSilhouette;
+}
+
+// A vertex is on the silhouette if a neighbour is on the other side.
+Facing DepthHeuristics::vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const {
+  const std::int32_t start = adjacency_.outgoing(v);
+  for (std::int32_t h = start; h >= 0;) {
+    if (away[adjacency_.target(h)] != away[v] || away[adjacency_.origin(Adjacency::prev(h))] != away[v]) {
+      return Facing::kSilhouette;
+    }
+    h = adjacency_.rotate(h);
+    if (h == start) break;
+  }
+  return away[v] != 0 ? Facing::kBack : Facing::kFront;
+}
+
+std::vector<Facing> DepthHeuristics::facing(const Camera& camera) const {
+  camera.validate();
+  const std::vector<std::uint8_t> back = away(camera);
+  std::vector<Facing> result(static_cast<std::size_t>(adjacency_.face_count()));
+  for_each_index(result.size(), [&](std::int32_t f) { result[f] = facing(f, back); });
+  return result;
+}
+
+std::int32_t DepthHeuristics::project_sphere(std::int32_t face, const Camera& camera,
+                                             double target_pixels) const {
+  const auto& [centroid, radius] = spheres_[face];
+  const double distance = std::max(length(camera.eye - centroid) - radius, camera.near);
+  double pixels = 2 * radius * camera.focal_pixels() / distance;
+  std::int32_t level = 0;
+  for (; level < max_depth_ && pixels > target_pixels; ++level) pixels /= 2;  // edges halve with each level
+  return level;
+}
+
+// The cosines do not depend on the view: one pass over the vertices serves every frame and every angle.
+void DepthHeuristics::prepare_cones() const {
+  std::call_once(cones_ready_, [&] {
+    const auto levels = static_cast<std::size_t>(max_depth_) + 1;
+    cones_.resize(limit_.size() * levels);
+    tbb::enumerable_thread_specific<Ring> rings;
+    for_each_index(limit_.size(), [&](std::int32_t v) {
+      Ring& ring = rings.local();
+      ring.gather(mesh_, adjacency_, v);
+      for (std::size_t l = 0; l < levels; ++l) {
+        if (l > 0) ring.subdivide();
+        cones_[static_cast<std::size_t>(v) * levels + l] = ring.cone_cosine(normal_[v]);
+      }
+    });
+  });
+}
+
+double DepthHeuristics::cone_cosine(std::int32_t v, int l) const {
+  prepare_cones();
+  return cones_[static_cast<std::size_t>(v) * (static_cast<std::size_t>(max_depth_) + 1) +
+                static_cast<std::size_t>(l)];
+}
+
+std::int32_t DepthHeuristics::cone_depth(std::int32_t v, double cos_angle) const {
+  std::int32_t level = 0;
+  while (level < max_depth_ && cone_cosine(v, level) < cos_angle) ++level;
+  return level;
+}
+
+std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, const Camera& camera) const {
+  const bool sphere = uses_sphere(options.strategy), cone = uses_cone(options.strategy),
+             cull = options.culls();
+  const bool uses_depth = options.strategy == Strategy::kUniform || options.strategy == Strategy::kRandom;
+  if (uses_depth && (options.depth < 0 || options.depth > max_depth_)) {
+    refuse(std::to_string(options.depth) + " is not in 0.." + std::to_string(max_depth_));
+  }
+  if (sphere && !(options.target_pixels > 0)) refuse("the target must be more than 0 pixels");
+  if (options.strategy == Strategy::kCustom && !options.custom) refuse("the custom strategy has no function");
+  if (sphere || cone || cull) camera.validate();
+  const std::array<double, 3> cosines{checked_cosine(options.angle_front),
+                                      checked_cosine(options.angle_silhouette),
+                                      checked_cosine(options.angle_back)};
+
+  std::vector<std::int32_t> result(static_cast<std::size_t>(adjacency_.face_count()), options.depth);
+  if (options.strategy == Strategy::kRandom) {
+    const std::uint64_t values = static_cast<std::uint64_t>(options.depth) + 1;
+    for_each_index(result.size(), [&](std::int32_t f) {
+      const std::uint64_t bits = mix(mix(options.seed) + static_cast<std::uint64_t>(f)) >> 32;
+      result[f] = static_cast<std::int32_t>((bits * values) >> 32);
+    });
+  } else if (options.strategy == Strategy::kCustom) {
+    for (std::int32_t f = 0; f < adjacency_.face_count(); ++f) {
+      result[f] = std::clamp(options.custom(f), kCulled, static_cast<std::int32_t>(max_depth_));
+    }
+  }
+  if (!sphere && !cone && !cull) return result;
+
+  const std::vector<std::uint8_t> back = away(camera);
+  std::vector<std::int32_t> vertex_depth;
+  if (cone) {
+    prepare_cones();
+    const bool one_angle = cosines[0] == cosines[1] && (cull || cosines[0] == cosines[2]);
+    vertex_depth.resize(back.size());
+    for_each_index(back.size(), [&](std::int32_t v) {
+      if (cull && back[v] != 0) {
+        vertex_depth[v] = kCulled;
+        return;
+      }
+      const Facing vertex_class = one_angle ? Facing::kFront : vertex_facing(v, back);
+      vertex_depth[v] = cone_depth(v, cosines[static_cast<std::size_t>(vertex_class)]);
+    });
+  }
+  for_each_index(result.size(), [&](std::int32_t f) {
+    if (cull && facing(f, back) == Facing::kBack) {
+      result[f] = kCulled;
+      return;
+    }
+    if (sphere) result[f] = project_sphere(f, camera, options.target_pixels);
+    if (cone) {
+      const std::int32_t corners =
+          std::max({vertex_depth[adjacency_.corner(f, 0)], vertex_depth[adjacency_.corner(f, 1)],
+                    vertex_depth[adjacency_.corner(f, 2)]});
+      result[f] = sphere ? std::max(result[f], corners) : corners;
+    }
+  });
+  return result;
+}
+
+void check_depths(std::span<const std::int32_t> depth, int face_count, int max_depth) {
+  if (depth.size() != static_cast<std::size_t>(face_count)) {
+    refuse(std::to_string(depth.size()) + " depths for " + std::to_string(face_count) + " faces");
+  }
+  for (std::size_t f = 0; f < depth.size(); ++f) {
+    if (depth[f] < kCulled || depth[f] > max_depth) {
+      refuse("face " + std::to_string(f) + ": " + std::to_string(depth[f]) + " is not in -1.." +
+             std::to_string(max_depth));
+    }
+  }
+}
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "fast/plan/depth.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "fast/test_support/test_meshes.h"
+
+namespace limitcheck::fast {
+namespace {
+
+struct Fixture {
+  explicit Fixture(data::ControlMesh m, int max_depth = 5)
+      : mesh(std::move(m)), adjacency(mesh), heuristics(mesh, adjacency, max_depth) {}
+  data::ControlMesh mesh;
+  Adjacency adjacency;
+  DepthHeuristics heuristics;
+};
+
+TEST(Camera, RefusesWhatMakesNoView) {
+  const auto refused = [](auto&& change) {
+    Camera camera;
+    change(camera);
+    EXPECT_THROW(camera.validate(), std::invalid_argument);
+  };
+  EXPECT_NO_THROW(Camera{}.validate());
+  refused([](Camera& c) { c.target = c.eye; });
+  refused([](Camera& c) { c.up = {0, 0, -3}; });
+  refused([](Camera& c) { c.field_of_view = 0; });
+  refused([](Camera& c) { c.field_of_view = 180; });
+  refused([](Camera& c) { c.field_of_view = NAN; });
+  refused([](Camera& c) { c.width = 0; });
+  refused([](Camera& c) { c.height = -1; });
+  refused([](Camera& c) { c.near = 0; });
+  refused([](Camera& c) { c.eye.x = INFINITY; });
+}
+
+TEST(Depth, NamesAndStrategiesAreInverse) {
+  for (const Strategy s : {Strategy::kUniform, Strategy::kRandom, Strategy::kProjectSphere,
+                           Strategy::kCurvature, Strategy::kCombined, Strategy::kCustom}) {
+    EXPECT_EQ(parse_strategy(name(s)), s);
+  }
+  EXPECT_THROW(parse_strategy("spherical"), std::invalid_argument);
+}
+
+TEST(Depth, UniformIsUniformAndRandomMeetsEveryDepthAboutEquallyOften) {
+  const Fixture f(grid_torus(30, 40));
+  DepthOptions options;
+  options.strategy = Strategy::kUniform;
+  options.depth = 2;
+  EXPECT_EQ(f.heuristics.depths(options, {}), std::vector<std::int32_t>(2400, 2));
+
+  options.strategy = Strategy::kRandom;
+  options.depth = 5;
+  const auto depths = f.heuristics.depths(options, {});
+  for (int d = 0; d <= 5; ++d) {
+    // 2400 draws, p = 1/6: 400 expected, standard deviation 18; six of them.
+    EXPECT_NEAR(static_cast<double>(std::count(depths.begin(), depths.end(), d)), 400, 110);
+  }
+  EXPECT_EQ(std::count_if(depths.begin(), depths.end(), [](int d) { return d < 0 || d > 5; }), 0);
+  EXPECT_EQ(f.heuristics.depths(options, {}), depths) << "the same seed";
+  options.seed = 2;
+  EXPECT_NE(f.heuristics.depths(options, {}), depths) << "another seed";
+}
+
+// A right triangle with legs 3 at distance 10: the centroid is (1,1,0), the farthest corner at sqrt 5. With
+// field of view 90 and height 200, f = 100 pixels. 2 r f / (|eye - centroid| - r) = 447.21 / (10 - 2.236)
+// = 57.6 pixels.
+TEST(Depth, ProjectSphereHalvesThePixelsUntilTheyFit) {
+  RecordProperty("claim", "C25");
+  const Fixture f({{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}}});
+  Camera camera;
+  camera.eye = {1, 1, 10};
+  camera.target = {1, 1, 0};
+  camera.field_of_view = 90;
+  camera.height = 200;
+  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 57.7), 0);
+  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 57.5), 1);
+  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 28.85), 1);
+  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 28.75), 2);
+  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 1e-9), 5) << "clamped";
+  camera.eye = {1, 1, 1e-3};  // inside the sphere: near counts
+  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 2 * std::sqrt(5.) * 100 / camera.near / 4 * 1.001), 2);
+}
+
+TEST(Depth, APlaneNeedsNoSubdivisionAndASharperConeNeverLess) {
+  const Fixture plane(wheel(7));
+  DepthOptions options;
+  options.strategy = Strategy::kCurvature;
+  options.angle_front = options.angle_silhouette = .1;
+  EXPECT_EQ(plane.heuristics.depths(options, {}), std::vector<std::int32_t>(7, 0));
+
+  const Fixture bumpy(bipyramid(9), kDeepest);
+  std::int32_t previous = 0;
+  for (const double angle : {90., 60., 30., 15., 7., 3., 1.}) {
+    options.angle_front = options.angle_silhouette = angle;
+    const auto depths = bumpy.heuristics.depths(options, {});
+    const std::int32_t deepest = *std::max_element(depths.begin(), depths.end());
+    EXPECT_GE(deepest, previous) << angle;
+    previous = deepest;
+  }
+  EXPECT_GT(previous, 3);
+}
+
+TEST(Depth, CombinedIsTheLargerAndCulledStaysCulled) {
+  RecordProperty("claim", "C82");
+  const Fixture f(grid_torus(9, 16));
+  DepthOptions options;
+  options.target_pixels = 20;
+  options.angle_front = options.angle_silhouette = 20;
+  Camera camera;
+  camera.eye = {5, 2, 3};
+  options.strategy = Strategy::kProjectSphere;
+  const auto sphere = f.heuristics.depths(options, camera);
+  options.strategy = Strategy::kCurvature;
+  const auto cone = f.heuristics.depths(options, camera);
+  options.strategy = Strategy::kCombined;
+  const auto both = f.heuristics.depths(options, camera);
+  const auto facing = f.heuristics.facing(camera);
+  std::set<Facing> met;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    met.insert(facing[i]);
+    EXPECT_EQ(both[i], std::max(sphere[i], cone[i]));
+    EXPECT_EQ(both[i] == kCulled, facing[i] == Facing::kBack);
+    EXPECT_EQ(sphere[i] == kCulled, facing[i] == Facing::kBack);
+    EXPECT_EQ(cone[i] == kCulled, facing[i] == Facing::kBack);
+  }
+  EXPECT_EQ(met.size(), 3u) << "front, silhouette and back all occur";
+}
+
+TEST(Depth, CullingIsAChoiceOfItsOwn) {
+  const Fixture f(grid_torus(9, 16));
+  const auto facing = f.heuristics.facing(Camera{});
+  DepthOptions options;
+  for (const Strategy s : {Strategy::kUniform, Strategy::kRandom, Strategy::kCombined}) {
+    options.strategy = s;
+    for (const bool cull : {false, true}) {
+      options.cull = cull;
+      const auto depths = f.heuristics.depths(options, {});
+      for (std::size_t i = 0; i < depths.size(); ++i) {
+        ASSERT_EQ(depths[i] == kCulled, cull && facing[i] == Facing::kBack) << name(s);
+      }
+    }
+  }
+}
+
+TEST(Depth, TheAngleMayDifferByClass) {
+  const Fixture f(grid_torus(9, 16));
+  DepthOptions options;
+  options.strategy = Strategy::kCurvature;
+  options.cull = false;
+  options.angle_front = options.angle_silhouette = options.angle_back = 60;
+  const auto coarse = f.heuristics.depths(options, {});
+  const auto facing = f.heuristics.facing(Camera{});
+  // Faces all of whose corners have the one class only must
+  // change with its angle, and no face of another class.
+  const auto changed = [&](double DepthOptions::*angle) {
+    DepthOptions finer = options;
+    finer.*angle = 5;
+    const auto depths = f.heuristics.depths(finer, {});
+    std::set<Facing> classes;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      EXPECT_GE(depths[i], coarse[i]);
+      if (depths[i] != coarse[i]) classes.insert(facing[i]);
+    }
+    return classes;
+  };
+  EXPECT_TRUE(changed(&DepthOptions::angle_front) == std::set<Facing>{Facing::kFront});
+  EXPECT_TRUE(changed(&DepthOptions::angle_back) == std::set<Facing>{Facing::kBack});
+  EXPECT_TRUE(changed(&DepthOptions::angle_silhouette).contains(Facing::kSilhouette));
+}
+
+TEST(Depth, ACustomStrategyIsCalledOncePerFaceInOrderAndClamped) {
+  const Fixture f(octahedron());
+  std::vector<std::int32_t> calls;
+  DepthOptions options;
+  options.strategy = Strategy::kCustom;
+  options.custom = [&](std::int32_t face) {
+    calls.push_back(face);
+    return face - 3;
+  };
+  const std::vector<std::int32_t> depths = f.heuristics.depths(options, {});
+  EXPECT_EQ(calls, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(depths, (std::vector<std::int32_t>{-1, -1, -1, 0, 1, 2, 3, 4}));
+}
+
+TEST(Depth, ACameraInsideAClosedConvexSurfaceSeesOnlyBackFaces) {
+  const Fixture f(octahedron());
+  Camera camera;
+  camera.eye = {0, 0, .01};
+  camera.target = {1, 0, 0};
+  EXPECT_EQ(f.heuristics.depths({}, camera), std::vector<std::int32_t>(8, kCulled));
+}
+
+TEST(Depth, BadArgumentsAreRefused) {
+  const Fixture f(octahedron());
+  EXPECT_THROW(DepthHeuristics(f.mesh, f.adjacency, 40), std::invalid_argument);
+  EXPECT_THROW(DepthHeuristics(f.mesh, f.adjacency, -1), std::invalid_argument);
+  const auto refused = [&](auto&& change) {
+    DepthOptions options;
+    Camera camera;
+    change(options, camera);
+    EXPECT_THROW(f.heuristics.depths(options, camera), std::invalid_argument);
+  };
+  refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kUniform, o.depth = 6; });
+  refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kUniform, o.depth = -1; });
+  refused([](DepthOptions& o, Camera&) { o.target_pixels = 0; });
+  refused([](DepthOptions& o, Camera&) { o.target_pixels = NAN; });
+  refused([](DepthOptions& o, Camera&) { o.angle_front = 0; });
+  refused([](DepthOptions& o, Camera&) { o.angle_back = 181; });
+  refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kCustom; });
+  refused([](DepthOptions&, Camera& c) { c.height = 0; });
+  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, 1}, 3, 5), std::invalid_argument);
+  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, -2, 1}, 3, 5), std::invalid_argument);
+  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, 6, 1}, 3, 5), std::invalid_argument);
+  EXPECT_NO_THROW(check_depths(std::vector<std::int32_t>{0, -1, 5}, 3, 5));
+}
+
+TEST(Depth, EmptyMeshesAndVerticesWithoutFacesAreNoProblem) {
+  const Fixture empty{data::ControlMesh{}};
+  EXPECT_TRUE(empty.heuristics.depths({}, {}).empty());
+  data::ControlMesh mesh = octahedron();
+  mesh.positions.push_back({7, 7, 7});
+  const Fixture f(mesh);
+  EXPECT_EQ(f.heuristics.depths({}, {}).size(), 8u);
+  EXPECT_EQ(f.heuristics.degenerate_normals(), 0);
+  data::ControlMesh point = single_triangle();
+  for (auto& p : point.positions) p = {1, 2, 3};
+  EXPECT_EQ(Fixture(point).heuristics.degenerate_normals(), 3) << "vertices of one face count, too";
+}
+
+TEST(Depth, MayBeAskedForByManyTasksAtOnce) {
+  const Fixture f(grid_torus(40, 60));
+  const auto expected = Fixture(grid_torus(40, 60)).heuristics.depths({}, {});
+  std::atomic<int> equal{0};
+  tbb::parallel_for(0, 64, [&](int) { equal += f.heuristics.depths({}, {}) == expected; });
+  EXPECT_EQ(equal, 64);
+}
+
+TEST(Depth, TheNumberOfThreadsChangesNothing) {
+  DepthOptions options;
+  options.target_pixels = 5;
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return Fixture(grid_torus(40, 60)).heuristics.depths(options, {});
+  };
+  EXPECT_EQ(run(1), run(2));
+  EXPECT_EQ(run(1), run(8));
+}
+
+}  // namespace
+}  // namespace limitcheck::fast

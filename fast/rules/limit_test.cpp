@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "fast/rules/limit.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "fast/rules/prepared_mesh.h"
+#include "fast/test_support/test_meshes.h"
+#include "fast/window/tessellator.h"
+
+namespace limitcheck::fast {
+namespace {
+
+using V = Vec3<double>;
+
+double size(const V& v) {
+  return std::sqrt(dot(v, v));
+}
+
+/// A ring of n points that is no symmetric figure.
+std::vector<V> uneven_ring(int n) {
+  std::vector<V> ring;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * i / n, r = 1 + .3 * std::sin(2.3 * i);
+    ring.push_back({r * std::cos(t), r * std::sin(t), .4 * std::cos(1.7 * i)});
+  }
+  return ring;
+}
+
+TEST(Sec31_LimitMasks, AreLeftEigenvectorsOfTheSubdivisionStep) {
+  RecordProperty("claim", "C14 C17");
+  for (int n = 3; n <= 200; ++n) {
+    const std::vector<V> ring = uneven_ring(n);
+    const V centre{.1, -.2, .3};
+    const auto before = vertex_limit<double>(centre, ring, false);
+    const auto weights = vertex_weights<double>(n);
+    V sum{};
+    for (const V& p : ring) sum = sum + p;
+    const V refined = weights.centre * centre + weights.ring * sum;
+    std::vector<V> finer;
+    const auto size_n = static_cast<std::size_t>(n);
+    for (std::size_t i = 0; i < size_n; ++i)
+      finer.push_back(edge_point(centre, ring[i], ring[(i + size_n - 1) % size_n], ring[(i + 1) % size_n]));
+    const auto after = vertex_limit<double>(refined, finer, false);
+    EXPECT_LE(size(after.position - before.position), 1e-14) << n;
+    const double lambda = .375 + .25 * std::cos(2 * std::numbers::pi / n);
+    EXPECT_LE(size(after.du - lambda * before.du), 1e-13 * n) << n;
+    EXPECT_LE(size(after.dv - lambda * before.dv), 1e-13 * n) << n;
+  }
+}
+
+TEST(Sec31_LimitMasks, AreLeftEigenvectorsAtBoundaryVerticesOfAnyValence) {
+  RecordProperty("claim", "D1 D2");
+  for (int faces = 1; faces <= 50; ++faces) {
+    std::vector<V> ring = uneven_ring(faces + 1);
+    const V centre{.1, -.2, .3};
+    const auto before = vertex_limit<double>(centre, ring, true);
+    const auto last = static_cast<std::size_t>(faces);
+    std::vector<V> finer{midpoint(centre, ring[0])};
+    for (std::size_t i = 1; i < last; ++i)
+      finer.push_back(edge_point(centre, ring[i], ring[i - 1], ring[i + 1]));
+    finer.push_back(midpoint(centre, ring[last]));
+    const auto after = vertex_limit<double>(curve_vertex(centre, ring[0], ring[last]), finer, true);
+    EXPECT_LE(size(after.position - before.position), 1e-14) << faces;
+    EXPECT_LE(size(after.du - .5 * before.du), 1e-14) << faces;
+    // One face: -2 v + r_0 + r_1 belongs to 1/4. Else 3/8 + cos(pi / K) / 4.
+    const double lambda = faces == 1 ? .25 : .375 + .25 * std::cos(std::numbers::pi / faces);
+    EXPECT_LE(size(after.dv - lambda * before.dv), 1e-13 * faces) << faces;
+  }
+}
+
+TEST(Sec31_LimitMasks, OfTheRegularCasesAreTheGeneralOnes) {
+  const std::vector<V> r = uneven_ring(6);
+  const V centre{.1, -.2, .3};
+  const auto general = vertex_limit<double>(centre, r, false);
+  const auto regular = regular_limit<double>(centre, {r[0], r[1], r[2], r[3], r[4], r[5]});
+  EXPECT_LE(size(general.position - regular.position), 1e-15);
+  EXPECT_LE(size(2. * general.du - regular.du), 1e-14);
+  EXPECT_LE(size(2 / std::sqrt(3.) * general.dv - regular.dv), 1e-14);
+  const std::vector<V> open(r.begin(), r.begin() + 4);
+  const auto boundary = vertex_limit<double>(centre, open, true);
+  const auto three = regular_boundary_limit<double>(centre, r[0], r[1], r[2], r[3]);
+  EXPECT_LE(size(boundary.position - three.position), 1e-15);
+  EXPECT_LE(size(boundary.du - three.du), 1e-15);
+  EXPECT_LE(size(4 / std::sqrt(3.) * boundary.dv - three.dv), 1e-14);
+}
+
+TEST(Sec31_LimitMasks, KeepTheirBitsUnderAHalfTurn) {
+  RecordProperty("claim", "D14");
+  for (int seed = 0; seed < 200; ++seed) {
+    Vec3<float> p[7];
+    for (int i = 0; i < 7; ++i) {
+      const auto x = [&](int k) { return std::round(8 * std::sin(seed * 1.3f + 3.7f * i + 2.1f * k)) / 8; };
+      p[i] = {static_cast<float>(x(0)), static_cast<float>(x(1)),
+              seed % 2 == 0 ? 0.0f : static_cast<float>(x(2))};
+    }
+    std::int64_t zero = 0;
+    const auto at = [&](int turn) {
+      const auto r = [&](int i) -> const Vec3<float>& { return p[(i + turn) % 6]; };
+      const AxisRing<float> ring{r(0), r(1), r(2), r(3), r(4), r(5)};
+      return LimitSurface<float>::vertex(
+          regular_limit(p[6], ring),
+          [&] {
+            V all[] = {widen<float>(r(0)), widen<float>(r(1)), widen<float>(r(2)),
+                       widen<float>(r(3)), widen<float>(r(4)), widen<float>(r(5))};
+            return substitute_normal<double>(widen<float>(p[6]), all, false, kParallel<float>);
+          },
+          zero);
+    };
+    const auto a = at(0), b = at(3);
+    const auto same = [](float x, float y) {
+      return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+    };
+    for (const auto& [x, y] : {std::pair{a.position, b.position}, {a.normal, b.normal}})
+      EXPECT_TRUE(same(x.x, y.x) && same(x.y, y.y) && same(x.z, y.z)) << seed;
+  }
+}
+
+/// A bipyramid over eight points without first harmonic: A cos 2t + B sin 2t + C cos 3t + D sin 3t. The
+/// tangents at its apexes 8 and 9 vanish.
+data::ControlMesh without_first_harmonic(const V& a, const V& b, const V& c, const V& d) {
+  data::ControlMesh mesh = bipyramid(8);
+  for (int i = 0; i < 8; ++i) {
+    const double t = 2 * std::numbers::pi * i / 8;
+    const V p = std::cos(2 * t) * a + std::sin(2 * t) * b + std::cos(3 * t) * c + std::sin(3 * t) * d;
+    mesh.positions[static_cast<std::size_t>(i)] = {p.x, p.y, p.z};
+  }
+  return mesh;
+}
+
+TEST(D12_VanishingNormals, AreThoseOfTheFacesWeightedByAreaAfterOneStep) {
+  RecordProperty("claim", "D12");
+  const V a{1, .2, .3}, b{-.1, .9, .4}, c{.3, -.8, .1}, d{.2, .5, 2};
+  const data::ControlMesh mesh = without_first_harmonic(a, b, c, d);
+  const Adjacency adjacency(mesh);
+  const PreparedMesh<double> prepared(adjacency, positions_of<double>(mesh));
+  EXPECT_EQ(prepared.zero_normals(), 2);
+  // The areas of a ring add up to n / 2 sum over k of sin(2 pi k / n) A_k x B_k, and a step multiplies the
+  // k-th harmonic by 3/8 + cos(2 pi k / n) / 4.
+  const auto after = [&](int steps) {
+    const double two = std::pow(.375, 2 * steps), three = std::pow(.375 - std::sqrt(.5) / 4, 2 * steps);
+    const V sum = two * cross(a, b) + std::sqrt(.5) * three * cross(c, d);
+    return 1 / size(sum) * sum;
+  };
+  ASSERT_GT(size(after(0) - after(1)), .1) << "of a ring that does not tell them apart";
+  ASSERT_GT(size(after(2) - after(1)), .01);
+  EXPECT_LE(size(prepared.limit(8).normal - after(1)), 1e-14);
+  EXPECT_LE(size(prepared.limit(9).normal + after(1)), 1e-14);
+}
+
+TEST(D12_VanishingNormals, OfCollinearAndCoincidentRingsPointUpwards) {
+  RecordProperty("claim", "D12");
+  data::ControlMesh mesh = bipyramid(7);
+  for (const bool collapsed : {false, true}) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const double t = collapsed ? .7 : std::sin(1. + static_cast<double>(i));
+      mesh.positions[i] = {.1 + .3 * t, .7 * t, .2 - .9 * t};  // not representable: collinear up to rounding
+    }
+    const Adjacency adjacency(mesh);
+    const PreparedMesh<double> prepared(adjacency, positions_of<double>(mesh));
+    EXPECT_EQ(prepared.zero_normals(), 9);
+    for (int v = 0; v < 9; ++v) EXPECT_EQ(prepared.limit(v).normal, (V{0, 0, 1})) << v;
+  }
+}
+
+TEST(D12_VanishingNormals, AreFiniteUnitAndCounted) {
+  // coincident points, collinear points, a doubly wound ring without first harmonic
+  for (const int kind : {0, 1, 2}) {
+    data::ControlMesh mesh = bipyramid(8);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      auto& p = mesh.positions[i];
+      if (kind == 0) p = {1, 1, 1};
+      if (kind == 1) p = {static_cast<double>(i), 0, 0};
+      const double t = 4 * std::numbers::pi * static_cast<double>(i) / 8;
+      if (kind == 2) p = {i < 8 ? std::cos(t) : 0, i < 8 ? std::sin(t) : 0, i == 8 ? 1. : i == 9 ? -1. : 0};
+    }
+    Tessellator<float> tessellator(mesh);
+    DrawList<float> list;
+    const auto stats = tessellator.frame(std::vector<std::int32_t>(16, 3), list);
+    EXPECT_GT(stats.zero_normals, 0) << kind;
+    for (const auto& v : list.vertices) {
+      ASSERT_TRUE(std::isfinite(v.position.x + v.position.y + v.position.z));
+      ASSERT_NEAR(dot(v.normal, v.normal), 1, 1e-5) << kind;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::fast

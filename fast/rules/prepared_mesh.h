@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The control mesh as the kernels read it: rounded, scaled, with the limit points of its vertices.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "fast/mesh/adjacency.h"
+#include "fast/rules/limit.h"
+#include "fast/rules/masks.h"
+
+namespace limitcheck::fast {
+
+/// The control points, rounded to N.
+template <class N>
+std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
+  std::vector<Vec3<N>> positions;
+  for (const auto& p : mesh.positions)
+    positions.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});
+  return positions;
+}
+
+/// Positions of the control vertices in N, their weights and their limit points, computed once per mesh in a
+/// canonical order: the ring from adjacency.outgoing(v). Every face that touches a vertex, at whatever depth,
+/// shows these very bits. [D14] Read-only afterwards, shared by all threads. Refers to the adjacency, which
+/// must outlive it.
+template <class N, class Surface = LimitSurface<N>>
+class PreparedMesh {
+ public:
+  using Vertex = typename Surface::Vertex;
+  using Wide = typename NumberTraits<N>::Wide;
+
+  /// One position per vertex of the adjacency.
+  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions)
+      : adjacency_(&adjacency), positions_(std::move(positions)) {
+    std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(adjacency.max_valence()) + 1);
+    std::vector<bool> known(by_valence.size());
+    weights_.resize(positions_.size());
+    limits_.resize(positions_.size());
+    std::vector<Vec3<N>> ring;
+    for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
+      if (adjacency.outgoing(v) < 0) continue;
+      const bool open = adjacency.on_boundary(v);
+      canonical_ring(v, ring);
+      if (!open) {
+        const std::size_t n = ring.size();
+        if (!known[n]) by_valence[n] = vertex_weights<N>(static_cast<int>(n)), known[n] = true;
+        weights_[static_cast<std::size_t>(v)] = by_valence[n];
+      }
+      limits_[static_cast<std::size_t>(v)] = limit_of(v, ring, open);
+    }
+  }
+
+  const Adjacency& adjacency() const { return *adjacency_; }
+  const Vec3<N>& position(std::int32_t v) const { return positions_[static_cast<std::size_t>(v)]; }
+  const VertexWeights<N>& weights(std::int32_t v) const { return weights_[static_cast<std::size_t>(v)]; }
+  const Vertex& limit(std::int32_t v) const { return limits_[static_cast<std::size_t>(v)]; }
+  std::int64_t zero_normals() const { return zero_normals_; }
+
+ private:
+  void canonical_ring(std::int32_t v, std::vector<Vec3<N>>& ring) const {
+    ring.clear();
+    const std::int32_t first = adjacency_->outgoing(v);
+    std::int32_t h = first, last = first;
+    do {
+      ring.push_back(position(adjacency_->target(h)));
+      last = h;
+      h = adjacency_->rotate(h);
+    } while (h >= 0 && h != first);
+    if (h < 0) ring.push_back(position(adjacency_->origin(Adjacency::prev(last))));
+  }
+
+  Vertex limit_of(std::int32_t v, const std::vector<Vec3<N>>& ring, bool open) {
+    const auto wide = vertex_limit<N>(position(v), ring, open);
+    if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
+      wide_ring_.clear();
+      for (const Vec3<N>& p : ring) wide_ring_.push_back(widen<N>(p));
+      const auto substitute = [&] {
+        ++zero_normals_;
+        return substitute_normal<Wide>(widen<N>(position(v)), wide_ring_, open, kParallel<double>);
+      };
+      const Vec3<Wide> normal =
+          vertex_normal<Wide>(wide.du, wide.dv, widen<N>(position(v)), wide_ring_, substitute);
+      return {narrow<N>(wide.position), narrow<N>(normal) + Vec3<N>{N(0), N(0), N(0)}};
+    } else {  // linear numbers have no sizes, and no rounding either
+      const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
+      return Surface::vertex(
+          frame, [] { return Vec3<Wide>{}; }, zero_normals_);
+    }
+  }
+
+  const Adjacency* adjacency_;
+  std::vector<Vec3<N>> positions_;
+  std::vector<VertexWeights<N>> weights_;
+  std::vector<Vertex> limits_;
+  std::vector<Vec3<Wide>> wide_ring_;
+  std::int64_t zero_normals_ = 0;
+};
+
+}  // namespace limitcheck::fast

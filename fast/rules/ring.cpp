@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "fast/rules/ring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace limitcheck::fast {
+
+namespace {
+
+Point3 unit_or_zero(const Point3& a) {
+  const double size = length(a);
+  return size > 0 && std::isfinite(size) ? (1 / size) * a : Point3{};
+}
+
+}  // namespace
+
+void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std::int32_t v) {
+  centre_ = to_point(mesh.positions[v]);
+  points_.clear();
+  open_ = adjacency.on_boundary(v);
+  const std::int32_t start = adjacency.outgoing(v);
+  if (start < 0) return;
+  std::int32_t next = start, last;
+  do {
+    last = next;
+    points_.push_back(to_point(mesh.positions[adjacency.target(last)]));
+    next = adjacency.rotate(last);
+  } while (next >= 0 && next != start);
+  if (open_) points_.push_back(to_point(mesh.positions[adjacency.origin(Adjacency::prev(last))]));
+}
+
+void Ring::assign(const Point3& centre, std::vector<Point3> points, bool open) {
+  centre_ = centre;
+  points_ = std::move(points);
+  open_ = open;
+}
+
+void Ring::subdivide() {
+  if (!points_.empty()) subdivide_in_place<double>(centre_, points_, open_);
+}
+
+LimitFrame<double> Ring::limit() const {
+  return vertex_limit<double>(centre_, points_, open_);
+}
+
+Point3 Ring::limit_position() const {
+  return points_.empty() ? centre_ : limit().position;
+}
+
+Point3 Ring::limit_normal(bool* degenerate) const {
+  if (degenerate != nullptr) *degenerate = points_.empty();
+  if (points_.empty()) return {0, 0, 1};
+  const LimitFrame<double> frame = limit();
+  return vertex_normal<double>(frame.du, frame.dv, centre_, points_, [&] {
+    if (degenerate != nullptr) *degenerate = true;
+    std::vector<Point3> finer = points_;
+    return substitute_normal<double>(centre_, finer, open_, kParallel<double>);
+  });
+}
+
+Point3 Ring::face_normal(int i) const {
+  const std::size_t a = static_cast<std::size_t>(i), b = a + 1 == points_.size() ? 0 : a + 1;
+  return unit_or_zero(cross(points_[a] - centre_, points_[b] - centre_));
+}
+
+double Ring::cone_cosine(const Point3& normal) const {
+  double smallest = 1;
+  for (int i = 0; i < faces(); ++i) {
+    const Point3 face = face_normal(i);
+    if (face != Point3{}) smallest = std::min(smallest, dot(face, normal));
+  }
+  return smallest;
+}
+
+}  // namespace limitcheck::fast

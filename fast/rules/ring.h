@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// A vertex and its neighbours: the paper's "vertex mask-like structure", subdivided in place.
+// [mueller2000, 4.1]
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/mesh/point3.h"
+#include "fast/rules/limit.h"
+
+namespace limitcheck::fast {
+
+/// A vertex with its one-ring in counter-clockwise order, closed inside, open on the boundary.
+///
+/// One subdivision step maps the ring of a vertex to the ring of the same vertex one level deeper, so that it
+/// can be repeated in place with two temporaries [claim C29]:
+///
+///      r2 ---- r1        inside               v'   = (1 - a) v + a / n sum r_i
+///     /  \    /  \                            r_i' = (3 v + 3 r_i + r_{i-1} + r_{i+1}) / 8
+///    /    \  /    \      boundary             v'   = 3/4 v + (r_0 + r_K) / 8
+///   r3 --- v ---- r0                          r_0' = (v + r_0) / 2, r_K' likewise,
+///    \    /  \    /                           the others as inside
+///     \  /    \  /
+///      r4 ---- r5
+///
+/// Memory is kept from vertex to vertex. All in double. [C10-C12, D1]
+class Ring {
+ public:
+  /// Copies the neighbourhood of vertex v, starting from its canonical half-edge. A vertex without faces
+  /// gives an empty ring.
+  void gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std::int32_t v);
+  /// The same from points given by the caller: n >= 3 for a closed ring, n >= 2 for an open one.
+  void assign(const Point3& centre, std::vector<Point3> points, bool open);
+
+  const Point3& centre() const { return centre_; }
+  const std::vector<Point3>& points() const { return points_; }
+  bool open() const { return open_; }
+  /// Number of triangles (centre, r_i, r_{i+1}).
+  int faces() const { return static_cast<int>(points_.size()) - (open_ && !points_.empty() ? 1 : 0); }
+
+  void subdivide();
+
+  /// Limit position of the centre.                                                   [eq. 3; claims C14, D1]
+  Point3 limit_position() const;
+  /// Unit limit normal of the centre: tangents as in limit.h, and where they vanish or are parallel what
+  /// vertex_normal.h has for that; `degenerate` says so. On the boundary with six or more faces the surface
+  /// has no tangent plane [claim D5], and this is the plane of the masks' eigenvector.      [erratum 1; D12]
+  Point3 limit_normal(bool* degenerate = nullptr) const;
+
+  /// Unit normal of triangle (centre, r_i, r_{i+1}); zero if it has no area.
+  Point3 face_normal(int i) const;
+  /// The smallest cosine between `normal` and the normals of the triangles with area; 1 if there is none.
+  double cone_cosine(const Point3& normal) const;
+
+ private:
+  LimitFrame<double> limit() const;
+
+  Point3 centre_;
+  std::vector<Point3> points_;
+  bool open_ = false;
+};
+
+}  // namespace limitcheck::fast

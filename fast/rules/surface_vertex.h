@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// A point of the limit surface as the tessellators deliver it.
+#pragma once
+
+#include "fast/mesh/vec3.h"
+
+namespace limitcheck::fast {
+
+/// A point of the limit surface and its unit normal: 6 numbers, interleaved, as glVertexPointer and
+/// glNormalPointer take them with a stride of sizeof(SurfaceVertex).
+template <class N>
+struct SurfaceVertex {
+  Vec3<N> position, normal;
+  friend constexpr bool operator==(const SurfaceVertex&, const SurfaceVertex&) = default;
+};
+
+}  // namespace limitcheck::fast

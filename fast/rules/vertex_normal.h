@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The normal of a vertex from its two tangents, and what takes its place where they do not tell: one rule for
+// both engines and for the depth heuristics.                                            [mueller2000, C29,
+// D12]
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "fast/rules/masks.h"
+
+namespace limitcheck::fast {
+
+/// Below this sine of their angle two directions count as parallel, and a sum of facets of at most this times
+/// the square of the ring's radius as lost in rounding. N is the number that the ring's points were computed
+/// in: double also for control points, which are given.
+template <class N>
+inline constexpr double kParallel = sizeof(N) == 4 ? 1e-6 : 1e-12;
+/// A tangent of at most this times what it sums, sum |r_i - v|, is what rounding left of zero: its direction
+/// means nothing.
+inline constexpr double kVanishing = 1e-14;
+
+/// One subdivision step of a vertex and its ring in place. A half turn of a ring of six keeps the bits. [C29]
+template <class W>
+void subdivide_in_place(Vec3<W>& v, std::span<Vec3<W>> ring, bool open) {
+  const std::size_t n = ring.size();
+  const Vec3<W> old = v, first = ring[0];
+  Vec3<W> before = ring[n - 1];
+  if (open) {
+    v = curve_vertex(old, first, before);
+  } else if (n == 6) {
+    v = regular_vertex(old, AxisRing<W>{ring[0], ring[1], ring[2], ring[3], ring[4], ring[5]});
+  } else {
+    const auto weights = vertex_weights<W>(static_cast<int>(n));
+    Vec3<W> sum{};
+    for (const Vec3<W>& p : ring) sum = sum + p;
+    v = weights.centre * old + weights.ring * sum;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3<W> here = ring[i];
+    ring[i] = open && (i == 0 || i + 1 == n)
+                  ? midpoint(old, here)
+                  : edge_point(old, here, before, i + 1 == n ? first : ring[i + 1]);
+    before = here;
+  }
+}
+
+/// The unit normal of a fan, its faces weighted by area; zero if it is lost in rounding: at most `tolerance`
+/// times the square of the fan's radius. Rings of six are added in opposite pairs.
+template <class W>
+Vec3<W> area_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, double tolerance) {
+  using std::sqrt;
+  const std::size_t n = ring.size();
+  const auto face = [&](std::size_t i) { return cross(ring[i] - v, ring[(i + 1) % n] - v); };
+  Vec3<W> sum{};
+  if (!open && n == 6) {
+    sum = (face(0) + face(3)) + ((face(1) + face(4)) + (face(2) + face(5)));
+  } else {
+    for (std::size_t i = 0; i + (open ? 1 : 0) < n; ++i) sum = sum + face(i);
+  }
+  W reach(0);
+  for (const Vec3<W>& p : ring) reach = std::max(reach, dot(p - v, p - v));
+  const W size = sqrt(dot(sum, sum));
+  return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
+}
+
+/// The unit normal where the tangents do not tell: that of the faces, weighted by area, after one to three
+/// steps in place, else before them, else (0, 0, 1).                                                   [D12]
+///   ring   is used up
+template <class W>
+Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double tolerance) {
+  const Vec3<W> control = area_normal<W>(v, ring, open, tolerance);
+  for (int step = 0; step < 3; ++step) {
+    subdivide_in_place<W>(v, ring, open);
+    const Vec3<W> normal = area_normal<W>(v, ring, open, tolerance);
+    if (normal != Vec3<W>{}) return normal;
+  }
+  return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};
+}
+
+/// The unit normal of a control vertex: first x second, unless one of them vanishes (kVanishing) or they are
+/// parallel (kParallel<double>); then `substitute()`.                                                 [D12]
+///   ring      the points that the tangents sum, v the vertex
+///   farthest  no point of the ring is farther from v, if that is known: it saves looking
+template <class W, class Substitute>
+Vec3<W> vertex_normal(const Vec3<W>& first, const Vec3<W>& second, const Vec3<W>& v,
+                      std::span<const Vec3<W>> ring, Substitute&& substitute,
+                      double farthest = std::numeric_limits<double>::infinity()) {
+  using std::sqrt;
+  const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
+  const Vec3<W> normal = cross(first, second);
+  const W size = length(normal), a = length(first), b = length(second);
+  bool degenerate = !(size > W(kParallel<double>) * a * b);
+  if (std::min(a, b) <= W(kVanishing * static_cast<double>(ring.size()) * farthest)) {
+    W reach(0);
+    for (const Vec3<W>& r : ring) reach = reach + length(r - v);
+    degenerate = degenerate || !(std::min(a, b) > W(kVanishing) * reach);
+  }
+  return degenerate ? substitute() : W(1) / size * normal;
+}
+
+}  // namespace limitcheck::fast

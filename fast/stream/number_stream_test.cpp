@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// The prepass and the kernel in exact arithmetic, as linear forms, and in double.
+#include "fast/stream/number_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "fast/stream/lattice.h"
+#include "fast/test_support/shared_points.h"
+#include "fast/test_support/test_meshes.h"
+#include "fast/test_support/test_numbers.h"
+#include "fast/test_support/test_refinement.h"
+
+namespace limitcheck::fast::row_stream {
+namespace {
+
+std::vector<std::array<Rational, 3>> exactly(const data::ControlMesh& mesh) {
+  std::vector<std::array<Rational, 3>> points;
+  for (const auto& p : mesh.positions) points.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
+  return points;
+}
+
+std::vector<Pair> pairs_of(const Adjacency& adjacency, int depth) {
+  return pair_faces(adjacency,
+                    std::vector<std::int32_t>(static_cast<std::size_t>(adjacency.face_count()), depth))
+      .pairs;
+}
+
+// Meshes all of whose weights are rational: valences 3, 4, 6, boundary vertices of one to three faces.
+std::vector<data::ControlMesh> rational_meshes() {
+  return {tetrahedron(),
+          shaken(octahedron(), .3, 1),
+          shaken(bipyramid(6), .3, 2),
+          shaken(bipyramid(3), .3, 3),
+          shaken(grid_torus(3, 4), .2, 4),
+          shaken(grid_sheet(3, 3), .1, 5),
+          shaken(wheel(4, .5), .1, 6),
+          shaken(fan(3), .1, 7),
+          single_triangle()};
+}
+
+double extent(const data::ControlMesh& mesh) {
+  double most = 0;
+  for (int c = 0; c < 3; ++c) {
+    for (const auto& p : mesh.positions)
+      for (const auto& q : mesh.positions) most = std::max(most, p[c] - q[c]);
+  }
+  return most;
+}
+
+// Expected: refinement of the whole mesh in double, good to some 1e-15.
+TEST(NumberStream, InRationalsIsTheLimitSurfaceWithItsTangents) {
+  double worst_position = 0, worst_normal = 0;
+  for (const auto& mesh : rational_meshes()) {
+    const Adjacency adjacency(mesh);
+    const auto points = exactly(mesh);
+    for (const int depth : {0, 1, 2, 4}) {
+      const auto pairs = pairs_of(adjacency, depth);
+      const auto found = linear_points<Rational>(adjacency, points, pairs, depth);
+      const auto expected = slow_limit(mesh, depth);
+      const int size = 1 << depth;
+      for (std::size_t v = 0; v < found.size(); ++v) {
+        const int side = size + 1, inside = static_cast<int>(v) % (side * side);
+        const int i = inside % side, j = inside / side;
+        const FacePoint at = face_point(pairs[v / static_cast<std::size_t>(side * side)], size, i, j, i <= j);
+        if (at.face < 0) continue;
+        const LimitPoint& e = expected.at({at.face, at.i, at.j});
+        double p[3], a[3], b[3];
+        for (std::size_t c = 0; c < 3; ++c) {
+          p[c] = static_cast<double>(found[v].position[c]);
+          a[c] = static_cast<double>(found[v].slant[c]);
+          b[c] = static_cast<double>(found[v].across[c]);
+        }
+        double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        const double length = std::hypot(n[0], n[1], n[2]);
+        for (std::size_t c = 0; c < 3; ++c) {
+          worst_position = std::max(worst_position, std::abs(p[c] - e.position[c]));
+          worst_normal = std::max(worst_normal, std::abs(n[c] / length - e.normal[c]));
+        }
+      }
+    }
+  }
+  EXPECT_LE(worst_position, 1e-14);
+  EXPECT_LE(worst_normal, 1e-12);
+  RecordProperty("worst_position", std::to_string(worst_position * 1e15) + "e-15");
+  RecordProperty("worst_normal", std::to_string(worst_normal * 1e15) + "e-15");
+}
+
+// On a plane grid with heights x^2 + 3 x y Loop's surface is that quadratic and a constant: it reproduces
+// quadratics up to one. Positions x, y and all derivatives are known exactly.
+TEST(NumberStream, TangentsAreTheDocumentedMultiplesOfTheDerivatives) {
+  data::ControlMesh mesh = grid_sheet(7, 7);
+  for (auto& p : mesh.positions) p[2] = p[0] * p[0] + 3 * p[0] * p[1];
+  const Adjacency adjacency(mesh);
+  const auto points = exactly(mesh);
+  std::size_t seen = 0;
+  for (const int depth : {1, 2, 4}) {
+    const auto pairs = pairs_of(adjacency, depth);
+    const auto found = linear_points<Rational>(adjacency, points, pairs, depth);
+    const int size = 1 << depth;
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      if (pairs[p].singleton()) continue;
+      // Corners A, B, D in the plane.
+      const std::int32_t ac = 3 * pairs[p].face0 + pairs[p].edge0;
+      const auto& a = mesh.positions[adjacency.origin(ac)];
+      const auto& d = mesh.positions[adjacency.origin(Adjacency::prev(ac))];
+      const auto& b = mesh.positions[adjacency.origin(Adjacency::prev(adjacency.twin(ac)))];
+      bool inside = true;
+      for (const auto* corner : {&a, &b, &d})
+        for (int c = 0; c < 2; ++c) inside = inside && (*corner)[c] >= 2 && (*corner)[c] <= 5;
+      if (!inside) continue;
+      for (int j = 0; j <= size; ++j) {
+        for (int i = 0; i <= size; ++i) {
+          const bool corner = (i == 0 || i == size) && (j == 0 || j == size);
+          if (corner) continue;
+          const auto& v = found[(p * (size + 1) + j) * (size + 1) + i];
+          const Rational s(i, size), t(j, size);
+          Rational dx[3], dy[3], at[2];
+          for (int c = 0; c < 2; ++c) {
+            dx[c] = Rational(b[c] - a[c]), dy[c] = Rational(d[c] - a[c]);
+            at[c] = Rational(a[c]) + s * dx[c] + t * dy[c];
+            EXPECT_EQ(v.position[c], at[c]);
+          }
+          const Rational by_x = 2 * at[0] + 3 * at[1], by_y = 3 * at[0];
+          dx[2] = by_x * dx[0] + by_y * dx[1];
+          dy[2] = by_x * dy[0] + by_y * dy[1];
+          const bool column = (i == 0 || i == size) && j > 0 && j < size, diagonal = i == j;
+          const Rational unit(1 << (2 * depth));
+          for (int c = 0; c < 3; ++c) {
+            const Rational u = dx[c], w = dy[c];
+            EXPECT_EQ(v.slant[c], unit * (column ? 2 * w - 2 * u : diagonal ? 2 * u + 4 * w : 4 * u + 2 * w));
+            EXPECT_EQ(v.across[c], unit * (column     ? -(4 * u + 2 * w)
+                                           : diagonal ? 2 * w - 2 * u
+                                                      : 2 * u + 4 * w));
+          }
+          ++seen;
+        }
+      }
+    }
+  }
+  EXPECT_GT(seen, 1000u);
+}
+
+// The map that the kernel applies, found by running it on linear forms once, is the map that it applies.
+TEST(NumberStream, OnLinearFormsYieldsTheMapItApplies) {
+  for (const auto& mesh : {tetrahedron(), shaken(octahedron(), .3, 1), shaken(grid_sheet(2, 3), .1, 5)}) {
+    const Adjacency adjacency(mesh);
+    const auto points = exactly(mesh);
+    std::vector<std::array<Form, 3>> forms;
+    for (std::size_t v = 0; v < points.size(); ++v)
+      forms.push_back({Form::point(3 * static_cast<int>(v)), Form::point(3 * static_cast<int>(v) + 1),
+                       Form::point(3 * static_cast<int>(v) + 2)});
+    const auto apply = [&](const Form& f, int coordinate, const Rational& expected, const Rational& sum) {
+      EXPECT_EQ(f.constant, 0);
+      Rational value = 0, total = 0;
+      for (const auto& [i, w] : f.weights) {
+        if (w != 0) {
+          EXPECT_EQ(i % 3, coordinate);
+        }
+        value += w * points[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
+        total += w;
+      }
+      EXPECT_EQ(value, expected);
+      EXPECT_EQ(total, sum);
+    };
+    for (const int depth : {0, 1, 4}) {
+      const auto all = pairs_of(adjacency, depth);
+      const auto pairs = std::span(all).first(depth == 4 ? 1 : all.size());
+      const auto maps = linear_points<Form>(adjacency, forms, pairs, depth);
+      const auto values = linear_points<Rational>(adjacency, points, pairs, depth);
+      for (std::size_t v = 0; v < maps.size(); ++v) {
+        for (int c = 0; c < 3; ++c) {
+          const auto k = static_cast<std::size_t>(c);
+          apply(maps[v].position[k], c, values[v].position[k], 1);
+          apply(maps[v].slant[k], c, values[v].slant[k], 0);
+          apply(maps[v].across[k], c, values[v].across[k], 0);
+        }
+      }
+    }
+  }
+}
+
+// Shared points of an edge, evaluated alone, are those of its pair: exactly, also from depth 4 on, where both
+// move to local origins.
+TEST(NumberStream, EdgesAloneAreThoseOfThePairExactly) {
+  const auto mesh = shaken(octahedron(), .3, 1);
+  const Adjacency adjacency(mesh);
+  const auto points = exactly(mesh);
+  using Number = LinearNumber<Rational, 1>;
+  const NumberStream<Number> stream(adjacency, points);
+  for (const int depth : {1, 3, 4}) {
+    const auto pairs = pairs_of(adjacency, depth);
+    const int side = (1 << depth) + 1;
+    std::vector<Rational> whole(6 * static_cast<std::size_t>(side * side)), edge(6 * side);
+    stream.whole(std::span(pairs).first(1), depth, whole.data());
+    const std::int32_t ac = 3 * pairs[0].face0 + pairs[0].edge0;
+    stream.edges({&ac, 1}, depth, edge.data());
+    for (int t = 0; t < side; ++t) {
+      for (int k = 0; k < 6; ++k) EXPECT_EQ(edge[6 * t + k], whole[6 * (t * side + t) + k]) << t << " " << k;
+    }
+  }
+}
+
+TEST(DoubleStream, IsWithinFiveTimesTenToTheMinusSixteenOfTheExactLimit) {
+  double worst = 0, worst_normal = 0;
+  for (const auto& mesh : rational_meshes()) {
+    const Adjacency adjacency(mesh);
+    const auto points = exactly(mesh);
+    for (const int depth : {0, 3, 5}) {
+      auto pairs = pairs_of(adjacency, depth);
+      pairs.resize(std::min<std::size_t>(pairs.size(), 4));
+      const auto expected = linear_points<Rational>(adjacency, points, pairs, depth);
+      std::vector<double> found(6 * expected.size());
+      DoubleStream(mesh, adjacency).whole(pairs, depth, found.data());
+      for (std::size_t v = 0; v < expected.size(); ++v) {
+        const int side = (1 << depth) + 1, inside = static_cast<int>(v) % (side * side);
+        if (pairs[v / static_cast<std::size_t>(side * side)].singleton() && inside % side > inside / side)
+          continue;
+        std::array<double, 3> a, b;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const Rational error = Rational(found[6 * v + c]) - expected[v].position[c];
+          worst = std::max(worst, std::abs(static_cast<double>(error)) / extent(mesh));
+          a[c] = static_cast<double>(expected[v].slant[c]), b[c] = static_cast<double>(expected[v].across[c]);
+        }
+        const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        for (std::size_t c = 0; c < 3; ++c)
+          worst_normal =
+              std::max(worst_normal, std::abs(n[c] / std::hypot(n[0], n[1], n[2]) - found[6 * v + 3 + c]));
+      }
+    }
+  }
+  EXPECT_LE(worst, 5e-16);
+  EXPECT_LE(worst_normal, 1e-12);
+  RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
+  RecordProperty("worst_normal", std::to_string(worst_normal * 1e15) + "e-15");
+}
+
+TEST(NumberStream, RefusesWhatItCannotDo) {
+  const auto mesh = tetrahedron();
+  const Adjacency adjacency(mesh);
+  const auto points = exactly(mesh);
+  using Number = LinearNumber<Rational, 0>;
+  EXPECT_THROW(NumberStream<Number>(adjacency, std::span(points).first(3)), std::invalid_argument);
+  double out[6];
+  EXPECT_THROW(DoubleStream(mesh, adjacency).whole({}, 11, out), std::invalid_argument);
+  EXPECT_THROW(DoubleStream(mesh, adjacency).edges({}, -1, out), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/rings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fast/stream/rings_impl.h"
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+/// Whether a mesh of many vertices has a triangle that is lower than `height`, though not flat.
+bool has_needles(const data::ControlMesh& mesh, double height) {
+  if (mesh.positions.size() < kManyVertices) return false;
+  const auto vertex = [&](std::int32_t v) {
+    const auto& p = mesh.positions[static_cast<std::size_t>(v)];
+    return Vec3<double>{p[0], p[1], p[2]};
+  };
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    const Vec3<double> a = vertex(t[0]), e = vertex(t[1]) - a, f = vertex(t[2]) - a, g = f - e;
+    const Vec3<double> c = cross(e, f);
+    const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), dot(g, g)});
+    return area > 0 && area < height * height * longest;
+  });
+}
+
+}  // namespace
+
+template <class T>
+PlacedPoints<T> place(const data::ControlMesh& mesh) {
+  PlacedPoints<T> placed{{}, Placement<T>::identity()};
+  if (mesh.positions.empty()) return placed;
+  std::array<double, 3> low = mesh.positions[0], high = low;
+  for (const auto& p : mesh.positions) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], p[c]);
+      high[c] = std::max(high[c], p[c]);
+    }
+  }
+  double extent = 0, unit = 1;
+  for (std::size_t c = 0; c < 3; ++c) extent = std::max(extent, high[c] - low[c]);
+  std::array<double, 3> centre{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double middle = low[c] / 2 + high[c] / 2;
+    if (std::abs(middle) > extent / 4) centre[c] = static_cast<float>(middle);
+  }
+  if (extent > 0 && std::isfinite(extent)) unit = std::ldexp(1., std::clamp(std::ilogb(extent), -120, 120));
+
+  const double inverse = 1 / unit;
+  placed.points.reserve(mesh.positions.size());
+  for (const auto& p : mesh.positions) {
+    placed.points.push_back({static_cast<T>((p[0] - centre[0]) * inverse),
+                             static_cast<T>((p[1] - centre[1]) * inverse),
+                             static_cast<T>((p[2] - centre[2]) * inverse), T(0)});
+  }
+  placed.placement = {{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
+                      static_cast<T>(unit),
+                      has_needles(mesh, kNeedle * extent) ? 1 : kLocalFrom};
+  return placed;
+}
+
+template PlacedPoints<float> place(const data::ControlMesh&);
+template PlacedPoints<double> place(const data::ControlMesh&);
+template class BasicRings<ScalarNumber<float>>;
+template class BasicRings<ScalarNumber<double>>;
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// What every pair asks about a control vertex, computed once per vertex and in an order that no face decides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/rules/vertex_limit.h"
+#include "fast/stream/layout.h"
+#include "fast/stream/number.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// x y z 0
+template <class T>
+using ControlPoint = std::array<T, 4>;
+
+/// A control mesh in the kernel's coordinates.
+template <class T>
+struct PlacedPoints {
+  std::vector<ControlPoint<T>> points;
+  Placement<T> placement;
+};
+
+/// Moved to the origin and scaled to size 1 by a power of two, so that squares neither vanish nor overflow.
+/// The centre is one for the whole mesh, or shared points would differ, and none for a mesh about the origin,
+/// whose coordinates are not to be rounded again. T: float or double.
+template <class T>
+PlacedPoints<T> place(const data::ControlMesh& mesh);
+
+/// Rings and limits of all control vertices, for a number N of the kernel (see number.h). Needs
+/// NumberTraits<Scalar> of fast/rules/masks.h: Wide, Scalar, widen, narrow; and NumberTraits of that Scalar:
+/// cosine(1, n) where it is no floating-point type. Topology alone decides which operations are done, but for
+/// the start of the rings in floating point and for degenerate normals.
+///
+/// Order in floating point: an interior ring starts at its lexicographically smallest neighbour (position,
+/// then the positions that follow it), a boundary ring at the first boundary edge. So what is computed here
+/// depends on positions alone: not on the numbering of vertices and faces nor on the rotation of corners.
+/// Numbers without rounding start at adjacency.outgoing. [claim D14]
+///
+/// Boundary: the open ring r_0 .. r_K goes on at both ends so that the interior rules, applied to it, give
+/// the B-spline boundary curve: r_{-k} = q_k - r_k with q = 2 r_0, v + r_0, v + r_K, 2 r_K, v + r_K, v + r_0
+/// (period 6), and likewise from r_K. r_{-1} = v + r_0 - r_1 is the ghost of claim D10; the others follow
+/// from its being invariant at every level.
+template <class N>
+class BasicRings {
+ public:
+  using T = typename N::Scalar;
+  using Wide = typename NumberTraits<T>::Wide;
+
+  /// One point per vertex of the adjacency. Throws std::invalid_argument otherwise.
+  BasicRings(const Adjacency& adjacency, PlacedPoints<T> points);
+  BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency)
+      : BasicRings(adjacency, place<T>(mesh)) {}
+
+  /// Ring of a vertex as indices into points(). Entry k of an interior ring is at (k mod n) of `first`; a
+  /// boundary ring has kReach further entries at either end and does not wrap.
+  struct Ring {
+    std::int32_t first;   // into entries()
+    std::int32_t period;  // n; kOpen for a boundary ring
+  };
+  static constexpr std::int32_t kOpen = std::numeric_limits<std::int32_t>::max();
+  static constexpr int kReach = kMaxDepth + 3;
+
+  const std::vector<ControlPoint<T>>& points() const { return points_; }
+  const std::vector<std::int32_t>& entries() const { return entries_; }
+  Ring ring(std::int32_t v) const { return rings_[static_cast<std::size_t>(v)]; }
+  /// Index in the ring of its origin of the vertex a half-edge points to.
+  std::int32_t slot(std::int32_t h) const { return slot_[static_cast<std::size_t>(h)]; }
+
+  /// k0, k1, c, d, limit position, limit normal (or N::tangent): the head of a CornerBlock.
+  struct Corner {
+    std::array<T, CornerBlock::kWindow> head;
+  };
+  const Corner& corner(std::int32_t v) const { return corners_[static_cast<std::size_t>(v)]; }
+
+  const Placement<T>& placement() const { return placement_; }
+  /// Vertices whose two limit tangents are parallel or vanish: their normal comes from claim D12's rule.
+  std::int64_t degenerate_normals() const { return degenerate_normals_; }
+
+ private:
+  using Weight = typename NumberTraits<Wide>::Scalar;
+  struct Scratch {
+    std::vector<std::int32_t> vertices;
+    std::vector<Vec3<Wide>> points, continued;
+  };
+
+  void lay_out(const Adjacency& adjacency);
+  void make_vertex(const Adjacency& adjacency, std::int32_t v, Scratch& scratch);
+  void continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide>> r, Ring ring, Scratch& scratch);
+  void put_corner(std::int32_t v, const Vec3<Wide>& centre, const RingWeights<Weight>& weights,
+                  const VertexLimit<Wide>& limit, const Vec3<Wide>& normal);
+
+  std::vector<ControlPoint<T>> points_;  // control vertices, then ghosts
+  std::vector<std::int32_t> entries_;
+  std::vector<Ring> rings_;
+  std::vector<std::int32_t> slot_;
+  std::vector<Corner> corners_;
+  Placement<T> placement_;
+  std::vector<RingWeights<Weight>> closed_, open_;  // by number of ring points
+  std::int64_t degenerate_normals_ = 0;
+};
+
+using Rings = BasicRings<ScalarNumber<float>>;
+
+}  // namespace limitcheck::fast::row_stream

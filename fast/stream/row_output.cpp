@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The forms of RowStream that write to memory past the caches.
+#include <array>
+#include <span>
+
+#include "fast/stream/compact_vertex.h"
+#include "fast/stream/memory_stream.h"
+#include "fast/stream/row_stream.h"
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+// Rows of whole pairs, in the order in which they lie in memory, as runs of `Out`.
+template <class Out>
+struct Runs {
+  const Pair* first;
+  Out* out;
+  std::array<LineStream, kMaxLanes> lines;
+  std::array<Out, side(kMaxDepth)> converted;
+
+  const std::byte* convert(std::span<const Vertex> row) {
+    if constexpr (sizeof(Out) == sizeof(Vertex)) {
+      return reinterpret_cast<const std::byte*>(row.data());
+    } else {
+      compact(row, converted.data());
+      return reinterpret_cast<const std::byte*>(converted.data());
+    }
+  }
+
+  static void visit(void* context, const RowView& view) {
+    Runs& runs = *static_cast<Runs*>(context);
+    const auto length = static_cast<std::size_t>(side(view.depth));
+    const auto first_pair = static_cast<std::size_t>(view.pairs.data() - runs.first);
+    for (std::size_t lane = 0; lane < view.pairs.size(); ++lane) {
+      LineStream& lines = runs.lines[lane];
+      if (view.j == 0)
+        lines.start(reinterpret_cast<std::byte*>(runs.out + (first_pair + lane) * length * length));
+      lines.append(runs.convert({view.vertices(lane), length}), length * sizeof(Out));
+      if (view.j + 1 == side(view.depth)) lines.finish();
+    }
+  }
+};
+
+template <class Out>
+void write_runs(const RowStream& stream, std::span<const Pair> pairs, int depth, Workspace& workspace,
+                Out* out) {
+  Runs<Out> runs;
+  runs.first = pairs.data();
+  runs.out = out;
+  stream.rows(pairs, depth, workspace, &Runs<Out>::visit, &runs);
+  fence_streams();
+}
+
+}  // namespace
+
+void RowStream::streamed(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const {
+  write_runs(*this, pairs, depth, workspace, out);
+}
+
+void RowStream::streamed(std::span<const Pair> pairs, int depth, Workspace& workspace,
+                         CompactVertex* out) const {
+  write_runs(*this, pairs, depth, workspace, out);
+}
+
+}  // namespace limitcheck::fast::row_stream

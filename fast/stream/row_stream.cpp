@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/row_stream.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+constexpr std::size_t kLine = 64;
+
+int checked(int depth) {
+  if (depth < 0 || depth > kMaxDepth) throw std::invalid_argument("row streaming: depth is 0 to 10");
+  return depth;
+}
+
+void prepare(Workspace& workspace, int depth, int lanes) {
+  const auto n = static_cast<std::size_t>(lanes);
+  workspace.input.grow(n * static_cast<std::size_t>(input_size(checked(depth))));
+  workspace.work.grow(n * static_cast<std::size_t>(work_size(depth)));
+}
+
+// Floats of a row, up to a whole number of cache lines.
+std::size_t row_pitch(int depth) {
+  return (6 * static_cast<std::size_t>(side(depth)) + 15) / 16 * 16;
+}
+
+struct Rows {
+  RowView view;
+  void (*visit)(void*, const RowView&);
+  void* context;
+};
+
+void visit_row(void* context, int j) {
+  Rows& rows = *static_cast<Rows*>(context);
+  rows.view.j = j;
+  rows.visit(rows.context, rows.view);
+}
+
+}  // namespace
+
+void AlignedFloats::Free::operator()(float* p) const {
+  std::free(p);
+}
+
+void AlignedFloats::grow(std::size_t count) {
+  if (count <= size_) return;
+  const std::size_t bytes = (4 * count + kLine - 1) / kLine * kLine;
+  auto* p = static_cast<float*>(std::aligned_alloc(kLine, bytes));
+  if (!p) throw std::bad_alloc();
+  std::memset(p, 0, bytes);
+  data_.reset(p);
+  size_ = count;
+}
+
+RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel)
+    : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency) {}
+
+void RowStream::rows(std::span<const Pair> pairs, int depth, Workspace& workspace,
+                     void (*visit)(void*, const RowView&), void* context, Order order) const {
+  batches(kernel_, pairs, depth, workspace, visit, context, order);
+}
+
+void RowStream::batches(const Kernel& kernel, std::span<const Pair> pairs, int depth, Workspace& workspace,
+                        void (*visit)(void*, const RowView&), void* context, Order order) const {
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
+  prepare(workspace, depth, kernel.lanes);
+  workspace.row.grow(lanes * row_pitch(depth));
+
+  const auto pitch = static_cast<std::ptrdiff_t>(row_pitch(depth));
+  Rows rows{{{}, depth, 0, workspace.row.data(), pitch}, visit, context};
+  Target<float> target{workspace.row.data(), pitch, 0, visit ? &visit_row : nullptr, &rows};
+  for (std::size_t first = 0; first < pairs.size(); first += lanes) {
+    rows.view.pairs = pairs.subspan(first, std::min(lanes, pairs.size() - first));
+    gather(adjacency_, rings_, rows.view.pairs, depth, kernel.lanes, workspace.input.data(), order);
+    kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
+  }
+}
+
+void RowStream::whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out,
+                      const Kernel* other) const {
+  const Kernel& kernel = other != nullptr ? *other : kernel_;
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
+  const auto pair_size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
+  prepare(workspace, depth, kernel.lanes);
+
+  const std::size_t full = pairs.size() / lanes * lanes;
+  for (std::size_t first = 0; first < full; first += lanes) {
+    gather(adjacency_, rings_, pairs.subspan(first, lanes), depth, kernel.lanes, workspace.input.data(),
+           Order::kFromA);
+    const Target<float> target{out[first * pair_size].position, 6 * static_cast<std::ptrdiff_t>(pair_size),
+                               6 * side(depth), nullptr, nullptr};
+    kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
+  }
+  // The lanes beyond the last pair write too, but not into the caller's memory.
+  Vertex* rest = out + full * pair_size;
+  batches(
+      kernel, pairs.subspan(full), depth, workspace,
+      [](void* context, const RowView& view) {
+        const auto n = static_cast<std::size_t>(side(view.depth));
+        for (std::size_t lane = 0; lane < view.pairs.size(); ++lane)
+          std::memcpy(static_cast<Vertex*>(context) + (lane * n + static_cast<std::size_t>(view.j)) * n,
+                      view.vertices(lane), n * sizeof(Vertex));
+      },
+      rest, Order::kFromA);
+}
+
+void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
+                      const Kernel* other) const {
+  const Kernel& kernel = other != nullptr ? *other : kernel_;
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
+  const auto length = static_cast<std::size_t>(side(depth));
+  workspace.input.grow(lanes * static_cast<std::size_t>(edge_input_size(checked(depth))));
+  workspace.work.grow(lanes * static_cast<std::size_t>(edge_work_size(depth)));
+  workspace.row.grow(lanes * static_cast<std::size_t>(edge_output_size(depth)));
+
+  for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
+    const auto batch = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
+    gather_edges(adjacency_, rings_, batch, depth, kernel.lanes, workspace.input.data());
+    kernel.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
+                     workspace.row.data());
+    for (std::size_t e = 0; e < batch.size(); ++e) {
+      float* to = out[(first + e) * length].position;
+      for (std::size_t k = 0; k < 6 * length; ++k) to[k] = workspace.row.data()[k * lanes + e];
+    }
+  }
+}
+
+}  // namespace limitcheck::fast::row_stream

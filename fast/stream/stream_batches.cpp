@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/stream_batches.h"
+
+#include <algorithm>
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+Delivery delivery_of(const Patch& patch) {
+  using Show = Half::Show;
+  const Half &first = patch.half[0], &second = patch.half[1];
+  if (!first.uses_window() && !second.uses_window()) return Delivery::kNothing;
+  if (first.show == Show::kStitch || second.show == Show::kStitch) return Delivery::kWhole;
+  return first.uses_window() ? Delivery::kRowsFromC : Delivery::kRowsFromA;
+}
+
+}  // namespace
+
+void StreamBatches::make(std::span<const Patch> patches, std::size_t lanes, std::size_t narrow) {
+  for (auto& list : sorted_) list.clear();
+  batches_.clear();
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    sorted_[static_cast<std::size_t>(delivery_of(patches[i])) +
+            4 * static_cast<std::size_t>(patches[i].depth)]
+        .push_back(i);
+  for (std::size_t k = 0; k < sorted_.size(); ++k) {
+    const auto delivery = static_cast<Delivery>(k % 4);
+    const std::size_t most = delivery == Delivery::kWhole ? narrow : lanes;
+    const std::span<const std::size_t> list(sorted_[k]);
+    for (std::size_t first = 0; first < list.size(); first += most)
+      batches_.push_back(
+          {delivery, static_cast<int>(k / 4), list.subspan(first, std::min(most, list.size() - first))});
+  }
+}
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/targets.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/stream/targets.cpp"
+// The baseline of x86-64 comes last in the list and is the plain scalar kernel below. Vectors of SVE have no
+// size at compile time and cannot be members.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "fast/stream/kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
+
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#include "fast/stream/rules-inl.h"
+// rows use the rules
+#include "fast/stream/rows-inl.h"
+// strips along edges use their rules
+#include "fast/stream/edge-inl.h"
+// the stream uses all of them
+#include "fast/stream/stream-inl.h"
+// the number type of this target
+#include "fast/stream/lanes-inl.h"
+
+constexpr const char* target_name(int lanes) {
+#if HWY_TARGET == HWY_AVX3
+  return lanes == 16 ? "avx512" : lanes == 8 ? "avx512/8" : "avx512/4";
+#elif HWY_TARGET == HWY_AVX2
+  return lanes == 8 ? "avx2" : "avx2/4";
+#elif HWY_ARCH_ARM
+  return lanes == 4 ? "neon" : "";
+#else
+  return lanes == 4 ? "sse4" : "";
+#endif
+}
+
+template <int lanes>
+HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& placement, float* work,
+                               const Target<float>& target) {
+  using Number = LaneNumber<hn::CappedTag<float, lanes>>;
+  Stream<Number>(input, depth, placement, work, target).run();
+  return target_name(Number::lanes);
+}
+
+template <int lanes>
+HWY_ATTR void run_edge_lanes(const float* input, int depth, const Placement<float>& placement, float* work,
+                             float* out) {
+  EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>> strip(depth, placement, work);
+  strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
+  strip.store(out);
+}
+
+template <int lanes>
+void add(std::vector<Kernel>& list) {
+  list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_lanes<lanes>, &run_edge_lanes<lanes>});
+}
+
+#endif  // not the baseline
+
+void list_kernels([[maybe_unused]] std::vector<Kernel>& list) {
+#if HWY_TARGET == HWY_AVX3
+  add<16>(list);
+#endif
+#if HWY_TARGET == HWY_AVX2
+  add<8>(list);
+#endif
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  add<4>(list);
+#endif
+}
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+HWY_EXPORT(list_kernels);
+
+const char* run_scalar(float* input, int depth, const Placement<float>& placement, float* work,
+                       const Target<float>& target) {
+  generic::Stream<ScalarNumber<float>>(input, depth, placement, work, target).run();
+  return "scalar";
+}
+
+void run_edge_scalar(const float* input, int depth, const Placement<float>& placement, float* work,
+                     float* out) {
+  generic::EdgeStrip<ScalarNumber<float>> strip(depth, placement, work);
+  strip.refine(input, 0, input + edge_block_size(depth), 0);
+  strip.store(out);
+}
+
+std::vector<Kernel> find_kernels() {
+  std::vector<Kernel> list;
+  // Highway's own choice is the best target; the others are asked for one at a time.
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    HWY_DYNAMIC_DISPATCH(list_kernels)(list);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  list.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar});
+  return list;
+}
+
+}  // namespace
+
+std::span<const Kernel> kernels() {
+  static const std::vector<Kernel> list = find_kernels();
+  return list;
+}
+
+const Kernel* find_kernel(const char* name) {
+  for (const Kernel& kernel : kernels()) {
+    if (std::strcmp(kernel.name, name) == 0) return &kernel;
+  }
+  return nullptr;
+}
+
+}  // namespace limitcheck::fast::row_stream
+#endif  // HWY_ONCE

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The kernel's compiled variants, and which of them this machine can run.
+#pragma once
+
+#include <span>
+
+#include "fast/stream/layout.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// One compiled variant of the float kernel. All give the same bits.
+struct Kernel {
+  const char* name;  // "avx512", "avx2", "avx2/4" (128-bit), "sse4", "neon", "scalar"
+  int lanes;         // pairs per batch
+  bool fused;        // hardware multiply-add; without it the bits come from std::fma, slowly
+  /// A batch from input to target, see Stream. Returns `name` of the variant that really ran, as compiled
+  /// into it.
+  const char* (*run)(float* input, int depth, const Placement<float>& placement, float* work,
+                     const Target<float>& target);
+  /// `lanes` control edges, see EdgeStrip: edge_output_size(depth) * lanes numbers to out.
+  void (*run_edges)(const float* input, int depth, const Placement<float>& placement, float* work,
+                    float* out);
+};
+
+/// Those the machine has, best first; the last is plain scalar code and always there.
+std::span<const Kernel> kernels();
+
+/// The variant of that name, or nullptr if there is none or the machine cannot run it.
+const Kernel* find_kernel(const char* name);
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// A face without neighbours: no diagonal, no dummy, just its own triangle of points.          [claims C81, E]
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "fast/rules/corner.h"
+
+namespace limitcheck::fast {
+
+/// Subdivides a single triangle whose three edges are boundary. Row r has 2^depth - r + 1 points; (0, 0) is
+/// corner 2, (2^depth, 0) corner 0, (0, 2^depth) corner 1. Allocated once for max_depth: 2 * (2^m + 1)(2^m +
+/// 2) / 2 points.
+template <class N, class Surface = LimitSurface<N>>
+class TriangleLattice {
+ public:
+  using Vertex = typename Surface::Vertex;
+
+  explicit TriangleLattice(int max_depth) {
+    const std::size_t k = std::size_t{1} << max_depth;
+    for (auto& points : points_) points.resize((k + 1) * (k + 2) / 2);
+    strip_.resize(2 * (k + 1));
+  }
+
+  /// sink(row, strip): strip[2 i] in row `row`, strip[2 i + 1] in the next, 2 (2^depth - row) + 1 vertices.
+  template <class Sink>
+  void run(const PreparedMesh<N, Surface>& mesh, std::int32_t face, int depth, Sink&& sink) {
+    const Adjacency& adjacency = mesh.adjacency();
+    const std::int32_t v[3] = {adjacency.corner(face, 0), adjacency.corner(face, 1),
+                               adjacency.corner(face, 2)};
+    points_[0][0] = mesh.position(v[2]);
+    points_[0][1] = mesh.position(v[1]);
+    points_[0][2] = mesh.position(v[0]);
+    std::vector<Vec3<N>>*from = &points_[0], *to = &points_[1];
+    for (int s = 0; s < depth; ++s) {
+      refine(1 << s, *from, *to);
+      std::swap(from, to);
+    }
+    const int k = 1 << depth;
+    const auto at = [&](int r, int c) -> const Vec3<N>& { return (*from)[index(k, r, c)]; };
+    const auto limit = [&](int r, int c) -> Vertex {
+      if (r == 0 && c == 0) return mesh.limit(v[2]);
+      if (r == k) return mesh.limit(v[0]);
+      if (c == k) return mesh.limit(v[1]);
+      if (r == 0) return boundary(at(r, c), at(r, c - 1), at(r + 1, c - 1), at(r + 1, c), at(r, c + 1));
+      if (c == 0) return boundary(at(r, c), at(r + 1, c), at(r, c + 1), at(r - 1, c + 1), at(r - 1, c));
+      if (r + c == k)
+        return boundary(at(r, c), at(r - 1, c + 1), at(r - 1, c), at(r, c - 1), at(r + 1, c - 1));
+      return regular_vertex_limit<N, Surface>(at(r, c), ring(*from, k, r, c), zero_normals_);
+    };
+    for (int row = 0; row < k; ++row) {
+      for (int c = 0; c + row <= k; ++c) {
+        strip_[2 * static_cast<std::size_t>(c)] = limit(row, c);
+        if (c + row < k) strip_[2 * static_cast<std::size_t>(c) + 1] = limit(row + 1, c);
+      }
+      sink(row, static_cast<const Vertex*>(strip_.data()));
+    }
+  }
+
+  std::int64_t zero_normals() const { return zero_normals_; }
+
+ private:
+  static std::size_t index(int k, int r, int c) {
+    return static_cast<std::size_t>(r * (k + 1) - r * (r - 1) / 2 + c);
+  }
+  static AxisRing<N> ring(const std::vector<Vec3<N>>& p, int k, int r, int c) {
+    const auto at = [&](int i, int j) -> const Vec3<N>& { return p[index(k, i, j)]; };
+    return {at(r, c + 1), at(r - 1, c + 1), at(r - 1, c), at(r, c - 1), at(r + 1, c - 1), at(r + 1, c)};
+  }
+  Vertex boundary(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& ne, const Vec3<N>& nw,
+                  const Vec3<N>& w) {
+    return boundary_vertex_limit<N, Surface>(v, e, ne, nw, w, zero_normals_);
+  }
+
+  static void refine(int k, const std::vector<Vec3<N>>& p, std::vector<Vec3<N>>& out) {
+    const auto at = [&](int r, int c) -> const Vec3<N>& { return p[index(k, r, c)]; };
+    const auto put = [&](int r, int c) -> Vec3<N>& { return out[index(2 * k, r, c)]; };
+    for (int r = 0; r <= k; ++r) {
+      for (int c = 0; c + r <= k; ++c) {
+        const Vec3<N>& v = at(r, c);
+        if (r == 0 && c == 0) {
+          put(0, 0) = curve_vertex(v, at(1, 0), at(0, 1));
+        } else if (r == k) {
+          put(2 * k, 0) = curve_vertex(v, at(k - 1, 1), at(k - 1, 0));
+        } else if (c == k) {
+          put(0, 2 * k) = curve_vertex(v, at(0, k - 1), at(1, k - 1));
+        } else if (r == 0) {
+          put(0, 2 * c) = curve_vertex(v, at(0, c - 1), at(0, c + 1));
+        } else if (c == 0) {
+          put(2 * r, 0) = curve_vertex(v, at(r + 1, 0), at(r - 1, 0));
+        } else if (r + c == k) {
+          put(2 * r, 2 * c) = curve_vertex(v, at(r - 1, c + 1), at(r + 1, c - 1));
+        } else {
+          put(2 * r, 2 * c) = regular_vertex(v, ring(p, k, r, c));
+        }
+        if (r + c == k) continue;
+        const Vec3<N>&right = at(r, c + 1), &down = at(r + 1, c);
+        put(2 * r, 2 * c + 1) = r == 0 ? midpoint(v, right) : edge_point(v, right, at(r - 1, c + 1), down);
+        put(2 * r + 1, 2 * c) = c == 0 ? midpoint(v, down) : edge_point(v, down, at(r + 1, c - 1), right);
+        put(2 * r + 1, 2 * c + 1) =
+            r + c + 1 == k ? midpoint(right, down) : edge_point(right, down, v, at(r + 1, c + 1));
+      }
+    }
+  }
+
+  std::vector<Vec3<N>> points_[2];
+  std::vector<Vertex> strip_;
+  std::int64_t zero_normals_ = 0;
+};
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Uniform refinement of a whole mesh: the textbook way, every point once.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "reference/loop/weights.h"
+#include "reference/mesh/topology.h"
+#include "reference/number/vec3.h"
+#include "reference/point/surface_point.h"
+
+namespace limitcheck::reference {
+
+/// One step: the new vertex points, in the order of the
+/// vertices, then the edge points, in the order of the edges.
+template <class N>
+std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                                 Weights weights = Weights::kLoop);
+
+/// The control points as they are, in the number type: exact in every one but narrower ones.
+template <class N>
+std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh);
+
+/// A mesh after `depth` steps. Lattice point (i, j) of a face, i, j >= 0, i + j <= 2^depth, has l1 = i /
+/// 2^depth and l2 = j / 2^depth. Vertices shared by faces appear once; the control vertices come first, in
+/// their order.
+template <class N>
+class RefinedMesh {
+ public:
+  /// Depth 0: the mesh itself. Throws std::invalid_argument if it is not manifold (Topology).
+  explicit RefinedMesh(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles,
+              Weights weights = Weights::kLoop);
+
+  /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
+  /// few times.
+  ///   throws std::length_error if the refined mesh would have more than 2^31 - 1 vertices
+  void refine();
+
+  int depth() const { return depth_; }
+  std::size_t face_count() const { return face_count_; }  ///< of the control mesh
+  const std::vector<Vec3<N>>& positions() const { return positions_; }
+  /// 4^depth per control face, one face after the other: first the triangles (i, j) (i+1, j) (i, j+1), j
+  /// outer, i inner, then (i+1, j) (i+1, j+1) (i, j+1) likewise.
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  std::int32_t vertex(std::size_t face, int i, int j) const {
+    return lattice_[face * points_per_face() + point(i, j)];
+  }
+  const Topology& topology() const { return topology_; }
+
+  /// Limit positions and unit normals of all vertices.
+  /// [C14, D1, D2, D12]
+  struct Limits {
+    std::vector<Vec3<N>> positions, normals;
+    std::vector<NormalKind> kinds;
+  };
+  Limits limits() const;
+
+ private:
+  std::size_t points_per_face() const {
+    const auto k = std::size_t{1} << depth_;
+    return (k + 1) * (k + 2) / 2;
+  }
+  /// Index of (i, j) among the face's lattice points, rows of equal j.
+  std::size_t point(int i, int j) const {
+    const auto k = std::size_t{1} << depth_, row = static_cast<std::size_t>(j);
+    return row * (k + 1) - row * (row - 1) / 2 + static_cast<std::size_t>(i);
+  }
+  void triangulate();
+
+  int depth_ = 0;
+  Weights weights_;
+  std::size_t face_count_;
+  std::vector<Vec3<N>> positions_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::int32_t> lattice_;
+  Topology topology_;
+};
+
+/// The refined mesh after `depth` steps.
+template <class N>
+RefinedMesh<N> refine(const data::ControlMesh& mesh, int depth, Weights weights = Weights::kLoop) {
+  RefinedMesh<N> refined(mesh, weights);
+  for (int step = 0; step < depth; ++step) refined.refine();
+  return refined;
+}
+
+}  // namespace limitcheck::reference

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Definitions behind refine.h, for the .cpp files that instantiate them.
+#pragma once
+
+#include <limits>
+#include <stdexcept>
+
+#include "reference/loop/masks.h"
+#include "reference/loop/refine.h"
+#include "reference/loop/vertex_limit.h"
+
+namespace limitcheck::reference {
+
+template <class N>
+std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                                 Weights weights) {
+  const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
+  std::vector<Vec3<N>> result;
+  result.reserve(topology.vertex_count() + topology.edges().size());
+  std::vector<Vec3<N>> ring;
+  for (std::size_t v = 0; v < topology.vertex_count(); ++v) {
+    const auto id = static_cast<std::int32_t>(v);
+    const auto neighbours = topology.ring(id);
+    if (neighbours.empty()) {
+      result.push_back(positions[v]);  // isolated: nothing to subdivide
+    } else if (topology.on_boundary(id)) {
+      result.push_back(boundary_vertex_point(positions[v], at(neighbours.front()), at(neighbours.back())));
+    } else {
+      ring.clear();
+      for (const std::int32_t r : neighbours) ring.push_back(at(r));
+      result.push_back(interior_vertex_point<N>(positions[v], ring, weights));
+    }
+  }
+  for (const Edge& e : topology.edges())
+    result.push_back(e.on_boundary() ? boundary_edge_point(at(e.a), at(e.b))
+                                     : interior_edge_point(at(e.a), at(e.b), at(e.left), at(e.right)));
+  return result;
+}
+
+template <class N>
+std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
+  std::vector<Vec3<N>> result;
+  result.reserve(mesh.positions.size());
+  for (const auto& p : mesh.positions)
+    result.push_back({NumberTraits<N>::from_double(p[0]), NumberTraits<N>::from_double(p[1]),
+                      NumberTraits<N>::from_double(p[2])});
+  return result;
+}
+
+template <class N>
+RefinedMesh<N>::RefinedMesh(const data::ControlMesh& mesh, Weights weights)
+    : RefinedMesh(positions_of<N>(mesh), mesh.triangles, weights) {}
+
+template <class N>
+RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles, Weights weights)
+    : weights_(weights),
+      face_count_(triangles.size()),
+      positions_(std::move(positions)),
+      triangles_(std::move(triangles)),
+      topology_(positions_.size(), triangles_) {
+  lattice_.reserve(3 * face_count_);
+  for (const Triangle& t : triangles_) lattice_.insert(lattice_.end(), t.begin(), t.end());
+}
+
+template <class N>
+void RefinedMesh<N>::refine() {
+  const std::size_t count = positions_.size() + topology_.edges().size();
+  if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw std::length_error("refined mesh has more than 2^31 - 1 vertices");
+  const auto old_vertices = static_cast<std::int32_t>(positions_.size());
+  positions_ = refine_once(topology_, positions_, weights_);
+
+  // Lattice points of even coordinates were there before; the others lie on an edge of a triangle (i, j)
+  // (i+1, j) (i, j+1).
+  const std::vector<std::int32_t> old_lattice = std::move(lattice_);
+  const std::size_t old_points = points_per_face(), triangles_per_face = triangles_.size() / face_count_;
+  const int k = 1 << depth_;
+  ++depth_;
+  lattice_.assign(face_count_ * points_per_face(), -1);
+  for (std::size_t f = 0; f < face_count_; ++f) {
+    std::int32_t* to = lattice_.data() + f * points_per_face();
+    const std::int32_t* from = old_lattice.data() + f * old_points;
+    std::size_t triangle = f * triangles_per_face;
+    for (int j = 0; j <= k; ++j)
+      for (int i = 0; i + j <= k; ++i) {
+        to[point(2 * i, 2 * j)] = *from++;
+        if (i + j == k) continue;
+        to[point(2 * i + 1, 2 * j)] = old_vertices + topology_.edge(triangle, 0);
+        to[point(2 * i + 1, 2 * j + 1)] = old_vertices + topology_.edge(triangle, 1);
+        to[point(2 * i, 2 * j + 1)] = old_vertices + topology_.edge(triangle, 2);
+        ++triangle;
+      }
+  }
+  triangulate();
+  topology_ = Topology(positions_.size(), triangles_);
+}
+
+template <class N>
+void RefinedMesh<N>::triangulate() {
+  const int k = 1 << depth_;
+  triangles_.clear();
+  triangles_.reserve(face_count_ * static_cast<std::size_t>(k) * static_cast<std::size_t>(k));
+  for (std::size_t f = 0; f < face_count_; ++f) {
+    for (int j = 0; j < k; ++j)
+      for (int i = 0; i + j < k; ++i)
+        triangles_.push_back({vertex(f, i, j), vertex(f, i + 1, j), vertex(f, i, j + 1)});
+    for (int j = 0; j < k; ++j)
+      for (int i = 0; i + j + 1 < k; ++i)
+        triangles_.push_back({vertex(f, i + 1, j), vertex(f, i + 1, j + 1), vertex(f, i, j + 1)});
+  }
+}
+
+template <class N>
+typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
+  Limits result;
+  result.positions.reserve(positions_.size());
+  result.normals.reserve(positions_.size());
+  result.kinds.reserve(positions_.size());
+  std::vector<Vec3<N>> ring;
+  for (std::size_t v = 0; v < positions_.size(); ++v) {
+    const auto id = static_cast<std::int32_t>(v);
+    ring.clear();
+    for (const std::int32_t r : topology_.ring(id)) ring.push_back(positions_[static_cast<std::size_t>(r)]);
+    if (ring.empty()) {
+      result.positions.push_back(positions_[v]);
+      result.normals.push_back({N(0), N(0), N(1)});
+      result.kinds.push_back(NormalKind::kArbitrary);
+      continue;
+    }
+    const VertexLimit<N> limit = vertex_limit<N>(positions_[v], ring, topology_.on_boundary(id), weights_);
+    result.positions.push_back(limit.position);
+    result.normals.push_back(limit.normal.direction);
+    result.kinds.push_back(limit.normal.kind);
+  }
+  return result;
+}
+
+/// All of refine.h but `limits`, which needs square roots.
+#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                            \
+  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights); \
+  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                             \
+  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                          \
+  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights);       \
+  template void RefinedMesh<N>::refine();
+
+}  // namespace limitcheck::reference

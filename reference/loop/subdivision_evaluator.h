@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The same surface points by repeated subdivision: no eigenvalues, nothing shared with stam.h but masks and
+// basis.
+#pragma once
+
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "reference/loop/weights.h"
+#include "reference/mesh/topology.h"
+#include "reference/point/parameter.h"
+#include "reference/point/surface_point.h"
+
+namespace limitcheck::reference {
+
+/// Subdivides the face and its ring, always into the sub-face that holds the point, until that is regular (a
+/// box spline patch, Appendix A) or the point is its corner (limit masks). The number of steps grows with
+/// -log2 of the distance to the extraordinary vertex, and so does the rounding error of its derivatives.
+/// Built for double, Decimal50, Decimal100.
+///   threads   any number may evaluate at once
+template <class N>
+class SubdivisionEvaluator {
+ public:
+  /// As StamEvaluator.
+  explicit SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
+                       Weights weights = Weights::kLoop);
+
+  int face_count() const { return static_cast<int>(topology_.triangles().size()); }
+  /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
+  SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
+                           Order order = Order::kSecond) const;
+
+ private:
+  Topology topology_;
+  std::vector<Vec3<N>> positions_;
+  Weights weights_;
+};
+
+}  // namespace limitcheck::reference

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What the evaluators return: a point of the limit surface with its derivatives.
+#pragma once
+
+#include <cstdint>
+
+#include "reference/number/vec3.h"
+
+namespace limitcheck::reference {
+
+/// Where a normal comes from. Everything but kRegular is to be counted by whoever audits: there the surface
+/// has no normal, or none that this number type can tell from rounding.                     [D5, D12]
+enum class NormalKind : std::uint8_t {
+  kRegular,         ///< d1 x d2, or the tangent masks at a vertex
+  kNoTangentPlane,  ///< boundary vertex of 6 or more faces: deep normals do not converge; the mask's
+                    ///< direction is given
+  kFallback,        ///< tangents parallel or zero, but for rounding: area-weighted normal of the control
+                    ///< faces around
+  kArbitrary        ///< those vanish too: (0, 0, 1)
+};
+
+/// How much to compute.
+enum class Order : std::uint8_t { kPosition, kFirst, kSecond };
+
+/// A point of the limit surface at (face, l1, l2), l0 = 1 - l1 - l2 being the weight of corner 0.
+///   position       the limit point
+///   d1, d2         partial derivatives with respect to l1 and l2, if `first_exist`; otherwise t1, t2
+///   d11, d12, d22  second partial derivatives, zero if not `second_exist`: not asked for, or not there
+///   t1, t2         two directions in the tangent plane, t1 x t2 outwards. They are d1, d2 but at an
+///                  extraordinary corner itself, where the tangent masks give them, as long as the control
+///                  edges:
+///                  interior vertex, towards the face's own edges, and those edges themselves where the ring
+///                  is a regular polygon;
+///                  boundary vertex, along x across, both 1 for half a unit disc
+///   t1_terms, t2_terms   sum of |weight| magnitude(point) that t1, t2 were summed from, in their units: a
+///                  relative error u of the points moves t1 by some u * t1_terms, however small t1 is
+///   normal_condition     a relative error u of the points turns the normal by some u * normal_condition
+///                  radians, to first order: (t1_terms / |t1| + t2_terms / |t2|) / sin(t1, t2), with the
+///                  tangents that the normal was computed from, which near a boundary corner are better
+///                  separated than t1, t2. All three are 0 in number types without rounding, and
+///                  normal_condition where the normal is not regular
+///   normal         unit length, t1 x t2 direction, never NaN
+///   at_corner      an extraordinary corner itself
+/// At an extraordinary corner the derivatives are those of the face, from within (`extraordinary_corner` in
+/// patch.h derives which there are):
+///   interior, valence 3, 4, 5      d1 = d2 = 0; second derivatives at valence 3
+///   interior, valence 7 and more   none
+///   boundary, 1 or 2 faces         d1, d2; second derivatives at 1 face
+///   boundary, 4 faces and more     none but the one along the boundary, which is not given
+/// "None" is said of the rule: where the tangents vanish some may exist all the same.
+template <class N>
+struct SurfacePoint {
+  Vec3<N> position, d1, d2, d11, d12, d22, t1, t2, normal;
+  N t1_terms{}, t2_terms{}, normal_condition{};
+  NormalKind normal_kind = NormalKind::kRegular;
+  bool first_exist = false;
+  bool second_exist = false;
+  bool at_corner = false;
+};
+
+}  // namespace limitcheck::reference

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "reference/surface/certified.h"
+
+#include <flint/flint.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "data/cut_out.h"
+#include "reference/loop/stam.h"
+#include "reference/number/ball.h"
+#include "reference/point/parameter_exact.h"
+
+namespace limitcheck::reference {
+
+struct CertifiedEvaluator::Data {
+  using Position = std::array<Rational, 3>;
+  Topology topology;
+  std::function<Position(std::int32_t)> position;  // of a vertex
+  Weights weights;
+};
+
+namespace {
+
+/// The faces that touch the corners of one face, itself first: all that its surface depends on.
+std::vector<std::int32_t> faces_near(const Topology& topology, std::int32_t face) {
+  std::vector<std::int32_t> faces{face};
+  for (const std::int32_t v : topology.triangles()[static_cast<std::size_t>(face)])
+    for (const std::int32_t f : topology.faces(v))
+      if (f >= 0 && std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+  return faces;
+}
+
+/// The control vertex at a corner of a face.
+std::int32_t corner_at(const Topology& topology, std::int32_t face, const Parameter& l1,
+                       const Parameter& l2) {
+  const std::size_t k = exact_value(l1) == 1 ? 1 : exact_value(l2) == 1 ? 2 : 0;
+  return topology.triangles()[static_cast<std::size_t>(face)][k];
+}
+
+double radius_of(const Ball& a) {
+  mag_t radius;
+  mag_init(radius);
+  mag_set(radius, arb_radref(a.raw()));
+  const bool exact = mag_is_zero(radius) != 0;
+  const double result = mag_get_d(radius);  // exact but for overflow to infinity and underflow to zero
+  mag_clear(radius);
+  return exact ? 0 : std::max(result * (1 + 1e-9), std::numeric_limits<double>::denorm_min());
+}
+
+/// Upper bound of |a|, as a double.
+double magnitude(const Ball& a) {
+  Ball bound;
+  arb_get_mag(arb_radref(bound.raw()), a.raw());
+  return radius_of(bound);
+}
+
+/// Largest decimal exponent e with 10^e <= the magnitude the ball may have; very small for an exact zero.
+long decimal_exponent(const Ball& a) {
+  const long binary = NumberTraits<Ball>::exponent(a);
+  return binary == kZeroExponent
+             ? std::numeric_limits<int>::min()
+             : static_cast<long>(std::floor(static_cast<double>(binary) * std::log10(2.0)));
+}
+
+/// 10^e as a ball
+Ball power_of_ten(long e) {
+  Ball result(10);
+  arb_pow_ui(result.raw(), result.raw(), static_cast<ulong>(std::labs(e)), Ball::precision());
+  return e < 0 ? Ball(1) / result : result;
+}
+
+/// The ball's midpoint rounded to a multiple of 10^-decimals (10^-decimals may exceed 1), with a radius that
+/// covers both.
+Enclosure print(const Ball& a, long decimals) {
+  const long saved = Ball::precision();
+  Ball::precision() = saved + 64;
+  Ball middle;
+  arf_set(arb_midref(middle.raw()), arb_midref(a.raw()));
+  const Ball shifted = middle * power_of_ten(decimals);
+  fmpz_t mantissa;
+  fmpz_init(mantissa);
+  arf_get_fmpz(mantissa, arb_midref(shifted.raw()), ARF_RND_NEAR);
+  Ball printed;
+  arb_set_fmpz(printed.raw(), mantissa);
+  const Ball difference = a - printed * power_of_ten(-decimals);  // holds every (true - printed)
+  Enclosure result{"0", magnitude(difference)};
+
+  // mantissa 10^-decimals as plain decimals, or with an exponent where that would be long.
+  char* raw = fmpz_get_str(nullptr, 10, mantissa);
+  std::string digits(raw);
+  flint_free(raw);
+  fmpz_clear(mantissa);
+  Ball::precision() = saved;
+  const bool negative = digits.front() == '-';
+  if (negative) digits.erase(0, 1);
+  if (digits == "0") return result;
+  const long exponent = static_cast<long>(digits.size()) - 1 - decimals;
+  if (exponent < -6 || decimals < 0) {
+    std::string fraction = digits.substr(1);
+    result.value =
+        digits.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" + std::to_string(exponent);
+  } else if (decimals == 0) {
+    result.value = digits;
+  } else {
+    if (exponent < 0) digits = std::string(static_cast<std::size_t>(-exponent), '0') + digits;
+    result.value = digits.substr(0, digits.size() - static_cast<std::size_t>(decimals)) + "." +
+                   digits.substr(digits.size() - static_cast<std::size_t>(decimals));
+  }
+  if (negative) result.value = std::string(1, '-').append(result.value);
+  return result;
+}
+
+/// Prints a group of numbers to `digits` significant digits
+/// of the largest of them, or says that it cannot yet.
+class Printer {
+ public:
+  Printer(int digits, bool last_chance) : digits_(digits), last_chance_(last_chance) {}
+
+  template <std::size_t Size>
+  std::array<Enclosure, Size> operator()(const std::array<const Ball*, Size>& group) {
+    long exponent = std::numeric_limits<int>::min();
+    double worst = 0;
+    std::array<Enclosure, Size> result;
+    for (const Ball* a : group) {
+      if (arb_is_finite(a->raw()) == 0) {  // a division by something not told from zero
+        enough_ = false;
+        result.fill({"0", std::numeric_limits<double>::infinity()});
+        if (last_chance_) largest_ = std::numeric_limits<double>::infinity();
+        return result;
+      }
+      exponent = std::max(exponent, decimal_exponent(*a));
+    }
+    if (exponent == std::numeric_limits<int>::min()) {
+      result.fill({"0", 0.0});
+      return result;
+    }
+    const long decimals = digits_ - 1 - exponent;
+    for (std::size_t i = 0; i < Size; ++i) {
+      const Ball unit = power_of_ten(-decimals);
+      Ball radius;
+      arf_set_mag(arb_midref(radius.raw()), arb_radref(group[i]->raw()));
+      if (!(radius * Ball(8) < unit)) {
+        enough_ = false;
+        if (!last_chance_) return result;
+        result[i] = {"0", magnitude(*group[i])};  // not told from zero: the radius says how far
+      } else {
+        result[i] = print(*group[i], decimals);
+      }
+      worst = std::max(worst, result[i].radius);
+    }
+    largest_ = std::max(largest_, worst);
+    return result;
+  }
+  Enclosure3 operator()(const Vec3<Ball>& v) { return (*this)(std::array<const Ball*, 3>{&v.x, &v.y, &v.z}); }
+  Enclosure operator()(const Ball& a) { return (*this)(std::array<const Ball*, 1>{&a})[0]; }
+
+  bool enough() const { return enough_; }
+  double largest() const { return largest_; }
+
+ private:
+  int digits_;
+  bool last_chance_;
+  bool enough_ = true;
+  double largest_ = 0;
+};
+
+}  // namespace
+
+CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights) {
+  for (const auto& p : mesh.positions)
+    for (const double x : p)
+      if (!std::isfinite(x)) throw std::invalid_argument("control mesh: a coordinate is not finite");
+  const auto position = [positions = mesh.positions](std::int32_t v) {
+    const auto& p = positions[static_cast<std::size_t>(v)];
+    return Data::Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
+  };
+  data_.reset(new Data{Topology(mesh.positions.size(), mesh.triangles), position, weights});
+}
+
+CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
+                                       const std::vector<Triangle>& triangles, Weights weights) {
+  std::vector<Data::Position> exact;
+  for (const auto& p : positions)
+    exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
+                     exact_value(Parameter::parse(p[2]))});
+  const auto position = [exact = std::move(exact)](std::int32_t v) {
+    return exact[static_cast<std::size_t>(v)];
+  };
+  data_.reset(new Data{Topology(positions.size(), triangles), position, weights});
+}
+
+CertifiedEvaluator::~CertifiedEvaluator() = default;
+
+CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const Parameter& l2,
+                                            int digits) const {
+  if (digits < 1 || digits > 10000) throw std::invalid_argument("digits must be 1..10000");
+  if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.triangles().size())
+    throw std::out_of_range("no face " + std::to_string(face));
+  const data::CutOut local = data::cut_out(data_->topology.triangles(), faces_near(data_->topology, face));
+  std::vector<Data::Position> exact;
+  for (const std::int32_t v : local.vertices) exact.push_back(data_->position(v));
+
+  const long first = static_cast<long>(digits * 3.33) + 64;
+  // Next to a corner quantities fall and rise with powers of the distance, which costs that many bits: the
+  // curvatures take the eighth power. The distance is no smaller than the parameters' digits allow.
+  const long nearness = 8 * 4 * static_cast<long>(l1.to_string().size() + l2.to_string().size());
+  struct Restore {
+    long saved = Ball::precision();
+    ~Restore() { Ball::precision() = saved; }
+  } restore;
+  for (long bits = first;; bits *= 2) {
+    Ball::precision() = bits;
+    const bool last_chance = bits >= 8 * first + nearness;
+    std::vector<Vec3<Ball>> positions;
+    for (const auto& p : exact)
+      positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
+                           NumberTraits<Ball>::from_rational(p[2])});
+    const StamEvaluator<Ball> evaluator(std::move(positions), local.triangles, data_->weights);
+    const SurfacePoint<Ball> s = evaluator.evaluate(0, l1, l2);
+    const bool has_normal =
+        s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
+    if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
+
+    Printer print(digits, last_chance), print_curvature(digits, last_chance);
+    CertifiedPoint result;
+    result.position = print(s.position);
+    result.d1 = print(s.d1);
+    result.d2 = print(s.d2);
+    result.normal = print(s.normal);
+    result.normal_kind = s.normal_kind;
+    result.first_exist = s.first_exist;
+    result.boundary_corner =
+        s.at_corner && data_->topology.on_boundary(corner_at(data_->topology, face, l1, l2));
+    if (s.at_corner) {
+      result.t1 = print(s.t1);
+      result.t2 = print(s.t2);
+    }
+    if (s.second_exist) {
+      result.d11 = print(s.d11);
+      result.d12 = print(s.d12);
+      result.d22 = print(s.d22);
+      if (has_normal && !s.at_corner) {
+        const Ball e = dot(s.d1, s.d1), f = dot(s.d1, s.d2), g = dot(s.d2, s.d2);
+        const Ball l = dot(s.d11, s.normal), m = dot(s.d12, s.normal), n = dot(s.d22, s.normal);
+        const Ball area = Ball(1) / (e * g - f * f);
+        result.gaussian_curvature = print_curvature((l * n - m * m) * area);
+        result.mean_curvature =
+            print_curvature((Ball(2) * f * m - e * n - g * l) * area * (Ball(1) / Ball(2)));
+      }
+    }
+    result.radius = print.largest();
+    result.precision = bits;
+    if ((print.enough() && print_curvature.enough()) || last_chance) return result;
+  }
+}
+
+}  // namespace limitcheck::reference

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Certified points: decimal numbers with radii that are guaranteed to hold the true values.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "reference/loop/weights.h"
+#include "reference/mesh/topology.h"
+#include "reference/point/parameter.h"
+#include "reference/point/surface_point.h"
+
+namespace limitcheck::reference {
+
+/// |true value - value| <= radius. `value` has as many decimals as were asked for, not more.
+struct Enclosure {
+  std::string value;
+  double radius;
+};
+/// A point or vector.
+using Enclosure3 = std::array<Enclosure, 3>;
+
+/// As SurfacePoint; d11, d12, d22 are there if they exist, t1 and t2 at an extraordinary corner only.
+/// Curvatures are given where second derivatives and the normal exist, but not at an extraordinary corner;
+/// the mean curvature is positive where the surface is convex: 1/r on a sphere of radius r.
+struct CertifiedPoint {
+  Enclosure3 position, d1, d2, normal;
+  std::optional<Enclosure3> d11, d12, d22, t1, t2;
+  std::optional<Enclosure> gaussian_curvature, mean_curvature;
+  NormalKind normal_kind;
+  bool first_exist;
+  bool boundary_corner;  ///< an extraordinary corner on the boundary: the derivative along that may exist
+                         ///< alone
+  double radius;   ///< the largest of the radii, the curvatures' aside (they have their own and may be huge)
+  long precision;  ///< bits that were needed
+};
+
+/// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are,
+/// parameters as exact rationals.
+class CertifiedEvaluator {
+ public:
+  /// As StamEvaluator; throws std::invalid_argument also if a coordinate is not finite.
+  explicit CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  /// Control points as text, "1/3" or "0.125", taken exactly. Throws std::invalid_argument as
+  /// Parameter::parse does.
+  CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
+                     const std::vector<Triangle>& triangles, Weights weights = Weights::kLoop);
+  ~CertifiedEvaluator();
+
+  /// Only the faces that touch the face are evaluated, cut out of the mesh: quick on large meshes.
+  ///   digits   1..10000 significant digits of the largest coordinate of each vector; each printed value is
+  ///            within one unit of its last decimal. Precision rises until that is certain; a vector that
+  ///            cannot be told from zero at eight times the digits, and what nearness to a corner costs, is
+  ///            printed as 0 with its radius
+  ///   throws   std::invalid_argument: digits or parameters out of range; std::out_of_range: no such face
+  CertifiedPoint evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+}  // namespace limitcheck::reference

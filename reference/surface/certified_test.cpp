@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// Certified points hold the truth, print no digit they cannot vouch for, and say what does not exist.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "data/generators/random_mesh.h"
+#include "data/shapes.h"
+#include "reference/loop/subdivision_evaluator.h"
+#include "reference/number/number_exact.h"
+#include "reference/surface/certified.h"
+
+namespace limitcheck::reference {
+namespace {
+
+using Big = Decimal100;
+
+TEST(Certified, EnclosuresHoldTheOtherMethodsValuesAtEveryPrecision) {
+  const data::ControlMesh mesh = data::wheel(7);
+  const CertifiedEvaluator certified(mesh);
+  const SubdivisionEvaluator<Big> truth(mesh);
+  for (const int digits : {1, 5, 16, 60})
+    for (const auto& [a, b] :
+         {std::pair{"1/3", "1/3"}, {"1e-9", "2e-9"}, {"1/7", "0"}, {"0.5", "0.5"}, {"0", "1"}}) {
+      const Parameter l1 = Parameter::parse(a), l2 = Parameter::parse(b);
+      const CertifiedPoint p = certified.evaluate(0, l1, l2, digits);
+      const SurfacePoint<Big> s = truth.evaluate(0, l1, l2);
+      const auto check = [&](const Enclosure3& got, const Vec3<Big>& want, const char* what) {
+        const std::array<Big, 3> coordinates{want.x, want.y, want.z};
+        Big largest = 0;
+        for (const Big& c : coordinates) largest = std::max(largest, Big(abs(c)));
+        for (std::size_t i = 0; i < 3; ++i) {
+          EXPECT_LE(abs(Big(got[i].value) - coordinates[i]), Big(got[i].radius) + largest * Big("1e-80"))
+              << what << " to " << digits;
+          EXPECT_LE(Big(got[i].radius), 10 * largest * pow(Big(10), -digits)) << what << " to " << digits;
+        }
+      };
+      check(p.position, s.position, "position");
+      check(p.d1, s.d1, "d1");
+      check(p.d2, s.d2, "d2");
+      check(p.normal, s.normal, "normal");
+      ASSERT_TRUE(p.d11.has_value());
+      check(*p.d11, s.d11, "d11");
+      check(*p.d12, s.d12, "d12");
+      check(*p.d22, s.d22, "d22");
+    }
+}
+
+TEST(Certified, ExtraordinaryCornersHaveTheDerivativesThatExist) {
+  const auto at_corner = [](const data::ControlMesh& mesh) {
+    return CertifiedEvaluator(mesh).evaluate(0, 0.0, 0.0, 20);
+  };
+  const CertifiedPoint three = at_corner(data::tetrahedron());
+  EXPECT_TRUE(three.first_exist && three.d11 && three.t1);
+  EXPECT_EQ(three.position[0].value, "0.20000000000000000000");  // of the known answers
+  EXPECT_EQ(three.normal_kind, NormalKind::kRegular);
+  for (const Enclosure& zero : three.d1) EXPECT_TRUE(zero.value == "0" && zero.radius == 0);
+  EXPECT_FALSE(three.gaussian_curvature);  // not by first derivatives that vanish
+  const CertifiedPoint five = at_corner(data::icosahedron());
+  EXPECT_TRUE(five.first_exist && five.t1);
+  EXPECT_FALSE(five.d11);
+  const CertifiedPoint seven = at_corner(data::wheel(7));
+  EXPECT_TRUE(seven.t1);
+  EXPECT_FALSE(seven.first_exist || seven.d11);
+  const CertifiedPoint inside = CertifiedEvaluator(data::wheel(7)).evaluate(0, 0.25, 0.25, 20);
+  EXPECT_TRUE(inside.first_exist && inside.d11);
+  EXPECT_FALSE(inside.t1);
+}
+
+// The faces around one face need not be a manifold by themselves: two of them may touch in a vertex alone.
+TEST(Certified, EveryFaceOfATightMeshHasTheSurfaceOfTheWhole) {
+  std::vector<data::ControlMesh> meshes{
+      data::tetrahedron(), data::octahedron(), data::torus(3, 3),
+      data::bipyramid(3),  data::bipyramid(4), data::bipyramid(5),
+      data::cube(),        data::holes(),      data::random_mesh(360, {60, 50})};
+  for (const data::ControlMesh& mesh : meshes) {
+    const CertifiedEvaluator certified(mesh);
+    const SubdivisionEvaluator<Big> whole(mesh);
+    for (int face = 0; face < whole.face_count(); ++face)
+      for (const auto& [a, b] : {std::pair{"1/5", "2/7"}, {"0", "1"}}) {
+        const Parameter l1 = Parameter::parse(a), l2 = Parameter::parse(b);
+        const CertifiedPoint p = certified.evaluate(face, l1, l2, 30);
+        const SurfacePoint<Big> s = whole.evaluate(face, l1, l2);
+        const auto check = [&](const Enclosure3& got, const Vec3<Big>& want) {
+          const std::array<Big, 3> coordinates{want.x, want.y, want.z};
+          for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_LE(abs(Big(got[i].value) - coordinates[i]), Big(got[i].radius) + Big("1e-80"))
+                << mesh.triangles.size() << " faces, face " << face;
+        };
+        check(p.position, s.position);
+        check(p.d1, s.d1);
+        check(p.normal, s.normal);
+      }
+  }
+}
+
+TEST(Certified, HasWarrensSurfaceToo) {
+  const data::ControlMesh mesh = data::octahedron();
+  const CertifiedEvaluator certified(mesh, Weights::kWarren);
+  EXPECT_EQ(Big(certified.evaluate(0, 0.0, 0.0, 10).position[0].value),
+            Big(mesh.positions[static_cast<std::size_t>(mesh.triangles[0][0])][0]) / 2);
+  const SurfacePoint<Big> s = SubdivisionEvaluator<Big>(mesh, Weights::kWarren).evaluate(3, 0.25, 0.125);
+  const CertifiedPoint p = certified.evaluate(3, 0.25, 0.125, 40);
+  EXPECT_LE(abs(Big(p.position[1].value) - s.position.y), Big(p.position[1].radius));
+  EXPECT_LE(abs(Big(p.mean_curvature->value)), Big(100));
+}
+
+TEST(Certified, NumbersAreWrittenPlainlyWhereThatIsShort) {
+  // The limit of a mesh whose points coincide is that point.
+  data::ControlMesh point = data::octahedron();
+  for (auto& p : point.positions) p = {128, -4.3, 0.0078125};
+  const auto text = [&](int digits) {
+    const Enclosure3 p = CertifiedEvaluator(point).evaluate(0, 0.25, 0.25, digits).position;
+    return p[0].value + " " + p[1].value + " " + p[2].value;
+  };
+  EXPECT_EQ(text(2), "1.3e2 0 0");
+  EXPECT_EQ(text(3), "128 -4 0");
+  EXPECT_EQ(text(4), "128.0 -4.3 0");
+  EXPECT_EQ(text(5), "128.00 -4.30 0.01");
+  EXPECT_EQ(text(8), "128.00000 -4.30000 0.00781");
+}
+
+TEST(Certified, CurvaturesToo) {
+  // Next to a corner curvatures lose more digits than derivatives: the first precision has the latter alone.
+  const CertifiedPoint p = CertifiedEvaluator(data::wheel(7))
+                               .evaluate(0, Parameter::parse("1e-25"), Parameter::parse("2e-25"), 20);
+  for (const auto& curvature : {p.gaussian_curvature, p.mean_curvature})
+    EXPECT_LE(Big(curvature->radius), abs(Big(curvature->value)) * Big("1e-19"));
+}
+
+TEST(Certified, ConvexSurfacesHavePositiveCurvatures) {
+  // At the centre of an icosahedron's face symmetry makes all normal curvatures equal: K = H^2.
+  const CertifiedPoint p = CertifiedEvaluator(data::icosahedron())
+                               .evaluate(0, Parameter::fraction(1, 3), Parameter::fraction(1, 3), 40);
+  const Big k(p.gaussian_curvature->value), h(p.mean_curvature->value);
+  EXPECT_GT(h, 0);
+  EXPECT_LE(abs(k - h * h), Big("1e-38"));
+}
+
+TEST(Certified, CurvaturesAreThoseOfTheFundamentalForms) {
+  // At a point without symmetry, from the other method's derivatives, by way of the shape operator I^-1 II.
+  const data::ControlMesh mesh = data::wheel(7);
+  const Parameter l1 = Parameter::fraction(1, 5), l2 = Parameter::fraction(2, 7);
+  const SurfacePoint<Big> s = SubdivisionEvaluator<Big>(mesh).evaluate(0, l1, l2);
+  const Big e = dot(s.d1, s.d1), f = dot(s.d1, s.d2), g = dot(s.d2, s.d2), det = e * g - f * f;
+  const Big l = dot(s.d11, s.normal), m = dot(s.d12, s.normal), n = dot(s.d22, s.normal);
+  const Big shape[2][2] = {{(g * l - f * m) / det, (g * m - f * n) / det},
+                           {(e * m - f * l) / det, (e * n - f * m) / det}};
+  const Big k = shape[0][0] * shape[1][1] - shape[0][1] * shape[1][0];
+  const Big h = -(shape[0][0] + shape[1][1]) / 2;  // positive where convex
+  const CertifiedPoint p = CertifiedEvaluator(mesh).evaluate(0, l1, l2, 40);
+  EXPECT_NE(e, g);
+  EXPECT_LE(abs(Big(p.gaussian_curvature->value) - k), abs(k) * Big("1e-38"));
+  EXPECT_LE(abs(Big(p.mean_curvature->value) - h), abs(h) * Big("1e-38"));
+}
+
+TEST(Certified, PrecisionRisesUntilTheNormalIsKnown) {
+  // Points all but on the line x = y: t1 x t2 cancels 80
+  // or 130 bits, more than the first attempt has to spare.
+  for (const std::string offset : {"1e-24", "1e-40"}) {
+    std::vector<std::array<std::string, 3>> positions;
+    const data::ControlMesh mesh = data::octahedron();
+    for (const auto& p : mesh.positions) {
+      const Big x(p[0]), y = x + Big(offset) * Big(p[1]);
+      positions.push_back({x.str(), y.str(90), Big(0).str()});
+    }
+    const CertifiedPoint p = CertifiedEvaluator(positions, mesh.triangles).evaluate(0, 0.25, 0.25, 10);
+    EXPECT_EQ(p.normal_kind, NormalKind::kRegular) << offset;
+    EXPECT_EQ(abs(Big(p.normal[2].value)), 1) << offset;
+    EXPECT_LE(p.normal[2].radius, 1e-9) << offset;
+  }
+}
+
+// Curvatures near an extraordinary corner take more bits than everything else: they have their digits, too.
+TEST(Certified, PrecisionRisesUntilTheCurvaturesAreKnown) {
+  const CertifiedEvaluator certified(data::wheel(7));
+  for (const char* distance : {"1e-10", "1e-20", "1e-40"}) {
+    const Parameter l = Parameter::parse(distance);
+    const CertifiedPoint p = certified.evaluate(0, l, l, 12);
+    for (const auto& curvature : {p.gaussian_curvature, p.mean_curvature}) {
+      ASSERT_TRUE(curvature.has_value()) << distance;
+      ASSERT_FALSE(curvature->value.empty()) << distance;
+      EXPECT_LE(Big(curvature->radius), abs(Big(curvature->value)) * Big("1e-11")) << distance;
+    }
+  }
+}
+
+TEST(Certified, NumbersWithoutDecimalsArePrintedWithoutAnExponent) {
+  data::ControlMesh mesh = data::octahedron();
+  for (auto& p : mesh.positions) p = {123, 456, -789};
+  const CertifiedPoint p = CertifiedEvaluator(mesh).evaluate(0, 0.25, 0.25, 3);
+  EXPECT_EQ(p.position[0].value, "123");
+  EXPECT_EQ(p.position[1].value, "456");
+  EXPECT_EQ(p.position[2].value, "-789");
+}
+
+TEST(Certified, DegenerateMeshesAreSaidToBeSo) {
+  data::ControlMesh point = data::octahedron();
+  for (auto& p : point.positions) p = {1, 2, 3};
+  const CertifiedPoint p = CertifiedEvaluator(point).evaluate(0, 0.25, 0.25, 10);
+  EXPECT_EQ(p.normal_kind, NormalKind::kArbitrary);
+  EXPECT_EQ(p.position[2].value, "3.000000000");
+  EXPECT_EQ(p.d1[0].value, "0");
+  EXPECT_FALSE(p.gaussian_curvature.has_value());
+}
+
+TEST(Certified, BadRequestsAreRefused) {
+  const CertifiedEvaluator e(data::octahedron());
+  EXPECT_THROW(e.evaluate(8, 0.0, 0.0, 10), std::out_of_range);
+  EXPECT_THROW(e.evaluate(0, 0.6, 0.6, 10), std::invalid_argument);
+  EXPECT_THROW(e.evaluate(0, 0.0, 0.0, 0), std::invalid_argument);
+  EXPECT_THROW(e.evaluate(0, 0.0, 0.0, 100000), std::invalid_argument);
+  data::ControlMesh infinite = data::octahedron();
+  infinite.positions[2][1] = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(CertifiedEvaluator{infinite}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace limitcheck::reference

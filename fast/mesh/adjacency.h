@@ -63,6 +63,12 @@ class Adjacency {
     const auto i = static_cast<std::size_t>(v);
     return {fan_.data() + first_[i], static_cast<std::size_t>(first_[i + 1] - first_[i])};
   }
+  /// Calls visit(vertex) for every neighbour of v counter-clockwise, that of the canonical half-edge first.
+  template <class Visit>
+  void for_each_neighbour(std::int32_t v, Visit&& visit) const {
+    for (const std::int32_t h : fan(v)) visit(target(h));
+    if (on_boundary(v)) visit(origin(prev(fan(v).back())));
+  }
   /// Number of neighbouring vertices (faces on the inside, faces + 1 on the boundary; 0 without faces).
   int valence(std::int32_t v) const { return static_cast<int>(fan(v).size()) + (on_boundary(v) ? 1 : 0); }
   bool on_boundary(std::int32_t v) const { return outgoing(v) >= 0 && twin(outgoing(v)) < 0; }

@@ -16,6 +16,12 @@ namespace {
 
 using V = Vec3<double>;
 
+VertexLimit<double> limit_of(const V& v, const std::vector<V>& ring, bool open) {
+  const auto n = static_cast<int>(ring.size());
+  return vertex_limit<double>(v, ring, open,
+                              open ? RingWeights<double>::open(n) : RingWeights<double>::closed(n));
+}
+
 double size(const V& v) {
   return std::sqrt(dot(v, v));
 }
@@ -35,7 +41,7 @@ TEST(Sec31_LimitMasks, AreLeftEigenvectorsOfTheSubdivisionStep) {
   for (int n = 3; n <= 200; ++n) {
     const std::vector<V> ring = uneven_ring(n);
     const V centre{.1, -.2, .3};
-    const auto before = vertex_limit<double>(centre, ring, false);
+    const auto before = limit_of(centre, ring, false);
     const auto weights = vertex_weights<double>(n);
     V sum{};
     for (const V& p : ring) sum = sum + p;
@@ -44,7 +50,7 @@ TEST(Sec31_LimitMasks, AreLeftEigenvectorsOfTheSubdivisionStep) {
     const auto size_n = static_cast<std::size_t>(n);
     for (std::size_t i = 0; i < size_n; ++i)
       finer.push_back(edge_point(centre, ring[i], ring[(i + size_n - 1) % size_n], ring[(i + 1) % size_n]));
-    const auto after = vertex_limit<double>(refined, finer, false);
+    const auto after = limit_of(refined, finer, false);
     EXPECT_LE(size(after.position - before.position), 1e-14) << n;
     const double lambda = .375 + .25 * std::cos(2 * std::numbers::pi / n);
     EXPECT_LE(size(after.du - lambda * before.du), 1e-13 * n) << n;
@@ -57,13 +63,13 @@ TEST(Sec31_LimitMasks, AreLeftEigenvectorsAtBoundaryVerticesOfAnyValence) {
   for (int faces = 1; faces <= 50; ++faces) {
     std::vector<V> ring = uneven_ring(faces + 1);
     const V centre{.1, -.2, .3};
-    const auto before = vertex_limit<double>(centre, ring, true);
+    const auto before = limit_of(centre, ring, true);
     const auto last = static_cast<std::size_t>(faces);
     std::vector<V> finer{midpoint(centre, ring[0])};
     for (std::size_t i = 1; i < last; ++i)
       finer.push_back(edge_point(centre, ring[i], ring[i - 1], ring[i + 1]));
     finer.push_back(midpoint(centre, ring[last]));
-    const auto after = vertex_limit<double>(curve_vertex(centre, ring[0], ring[last]), finer, true);
+    const auto after = limit_of(curve_vertex(centre, ring[0], ring[last]), finer, true);
     EXPECT_LE(size(after.position - before.position), 1e-14) << faces;
     EXPECT_LE(size(after.du - .5 * before.du), 1e-14) << faces;
     // One face: -2 v + r_0 + r_1 belongs to 1/4. Else 3/8 + cos(pi / K) / 4.
@@ -75,13 +81,13 @@ TEST(Sec31_LimitMasks, AreLeftEigenvectorsAtBoundaryVerticesOfAnyValence) {
 TEST(Sec31_LimitMasks, OfTheRegularCasesAreTheGeneralOnes) {
   const std::vector<V> r = uneven_ring(6);
   const V centre{.1, -.2, .3};
-  const auto general = vertex_limit<double>(centre, r, false);
+  const auto general = limit_of(centre, r, false);
   const auto regular = regular_limit<double>(centre, {r[0], r[1], r[2], r[3], r[4], r[5]});
   EXPECT_LE(size(general.position - regular.position), 1e-15);
   EXPECT_LE(size(2. * general.du - regular.du), 1e-14);
   EXPECT_LE(size(2 / std::sqrt(3.) * general.dv - regular.dv), 1e-14);
   const std::vector<V> open(r.begin(), r.begin() + 4);
-  const auto boundary = vertex_limit<double>(centre, open, true);
+  const auto boundary = limit_of(centre, open, true);
   const auto three = regular_boundary_limit<double>(centre, r[0], r[1], r[2], r[3]);
   EXPECT_LE(size(boundary.position - three.position), 1e-15);
   EXPECT_LE(size(boundary.du - three.du), 1e-15);

@@ -96,16 +96,11 @@ constexpr Vec3<N> curve_vertex(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>
   return v + T::ratio(1, 8) * ((e + w) - T::ratio(2, 1) * v);
 }
 
-/// a(n) = 5/8 - (3 + 2 c)^2 / 64 from c = cos(2 pi / n).                                               [C11]
+/// a(n) = 5/8 - (3 + 2 c)^2 / 64 from c = cos(2 pi / n). [C11]
 template <class S>
-S loop_a_of(const S& c) {
+S loop_a(const S& c) {
   const S b = S(3) + S(2) * c;
   return S(5) / S(8) - b * b / S(64);
-}
-/// The same from n.
-template <class N>
-auto loop_a(int n) {
-  return loop_a_of(NumberTraits<N>::cosine(1, n));
 }
 
 /// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}).
@@ -120,7 +115,7 @@ struct VertexWeights {
 template <class N>
 VertexWeights<N> vertex_weights(int n) {
   using Wide = typename NumberTraits<N>::Wide;
-  const auto a = loop_a<Wide>(n);
+  const auto a = loop_a(NumberTraits<Wide>::cosine(1, n));
   return {NumberTraits<Wide>::ratio(1, 1) - a, NumberTraits<Wide>::ratio(1, n) * a};
 }
 

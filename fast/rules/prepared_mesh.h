@@ -11,6 +11,8 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/rules/limit.h"
 #include "fast/rules/masks.h"
+#include "fast/rules/vertex_limit.h"
+#include "fast/rules/vertex_normal.h"
 
 namespace limitcheck::fast {
 
@@ -38,19 +40,22 @@ class PreparedMesh {
       : adjacency_(&adjacency), positions_(std::move(positions)) {
     std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(adjacency.max_valence()) + 1);
     std::vector<bool> known(by_valence.size());
+    RingWeightTable<typename NumberTraits<Wide>::Scalar> table(adjacency.max_valence());
     weights_.resize(positions_.size());
     limits_.resize(positions_.size());
-    std::vector<Vec3<N>> ring;
+    std::vector<Vec3<Wide>> ring;
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
       if (adjacency.outgoing(v) < 0) continue;
       const bool open = adjacency.on_boundary(v);
-      canonical_ring(v, ring);
+      ring.clear();
+      adjacency.for_each_neighbour(v, [&](std::int32_t w) { ring.push_back(widen<N>(position(w))); });
+      const std::size_t n = ring.size();
       if (!open) {
-        const std::size_t n = ring.size();
         if (!known[n]) by_valence[n] = vertex_weights<N>(static_cast<int>(n)), known[n] = true;
         weights_[static_cast<std::size_t>(v)] = by_valence[n];
       }
-      limits_[static_cast<std::size_t>(v)] = limit_of(v, ring, open);
+      table.make(n, open);
+      limits_[static_cast<std::size_t>(v)] = limit_of(widen<N>(position(v)), ring, open, table.of(n, open));
     }
   }
 
@@ -61,29 +66,13 @@ class PreparedMesh {
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:
-  void canonical_ring(std::int32_t v, std::vector<Vec3<N>>& ring) const {
-    ring.clear();
-    const std::int32_t first = adjacency_->outgoing(v);
-    std::int32_t h = first, last = first;
-    do {
-      ring.push_back(position(adjacency_->target(h)));
-      last = h;
-      h = adjacency_->rotate(h);
-    } while (h >= 0 && h != first);
-    if (h < 0) ring.push_back(position(adjacency_->origin(Adjacency::prev(last))));
-  }
-
-  Vertex limit_of(std::int32_t v, const std::vector<Vec3<N>>& ring, bool open) {
-    const auto wide = vertex_limit<N>(position(v), ring, open);
+  template <class Weights>
+  Vertex limit_of(const Vec3<Wide>& v, std::span<const Vec3<Wide>> ring, bool open, const Weights& weights) {
+    const VertexLimit<Wide> wide = vertex_limit(v, ring, open, weights);
     if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
-      wide_ring_.clear();
-      for (const Vec3<N>& p : ring) wide_ring_.push_back(widen<N>(p));
-      const auto substitute = [&] {
-        ++zero_normals_;
-        return substitute_normal<Wide>(widen<N>(position(v)), wide_ring_, open, kParallel<double>);
-      };
-      const Vec3<Wide> normal =
-          vertex_normal<Wide>(wide.du, wide.dv, widen<N>(position(v)), wide_ring_, substitute);
+      bool degenerate = false;
+      const Vec3<Wide> normal = vertex_normal<Wide>(wide, v, ring, open, degenerate);
+      if (degenerate) ++zero_normals_;
       return {narrow<N>(wide.position), narrow<N>(normal) + Vec3<N>{N(0), N(0), N(0)}};
     } else {  // linear numbers have no sizes, and no rounding either
       const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
@@ -96,7 +85,6 @@ class PreparedMesh {
   std::vector<Vec3<N>> positions_;
   std::vector<VertexWeights<N>> weights_;
   std::vector<Vertex> limits_;
-  std::vector<Vec3<Wide>> wide_ring_;
   std::int64_t zero_normals_ = 0;
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "fast/rules/vertex_normal.h"
+
 namespace limitcheck::fast {
 
 namespace {
@@ -20,29 +22,24 @@ void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std
   centre_ = to_point(mesh.positions[v]);
   points_.clear();
   open_ = adjacency.on_boundary(v);
-  const std::int32_t start = adjacency.outgoing(v);
-  if (start < 0) return;
-  std::int32_t next = start, last;
-  do {
-    last = next;
-    points_.push_back(to_point(mesh.positions[adjacency.target(last)]));
-    next = adjacency.rotate(last);
-  } while (next >= 0 && next != start);
-  if (open_) points_.push_back(to_point(mesh.positions[adjacency.origin(Adjacency::prev(last))]));
+  adjacency.for_each_neighbour(
+      v, [&](std::int32_t w) { points_.push_back(to_point(mesh.positions[static_cast<std::size_t>(w)])); });
+  if (!points_.empty()) weights_.make(points_.size(), open_);
 }
 
 void Ring::assign(const Point3& centre, std::vector<Point3> points, bool open) {
   centre_ = centre;
   points_ = std::move(points);
   open_ = open;
+  weights_.make(points_.size(), open_);
 }
 
 void Ring::subdivide() {
   if (!points_.empty()) subdivide_in_place<double>(centre_, points_, open_);
 }
 
-LimitFrame<double> Ring::limit() const {
-  return vertex_limit<double>(centre_, points_, open_);
+VertexLimit<double> Ring::limit() const {
+  return vertex_limit<double>(centre_, points_, open_, weights_.of(points_.size(), open_));
 }
 
 Point3 Ring::limit_position() const {
@@ -50,14 +47,12 @@ Point3 Ring::limit_position() const {
 }
 
 Point3 Ring::limit_normal(bool* degenerate) const {
-  if (degenerate != nullptr) *degenerate = points_.empty();
-  if (points_.empty()) return {0, 0, 1};
-  const LimitFrame<double> frame = limit();
-  return vertex_normal<double>(frame.du, frame.dv, centre_, points_, [&] {
-    if (degenerate != nullptr) *degenerate = true;
-    std::vector<Point3> finer = points_;
-    return substitute_normal<double>(centre_, finer, open_, kParallel<double>);
-  });
+  bool without_tangents = true;
+  const Point3 normal = points_.empty()
+                            ? Point3{0, 0, 1}
+                            : vertex_normal<double>(limit(), centre_, points_, open_, without_tangents);
+  if (degenerate != nullptr) *degenerate = without_tangents;
+  return normal;
 }
 
 Point3 Ring::face_normal(int i) const {

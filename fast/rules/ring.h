@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A vertex and its neighbours: the paper's "vertex mask-like structure", subdivided in place.
-// [mueller2000, 4.1]
+// A vertex and its neighbours: the paper's "vertex mask-like structure", subdivided in place. [mueller2000, 4.1]
 #pragma once
 
 #include <cstdint>
@@ -9,7 +8,7 @@
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/point3.h"
-#include "fast/rules/limit.h"
+#include "fast/rules/vertex_limit.h"
 
 namespace limitcheck::fast {
 
@@ -43,11 +42,12 @@ class Ring {
 
   void subdivide();
 
-  /// Limit position of the centre.                                                   [eq. 3; claims C14, D1]
+  /// Limit position of the centre. [eq. 3; claims C14, D1]
   Point3 limit_position() const;
-  /// Unit limit normal of the centre: tangents as in limit.h, and where they vanish or are parallel what
-  /// vertex_normal.h has for that; `degenerate` says so. On the boundary with six or more faces the surface
-  /// has no tangent plane [claim D5], and this is the plane of the masks' eigenvector.      [erratum 1; D12]
+  /// Unit limit normal of the centre, from the tangents of vertex_limit.h by the rule of vertex_normal.h;
+  /// `degenerate`: whether the tangents vanish or are parallel. On the boundary with six or more faces the
+  /// surface has no tangent plane [claim D5], and this is the plane of the masks' eigenvector.
+  /// [erratum 1; D12]
   Point3 limit_normal(bool* degenerate = nullptr) const;
 
   /// Unit normal of triangle (centre, r_i, r_{i+1}); zero if it has no area.
@@ -56,11 +56,12 @@ class Ring {
   double cone_cosine(const Point3& normal) const;
 
  private:
-  LimitFrame<double> limit() const;
+  VertexLimit<double> limit() const;
 
   Point3 centre_;
   std::vector<Point3> points_;
   bool open_ = false;
+  RingWeightTable<double> weights_;
 };
 
 }  // namespace limitcheck::fast

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
+#include "fast/test_support/global_refinement.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast {
@@ -31,57 +31,19 @@ Ring bumpy_ring(int n, bool open) {
   return ring;
 }
 
-// One Loop step of a whole mesh from its triangle list, written for clarity: the ring of a kept vertex
-// afterwards must be what Ring::subdivide leaves.
-data::ControlMesh refine_globally(const data::ControlMesh& mesh) {
-  std::map<std::pair<int, int>, std::vector<int>> apexes;  // edge -> opposite vertices
-  for (const auto& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) apexes[std::minmax({t[k], t[(k + 1) % 3]})].push_back(t[(k + 2) % 3]);
-  }
+data::ControlMesh refined_once(const data::ControlMesh& mesh) {
+  const RefinedMesh refined = RefinedMesh::of(mesh, 1);
   data::ControlMesh fine;
-  const std::size_t old = mesh.positions.size();
-  std::vector<Point3> sum(old), border(old);
-  std::vector<int> valence(old, 0), border_edges(old, 0);
-  for (const auto& [edge, opposite] : apexes) {
-    for (const auto& [v, w] : {edge, std::pair{edge.second, edge.first}}) {
-      sum[v] = sum[v] + to_point(mesh.positions[w]);
-      ++valence[v];
-      if (opposite.size() == 1) {
-        border[v] = border[v] + to_point(mesh.positions[w]);
-        ++border_edges[v];
-      }
-    }
-  }
-  for (std::size_t v = 0; v < old; ++v) {
-    const Point3 p = to_point(mesh.positions[v]);
-    const double beta =
-        (5. / 8 - std::pow(3. / 8 + std::cos(2 * std::numbers::pi / valence[v]) / 4, 2)) / valence[v];
-    const Point3 q =
-        border_edges[v] > 0 ? .75 * p + .125 * border[v] : (1 - valence[v] * beta) * p + beta * sum[v];
-    fine.positions.push_back({q.x, q.y, q.z});
-  }
-  std::map<std::pair<int, int>, int> middle;
-  for (const auto& [edge, opposite] : apexes) {
-    const Point3 a = to_point(mesh.positions[edge.first]), b = to_point(mesh.positions[edge.second]);
-    Point3 q = .5 * (a + b);
-    if (opposite.size() == 2) {
-      q = .375 * (a + b) +
-          .125 * (to_point(mesh.positions[opposite[0]]) + to_point(mesh.positions[opposite[1]]));
-    }
-    middle[edge] = static_cast<int>(fine.positions.size());
-    fine.positions.push_back({q.x, q.y, q.z});
-  }
-  for (const auto& t : mesh.triangles) {
-    std::array<std::int32_t, 3> m{};
-    for (int k = 0; k < 3; ++k) m[k] = middle[std::minmax({t[k], t[(k + 1) % 3]})];
-    for (int k = 0; k < 3; ++k) fine.triangles.push_back({t[k], m[k], m[(k + 2) % 3]});
-    fine.triangles.push_back({m[0], m[1], m[2]});
-  }
+  for (const Point& p : refined.points)
+    fine.positions.push_back(
+        {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+  for (const auto& t : refined.faces) fine.triangles.push_back({t[0], t[1], t[2]});
   return fine;
 }
 
+// The ring of a kept vertex of the mesh refined as a whole must be what Ring::subdivide leaves.
 void expect_same_ring(const data::ControlMesh& mesh) {
-  const data::ControlMesh fine = refine_globally(mesh);
+  const data::ControlMesh fine = refined_once(mesh);
   const Adjacency coarse_adjacency(mesh), fine_adjacency(fine);
   for (std::int32_t v = 0; v < coarse_adjacency.vertex_count(); ++v) {
     Ring ring, expected;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The normal of a vertex from its two tangents, and what takes its place where they do not tell: one rule for
-// both engines and for the depth heuristics.                                            [mueller2000, C29,
-// D12]
+// The normal of a vertex from its two tangents, and what takes its place where they vanish or are parallel: one
+// rule for both engines and for the depth heuristics. [mueller2000, C29, D12]
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "fast/rules/masks.h"
+#include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast {
 
@@ -66,9 +67,9 @@ Vec3<W> area_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, 
   return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
 }
 
-/// The unit normal where the tangents do not tell: that of the faces, weighted by area, after one to three
-/// steps in place, else before them, else (0, 0, 1).                                                   [D12]
-///   ring   is used up
+/// The unit normal where the tangents vanish or are parallel: that of the faces, weighted by area, after one to
+/// three steps in place, else before them, else (0, 0, 1). [D12]
+///   ring   is overwritten
 template <class W>
 Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double tolerance) {
   const Vec3<W> control = area_normal<W>(v, ring, open, tolerance);
@@ -80,25 +81,32 @@ Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double 
   return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};
 }
 
-/// The unit normal of a control vertex: first x second, unless one of them vanishes (kVanishing) or they are
-/// parallel (kParallel<double>); then `substitute()`.                                                 [D12]
+/// The same for a control vertex, whose ring is kept.
+template <class W>
+Vec3<W> substitute_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open) {
+  std::vector<Vec3<W>> copy(ring.begin(), ring.end());
+  return substitute_normal<W>(v, copy, open, kParallel<double>);
+}
+
+/// The unit normal of a control vertex: du x dv, unless one of them vanishes (kVanishing) or they are parallel
+/// (kParallel<double>); then that of substitute_normal(), and `degenerate` becomes true. [D12]
 ///   ring      the points that the tangents sum, v the vertex
 ///   farthest  no point of the ring is farther from v, if that is known: it saves looking
-template <class W, class Substitute>
-Vec3<W> vertex_normal(const Vec3<W>& first, const Vec3<W>& second, const Vec3<W>& v,
-                      std::span<const Vec3<W>> ring, Substitute&& substitute,
-                      double farthest = std::numeric_limits<double>::infinity()) {
+template <class W>
+inline Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring,
+                             bool open, bool& degenerate,
+                             double farthest = std::numeric_limits<double>::infinity()) {
   using std::sqrt;
   const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
-  const Vec3<W> normal = cross(first, second);
-  const W size = length(normal), a = length(first), b = length(second);
-  bool degenerate = !(size > W(kParallel<double>) * a * b);
+  const Vec3<W> normal = cross(limit.du, limit.dv);
+  const W size = length(normal), a = length(limit.du), b = length(limit.dv);
+  degenerate = !(size > W(kParallel<double>) * a * b);
   if (std::min(a, b) <= W(kVanishing * static_cast<double>(ring.size()) * farthest)) {
     W reach(0);
     for (const Vec3<W>& r : ring) reach = reach + length(r - v);
     degenerate = degenerate || !(std::min(a, b) > W(kVanishing) * reach);
   }
-  return degenerate ? substitute() : W(1) / size * normal;
+  return degenerate ? substitute_normal(v, ring, open) : W(1) / size * normal;
 }
 
 }  // namespace limitcheck::fast

@@ -9,10 +9,10 @@
 
 #include "data/error.h"
 #include "fast/stream/lattice.h"
+#include "fast/test_support/global_refinement.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/test_support/test_numbers.h"
-#include "fast/test_support/test_refinement.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
@@ -60,14 +60,14 @@ TEST(NumberStream, InRationalsIsTheLimitSurfaceWithItsTangents) {
     for (const int depth : {0, 1, 2, 4}) {
       const auto grids = grids_of(adjacency, depth);
       const auto found = linear_points<Rational>(adjacency, points, grids, depth);
-      const auto expected = slow_limit(mesh, depth);
+      const RefinedMesh expected = RefinedMesh::of(mesh, depth);
       const int size = 1 << depth;
       for (std::size_t v = 0; v < found.size(); ++v) {
         const int side = size + 1, inside = static_cast<int>(v) % (side * side);
         const int i = inside % side, j = inside / side;
         const FacePoint at = face_point(grids[v / static_cast<std::size_t>(side * side)], size, i, j, i <= j);
         if (at.face < 0) continue;
-        const LimitPoint& e = expected.at({at.face, at.i, at.j});
+        const RefinedMesh::Limit e = expected.limit(at.face, at.i, at.j);
         double p[3], a[3], b[3];
         for (std::size_t c = 0; c < 3; ++c) {
           p[c] = static_cast<double>(found[v].position[c]);
@@ -77,8 +77,8 @@ TEST(NumberStream, InRationalsIsTheLimitSurfaceWithItsTangents) {
         double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
         const double length = std::hypot(n[0], n[1], n[2]);
         for (std::size_t c = 0; c < 3; ++c) {
-          worst_position = std::max(worst_position, std::abs(p[c] - e.position[c]));
-          worst_normal = std::max(worst_normal, std::abs(n[c] / length - e.normal[c]));
+          worst_position = std::max(worst_position, std::abs(p[c] - static_cast<double>(e.position[c])));
+          worst_normal = std::max(worst_normal, std::abs(n[c] / length - static_cast<double>(e.normal[c])));
         }
       }
     }

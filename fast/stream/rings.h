@@ -102,7 +102,7 @@ class BasicRings {
   std::vector<std::int32_t> slot_;
   std::vector<Corner> corners_;
   Placement<T> placement_;
-  std::vector<RingWeights<Weight>> closed_, open_;  // by number of ring points
+  RingWeightTable<Weight> weights_;
   std::int64_t degenerate_normals_ = 0;
 };
 

@@ -38,7 +38,7 @@ std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
 
 template <class N>
 BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points)
-    : points_(std::move(points.points)), placement_(points.placement) {
+    : points_(std::move(points.points)), placement_(points.placement), weights_(adjacency.max_valence()) {
   if (points_.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
     throw data::ArgumentError("rings: " + std::to_string(points_.size()) + " points for " +
                               std::to_string(adjacency.vertex_count()) + " vertices");
@@ -58,8 +58,6 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
   rings_.resize(vertices);
   corners_.resize(vertices);
   slot_.resize(3 * static_cast<std::size_t>(adjacency.face_count()));
-  closed_.resize(static_cast<std::size_t>(adjacency.max_valence()) + 1);
-  open_.resize(closed_.size());
   std::int32_t entries = 0, ghosts = 0;
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
     Ring& ring = rings_[static_cast<std::size_t>(v)];
@@ -70,9 +68,7 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
     ring = {entries + (open ? kReach : 0), open ? kOpen : n};
     entries += n + (open ? 2 * kReach : 0);
     ghosts += open ? 2 * kReach : 0;
-    auto& weights = (open ? open_ : closed_)[static_cast<std::size_t>(n)];
-    if (weights.sine.empty() && n > 0)
-      weights = open ? RingWeights<Weight>::open(n) : RingWeights<Weight>::closed(n);
+    weights_.make(static_cast<std::size_t>(n), open);
   }
   entries_.resize(static_cast<std::size_t>(entries));
   points_.reserve(vertices + static_cast<std::size_t>(ghosts));
@@ -113,21 +109,17 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scra
 
   const Vec3<Wide> centre = position(v);
   if (open) continue_ring(centre, around, ring, scratch);
-  const auto& weights = (open ? open_ : closed_)[n];
-  const auto limit = open ? open_limit(centre, around, weights) : closed_limit(centre, around, weights);
+  const auto& weights = weights_.of(n, open);
+  const auto limit = vertex_limit(centre, around, open, weights);
   Vec3<Wide> normal;
   if constexpr (N::kLinear) {
-    normal = {N::tangent(limit.along.x, limit.across.x), N::tangent(limit.along.y, limit.across.y),
-              N::tangent(limit.along.z, limit.across.z)};
+    normal = {N::tangent(limit.du.x, limit.dv.x), N::tangent(limit.du.y, limit.dv.y),
+              N::tangent(limit.du.z, limit.dv.z)};
   } else {
     constexpr double kFarthest = 4;  // in a mesh of size 1, see `place`
-    normal = vertex_normal<Wide>(
-        limit.along, limit.across, centre, around,
-        [&] {
-          ++degenerate_normals_;
-          return substitute_normal<Wide>(centre, {points + start, n}, open, kParallel<double>);
-        },
-        kFarthest);
+    bool degenerate = false;
+    normal = vertex_normal<Wide>(limit, centre, around, open, degenerate, kFarthest);
+    if (degenerate) ++degenerate_normals_;
   }
   put_corner(v, centre, weights, limit, normal);
 }

@@ -9,9 +9,9 @@
 
 #include "fast/stream/lattice.h"
 #include "fast/stream/number_stream.h"
+#include "fast/test_support/global_refinement.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
-#include "fast/test_support/test_refinement.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
@@ -65,7 +65,7 @@ Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const K
   std::vector<Vertex> out(grids.size() * static_cast<std::size_t>(side(depth) * side(depth)));
   stream.whole(grids, depth, workspace, out.data());
 
-  const auto expected = slow_limit(mesh, depth);
+  const RefinedMesh expected = RefinedMesh::of(mesh, depth);
   const double scale = data::box_diagonal(mesh);
   Worst worst;
   const auto raise = [&](double& most, double error, std::size_t p, int i, int j) {
@@ -78,11 +78,12 @@ Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const K
       for (int i = 0; i <= size; ++i) {
         const FacePoint at = face_point(grids[p], size, i, j, j >= i);
         if (at.face < 0) continue;
-        const LimitPoint& e = expected.at({at.face, at.i, at.j});
+        const RefinedMesh::Limit e = expected.limit(at.face, at.i, at.j);
         const Vertex& v = out[(p * side(depth) + j) * side(depth) + i];
         for (int c = 0; c < 3; ++c) {
-          raise(worst.position, std::abs(v.position[c] - e.position[c]) / scale, p, i, j);
-          raise(worst.normal, std::abs(v.normal[c] - e.normal[c]), p, i, j);
+          raise(worst.position, std::abs(v.position[c] - static_cast<double>(e.position[c])) / scale, p, i,
+                j);
+          raise(worst.normal, std::abs(v.normal[c] - static_cast<double>(e.normal[c])), p, i, j);
         }
       }
     }

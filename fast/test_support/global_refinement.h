@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For the tests of this folder: the whole mesh refined at once, through maps, in long double. It shares no
-// code with the kernels.
+// For the tests of fast/: the whole mesh refined at once, through maps, in long double. It shares no code with
+// the kernels.
 #pragma once
 
 #include <algorithm>
@@ -80,6 +80,10 @@ struct RefinedMesh {
     return {open, result};
   }
 
+  /// The limit of point (i, j) of a control face.
+  Limit limit(std::int32_t face, int i, int j) const {
+    return limit(lattice[static_cast<std::size_t>(face)].at({i, j}));
+  }
   Limit limit(int v) const {
     const auto [open, r] = ring(v);
     const Point c = points[static_cast<std::size_t>(v)];

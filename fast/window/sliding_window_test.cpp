@@ -48,8 +48,7 @@ Worst compare(const data::ControlMesh& mesh, int depth) {
           const int r = row + below;
           const bool upper = r + i <= k;
           const auto ij = lattice_of(h, twin, k, r, i, upper);
-          const auto face = static_cast<std::size_t>((upper ? h : twin) / 3);
-          const auto expected = refined.limit(refined.lattice[face].at(ij));
+          const auto expected = refined.limit((upper ? h : twin) / 3, ij.first, ij.second);
           const auto& got = strip[2 * i + below];
           const Point p{got.position.x, got.position.y, got.position.z};
           const Point n{got.normal.x, got.normal.y, got.normal.z};

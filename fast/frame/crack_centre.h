@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The centre of a fan: limit position and normal at (1/3, 1/3, 1/3).
-// [mueller2000, section 5; C61-C68, D10]
+// The centre of a fan: limit position and normal at (1/3, 1/3, 1/3). [mueller2000, section 5; C61-C68, D10]
 #pragma once
 
 #include <array>

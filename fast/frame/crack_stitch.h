@@ -14,8 +14,8 @@ constexpr std::int64_t stitch_triangles(std::int64_t k, int edge_depth) {
 /// Joins the border points 0 .. 2^edge_depth of an edge to the inner points 0 .. k - 3 of the row of lattice
 /// points next to it (k = 2^depth >= 4), without T-vertices. The shorter way goes first: segments are taken
 /// in the order of their midpoints along the edge.
-///   triangle(a, a_inner, b, b_inner, c, c_inner)   counter-clockwise; an index with _inner is of the inner
-///   row
+///   triangle(a, a_inner, b, b_inner, c, c_inner)   counter-clockwise; a_inner says whether a is an index of
+///                                                  the inner row
 template <class Triangle>
 void stitch_edge(int k, int edge_depth, Triangle&& triangle) {
   const std::int64_t outer_count = std::int64_t{1} << edge_depth, inner_count = k - 3;

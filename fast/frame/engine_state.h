@@ -41,7 +41,8 @@ struct FrameState {
   int max_depth = 0;  // of grids and edges
 };
 
-/// What the frames of both engines are made of. An engine overrides how points are evaluated; Engine calls it.
+/// What the frames of both engines are made of. An engine overrides how points are evaluated; Engine calls
+/// it.
 template <class Real>
 struct EngineState : FrameState {
   using FrameState::FrameState;

@@ -155,8 +155,8 @@ class IndexWriter {
   }
 
  private:
-  /// Index of (row, column) of a half, whose face has its
-  /// own depth on all edges or is asked for interior points.
+  /// Index of (row, column) of a half whose face has its own depth on all edges; of others, interior points
+  /// only.
   std::uint32_t index(const Half& half, int row, int column) const {
     const std::int32_t h = 3 * half.face;
     if (row + column == k_) return layout_.on_edge(adjacency_, h + half.edge, patch_.depth, column);

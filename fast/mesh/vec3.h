@@ -4,8 +4,8 @@
 
 namespace limitcheck::fast {
 
-/// Three coordinates. N needs + and -, and multiplication
-/// by a scalar S from the left; cross and dot need N * N.
+/// Three coordinates. N needs + and -, and multiplication by a scalar S from the left; cross and dot need N *
+/// N.
 template <class N>
 struct Vec3 {
   N x{}, y{}, z{};

@@ -37,8 +37,8 @@ struct CrackPlan {
   std::int64_t fans = 0, stitched = 0;
 };
 
-/// After the pairing, when `depth` is final, -1 = culled: a face is repaired if a neighbour is deeper, and the
-/// depth of an edge is the larger of its faces'. A culled neighbour counts as the face's own depth.
+/// After the pairing, when `depth` is final, -1 = culled: a face is repaired if a neighbour is deeper, and
+/// the depth of an edge is the larger of its faces'. A culled neighbour counts as the face's own depth.
 ///   throws   data::ArgumentError: not one depth per face
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                       const CrackOptions& options = {});

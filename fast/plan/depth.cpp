@@ -50,8 +50,8 @@ double checked_cosine(double degrees) {
   return std::cos(degrees * std::numbers::pi / 180);
 }
 
-// Isolated: a thread that waits here must not pick up a
-// task of the caller that comes back to the same call_once.
+// Isolated: a thread that waits here must not pick up a task of the caller that comes back to the same
+// call_once.
 template <class Body>
 void for_each_index(std::size_t count, const Body& body) {
   constexpr std::size_t kGrain = 512;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How deep each control face is subdivided: the heuristics of section 4.1.                [mueller2000, 4.1;
-// C22-C33, C82]
+// How deep each control face is subdivided: the heuristics of section 4.1. [mueller2000, 4.1; C22-C33, C82]
 #pragma once
 
 #include <cstdint>
@@ -25,10 +24,10 @@ inline constexpr int kDeepest = 10;  // the largest depth that may be asked for:
 enum class Strategy {
   kUniform,        // every face `depth`
   kRandom,         // 0 .. depth, independent of each other, from `seed`
-  kProjectSphere,  // size of the face's sphere on the screen, halved per level until it is at most
+  kProjectSphere,  // the size of the face's sphere on the screen, halved per level until it is at most
                    // `target_pixels`
   kCurvature,      // normal cone at the three corners
-  kCombined,       // the larger of project-sphere and curvature                                       [C82]
+  kCombined,       // the larger of project-sphere and curvature [C82]
   kCustom          // `custom(face)`
 };
 
@@ -37,8 +36,8 @@ std::string_view name(Strategy strategy);
 /// Throws data::ArgumentError and lists the names.
 Strategy parse_strategy(std::string_view text);
 
-/// By the limit normals N and limit positions L of the three
-/// corners; a corner faces away if N . (L - eye) >= 0.
+/// Where the three corners of a face look: a corner with limit normal N and limit position L faces away if
+/// N . (L - eye) >= 0. On the silhouette some corners face away and others do not.
 enum class Facing : std::int8_t { kFront, kSilhouette, kBack };
 
 /// A strategy and its parameters.
@@ -60,9 +59,9 @@ struct DepthOptions {
   bool culls() const;
 };
 
-/// The view-independent part, computed once per mesh, and the depths of one view. Refers to mesh and
-/// adjacency, which must outlive it. Runs in the caller's oneTBB arena; the result does not depend on the
-/// number of threads.
+/// Assigns depths to the faces of a mesh for one view after the other; what does not depend on the view is
+/// computed once. Keeps references to mesh and adjacency, which must outlive it. Runs in the caller's oneTBB
+/// arena; the result does not depend on the number of threads.
 class DepthHeuristics {
  public:
   /// `max_depth`: every depth is clamped to it. Throws data::ArgumentError if it is not in 0 .. kDeepest.
@@ -78,22 +77,22 @@ class DepthHeuristics {
   /// One class per face.
   std::vector<Facing> facing(const Camera& camera) const;
 
-  /// Smallest l in 0 .. max_depth with 2 r f / (distance 2^l) <= target_pixels: r the largest distance of a
-  /// corner from the face's centroid, f camera.focal_pixels(), distance from the eye to the nearest point of
-  /// that sphere, at least camera.near. [decision in claims.md E; C25]
+  /// The smallest l in 0 .. max_depth with 2 r f / (distance 2^l) <= target_pixels, max_depth if there is
+  /// none: r is the largest distance of a corner from the face's centroid, f is camera.focal_pixels(), and
+  /// distance goes from the eye to the nearest point of that sphere and is at least camera.near. [decision in
+  /// claims.md E; C25]
   std::int32_t project_sphere(std::int32_t face, const Camera& camera, double target_pixels) const;
 
-  /// The smallest cosine between the limit normal of vertex
-  /// v and the triangles round it after l steps in place.
+  /// The smallest cosine between the limit normal of vertex v and the normals of the triangles round it after
+  /// l subdivision steps.
   double cone_cosine(std::int32_t v, int l) const;
-  /// Smallest l in 0 .. max_depth at which all of them lie in the cone: cosine >= cos_angle; else max_depth.
-  ///                                                                               [erratum 4; C27, decision
-  ///                                                                               in E: C28]
+  /// The smallest l in 0 .. max_depth with cone_cosine(v, l) >= cos_angle; max_depth if there is none.
+  /// [erratum 4; C27, decision in E: C28]
   std::int32_t cone_depth(std::int32_t v, double cos_angle) const;
 
   const Point3& limit_position(std::int32_t v) const { return limit_[static_cast<std::size_t>(v)]; }
   const Point3& limit_normal(std::int32_t v) const { return normal_[static_cast<std::size_t>(v)]; }
-  /// Vertices whose limit normal is not determined by their ring's tangents                            [D12].
+  /// The number of vertices whose limit normal is not determined by their ring's tangents. [D12]
   std::int64_t degenerate_normals() const { return degenerate_normals_; }
 
  private:

@@ -159,8 +159,7 @@ TEST(Depth, TheAngleMayDifferByClass) {
   options.angle_front = options.angle_silhouette = options.angle_back = 60;
   const auto coarse = f.heuristics.depths(options, {});
   const auto facing = f.heuristics.facing(Camera{});
-  // Faces all of whose corners have the one class only must
-  // change with its angle, and no face of another class.
+  // Faces whose corners are all of that one class must change with its angle, and no face of another class.
   const auto changed = [&](double DepthOptions::*angle) {
     DepthOptions finer = options;
     finer.*angle = 5;

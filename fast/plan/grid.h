@@ -6,8 +6,8 @@
 
 namespace limitcheck::fast {
 
-/// (2^depth + 1)^2 points with corners A B C D over two neighbouring faces, which share the diagonal A C; or a
-/// face alone (a singleton), which has the upper left half of the points.
+/// (2^depth + 1)^2 points with corners A B C D over two neighbouring faces, which share the diagonal A C; or
+/// a face alone (a singleton), which has the upper left half of the points.
 ///
 ///        D ------- C             face0 = A C D: half-edge 3 face0 + edge0 runs from A to C
 ///        | face0 / |             face1 = C A B: half-edge 3 face1 + edge1, its twin, runs from C to A

@@ -66,7 +66,7 @@ class Greedy {
     return count;
   }
 
-  // S1 is "two free neighbours, at least one of which has fewer than three".                   [C36]
+  // S1 is "two free neighbours, at least one of which has fewer than three". [C36]
   int set_by_definition(std::int32_t f) const {
     if (nodes_[f].free <= 1) return 0;
     if (nodes_[f].free == 3) return 3;
@@ -193,8 +193,8 @@ class Greedy {
     for (const std::int32_t h : touched) {
       if (nodes_[h].set == 2 || nodes_[h].set == 1) move(h, 0);
     }
-    // "All triangles from S2 with neighbours in S0, S1 or S2":
-    // such a neighbour is new only beside one that moved.
+    // "All triangles from S2 with neighbours in S0, S1 or S2": such a neighbour is new only beside one that
+    // moved.
     for (std::size_t i = 0; i < count; ++i) {
       for (int e = 0; e < 3; ++e) {
         const std::int32_t neighbour = adjacency_.neighbour(moved[i], e);

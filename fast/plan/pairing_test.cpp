@@ -12,8 +12,8 @@
 namespace limitcheck::fast {
 namespace {
 
-// What any result must be, whatever the choices: a partition
-// of the visible faces into neighbours and leftovers.
+// What any result must be, whatever the choices: a partition of the visible faces into neighbours and
+// leftovers.
 void expect_partition(const data::ControlMesh& mesh, const std::vector<std::int32_t>& depth,
                       const PrintedRules& rules) {
   const Adjacency adjacency(mesh);

@@ -11,13 +11,13 @@
 
 namespace limitcheck::fast {
 
-/// How faces move between the priority sets of the pairing, step 3.                              [C39]
+/// How faces move between the priority sets of the pairing, step 3. [C39]
 enum class PairingRule : std::uint8_t {
   kCorrected,  // as in erratum 6: what falls to one free neighbour goes to S0, then S3 -> S2, then S2 -> S1
   kPrinted     // in the printed order: S3 -> S2 first, so that the next line carries the same faces on to S0
 };
 
-/// Up to which depth a face collects points on its edge to a neighbour.                           [C57, C58]
+/// Up to which depth a face collects points on its edge to a neighbour. [C57, C58]
 enum class EdgeDepthRule : std::uint8_t {
   kMaximum,     // the larger depth of both faces: symmetric, no cracks
   kRespective,  // the neighbour's depth, as printed: two adjacent fans exchange depths
@@ -26,7 +26,7 @@ enum class EdgeDepthRule : std::uint8_t {
 
 struct PrintedRules {
   PairingRule pairing = PairingRule::kCorrected;
-  bool prefer_equal_depth = true;  // false: the partner of highest priority whatever its depth      [C42]
+  bool prefer_equal_depth = true;  // false: the partner of highest priority whatever its depth [C42]
   EdgeDepthRule edge_depth = EdgeDepthRule::kMaximum;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ring of a corner: the paper's corner arrays, for any valence, closed or open.
-// [mueller2000, 4.3; D11]
+// The ring of a corner: the paper's corner arrays, for any valence, closed or open. [mueller2000, 4.3; D11]
 #pragma once
 
 #include <cstdint>

@@ -62,7 +62,7 @@ struct AxisRing {
 
 /// The rules below are written as a point plus a small difference: in float that halves the error of a level.
 ///
-/// Edge rule (3 a + 3 b + c + d) / 8, a and b the ends, c and d opposite.                        [eq. 2; C12]
+/// Edge rule (3 a + 3 b + c + d) / 8, a and b the ends, c and d opposite. [eq. 2; C12]
 template <class N>
 constexpr Vec3<N> edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
   using T = NumberTraits<N>;
@@ -70,7 +70,7 @@ constexpr Vec3<N> edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& 
   return T::ratio(1, 2) * ends + T::ratio(1, 8) * ((c + d) - ends);
 }
 
-/// Edge rule on the boundary.                                                                          [D1]
+/// Edge rule on the boundary. [D1]
 template <class N>
 constexpr Vec3<N> midpoint(const Vec3<N>& a, const Vec3<N>& b) {
   return NumberTraits<N>::ratio(1, 2) * (a + b);
@@ -82,14 +82,14 @@ constexpr Vec3<N> axis_sum(const AxisRing<N>& r) {
   return (r.e + r.w) + ((r.ne + r.nw) + (r.sw + r.se));
 }
 
-/// Vertex rule for valence 6: (10 v + ring) / 16.                                           [eq. 1; C10, C11]
+/// Vertex rule for valence 6: (10 v + ring) / 16. [eq. 1; C10, C11]
 template <class N>
 constexpr Vec3<N> regular_vertex(const Vec3<N>& v, const AxisRing<N>& r) {
   using T = NumberTraits<N>;
   return v + T::ratio(1, 16) * (axis_sum(r) - T::ratio(6, 1) * v);
 }
 
-/// Vertex rule on the boundary: (6 v + e + w) / 8, e and w its neighbours along the boundary.           [D1]
+/// Vertex rule on the boundary: (6 v + e + w) / 8, e and w its neighbours along the boundary. [D1]
 template <class N>
 constexpr Vec3<N> curve_vertex(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& w) {
   using T = NumberTraits<N>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A vertex and its neighbours: the paper's "vertex mask-like structure", subdivided in place. [mueller2000, 4.1]
+// A vertex and its neighbours: the paper's "vertex mask-like structure", subdivided in place. [mueller2000,
+// 4.1]
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace limitcheck::fast {
 /// A vertex with its one-ring in counter-clockwise order, closed inside, open on the boundary.
 ///
 /// One subdivision step maps the ring of a vertex to the ring of the same vertex one level deeper, so that it
-/// can be repeated in place with two temporaries [claim C29]:
+/// can be repeated in place with two temporaries: [claim C29]
 ///
 ///      r2 ---- r1        inside               v'   = (1 - a) v + a / n sum r_i
 ///     /  \    /  \                            r_i' = (3 v + 3 r_i + r_{i-1} + r_{i+1}) / 8

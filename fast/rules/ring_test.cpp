@@ -76,8 +76,7 @@ TEST(Ring, OneStepInPlaceEqualsOneStepOfTheWholeMesh) {
   expect_same_ring(single_triangle());
 }
 
-// 60 steps shrink the ring to 1e-17 of its size inside and
-// to 1e-18 on the boundary: the point itself is the limit.
+// 120 steps shrink the ring until nothing is left of it beside the point, which then is the limit.
 TEST(Ring, LimitPositionIsWhereManyStepsEnd) {
   RecordProperty("claim", "C14");
   for (const bool open : {false, true}) {

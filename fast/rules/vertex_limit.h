@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The limit of a control vertex from its ring, for any number type: position and tangents. [mueller2000, eq. 3-5;
-// C14, C17, D1, D2]
+// The limit of a control vertex from its ring, for any number type: position and tangents. [mueller2000, eq.
+// 3-5; C14, C17, D1, D2]
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace limitcheck::fast {
 
-/// The weights of a ring, made once for each number of its points. S is what weights are made of: a field, with
-/// the cosines of 2 pi / n at hand. Closed: n = valence >= 3. Open: n points, n >= 2, so n - 1 faces.
+/// The weights of a ring, made once for each number of its points. S is what weights are made of: a field,
+/// with the cosines of 2 pi / n at hand. Closed: n = valence >= 3. Open: n points, n >= 2, so n - 1 faces.
 ///
-/// `sine` holds sines if NumberTraits<S> has them; otherwise they are in units of sine[1], so that all weights
-/// lie in the field of the cosine: rational for n = 3, 4, 6 and for 1 to 3 faces at an open ring.
+/// `sine` holds sines if NumberTraits<S> has them; otherwise they are in units of sine[1], so that all
+/// weights lie in the field of the cosine: rational for n = 3, 4, 6 and for 1 to 3 faces at an open ring.
 template <class S>
 struct RingWeights {
   S k0{}, k1{};                 // c' = 8 c + k0 d, d' = k1 d: both 8 times the subdivided ones
@@ -81,7 +81,8 @@ void RingWeights<S>::make_angles(int count, int steps) {
   }
 }
 
-/// Limit weight 1 : 3 n / (8 a(n)) of the ring and the vertex; tangents sum cos, sum sin. [C10, C11, C14, C17]
+/// Limit weight 1 : 3 n / (8 a(n)) of the ring and the vertex; tangents sum cos, sum sin. [C10, C11, C14,
+/// C17]
 template <class S>
 RingWeights<S> RingWeights<S>::closed(int n) {
   RingWeights w;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The normal of a vertex from its two tangents, and what takes its place where they vanish or are parallel: one
-// rule for both engines and for the depth heuristics. [mueller2000, C29, D12]
+// The normal of a vertex from its two tangents, and what takes its place where they vanish or are parallel:
+// one rule for both engines and for the depth heuristics. [mueller2000, C29, D12]
 #pragma once
 
 #include <algorithm>
@@ -67,8 +67,8 @@ Vec3<W> area_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, 
   return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
 }
 
-/// The unit normal where the tangents vanish or are parallel: that of the faces, weighted by area, after one to
-/// three steps in place, else before them, else (0, 0, 1). [D12]
+/// The unit normal where the tangents vanish or are parallel: that of the faces, weighted by area, after one
+/// to three steps in place, else before them, else (0, 0, 1). [D12]
 ///   ring   is overwritten
 template <class W>
 Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double tolerance) {
@@ -88,8 +88,8 @@ Vec3<W> substitute_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool 
   return substitute_normal<W>(v, copy, open, kParallel<double>);
 }
 
-/// The unit normal of a control vertex: du x dv, unless one of them vanishes (kVanishing) or they are parallel
-/// (kParallel<double>); then that of substitute_normal(), and `degenerate` becomes true. [D12]
+/// The unit normal of a control vertex: du x dv, unless one of them vanishes (kVanishing) or they are
+/// parallel (kParallel<double>); then that of substitute_normal(), and `degenerate` becomes true. [D12]
 ///   ring      the points that the tangents sum, v the vertex
 ///   farthest  no point of the ring is farther from v, if that is known: it saves looking
 template <class W>

@@ -18,15 +18,15 @@ namespace limitcheck::fast::row_stream {
 /// their bits are the same, the other way round.
 enum class Order : std::uint8_t { kFromA = 0, kFromC = 2 };
 
-/// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector
-/// kernels, from 1 to `lanes` grids; the lanes that remain repeat the last
-/// grid. A singleton without neighbour gets ghosts for its dummy partner.
+/// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to `lanes`
+/// grids; the lanes that remain repeat the last grid. A singleton without neighbour gets ghosts for its dummy
+/// partner.
 template <class N>
 void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Grid> grids, int depth,
             int lanes, typename N::Scalar* input, Order order = Order::kFromA);
 
-/// The same for control edges, each from the origin to the
-/// target of a half-edge: edge_input_size(depth) * lanes.
+/// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) *
+/// lanes numbers.
 template <class N>
 void gather_edges(const Adjacency& adjacency, const BasicRings<N>& rings,
                   std::span<const std::int32_t> half_edges, int depth, int lanes, typename N::Scalar* input);

@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: MIT
-// A strip of three rows along a control edge: its points alone, at any depth. Included like rules-inl.h.
+// A strip of three rows along a control edge: the points of the edge alone, at any depth.
+
+#if defined(LIMITCHECK_FAST_STREAM_EDGE_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
+#ifdef LIMITCHECK_FAST_STREAM_EDGE_INL_H_
+#undef LIMITCHECK_FAST_STREAM_EDGE_INL_H_
+#else
+#define LIMITCHECK_FAST_STREAM_EDGE_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "fast/stream/layout.h"
+#include "fast/stream/rows-inl.h"
+#include "fast/stream/rules-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 /// `lanes` control edges P Q of one depth, N = 2^depth, at once. Work O(2^depth): the rows next to an edge
 /// need nothing but themselves and the rings of its two ends, and the same operations give the same bits as a
 /// grid that has the edge on its border or for its diagonal.
 ///
-///      up 0   up 1   ..  up N-1        up: left of P Q, down: right of it. Points off the ends come from the
-///      rings.
+///      up 0   up 1   ..  up N-1        up: left of P Q, down: right of it.
 ///     P ---- 1 ---- 2 .. ---- Q
-///      down 0 down 1 .. down N-1
+///      down 0 down 1 .. down N-1       Points beyond the ends come from their rings.
 template <class N>
-class EdgeStrip {
+class EdgeStream {
  public:
   using Scalar = typename N::Scalar;
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
   /// work: edge_work_size(depth) * lanes.
-  HWY_ATTR EdgeStrip(int depth, const Placement<Scalar>& placement, Scalar* work)
+  HWY_ATTR EdgeStream(int depth, const Placement<Scalar>& placement, Scalar* work)
       : depth_(depth), placement_(placement), unit_(scaled(placement, depth).unit) {
     for (int end = 0; end < 2; ++end) block_[end] = work + end * edge_block_size(depth) * L;
     work += edge_input_size(depth) * L;
@@ -69,8 +84,7 @@ class EdgeStrip {
     return LimitRow<N>(down_[k], line_[k], up_[k] - 3 * L, centre_, unit_, out, lane_stride);
   }
 
-  // Window of an end at a level: three entries and `first`
-  // more on either side, the middle one along the edge.
+  // Window of an end at a level: three entries, the middle one along the edge, and more on either side.
   Scalar* window(int end, int entry) { return block_[end] + (CornerBlock::kWindow + 3 * entry) * L; }
 
   HWY_ATTR static void copy(const Scalar* from, Scalar* to) {
@@ -130,3 +144,8 @@ class EdgeStrip {
   Scalar* block_[2];
   Scalar *line_[2], *up_[2], *down_[2];
 };
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,35 +1,29 @@
 // SPDX-License-Identifier: MIT
-// The row-streaming kernel for any number type, one grid at a time.
+// The row-streaming kernel for any number type, one grid at a time, in namespace generic.
 #pragma once
-
-#include <array>
-#include <cmath>
-#include <cstddef>
 
 #include "fast/stream/layout.h"
 #include "fast/stream/number.h"
 
-// The kernel's text is shared with the vector targets, which need an attribute on every function.
-#ifndef HWY_ATTR
+// The kernel's text is shared with the vector targets. Here it is compiled for a target without Highway.
+#if defined(HWY_NAMESPACE) || defined(HWY_INLINE)
+#error "fast/stream/kernel.h comes before Highway's headers"
+#endif
+#define HWY_NAMESPACE generic
+#define HWY_BEFORE_NAMESPACE() static_assert(true)
+#define HWY_AFTER_NAMESPACE() static_assert(true)
 #define HWY_ATTR
 #define HWY_INLINE inline
-#define LIMITCHECK_UNDEF_HWY_ATTR
-#endif
 
-namespace limitcheck::fast::row_stream::generic {
-
-#include "fast/stream/rules-inl.h"
-// rows use the rules
-#include "fast/stream/rows-inl.h"
-// strips along edges use their rules
-#include "fast/stream/edge-inl.h"
-// the stream uses all of them
 #include "fast/stream/stream-inl.h"
 
-}  // namespace limitcheck::fast::row_stream::generic
-
-#ifdef LIMITCHECK_UNDEF_HWY_ATTR
+#undef HWY_NAMESPACE
+#undef HWY_BEFORE_NAMESPACE
+#undef HWY_AFTER_NAMESPACE
 #undef HWY_ATTR
 #undef HWY_INLINE
-#undef LIMITCHECK_UNDEF_HWY_ATTR
-#endif
+// The vector targets include the same files anew.
+#undef LIMITCHECK_FAST_STREAM_EDGE_INL_H_
+#undef LIMITCHECK_FAST_STREAM_ROWS_INL_H_
+#undef LIMITCHECK_FAST_STREAM_RULES_INL_H_
+#undef LIMITCHECK_FAST_STREAM_STREAM_INL_H_

@@ -1,10 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Highway vectors as a number type of the kernel. Included by targets.cpp once per target.
+// Highway vectors as a number type of the kernel.
+
+#if defined(LIMITCHECK_FAST_STREAM_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
+#ifdef LIMITCHECK_FAST_STREAM_LANES_INL_H_
+#undef LIMITCHECK_FAST_STREAM_LANES_INL_H_
+#else
+#define LIMITCHECK_FAST_STREAM_LANES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "fast/stream/number.h"
+
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128  // those run the scalar kernel
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Same bits on every target: where the hardware has no fused
-/// multiply-add, std::fma takes its place, lane by lane.
+/// Same bits on every target: where the hardware has no fused multiply-add, std::fma takes its place, lane by
+/// lane.
 template <class D>
 struct LaneNumber {
   using Scalar = hn::TFromD<D>;
@@ -120,3 +139,9 @@ struct LaneNumber {
     if constexpr (lanes == 4) return v;
   }
 };
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
+
+#endif  // per target

@@ -15,8 +15,8 @@ struct FacePoint {
   int i, j;
 };
 
-/// Point (column, row) of a grid of 2^depth = size, on the
-/// upper left member if row >= column, else the other.
+/// Point (column, row) of a grid with 2^depth = size, as a point of face0 (`upper`, row >= column) or of
+/// face1.
 ///   face0   corners edge0 = A (0, 0), edge0 + 1 = C (size, size), edge0 + 2 = D (0, size)
 ///   face1   corners edge1 = C, edge1 + 1 = A, edge1 + 2 = B (size, 0)
 inline FacePoint face_point(const Grid& grid, int size, int column, int row, bool upper) {

@@ -12,8 +12,8 @@ namespace limitcheck::fast::row_stream {
 inline constexpr int kMaxDepth = 10;
 inline constexpr int kMaxLanes = 16;
 
-/// A grid on its lattice, N = 2^depth. Neighbours of (i,
-/// j): E (i+1, j), NE (i+1, j+1), NW (i, j+1), W, SW, SE.
+/// A grid on its lattice, N = 2^depth. Neighbours of (i, j): E (i+1, j), NE (i+1, j+1), NW (i, j+1), W, SW,
+/// SE.
 ///
 ///        D (0,N) ---- C (N,N)      Upper left triangle A C D: face0 of the Grid; corner edge0 is A.
 ///          |        /   |          Lower right triangle C A B: face1.
@@ -72,8 +72,8 @@ constexpr int rows_offset(int level) {
 }
 constexpr int kBorderSize = 9;  // centre, first and last core entry
 
-/// Likewise for a control edge: two corner blocks, whose
-/// windows have the edge in the middle of a core of three.
+/// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of
+/// three.
 constexpr int edge_window_width(int depth) {
   return 3 + 2 * depth;
 }
@@ -127,9 +127,9 @@ Placement<T> scaled(Placement<T> placement, int depth) {
   return placement;
 }
 
-/// Where the vertices of a batch go: vertex i of row j of the grid in lane k starts at
-/// base + k * lane_stride + j * row_stride + 6 * i, in numbers; position then unit normal.
-/// row_stride 0 reuses one row. `row` is called, if set, after each row.
+/// Where the vertices of a batch go: vertex i of row j of the grid in lane k, position then unit normal,
+/// starts at base + k * lane_stride + j * row_stride + 6 * i, in numbers. row_stride 0 reuses one row. `row`
+/// is called, if set, after each row.
 template <class T>
 struct Target {
   T* base = nullptr;

@@ -62,7 +62,7 @@ struct ScalarNumber {
 
 /// For numbers that know linear maps alone: every point has one of its two limit tangents where others have
 /// the unit normal, so that all six numbers of a point are linear in the control points.
-///   tangent  0: the kernel's slant, the prepass' along; 1: the kernel's and the prepass' across
+///   tangent_number   0: the kernel's slant, at control vertices du; 1: the kernel's across, there dv
 template <class T, int tangent_number>
 struct LinearNumber : ScalarNumber<T> {
   static constexpr bool kLinear = true;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Row streaming in any number type: the same prepass, gathering and kernel as the vectors run, a grid at a
-// time.
+// Row streaming in any number type, a grid at a time: the same prepass, gathering and kernel as for vectors.
 #pragma once
 
 #include <array>
@@ -23,12 +22,13 @@ namespace limitcheck::fast::row_stream {
 ///   inside a face, on the rows of the grid   slant 4^d (4 dx + 2 dy), across 4^d (2 dx + 4 dy)
 ///   on columns 0 and 2^d (edges A D, B C)    slant 4^d (2 dy - 2 dx), across -4^d (4 dx + 2 dy)
 ///   on the diagonal A C                      slant 4^d (2 dx + 4 dy), across 4^d (2 dy - 2 dx)
+///   at control vertices                      the tangents du and dv of vertex_limit.h
 /// where dx, dy are the derivatives of the limit by column / 2^d and row / 2^d of the grid, the unit of the
-/// points' own coordinates; at control vertices the tangents of RingWeights, slant = along.
+/// points' own coordinates.
 ///
-/// Double (DoubleStream): positions within 5e-16 of the mesh's extent from
-/// the exact limit (measured: 1e-16), normals within 1e-12 (measured: 1e-14,
-/// depth 5). Exact T: exact, as long as the cosines of the valences are.
+/// Double (DoubleStream): positions within 5e-16 of the mesh's extent from the exact limit (measured: 1e-16),
+/// normals within 1e-12 (measured: 1e-14, depth 5). Exact T: exact, as long as the cosines of the valences
+/// are.
 template <class N>
 class NumberStream {
  public:
@@ -66,7 +66,7 @@ class NumberStream {
     check(depth);
     std::vector<T> input(static_cast<std::size_t>(edge_input_size(depth))),
         work(static_cast<std::size_t>(edge_work_size(depth)));
-    generic::EdgeStrip<N> strip(depth, rings_.placement(), work.data());
+    generic::EdgeStream<N> strip(depth, rings_.placement(), work.data());
     for (std::size_t e = 0; e < half_edges.size(); ++e, out += edge_output_size(depth)) {
       gather_edges(adjacency_, rings_, half_edges.subspan(e, 1), depth, 1, input.data());
       strip.refine(input.data(), 0, input.data() + edge_block_size(depth), 0);

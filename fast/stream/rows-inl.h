@@ -1,5 +1,20 @@
 // SPDX-License-Identifier: MIT
-// One row of a level to the two rows of the next that it begins, and to its limit. Included like rules-inl.h.
+// One row of a level to the two rows of the next that it begins, and to its limit.
+
+#if defined(LIMITCHECK_FAST_STREAM_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
+#ifdef LIMITCHECK_FAST_STREAM_ROWS_INL_H_
+#undef LIMITCHECK_FAST_STREAM_ROWS_INL_H_
+#else
+#define LIMITCHECK_FAST_STREAM_ROWS_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "fast/stream/layout.h"
+#include "fast/stream/rules-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 /// An origin near an edge, the same from either end, with few enough digits that moving there and back costs
 /// none. Numbers without rounding have no digits to save.
@@ -12,8 +27,8 @@ HWY_ATTR HWY_INLINE void choose_origin(const typename N::Scalar* p, const typena
   }
 }
 
-/// A corner block with `width` entries of its window from
-/// number `first` on, seen from the origin. May be in place.
+/// A corner block with `width` entries of its window from number `first` on, seen from the origin. May be in
+/// place.
 template <class N, class V>
 HWY_ATTR void take_block(const typename N::Scalar* from, int first, int width, const V* origin, bool relative,
                          typename N::Scalar* to) {
@@ -281,3 +296,8 @@ class LimitRow {
   std::ptrdiff_t lane_stride_;
   V centre_[3], unit_;
 };
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

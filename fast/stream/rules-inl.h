@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Loop's rules on the regular lattice, times 8 per level. Included by kernel.h and targets.cpp, each in a
-// namespace of its own.
+// Loop's rules on the regular lattice, times 8 per level.
 //
 // Bits: the edge rule is symmetric in its two ends and in its two apexes. The six-neighbour rules are written
 // with an axis: half a turn about the point swaps the operands of every addition and negates every
 // difference, so two grids that share an edge, and take it as the axis, compute the same bits from it.
 // [claim D14]
+//
+// This file and the others of the kernel are compiled once for each of Highway's targets, and once for
+// numbers that are no vectors (kernel.h). So their include guards are those of Highway's own -inl.h files.
+
+#if defined(LIMITCHECK_FAST_STREAM_RULES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
+#ifdef LIMITCHECK_FAST_STREAM_RULES_INL_H_
+#undef LIMITCHECK_FAST_STREAM_RULES_INL_H_
+#else
+#define LIMITCHECK_FAST_STREAM_RULES_INL_H_
+#endif
+
+#ifndef HWY_NAMESPACE  // kernel.h has one of its own
+#include <hwy/highway.h>
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 enum class Axis { kRow, kColumn, kDiagonal };
 
@@ -46,7 +62,7 @@ HWY_ATTR HWY_INLINE Hexagon<typename N::V> hexagon(const typename N::Scalar* s, 
 
 /// Limit of a regular point: 12 position = 6 v + sum; of the tangents u = 2 (e - w) + ne - nw + se - sw along
 /// the axis and across = ne + nw - sw - se, (u + across) / 2 is cheaper than u and spans the same plane with
-/// it.  [C14, C17]
+/// it. [C14, C17]
 template <class V>
 struct Limit {
   V position, slant, across;
@@ -133,3 +149,8 @@ struct Vertex {
     }
   }
 };
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

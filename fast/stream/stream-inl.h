@@ -1,6 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The engine of a batch: rows trickle down the levels, each point of each level is computed once.
-// Included like rules-inl.h.
+
+#if defined(LIMITCHECK_FAST_STREAM_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
+#ifdef LIMITCHECK_FAST_STREAM_STREAM_INL_H_
+#undef LIMITCHECK_FAST_STREAM_STREAM_INL_H_
+#else
+#define LIMITCHECK_FAST_STREAM_STREAM_INL_H_
+#endif
+
+#include <array>
+#include <cstddef>
+
+#include "fast/stream/edge-inl.h"
+#include "fast/stream/layout.h"
+#include "fast/stream/rows-inl.h"
+#include "fast/stream/rules-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 /// `lanes` grids of one depth, from their control points to their limit points, a row at a time. A level
 /// keeps a window of three rows, so memory is O(2^depth) whatever the mesh; nothing is allocated.
@@ -96,9 +113,8 @@ class Stream {
     for (int c = 0; c < 3; ++c) N::store(N::load(from + c * L), to_row + (3 * i + c) * L);
   }
 
-  // Points next to the corners come from their rings, whose valence is the
-  // corner's own. B and D first: with 2^level = 1 they share entries with A
-  // and C, and only those have the whole truth beside a singleton's diagonal.
+  // Points next to the corners come from their rings, whose valence is the corner's own. B and D first: with
+  // 2^level = 1 they share entries with A and C, and only those are right beside a singleton's diagonal.
   HWY_ATTR void take_border(int level, int j) const {
     const int size = 1 << level;
     Scalar* r = row(level, j);
@@ -169,5 +185,10 @@ class Stream {
   V centre_[3];
   Scalar unit_;
   Target<Scalar> target_;
-  EdgeStrip<N> edge_;
+  EdgeStream<N> edge_;
 };
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

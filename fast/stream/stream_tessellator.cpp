@@ -68,8 +68,8 @@ struct StreamTessellator::State final : EngineState<float> {
 
   std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
 
-  // Evaluates patches first .. last - 1 in parallel, patch first + i into make_writer(i, worker); a writer must
-  // not care about the order of patches.
+  // Evaluates patches first .. last - 1 in parallel, patch first + i into make_writer(i, worker); a writer
+  // must not care about the order of patches.
   template <class MakeWriter>
   void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
     const std::size_t total = last - first;

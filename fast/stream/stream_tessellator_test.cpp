@@ -45,8 +45,8 @@ TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
         StreamTessellator tessellator(mesh, options);
         DrawList<float> list;
         tessellator.frame(random_depths(mesh.triangles.size(), 4, seed), list);
-        // One table for all depths would be wrong: a point at
-        // two depths may differ in bits. Edges have one depth.
+        // One table for all depths would be wrong: a point at two depths may differ in bits. Edges have one
+        // depth.
         std::map<std::uint32_t, SharedPoints> shared;
         for (std::size_t v = 0; v < list.vertices.size(); ++v) {
           const LatticePoint& at = list.provenance[v];
@@ -152,9 +152,9 @@ TEST(StreamFrame, ScalesByPowersOfTwoExactly) {
   }
 }
 
-// Shifted by a thousand times its size (exactly: the coordinates are rounded
-// to 2^-12 first), the mesh loses what its own float coordinates lose, and
-// no more: half an ulp of the shift in position, the normals not at all.
+// Shifted by a thousand times its size (exactly: the coordinates are rounded to 2^-12 first), the mesh loses
+// what its own float coordinates lose, and no more: half an ulp of the shift in position, the normals not at
+// all.
 TEST(StreamFrame, StandsAShiftOfAThousandTimesItsSize) {
   auto mesh = shaken(bipyramid(7), .2, 9);
   for (auto& p : mesh.positions)

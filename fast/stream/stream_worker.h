@@ -124,8 +124,8 @@ class StreamWorker {
   void evaluate_whole(const StreamFrame& frame, const Batch& batch) {
     collect(frame, batch);
     const auto n = static_cast<std::size_t>(side(batch.depth));
-    // The grids lie behind what narrow kernels need of the
-    // same memory, so that frames need no more than rows.
+    // The grids lie behind what narrow kernels need of the same memory, so that frames need no more than
+    // rows.
     const auto kernels_own = static_cast<std::size_t>(
         frame.narrow.lanes * std::max(work_size(batch.depth), edge_work_size(frame.deepest)));
     workspace_.work.grow(kernels_own + 6 * batch.patches.size() * n * n);

@@ -2,9 +2,10 @@
 #include "fast/stream/targets.h"
 
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <vector>
+
+#include "fast/stream/kernel.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/stream/targets.cpp"
@@ -14,21 +15,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "fast/stream/kernel.h"
+#include "fast/stream/lanes-inl.h"
+#include "fast/stream/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-#include "fast/stream/rules-inl.h"
-// rows use the rules
-#include "fast/stream/rows-inl.h"
-// strips along edges use their rules
-#include "fast/stream/edge-inl.h"
-// the stream uses all of them
-#include "fast/stream/stream-inl.h"
-// the number type of this target
-#include "fast/stream/lanes-inl.h"
 
 constexpr const char* target_name(int lanes) {
 #if HWY_TARGET == HWY_AVX3
@@ -53,7 +46,7 @@ HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& 
 template <int lanes>
 HWY_ATTR void run_edge_lanes(const float* input, int depth, const Placement<float>& placement, float* work,
                              float* out) {
-  EdgeStrip<LaneNumber<hn::CappedTag<float, lanes>>> strip(depth, placement, work);
+  EdgeStream<LaneNumber<hn::CappedTag<float, lanes>>> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
   strip.store(out);
 }
@@ -95,7 +88,7 @@ const char* run_scalar(float* input, int depth, const Placement<float>& placemen
 
 void run_edge_scalar(const float* input, int depth, const Placement<float>& placement, float* work,
                      float* out) {
-  generic::EdgeStrip<ScalarNumber<float>> strip(depth, placement, work);
+  generic::EdgeStream<ScalarNumber<float>> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth), 0);
   strip.store(out);
 }

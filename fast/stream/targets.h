@@ -17,7 +17,7 @@ struct Kernel {
   /// into it.
   const char* (*run)(float* input, int depth, const Placement<float>& placement, float* work,
                      const Target<float>& target);
-  /// `lanes` control edges, see EdgeStrip: edge_output_size(depth) * lanes numbers to out.
+  /// `lanes` control edges, see EdgeStream: edge_output_size(depth) * lanes numbers to out.
   void (*run_edges)(const float* input, int depth, const Placement<float>& placement, float* work,
                     float* out);
 };

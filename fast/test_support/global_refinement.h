@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For the tests of fast/: the whole mesh refined at once, through maps, in long double. It shares no code with
-// the kernels.
+// For the tests of fast/: the whole mesh refined at once, through maps, in long double. It shares no code
+// with the kernels.
 #pragma once
 
 #include <algorithm>

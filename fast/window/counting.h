@@ -24,8 +24,8 @@ struct WindowCounts {
 /// Changes nothing, counts nothing and costs nothing.
 struct NoProbe {
   static constexpr void add(std::int64_t WindowCounts::*, std::int64_t) {}
-  /// The two recursive calls, with their arguments in the order in which they are printed. A test may exchange
-  /// some, to show that no other order works. [C43]
+  /// The two recursive calls, with their arguments in the order in which they are printed. A test may
+  /// exchange some, to show that no other order works. [C43]
   static void upper(auto&& call, auto*... arguments) { call(arguments...); }
   static void lower(auto&& call, auto*... arguments) { call(arguments...); }
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The limit points of one control edge at a depth of its own, along the edge only.
-// [mueller2000, section 5]
+// The limit points of one control edge at a depth of its own, along the edge only. [mueller2000, section 5]
 #pragma once
 
 #include <algorithm>
@@ -83,8 +82,8 @@ class EdgeStrip {
     const Adjacency& adjacency = mesh.adjacency();
     Rows& r = rows_[0];
     r.left = gather_corner(mesh, h, false, r.left.ring);
-    // Around the far end the neighbour counter-clockwise
-    // before the line's origin is that of the next half-edge.
+    // Around the far end, the neighbour counter-clockwise before the line's origin is that of the next
+    // half-edge.
     r.right = gather_corner(mesh, Adjacency::next(h), true, r.right.ring);
     r.line[0] = mesh.position(adjacency.origin(h));
     r.line[1] = mesh.position(adjacency.target(h));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sliding window: one pair of triangles at a time becomes 2^m strips.    [mueller2000, 4.3; C18-C21,
+// The sliding window: one pair of triangles at a time becomes 2^m strips. [mueller2000, 4.3; C18-C21,
 // C43-C55]
 #pragma once
 
@@ -73,10 +73,10 @@ class SlidingWindow {
 
   /// Tessellates the two faces on both sides of half-edge h0 (face0) and its twin (face1).
   ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in the
-  ///                      next, i = 0 .. 2^depth;
-  ///                      as a triangle strip counter-clockwise from outside. Its first
-  ///                      2 (2^depth - row) - 1 triangles belong to face0, the last 2 row + 1 to face1. The
-  ///                      array may be read and overwritten until the call returns (with Carry: read only).
+  ///                      next, i = 0 .. 2^depth. As a triangle strip they turn counter-clockwise seen from
+  ///                      outside; the first 2 (2^depth - row) - 1 triangles belong to face0, the last
+  ///                      2 row + 1 to face1. The array may be read and overwritten until the call returns
+  ///                      (with Carry: read only).
   /// Throws data::ArgumentError: depth outside 0 .. max_depth(), no twin, a valence above max_valence().
   template <class Sink>
   void run(const PreparedMesh<N, Surface>& mesh, std::int32_t h0, int depth, Sink&& sink) {

@@ -7,8 +7,8 @@
 
 namespace limitcheck::fast {
 
-/// Tessellation on the fly by sliding windows; see Engine for what it can do and what it throws. Real is float
-/// or double. Control points that are representable in Real are taken exactly.
+/// Tessellation on the fly by sliding windows; see Engine for what it can do and what it throws. Real is
+/// float or double. Control points that are representable in Real are taken exactly.
 template <class Real>
 class Tessellator : public Engine<Real> {
  public:

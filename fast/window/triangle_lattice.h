@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A face without neighbours: no diagonal, no dummy, just its own triangle of points.          [claims C81, E]
+// A face without neighbours: it has no partner, not even a dummy, and is subdivided by itself. [claims C81,
+// E]
 #pragma once
 
 #include <cstddef>
@@ -12,8 +13,8 @@
 namespace limitcheck::fast {
 
 /// Subdivides a single triangle whose three edges are boundary. Row r has 2^depth - r + 1 points; (0, 0) is
-/// corner 2, (2^depth, 0) corner 0, (0, 2^depth) corner 1. Allocated once for max_depth: 2 * (2^m + 1)(2^m +
-/// 2) / 2 points.
+/// corner 2, (2^depth, 0) corner 0, (0, 2^depth) corner 1. Allocated once for m = max_depth: twice
+/// (2^m + 1)(2^m + 2) / 2 points.
 template <class N, class Surface = LimitSurface<N>>
 class TriangleLattice {
  public:

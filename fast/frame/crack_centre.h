@@ -47,17 +47,17 @@ LimitFrame<N> regular_centre(const std::array<Vec3<N>, 12>& p) {
 ///   rings   slots 0 and 1 of rings[k] are corners k + 1 and k + 2
 template <class N, class Vertex>
 std::array<Vec3<N>, 12> twelve_points(const std::array<Vec3<N>, 3>& corner,
-                                      const std::array<Corner<N, Vertex>, 3>& rings) {
+                                      const std::array<CornerRing<N, Vertex>, 3>& rings) {
   std::array<Vec3<N>, 3> vertex, edge, near_origin, near_target;  // per edge k, from corner k to k + 1
   for (std::size_t k = 0; k < 3; ++k) {
     vertex[k] = subdivide_corner(corner[k], rings[k]);
-    const Corner<N, Vertex>& ring = rings[k];
+    const CornerRing<N, Vertex>& ring = rings[k];
     const Vec3<N>&to = corner[(k + 1) % 3], &opposite = corner[(k + 2) % 3];
     edge[k] = ring.has_face_after(ring.n - 1) ? edge_point(corner[k], to, opposite, ring.ring[ring.n - 1])
                                               : midpoint(corner[k], to);
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    const Corner<N, Vertex>&ring = rings[k], &next = rings[(k + 1) % 3];
+    const CornerRing<N, Vertex>&ring = rings[k], &next = rings[(k + 1) % 3];
     const Vec3<N>&from = corner[k], &to = corner[(k + 1) % 3];
     if (ring.has_face_after(ring.n - 1)) {
       const Vec3<N>& apex = ring.ring[ring.n - 1];
@@ -90,7 +90,7 @@ class FanCentreEvaluator {
     if (static_cast<std::size_t>(adjacency.max_valence()) > stride)
       throw data::ArgumentError("fan centre: a valence beyond the arrays");
     std::array<Vec3<N>, 3> corner;
-    std::array<Corner<N, Vertex>, 3> rings;
+    std::array<CornerRing<N, Vertex>, 3> rings;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t h = 3 * face + static_cast<std::int32_t>(k);
       corner[k] = mesh.position(adjacency.origin(h));

@@ -10,30 +10,27 @@
 #include "fast/frame/crack_stitch.h"
 #include "fast/frame/patch.h"
 #include "fast/frame/sink.h"
+#include "fast/mesh/placement.h"
 
 namespace limitcheck::fast {
 
-/// Back from the scaled coordinates of the kernels: position * scale + offset.
+/// From the coordinates of an engine to the caller's.
 template <class Real>
-struct Placement {
-  Real scale = 1;
-  Vec3<Real> offset{};
+SurfaceVertex<Real> placed(const SurfaceVertex<Real>& v, const Placement<Real>& placement) {
+  return {placement(v.position), v.normal};
+}
 
-  SurfaceVertex<Real> operator()(const SurfaceVertex<Real>& v) const {
-    return {scale * v.position + offset, v.normal};
-  }
-};
-
+/// What a patch takes in a draw list, or where it begins.
 struct DrawSize {
   std::int64_t vertices = 0, draws = 0, triangles = 0;
 };
 
-/// Edge depths of a half's face from the plan.
+/// The depth of edge k of a face.
 inline int edge_depth(const CrackPlan& plan, std::int32_t face, int k) {
-  return plan.edge_depth[static_cast<std::size_t>(3 * face + k)];
+  return plan.edge_depth[3 * face + k];
 }
 
-/// Limit points evaluated for a patch: rows carried over, every repaired border, centres.
+/// The number of limit points evaluated for a patch: rows, each once, the borders of repaired faces, centres.
 inline std::int64_t limit_points_of(const Patch& patch, const CrackPlan& plan) {
   const std::int64_t k = std::int64_t{1} << patch.depth;
   std::int64_t points = 0;
@@ -49,7 +46,7 @@ inline std::int64_t limit_points_of(const Patch& patch, const CrackPlan& plan) {
   return points;
 }
 
-/// How much a patch takes in a draw list.
+/// The room that a patch takes in a draw list.
 inline DrawSize draw_size(const Patch& patch, const CrackPlan& plan) {
   const std::int64_t k = std::int64_t{1} << patch.depth;
   if (patch.full()) return {2 * k * (k + 1), k, 2 * k * k};
@@ -85,11 +82,11 @@ inline DrawSize draw_size(const Patch& patch, const CrackPlan& plan) {
   return size;
 }
 
-/// Border of a repaired face: limit vertices along its three edges, from corner e to corner e + 1.
+/// The border of a repaired face: limit vertices along its three edges, from corner e to corner e + 1.
 template <class Real>
 using Border = std::array<const SurfaceVertex<Real>*, 3>;
 
-/// Writes into arrays that somebody else has made large enough.
+/// Writes the strips and fans of one patch into arrays that are large enough.
 template <class Real>
 class DrawWriter {
  public:
@@ -108,7 +105,7 @@ class DrawWriter {
              LatticePoint* provenance, Draw* draws, std::int64_t first, Scratch& scratch)
       : patch_(patch),
         plan_(plan),
-        place_(placement),
+        placement_(placement),
         vertex_(vertices),
         provenance_(provenance),
         draw_(draws),
@@ -124,13 +121,13 @@ class DrawWriter {
       if (provenance_ != nullptr)
         *provenance_++ =
             r + c <= k_ ? patch_.half[0].lattice(k_, r, c) : patch_.half[1].lattice(k_, k_ - r, k_ - c);
-      *vertex_++ = place_(strip[q]);
+      *vertex_++ = placed(strip[q], placement_);
     }
     end(2 * (k_ + 1));
   }
 
-  /// The part of a strip that one half shows. `row` counts in the half's own frame, at(q) is vertex q of the
-  /// strip in that frame.
+  /// The part of a strip that one half displays. `row` counts in the half's own frame, at(q) is vertex q of
+  /// the strip in that frame.
   template <class At>
   void half_strip(int side, int row, At&& at) {
     const Half& half = patch_.half[side];
@@ -156,8 +153,7 @@ class DrawWriter {
     put(centre, {half.face, 1, 1, 3});
     for (int e = 0; e < 3; ++e) {
       const int count = 1 << edge_depth(plan_, half.face, e);
-      for (int t = 0; t < count; ++t)
-        put(border[static_cast<std::size_t>(e)][t], on_edge(half.face, e, t, count));
+      for (int t = 0; t < count; ++t) put(border[e][t], on_edge(half.face, e, t, count));
     }
     put(border[0][0], on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)));
     end(triangles + 2);
@@ -171,12 +167,11 @@ class DrawWriter {
       const int depth = edge_depth(plan_, half.face, e);
       const auto one = [&](std::int64_t index, bool is_inner) {
         const int t = static_cast<int>(index);
-        if (!is_inner)
-          return put(border[static_cast<std::size_t>(e)][t], on_edge(half.face, e, t, 1 << depth));
+        if (!is_inner) return put(border[e][t], on_edge(half.face, e, t, 1 << depth));
         std::array<int, 3> w{};
-        w[static_cast<std::size_t>((e + 1) % 3)] = t + 1;
-        w[static_cast<std::size_t>((e + 2) % 3)] = 1;
-        w[static_cast<std::size_t>(e)] = k_ - t - 2;
+        w[(e + 1) % 3] = t + 1;
+        w[(e + 2) % 3] = 1;
+        w[e] = k_ - t - 2;
         put(inner(side, e)[t], {half.face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
                                 static_cast<std::uint32_t>(k_)});
       };
@@ -193,8 +188,8 @@ class DrawWriter {
 
   static LatticePoint on_edge(std::int32_t face, int e, int t, int count) {
     std::array<int, 3> w{};
-    w[static_cast<std::size_t>(e)] = count - t;
-    w[static_cast<std::size_t>((e + 1) % 3)] = t;
+    w[e] = count - t;
+    w[(e + 1) % 3] = t;
     return {face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
             static_cast<std::uint32_t>(count)};
   }
@@ -224,7 +219,7 @@ class DrawWriter {
   }
   void put(const Vertex& vertex, const LatticePoint& lattice) {
     if (provenance_ != nullptr) *provenance_++ = lattice;
-    *vertex_++ = place_(vertex);
+    *vertex_++ = placed(vertex, placement_);
   }
   void end(std::int32_t count) {
     draw_->count = count;
@@ -234,7 +229,7 @@ class DrawWriter {
 
   const Patch& patch_;
   const CrackPlan& plan_;
-  const Placement<Real>& place_;
+  const Placement<Real>& placement_;
   Vertex* vertex_;
   LatticePoint* provenance_;
   Draw* draw_;

@@ -63,13 +63,13 @@ template <class Real>
 void write_control_vertices(const EngineState<Real>& s, const IndexLayout& layout, IndexedMesh<Real>& out) {
   for (std::size_t v = 0; v < layout.vertex.size(); ++v)
     if (layout.vertex[v] != IndexLayout::kUnused)
-      out.vertices[static_cast<std::size_t>(layout.vertex[v])] = s.limit(static_cast<std::int32_t>(v));
+      out.vertices[layout.vertex[v]] = s.limit(static_cast<std::int32_t>(v));
   if (!s.options.provenance) return;
   for (std::int32_t f = s.adjacency.face_count() - 1; f >= 0; --f) {
-    if (s.pairing.depth[static_cast<std::size_t>(f)] < 0) continue;
+    if (s.pairing.depth[f] < 0) continue;
     for (int k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(s.adjacency.corner(f, k));
-      out.provenance[static_cast<std::size_t>(layout.vertex[v])] = {f, k == 1 ? 1u : 0u, k == 2 ? 1u : 0u, 1};
+      const std::int64_t at = layout.vertex[s.adjacency.corner(f, k)];
+      out.provenance[at] = {f, k == 1 ? 1u : 0u, k == 2 ? 1u : 0u, 1};
     }
   }
 }

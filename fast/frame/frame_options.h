@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a tessellator is told once per mesh, and what it tells of each frame.
+// The options of a tessellator, and the statistics of a frame.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace limitcheck::fast {
 
-/// What holds for all frames of a mesh.
+/// The options of a tessellator, the same for all frames of a mesh.
 struct TessellatorOptions {
   CrackOptions cracks;
   int max_depth = 5;        // the largest depth a strategy assigns; depths given by hand may be deeper

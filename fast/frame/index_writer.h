@@ -11,8 +11,8 @@
 
 namespace limitcheck::fast {
 
-/// Where everything goes: vertices first those of control vertices, then of control edges, then of faces;
-/// triangles by face. It depends on the depths alone, not on the pairing.
+/// Where vertices and triangles go: first the vertices of control vertices, then those of control edges, then
+/// those of faces; triangles by face. It depends on the depths alone, not on the pairing.
 struct IndexLayout {
   static constexpr std::int64_t kUnused = -1;
 
@@ -23,8 +23,8 @@ struct IndexLayout {
   std::vector<std::int64_t> first_triangle;  // per face
   std::int64_t vertex_count = 0, triangle_count = 0;
 
-  /// Two faces share the points of an edge if both give it the same depth (always, but for the rules that
-  /// leave cracks); the smaller half-edge owns them.
+  /// Two faces share the points of an edge if both give it the same depth, which they do unless cracks are
+  /// left open; the smaller half-edge owns them.
   static IndexLayout of(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                         const CrackPlan& plan) {
     IndexLayout l;
@@ -36,8 +36,7 @@ struct IndexLayout {
     l.first_triangle.assign(faces, kUnused);
     for (std::size_t f = 0; f < faces; ++f)
       if (depth[f] >= 0)
-        for (int k = 0; k < 3; ++k)
-          l.vertex[static_cast<std::size_t>(adjacency.corner(static_cast<std::int32_t>(f), k))] = 0;
+        for (int k = 0; k < 3; ++k) l.vertex[adjacency.corner(static_cast<std::int32_t>(f), k)] = 0;
     for (std::int64_t& v : l.vertex)
       if (v != kUnused) v = l.vertex_count++;
     for (std::size_t h = 0; h < 3 * faces; ++h) {
@@ -70,10 +69,9 @@ struct IndexLayout {
   /// Index of point t = 0 .. 2^d of half-edge h.
   std::uint32_t on_edge(const Adjacency& adjacency, std::int32_t h, int d, std::int64_t t) const {
     const std::int64_t count = std::int64_t{1} << d;
-    if (t == 0) return static_cast<std::uint32_t>(vertex[static_cast<std::size_t>(adjacency.origin(h))]);
-    if (t == count) return static_cast<std::uint32_t>(vertex[static_cast<std::size_t>(adjacency.target(h))]);
-    const auto i = static_cast<std::size_t>(h);
-    return static_cast<std::uint32_t>(edge[i] + (reversed[i] != 0 ? count - t : t) - 1);
+    if (t == 0) return static_cast<std::uint32_t>(vertex[adjacency.origin(h)]);
+    if (t == count) return static_cast<std::uint32_t>(vertex[adjacency.target(h)]);
+    return static_cast<std::uint32_t>(edge[h] + (reversed[h] != 0 ? count - t : t) - 1);
   }
 };
 
@@ -89,7 +87,7 @@ class IndexWriter {
         patch_(patch),
         plan_(plan),
         layout_(layout),
-        place_(placement),
+        placement_(placement),
         out_(out),
         k_(1 << patch.depth) {}
 
@@ -108,8 +106,7 @@ class IndexWriter {
     const int first_row = stitch ? 1 : 0, inner = stitch ? k_ - 3 : k_;
     if (row < first_row || row - first_row >= inner) return;
     const std::int64_t left = inner - (row - first_row);
-    std::int64_t t = layout_.first_triangle[static_cast<std::size_t>(half.face)] +
-                     std::int64_t{inner} * inner - left * left;
+    std::int64_t t = layout_.first_triangle[half.face] + std::int64_t{inner} * inner - left * left;
     const Kind kind = stitch ? Kind::kStitched : patch_.kind;
     for (int c = first_row; c < first_row + left; ++c) {
       const std::uint32_t a = index(half, row, c), b = index(half, row + 1, c),
@@ -121,11 +118,10 @@ class IndexWriter {
 
   void fan(int side, const Vertex& centre, const Border<Real>& border) {
     const std::int32_t face = patch_.half[side].face;
-    const auto f = static_cast<std::size_t>(face);
-    const std::int64_t middle = layout_.interior[f];
+    const std::int64_t middle = layout_.interior[face];
     write(middle, centre, {face, 1, 1, 3});
     write_border(face, border);
-    std::int64_t out = layout_.first_triangle[f];
+    std::int64_t out = layout_.first_triangle[face];
     for (int e = 0; e < 3; ++e) {
       const int d = edge_depth(plan_, face, e);
       for (std::int64_t t = 0; t < (std::int64_t{1} << d); ++t)
@@ -138,8 +134,7 @@ class IndexWriter {
   void ring(int side, const Border<Real>& border) {
     const Half& half = patch_.half[side];
     write_border(half.face, border);
-    std::int64_t out = layout_.first_triangle[static_cast<std::size_t>(half.face)] +
-                       static_cast<std::int64_t>(k_ - 3) * (k_ - 3);
+    std::int64_t out = layout_.first_triangle[half.face] + static_cast<std::int64_t>(k_ - 3) * (k_ - 3);
     for (int e = 0; e < 3; ++e) {
       const int d = edge_depth(plan_, half.face, e);
       const auto point = [&](std::int64_t t, bool is_inner) {
@@ -162,12 +157,11 @@ class IndexWriter {
     if (row + column == k_) return layout_.on_edge(adjacency_, h + half.edge, patch_.depth, column);
     if (row == 0) return layout_.on_edge(adjacency_, h + (half.edge + 1) % 3, patch_.depth, k_ - column);
     if (column == 0) return layout_.on_edge(adjacency_, h + (half.edge + 2) % 3, patch_.depth, row);
-    return static_cast<std::uint32_t>(layout_.interior[static_cast<std::size_t>(half.face)] +
-                                      interior_before(k_, row) + column - 1);
+    return static_cast<std::uint32_t>(layout_.interior[half.face] + interior_before(k_, row) + column - 1);
   }
 
   /// Whether this half writes the points inside that edge.
-  bool owns(std::int32_t h) const { return layout_.reversed[static_cast<std::size_t>(h)] == 0; }
+  bool owns(std::int32_t h) const { return layout_.reversed[h] == 0; }
 
   template <class At>
   void write_row(const Half& half, bool only_interior, int row, At&& at) {
@@ -187,28 +181,27 @@ class IndexWriter {
       if (!owns(3 * face + e)) continue;
       const int d = edge_depth(plan_, face, e);
       for (int t = 1; t < (1 << d); ++t)
-        write(layout_.on_edge(adjacency_, 3 * face + e, d, t), border[static_cast<std::size_t>(e)][t],
+        write(layout_.on_edge(adjacency_, 3 * face + e, d, t), border[e][t],
               DrawWriter<Real>::on_edge(face, e, t, 1 << d));
     }
   }
 
   void write(std::int64_t at, const Vertex& vertex, const LatticePoint& lattice) {
-    out_.vertices[static_cast<std::size_t>(at)] = place_(vertex);
-    if (!out_.provenance.empty()) out_.provenance[static_cast<std::size_t>(at)] = lattice;
+    out_.vertices[at] = placed(vertex, placement_);
+    if (!out_.provenance.empty()) out_.provenance[at] = lattice;
   }
   void triangle(std::int64_t at, std::int32_t face, Kind kind, std::uint32_t a, std::uint32_t b,
                 std::uint32_t c) {
-    const auto t = static_cast<std::size_t>(at);
-    out_.triangles[t] = {a, b, c};
-    out_.triangle_face[t] = face;
-    out_.triangle_kind[t] = kind;
+    out_.triangles[at] = {a, b, c};
+    out_.triangle_face[at] = face;
+    out_.triangle_kind[at] = kind;
   }
 
   const Adjacency& adjacency_;
   const Patch& patch_;
   const CrackPlan& plan_;
   const IndexLayout& layout_;
-  const Placement<Real>& place_;
+  const Placement<Real>& placement_;
   IndexedMesh<Real>& out_;
   int k_;
 };

@@ -31,9 +31,9 @@ struct Half {
 
   std::array<int, 3> weights(int k, int row, int column) const {
     std::array<int, 3> w{};
-    w[static_cast<std::size_t>(edge)] = row;
-    w[static_cast<std::size_t>((edge + 1) % 3)] = column;
-    w[static_cast<std::size_t>((edge + 2) % 3)] = k - row - column;
+    w[edge] = row;
+    w[(edge + 1) % 3] = column;
+    w[(edge + 2) % 3] = k - row - column;
     return w;
   }
   LatticePoint lattice(int k, int row, int column) const {
@@ -59,7 +59,7 @@ struct Patch {
 
   static Patch of(const Adjacency& adjacency, const Grid& grid, const CrackPlan& plan) {
     const auto display = [&](std::int32_t face) {
-      switch (plan.repair[static_cast<std::size_t>(face)]) {
+      switch (plan.repair[face]) {
         case Repair::kFan:
           return Half::Display::kFan;
         case Repair::kStitch:

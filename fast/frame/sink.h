@@ -20,8 +20,8 @@ struct LatticePoint {
   friend constexpr bool operator==(const LatticePoint&, const LatticePoint&) = default;
 };
 
-/// How a triangle came about: a pair's strip, a strip of a face without partner, a fan around the centre
-/// (section 5), or an outer ring stitched to finer borders.
+/// What a triangle is part of: a strip of a pair of faces, a strip of a face without partner, a fan around a
+/// face's centre (section 5), or a face whose outer ring is stitched to finer borders.
 enum class Kind : std::uint8_t { kPair, kSingleton, kFan, kStitched };
 
 /// How the vertices of a draw make triangles, as in OpenGL.
@@ -37,7 +37,7 @@ struct Draw {
   std::int32_t face = -1, face_after = -1;
   DrawMode mode = DrawMode::kStrip;
   Kind kind = Kind::kPair;
-  std::int8_t depth = 0;  // of the pair
+  std::int8_t depth = 0;  // of the grid
 
   std::int32_t triangle_count() const { return (mode == DrawMode::kTriangles ? count / 3 : count - 2); }
   /// The three vertices of triangle t, counted from the first vertex of the draw, counter-clockwise.
@@ -53,7 +53,7 @@ struct DrawList {
   std::vector<Draw> draws;
 };
 
-/// Takes the draws one after the other, in the order of the pairs, always on the thread that called frame().
+/// Takes the draws one after the other, in the order of the grids, always on the thread that called frame().
 /// The vertices are the tessellator's own and last only for the call.
 template <class Real>
 class DrawSink {
@@ -65,7 +65,8 @@ class DrawSink {
 
 /// A whole frame as one mesh: every point of a control vertex or control edge appears once.
 ///   triangles       vertex indices, counter-clockwise from outside
-///   triangle_face   the control face each triangle is part of;  triangle_kind  how it came about
+///   triangle_face   the control face that each triangle is part of
+///   triangle_kind   what else it is part of
 ///   provenance      one entry per vertex (a shared vertex names any one of its faces), or none
 template <class Real>
 struct IndexedMesh {

@@ -79,13 +79,13 @@ void Adjacency::sort_by_origin() {
 // Chains the corners of each vertex: the next one counter-clockwise is that whose half-edge goes where the
 // last one's face comes from, and the two half-edges there are twins.
 void Adjacency::link() {
-  struct Corner {  // of a face: the half-edge into the vertex, the one out of it, the next corner
+  struct FaceCorner {  // of a face: the half-edge into the vertex, the one out of it, the next corner
     std::int32_t in, out, next;
   };
   twin_.resize(origin_.size());
   std::int32_t most = 0;
   for (std::size_t v = 0; v < outgoing_.size(); ++v) most = std::max(most, first_[v + 1] - first_[v]);
-  std::vector<Corner> corner(static_cast<std::size_t>(most));
+  std::vector<FaceCorner> corner(static_cast<std::size_t>(most));
   // Per vertex: which one last had it for a target (upper half), and in which of its corners (lower half).
   std::vector<std::uint64_t> seen(outgoing_.size(), ~std::uint64_t{0});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who is next to whom in a control mesh: flat arrays, built in O(n).
+// The half-edges of a control mesh in flat arrays, built in O(n).
 #pragma once
 
 #include <cstdint>
@@ -40,9 +40,9 @@ class Adjacency {
   static std::int32_t face(std::int32_t h) { return h / 3; }
 
   /// The half-edge of the same edge in the neighbouring face; -1 on the boundary.
-  std::int32_t twin(std::int32_t h) const { return twin_[static_cast<std::size_t>(h)]; }
+  std::int32_t twin(std::int32_t h) const { return twin_[h]; }
   /// The vertex a half-edge starts from, and the one it ends at.
-  std::int32_t origin(std::int32_t h) const { return origin_[static_cast<std::size_t>(h)]; }
+  std::int32_t origin(std::int32_t h) const { return origin_[h]; }
   std::int32_t target(std::int32_t h) const { return origin(next(h)); }
   /// Vertex at corner k of a face.
   std::int32_t corner(std::int32_t f, int k) const { return origin(3 * f + k); }
@@ -54,14 +54,13 @@ class Adjacency {
 
   /// The canonical outgoing half-edge of a vertex: the one without twin on the boundary, else the one of
   /// smallest index; -1 if the vertex has no face.
-  std::int32_t outgoing(std::int32_t v) const { return outgoing_[static_cast<std::size_t>(v)]; }
+  std::int32_t outgoing(std::int32_t v) const { return outgoing_[v]; }
   /// The next outgoing half-edge counter-clockwise; -1 after the last face of a boundary vertex, whose last
   /// ring point r_K is origin(prev(h)).
   std::int32_t rotate(std::int32_t h) const { return twin(prev(h)); }
   /// All outgoing half-edges of a vertex counter-clockwise, the canonical one first.
   std::span<const std::int32_t> fan(std::int32_t v) const {
-    const auto i = static_cast<std::size_t>(v);
-    return {fan_.data() + first_[i], static_cast<std::size_t>(first_[i + 1] - first_[i])};
+    return {fan_.data() + first_[v], fan_.data() + first_[v + 1]};
   }
   /// Calls visit(vertex) for every neighbour of v counter-clockwise, that of the canonical half-edge first.
   template <class Visit>

@@ -52,7 +52,7 @@ void expect_consistent(const ControlMesh& mesh) {
     int h = adjacency.outgoing(v), last = -1, steps = 0;
     for (; h >= 0 && steps < faces[v]; ++steps) {
       ASSERT_EQ(adjacency.origin(h), v);
-      ASSERT_EQ(adjacency.fan(v)[static_cast<std::size_t>(steps)], h);
+      ASSERT_EQ(adjacency.fan(v)[steps], h);
       met.insert(adjacency.target(h));
       if (last >= 0) {
         ASSERT_EQ(adjacency.origin(Adjacency::prev(last)), adjacency.target(h)) << "not counter-clockwise";

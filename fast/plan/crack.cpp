@@ -21,8 +21,7 @@ CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> 
     int deeper = 0;
     for (int k = 0; k < 3; ++k) {
       const std::int32_t g = adjacency.neighbour(static_cast<std::int32_t>(f), k);
-      neighbour[k] =
-          g < 0 || depth[static_cast<std::size_t>(g)] < 0 ? own : depth[static_cast<std::size_t>(g)];
+      neighbour[k] = g < 0 || depth[g] < 0 ? own : depth[g];
       deeper += neighbour[k] > own ? 1 : 0;
     }
     const bool repaired =

@@ -10,7 +10,7 @@
 
 namespace limitcheck::fast {
 
-/// What becomes of a face with deeper neighbours.
+/// How a face with deeper neighbours is displayed.
 enum class Repair : std::uint8_t {
   kFan,     // the paper's: a fan around the centre, no interior points
   kStitch,  // ours: keep the interior points, stitch the outer ring (a fan below depth 2, which has none)

@@ -66,6 +66,8 @@ class DepthHeuristics {
  public:
   /// `max_depth`: every depth is clamped to it. Throws data::ArgumentError if it is not in 0 .. kDeepest.
   DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth = 5);
+  DepthHeuristics(data::ControlMesh&&, const Adjacency&, int = 5) = delete;
+  DepthHeuristics(const data::ControlMesh&, Adjacency&&, int = 5) = delete;
 
   int max_depth() const { return max_depth_; }
 
@@ -90,8 +92,8 @@ class DepthHeuristics {
   /// [erratum 4; C27, decision in E: C28]
   std::int32_t cone_depth(std::int32_t v, double cos_angle) const;
 
-  const Point3& limit_position(std::int32_t v) const { return limit_[static_cast<std::size_t>(v)]; }
-  const Point3& limit_normal(std::int32_t v) const { return normal_[static_cast<std::size_t>(v)]; }
+  const Point3& limit_position(std::int32_t v) const { return limit_[v]; }
+  const Point3& limit_normal(std::int32_t v) const { return normal_[v]; }
   /// The number of vertices whose limit normal is not determined by their ring's tangents. [D12]
   std::int64_t degenerate_normals() const { return degenerate_normals_; }
 

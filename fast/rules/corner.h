@@ -20,7 +20,7 @@ namespace limitcheck::fast {
 ///            -1: a point on a control edge, of valence 6 with the edge along slots 2 and 5, or on a
 ///            boundary with four neighbours
 template <class N, class Vertex>
-struct Corner {
+struct CornerRing {
   Vec3<N>* ring = nullptr;
   int n = 0;
   int gap = -1;
@@ -36,12 +36,12 @@ struct Corner {
 /// Fills a corner from the mesh: ring[slot] is the target of half-edge h, the rest follows counter-clockwise.
 ///   storage   room for adjacency.valence(origin(h)) points
 template <class N, class Surface>
-Corner<N, typename Surface::Vertex> gather_corner(const PreparedMesh<N, Surface>& mesh, std::int32_t h,
-                                                  bool from_last_slot, Vec3<N>* storage) {
+CornerRing<N, typename Surface::Vertex> gather_corner(const PreparedMesh<N, Surface>& mesh, std::int32_t h,
+                                                      bool from_last_slot, Vec3<N>* storage) {
   const Adjacency& adjacency = mesh.adjacency();
   const std::int32_t v = adjacency.origin(h);
   const std::int32_t first = adjacency.outgoing(v);
-  Corner<N, typename Surface::Vertex> corner;
+  CornerRing<N, typename Surface::Vertex> corner;
   corner.ring = storage;
   corner.n = adjacency.valence(v);
   corner.weights = mesh.weights(v);
@@ -71,7 +71,7 @@ Corner<N, typename Surface::Vertex> gather_corner(const PreparedMesh<N, Surface>
 /// One step of a ring: every neighbour becomes the edge point towards it.
 ///   v   the corner before the step
 template <class N, class Vertex>
-void subdivide_ring(const Vec3<N>& v, const Corner<N, Vertex>& old, Corner<N, Vertex>& out) {
+void subdivide_ring(const Vec3<N>& v, const CornerRing<N, Vertex>& old, CornerRing<N, Vertex>& out) {
   Vec3<N>* const storage = out.ring;
   out = old;
   out.ring = storage;
@@ -84,13 +84,13 @@ void subdivide_ring(const Vec3<N>& v, const Corner<N, Vertex>& old, Corner<N, Ve
 }
 
 template <class N, class Vertex>
-AxisRing<N> edge_axis(const Corner<N, Vertex>& c) {
+AxisRing<N> edge_axis(const CornerRing<N, Vertex>& c) {
   return {c.ring[2], c.ring[3], c.ring[4], c.ring[5], c.ring[0], c.ring[1]};
 }
 
 /// Vertex rule at a corner of any kind.
 template <class N, class Vertex>
-Vec3<N> subdivide_corner(const Vec3<N>& v, const Corner<N, Vertex>& c) {
+Vec3<N> subdivide_corner(const Vec3<N>& v, const CornerRing<N, Vertex>& c) {
   if (c.gap >= 0) return curve_vertex(v, c.at(c.gap + 1), c.ring[c.gap]);
   if (c.start < 0) return regular_vertex(v, edge_axis(c));
   WideVec3<N> sum = widen<N>(c.ring[c.start]);
@@ -129,7 +129,7 @@ inline typename Surface::Vertex boundary_vertex_limit(const Vec3<N>& v, const Ve
 
 /// Limit vertex at a corner of any kind.
 template <class N, class Surface>
-typename Surface::Vertex limit_corner(const Vec3<N>& v, const Corner<N, typename Surface::Vertex>& c,
+typename Surface::Vertex limit_corner(const Vec3<N>& v, const CornerRing<N, typename Surface::Vertex>& c,
                                       std::int64_t& zero_normals) {
   if (c.limit != nullptr) return *c.limit;
   if (c.gap < 0) return regular_vertex_limit<N, Surface>(v, edge_axis(c), zero_normals);

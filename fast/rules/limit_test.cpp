@@ -132,7 +132,7 @@ data::ControlMesh without_first_harmonic(const V& a, const V& b, const V& c, con
   for (int i = 0; i < 8; ++i) {
     const double t = 2 * std::numbers::pi * i / 8;
     const V p = std::cos(2 * t) * a + std::sin(2 * t) * b + std::cos(3 * t) * c + std::sin(3 * t) * d;
-    mesh.positions[static_cast<std::size_t>(i)] = {p.x, p.y, p.z};
+    mesh.positions[i] = {p.x, p.y, p.z};
   }
   return mesh;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loop's subdivision masks, in the order of operations that gives shared points the same bits.
-// [mueller2000, 3.1; C10-C13, D1, D14]
+// Loop's subdivision masks, in an order of operations that gives shared points the same bits. [mueller2000,
+// 3.1; C10-C13, D1, D14]
 #pragma once
 
 #include <cmath>
@@ -35,12 +35,12 @@ struct NumberTraits<N> {
 template <class N>
 using WideVec3 = Vec3<typename NumberTraits<N>::Wide>;
 
-/// Exactly, component by component.
+/// The same vector in the wide number, exactly.
 template <class N>
 constexpr WideVec3<N> widen(const Vec3<N>& v) {
   return {NumberTraits<N>::widen(v.x), NumberTraits<N>::widen(v.y), NumberTraits<N>::widen(v.z)};
 }
-/// Rounded, component by component.
+/// The vector rounded to N.
 template <class N>
 constexpr Vec3<N> narrow(const WideVec3<N>& v) {
   return {NumberTraits<N>::narrow(v.x), NumberTraits<N>::narrow(v.y), NumberTraits<N>::narrow(v.z)};
@@ -60,8 +60,8 @@ struct AxisRing {
   const Vec3<N>&e, &ne, &nw, &w, &sw, &se;
 };
 
-/// The rules below are written as a point plus a small difference: in float that halves the error of a level.
-///
+// The rules below are written as a point plus a small difference: in float that halves the error of a level.
+
 /// Edge rule (3 a + 3 b + c + d) / 8, a and b the ends, c and d opposite. [eq. 2; C12]
 template <class N>
 constexpr Vec3<N> edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
@@ -76,7 +76,7 @@ constexpr Vec3<N> midpoint(const Vec3<N>& a, const Vec3<N>& b) {
   return NumberTraits<N>::ratio(1, 2) * (a + b);
 }
 
-/// Sum of the six, the same bits seen from the opposite direction.
+/// The sum of the six; it has the same bits from the opposite direction.
 template <class N>
 constexpr Vec3<N> axis_sum(const AxisRing<N>& r) {
   return (r.e + r.w) + ((r.ne + r.nw) + (r.sw + r.se));
@@ -103,15 +103,14 @@ S loop_a(const S& c) {
   return S(5) / S(8) - b * b / S(64);
 }
 
-/// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}).
-/// [eq. 1; C10]
+/// Vertex rule of an interior vertex of valence n: centre * v + ring * (r_0 + .. + r_{n-1}). [eq. 1; C10]
 template <class N>
 struct VertexWeights {
   using Scalar = typename NumberTraits<typename NumberTraits<N>::Wide>::Scalar;
   Scalar centre{}, ring{};
 };
 
-/// For valence n >= 3.
+/// The weights for valence n >= 3.
 template <class N>
 VertexWeights<N> vertex_weights(int n) {
   using Wide = typename NumberTraits<N>::Wide;

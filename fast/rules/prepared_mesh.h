@@ -26,9 +26,9 @@ std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
 }
 
 /// Positions of the control vertices in N, their weights and their limit points, computed once per mesh in a
-/// canonical order: the ring from adjacency.outgoing(v). Every face that touches a vertex, at whatever depth,
-/// shows these very bits. [D14] Read-only afterwards, shared by all threads. Refers to the adjacency, which
-/// must outlive it.
+/// canonical order: the ring from adjacency.outgoing(v). Every face that touches a vertex delivers these very
+/// bits, at whatever depth. [D14] Read-only afterwards, so that threads may share it. Keeps a reference to
+/// the adjacency, which must outlive it.
 template <class N, class Surface = LimitSurface<N>>
 class PreparedMesh {
  public:
@@ -52,17 +52,19 @@ class PreparedMesh {
       const std::size_t n = ring.size();
       if (!open) {
         if (!known[n]) by_valence[n] = vertex_weights<N>(static_cast<int>(n)), known[n] = true;
-        weights_[static_cast<std::size_t>(v)] = by_valence[n];
+        weights_[v] = by_valence[n];
       }
       table.make(n, open);
-      limits_[static_cast<std::size_t>(v)] = limit_of(widen<N>(position(v)), ring, open, table.of(n, open));
+      limits_[v] = limit_of(widen<N>(position(v)), ring, open, table.of(n, open));
     }
   }
 
+  PreparedMesh(Adjacency&&, std::vector<Vec3<N>>) = delete;
+
   const Adjacency& adjacency() const { return *adjacency_; }
-  const Vec3<N>& position(std::int32_t v) const { return positions_[static_cast<std::size_t>(v)]; }
-  const VertexWeights<N>& weights(std::int32_t v) const { return weights_[static_cast<std::size_t>(v)]; }
-  const Vertex& limit(std::int32_t v) const { return limits_[static_cast<std::size_t>(v)]; }
+  const Vec3<N>& position(std::int32_t v) const { return positions_[v]; }
+  const VertexWeights<N>& weights(std::int32_t v) const { return weights_[v]; }
+  const Vertex& limit(std::int32_t v) const { return limits_[v]; }
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:

@@ -22,8 +22,7 @@ void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std
   centre_ = to_point(mesh.positions[v]);
   points_.clear();
   open_ = adjacency.on_boundary(v);
-  adjacency.for_each_neighbour(
-      v, [&](std::int32_t w) { points_.push_back(to_point(mesh.positions[static_cast<std::size_t>(w)])); });
+  adjacency.for_each_neighbour(v, [&](std::int32_t w) { points_.push_back(to_point(mesh.positions[w])); });
   if (!points_.empty()) weights_.make(points_.size(), open_);
 }
 

@@ -68,8 +68,8 @@ void RingWeights<S>::make_angles(int count, int steps) {
   sine.resize(cosine.size());
   if constexpr (kHasSines) {
     for (int k = 0; k < count; ++k) {
-      cosine[static_cast<std::size_t>(k)] = NumberTraits<S>::cosine(k, steps);
-      sine[static_cast<std::size_t>(k)] = NumberTraits<S>::sine(k, steps);
+      cosine[k] = NumberTraits<S>::cosine(k, steps);
+      sine[k] = NumberTraits<S>::sine(k, steps);
     }
   } else {  // Chebyshev's recurrences
     cosine[0] = S(1);

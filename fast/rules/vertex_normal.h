@@ -14,13 +14,12 @@
 
 namespace limitcheck::fast {
 
-/// Below this sine of their angle two directions count as parallel, and a sum of facets of at most this times
-/// the square of the ring's radius as lost in rounding. N is the number that the ring's points were computed
-/// in: double also for control points, which are given.
+/// Two directions count as parallel if the sine of their angle is at most this; a sum of facet normals counts
+/// as zero if it is at most this times the square of the ring's radius. N is the number in which the ring's
+/// points were computed: double also for control points, which are given.
 template <class N>
 inline constexpr double kParallel = sizeof(N) == 4 ? 1e-6 : 1e-12;
-/// A tangent of at most this times what it sums, sum |r_i - v|, is what rounding left of zero: its direction
-/// means nothing.
+/// A tangent counts as zero if it is at most this times sum |r_i - v|: what is left of it may be rounding.
 inline constexpr double kVanishing = 1e-14;
 
 /// One subdivision step of a vertex and its ring in place. A half turn of a ring of six keeps the bits. [C29]

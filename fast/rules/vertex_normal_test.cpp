@@ -34,7 +34,7 @@ data::ControlMesh winding(int n, int turns, const V& hub, const V& a, const V& b
   for (int i = 0; i <= n; ++i) {
     const double t = 2 * std::numbers::pi * turns * i / n;
     const V p = i == n ? hub : hub + std::cos(t) * a + std::sin(t) * b;
-    mesh.positions[static_cast<std::size_t>(i)] = {p.x, p.y, p.z};
+    mesh.positions[i] = {p.x, p.y, p.z};
   }
   return mesh;
 }

@@ -14,8 +14,8 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// Which corner of the grids is the lattice's A: the layout's, or after half a turn its C. The points and
-/// their bits are the same, the other way round.
+/// At which corner of a grid its rows and columns begin: A, or C half a turn on. The points and their bits
+/// are the same, in the opposite order.
 enum class Order : std::uint8_t { kFromA = 0, kFromC = 2 };
 
 /// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to `lanes`
@@ -93,13 +93,13 @@ void put_ghost(const BasicRings<N>& rings, Place a, int corner, int depth, int l
                typename N::Scalar* out) {
   using T = typename N::Scalar;
   const auto ring = rings.ring(a.vertex);
-  const std::int32_t ghost = rings.entries()[static_cast<std::size_t>(ring.first + a.core)];
-  const ControlPoint<T>& p = rings.points()[static_cast<std::size_t>(ghost)];
+  const std::int32_t ghost = rings.entries()[ring.first + a.core];
+  const ControlPoint<T>& p = rings.points()[ghost];
   for (int k = 0; k < 2; ++k) out[k * lanes] = T(0);
   for (int k = CornerBlock::kCentre; k < CornerBlock::kWindow + 3 * window_width(corner, depth); ++k)
     out[k * lanes] = k >= CornerBlock::kWindow && rings.placement().has_local_origin(depth)
                          ? T(0)
-                         : p[static_cast<std::size_t>((k - CornerBlock::kCentre) % 3)];
+                         : p[(k - CornerBlock::kCentre) % 3];
 }
 
 }  // namespace detail

@@ -32,7 +32,7 @@ class EdgeStream {
   static constexpr int L = N::lanes;
 
   /// work: edge_work_size(depth) * lanes.
-  HWY_ATTR EdgeStream(int depth, const Placement<Scalar>& placement, Scalar* work)
+  HWY_ATTR EdgeStream(int depth, const KernelPlacement<Scalar>& placement, Scalar* work)
       : depth_(depth), placement_(placement), unit_(scaled(placement, depth).unit) {
     for (int end = 0; end < 2; ++end) block_[end] = work + end * edge_block_size(depth) * L;
     work += edge_input_size(depth) * L;
@@ -138,7 +138,7 @@ class EdgeStream {
   }
 
   int depth_;
-  Placement<Scalar> placement_;
+  KernelPlacement<Scalar> placement_;
   Scalar unit_;
   V centre_[3];
   Scalar* block_[2];

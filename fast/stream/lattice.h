@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a grid's lattice to its two faces' own parameters.
+// From the lattice of a grid to the parameters of its two faces.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline FacePoint face_point(const Grid& grid, int size, int column, int row, boo
     l = {row, size - column, column - row};
   }
   const int first = upper ? (grid.edge0 < 0 ? 0 : grid.edge0) : grid.edge1;
-  const auto at = [&](int corner) { return l[static_cast<std::size_t>((corner - first + 3) % 3)]; };
+  const auto at = [&](int corner) { return l[(corner - first + 3) % 3]; };
   return {upper ? grid.face0 : grid.face1, at(1), at(2)};
 }
 

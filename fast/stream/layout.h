@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "fast/mesh/placement.h"
+
 namespace limitcheck::fast::row_stream {
 
 inline constexpr int kMaxDepth = 10;
@@ -105,21 +107,18 @@ constexpr int work_size(int depth) {
   return strips_offset(depth) + kKeptEdges * edge_output_size(depth);
 }
 
-/// From the kernel's coordinates to the caller's: position = centre + unit * x.
+/// The kernel's coordinates, and from which depth on edges and grids have origins of their own.
 template <class T>
-struct Placement {
-  T centre[3];
-  T unit;
-  int local_from = kLocalFrom;  // edges and grids have origins of their own from this depth on, 1 at least
+struct KernelPlacement : Placement<T> {
+  int local_from = kLocalFrom;  // 1 at least
 
-  static Placement identity() { return {{T(0), T(0), T(0)}, T(1)}; }
   bool has_local_origin(int depth) const { return depth >= local_from; }
 };
 
 /// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where
 /// T divides exactly.
 template <class T>
-Placement<T> scaled(Placement<T> placement, int depth) {
+KernelPlacement<T> scaled(KernelPlacement<T> placement, int depth) {
   if constexpr (std::is_floating_point_v<T>)
     placement.unit = static_cast<T>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
   else

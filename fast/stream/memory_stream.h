@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writing to memory past the caches: for output larger than they are, whose reader comes later or elsewhere.
+// Writes to memory past the caches, for output that is larger than they are and that nobody reads soon.
 #pragma once
 
 #include <array>

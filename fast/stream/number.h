@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernel asks of a number type, and the scalar ones: one lane, fma spelled out.
+// What the kernel asks of a number type, and number types of one lane.
 #pragma once
 
 #include <bit>

@@ -44,6 +44,9 @@ class NumberStream {
   NumberStream(const Adjacency& adjacency, std::span<const std::array<T, 3>> points)
       : NumberStream(adjacency, as_they_are(points)) {}
 
+  template <class... Arguments>
+  NumberStream(Adjacency&&, Arguments&&...) = delete;
+
   const BasicRings<N>& rings() const { return rings_; }
 
   /// All vertices of grids of one depth, 0..10: those of grids[p] from out[6 p side^2], row by row, side =
@@ -79,7 +82,7 @@ class NumberStream {
     if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
   }
   static PlacedPoints<T> as_they_are(std::span<const std::array<T, 3>> points) {
-    PlacedPoints<T> placed{{}, Placement<T>::identity()};
+    PlacedPoints<T> placed{{}, KernelPlacement<T>{}};
     for (const auto& p : points) placed.points.push_back({p[0], p[1], p[2], T(0)});
     return placed;
   }

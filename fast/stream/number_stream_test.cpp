@@ -160,7 +160,7 @@ TEST(NumberStream, OnLinearFormsYieldsTheMapItApplies) {
         if (w != 0) {
           EXPECT_EQ(i % 3, coordinate);
         }
-        value += w * points[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
+        value += w * points[i / 3][i % 3];
         total += w;
       }
       EXPECT_EQ(value, expected);

@@ -14,7 +14,7 @@ namespace {
 bool has_needles(const data::ControlMesh& mesh, double height) {
   if (mesh.positions.size() < kManyVertices) return false;
   const auto vertex = [&](std::int32_t v) {
-    const auto& p = mesh.positions[static_cast<std::size_t>(v)];
+    const auto& p = mesh.positions[v];
     return Vec3<double>{p[0], p[1], p[2]};
   };
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
@@ -29,7 +29,7 @@ bool has_needles(const data::ControlMesh& mesh, double height) {
 
 template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh) {
-  PlacedPoints<T> placed{{}, Placement<T>::identity()};
+  PlacedPoints<T> placed{{}, KernelPlacement<T>{}};
   if (mesh.positions.empty()) return placed;
   std::array<double, 3> low = mesh.positions[0], high = low;
   for (const auto& p : mesh.positions) {
@@ -54,8 +54,8 @@ PlacedPoints<T> place(const data::ControlMesh& mesh) {
                              static_cast<T>((p[1] - centre[1]) * inverse),
                              static_cast<T>((p[2] - centre[2]) * inverse), T(0)});
   }
-  placed.placement = {{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
-                      static_cast<T>(unit),
+  placed.placement = {{{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
+                       static_cast<T>(unit)},
                       has_needles(mesh, kNeedle * extent) ? 1 : kLocalFrom};
   return placed;
 }

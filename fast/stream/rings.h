@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every grid asks about a control vertex, computed once per vertex and in an order that no face decides.
+// What the grids around a control vertex need of it, computed once per vertex in an order that does not
+// depend on the grid.
 #pragma once
 
 #include <array>
@@ -24,19 +25,21 @@ using ControlPoint = std::array<T, 4>;
 template <class T>
 struct PlacedPoints {
   std::vector<ControlPoint<T>> points;
-  Placement<T> placement;
+  KernelPlacement<T> placement;
 };
 
-/// Moved to the origin and scaled to size 1 by a power of two, so that squares neither vanish nor overflow.
-/// The centre is one for the whole mesh, or shared points would differ, and none for a mesh about the origin,
-/// whose coordinates are not to be rounded again. T: float or double.
+/// A mesh of size 1 about the origin, T float or double. The centre is one for the whole mesh, or shared
+/// points would differ: the middle of its box, rounded to float, in each coordinate in which the middle is
+/// farther than a quarter of the size from 0; else 0, so that the coordinates are not rounded again. (The
+/// sliding window has a rule of its own, by which representable control points stay exact; it would change
+/// the bits of this engine.)
 template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh);
 
 /// Rings and limits of all control vertices, for a number N of the kernel (see number.h). Needs
-/// NumberTraits<Scalar> of fast/rules/masks.h: Wide, Scalar, widen, narrow; and NumberTraits of that Scalar:
-/// cosine(1, n) where it is no floating-point type. Topology alone decides which operations are done, but for
-/// the start of the rings in floating point and for degenerate normals.
+/// NumberTraits<Scalar> of fast/rules/masks.h: Wide, Scalar, widen, narrow; and of NumberTraits of that
+/// Scalar cosine(1, n), or cosine(k, n) and sine(k, n). Topology alone decides which operations are done, but
+/// for the start of the rings in floating point and for degenerate normals.
 ///
 /// Order in floating point: an interior ring starts at its lexicographically smallest neighbour (position,
 /// then the positions that follow it), a boundary ring at the first boundary edge. So what is computed here
@@ -69,18 +72,18 @@ class BasicRings {
 
   const std::vector<ControlPoint<T>>& points() const { return points_; }
   const std::vector<std::int32_t>& entries() const { return entries_; }
-  Ring ring(std::int32_t v) const { return rings_[static_cast<std::size_t>(v)]; }
+  Ring ring(std::int32_t v) const { return rings_[v]; }
   /// Index in the ring of its origin of the vertex a half-edge points to.
-  std::int32_t slot(std::int32_t h) const { return slot_[static_cast<std::size_t>(h)]; }
+  std::int32_t slot(std::int32_t h) const { return slot_[h]; }
 
   /// k0, k1, c, d, limit position, limit normal (or N::tangent): the head of a CornerBlock.
-  struct Corner {
+  struct CornerHead {
     std::array<T, CornerBlock::kWindow> head;
   };
-  const Corner& corner(std::int32_t v) const { return corners_[static_cast<std::size_t>(v)]; }
+  const CornerHead& corner(std::int32_t v) const { return corners_[v]; }
 
-  const Placement<T>& placement() const { return placement_; }
-  /// Vertices whose two limit tangents are parallel or vanish: their normal comes from claim D12's rule.
+  const KernelPlacement<T>& placement() const { return placement_; }
+  /// The number of vertices whose two limit tangents are parallel or vanish. [D12]
   std::int64_t degenerate_normals() const { return degenerate_normals_; }
 
  private:
@@ -100,8 +103,8 @@ class BasicRings {
   std::vector<std::int32_t> entries_;
   std::vector<Ring> rings_;
   std::vector<std::int32_t> slot_;
-  std::vector<Corner> corners_;
-  Placement<T> placement_;
+  std::vector<CornerHead> corners_;
+  KernelPlacement<T> placement_;
   RingWeightTable<Weight> weights_;
   std::int64_t degenerate_normals_ = 0;
 };

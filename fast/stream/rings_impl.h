@@ -60,7 +60,7 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
   slot_.resize(3 * static_cast<std::size_t>(adjacency.face_count()));
   std::int32_t entries = 0, ghosts = 0;
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-    Ring& ring = rings_[static_cast<std::size_t>(v)];
+    Ring& ring = rings_[v];
     const int n = adjacency.valence(v);
     ring = {0, 1};
     if (n == 0) continue;
@@ -78,11 +78,11 @@ template <class N>
 void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scratch& scratch) {
   // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
   const std::span<const std::int32_t> fan = adjacency.fan(v);
-  const Ring ring = rings_[static_cast<std::size_t>(v)];
+  const Ring ring = rings_[v];
   const bool open = ring.period == kOpen;
   const std::size_t faces = fan.size(), n = faces + (open ? 1 : 0);
   const auto position = [&](std::int32_t at) {
-    const auto& p = points_[static_cast<std::size_t>(at)];
+    const auto& p = points_[at];
     return widen<T>(Vec3<T>{p[0], p[1], p[2]});
   };
   std::int32_t* vertex = scratch.vertices.data();
@@ -104,8 +104,7 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scra
 
   std::copy_n(vertex + start, n, entries_.data() + ring.first);
   for (std::size_t k = 0; k < faces; ++k)
-    slot_[static_cast<std::size_t>(fan[k])] =
-        static_cast<std::int32_t>(k < start ? k + n - start : k - start);
+    slot_[fan[k]] = static_cast<std::int32_t>(k < start ? k + n - start : k - start);
 
   const Vec3<Wide> centre = position(v);
   if (open) continue_ring(centre, around, ring, scratch);
@@ -131,7 +130,7 @@ void BasicRings<N>::continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide
   const int last = static_cast<int>(r.size()) - 1;
   auto& all = scratch.continued;
   all.resize(r.size() + 2 * kReach);
-  const auto at = [&](int k) -> Vec3<Wide>& { return all[static_cast<std::size_t>(k + kReach)]; };
+  const auto at = [&](int k) -> Vec3<Wide>& { return all[k + kReach]; };
   std::copy(r.begin(), r.end(), all.begin() + kReach);
   const auto sum = [&](int k, const Vec3<Wide>& near, const Vec3<Wide>& far) {
     switch (k % 6) {
@@ -152,7 +151,7 @@ void BasicRings<N>::continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide
   }
   for (int k = -kReach; k <= last + kReach; ++k) {
     if (k >= 0 && k <= last) continue;
-    entries_[static_cast<std::size_t>(ring.first + k)] = static_cast<std::int32_t>(points_.size());
+    entries_[ring.first + k] = static_cast<std::int32_t>(points_.size());
     const Vec3<T> ghost = narrow<T>(at(k));
     points_.push_back({ghost.x, ghost.y, ghost.z, T(0)});
   }
@@ -161,7 +160,7 @@ void BasicRings<N>::continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide
 template <class N>
 void BasicRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const RingWeights<Weight>& weights,
                                const VertexLimit<Wide>& limit, const Vec3<Wide>& normal) {
-  auto& head = corners_[static_cast<std::size_t>(v)].head;
+  auto& head = corners_[v].head;
   const auto put = [&](std::size_t at, const Vec3<Wide>& wide) {
     const Vec3<T> x = narrow<T>(wide);
     head[at] = x.x, head[at + 1] = x.y, head[at + 2] = x.z;

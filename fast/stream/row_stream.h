@@ -34,7 +34,7 @@ class AlignedFloats {
   std::size_t size_ = 0;
 };
 
-/// What one thread needs besides the mesh: a batch's control points, the kernel's rows and a row of output.
+/// The memory of one thread: a batch's control points, the kernel's rows and a row of output.
 /// 143 040 bytes at depth 5 with 16 lanes, whatever the mesh.
 struct Workspace {
   AlignedFloats input, work, row;
@@ -60,16 +60,19 @@ struct RowView {
   }
 };
 
-/// A control mesh made ready: rings and limits per vertex. Read only afterwards, so threads may share it.
+/// A control mesh prepared for the kernel: the rings and limits of its vertices. Read-only afterwards, so
+/// that threads may share it.
 ///
-/// Output forms, all of the same points: row buffers that the next row overwrites (rows), whole grids in
-/// memory (whole; streamed: past the caches, or compact), to which grid_indices.h has the index buffers that
-/// all grids of a depth share, and, by StreamTessellator, an indexed mesh in which shared points appear once.
+/// The same points come out in several forms: rows() hands over each row in a buffer that the next one
+/// overwrites; whole() and streamed() write whole grids to memory, for which grid_indices.h has the index
+/// buffers that all grids of a depth share; and StreamTessellator makes strips, or an indexed mesh in which
+/// shared points appear once.
 class RowStream {
  public:
-  /// Both must outlive this.
+  /// Keeps references to the adjacency and the kernel, which must outlive it.
   RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency,
             const Kernel& kernel = kernels().front());
+  RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front()) = delete;
 
   const Kernel& kernel() const { return kernel_; }
   const Rings& rings() const { return rings_; }
@@ -84,9 +87,9 @@ class RowStream {
   void whole(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out,
              const Kernel* kernel = nullptr) const;
 
-  /// The same bytes as whole() by non-temporal stores, row after row: for output much larger than the caches
-  /// that nobody reads soon. `out` is aligned as any Vertex is; nothing beyond the grids is touched. Visible
-  /// to other threads as whatever this thread writes afterwards.
+  /// The same bytes as whole(), written past the caches row after row: for output that is much larger than
+  /// they are and that nobody reads soon. Nothing beyond the grids is touched. Other threads see the output
+  /// when they see what this thread writes afterwards.
   void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const;
   /// The same in 16 bytes per vertex, see compact_vertex.h.
   void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, CompactVertex* out) const;

@@ -158,7 +158,7 @@ TEST(RowStreamTargets, EachRunsTheCodeItNames) {
     input.grow(kernel.lanes * input_size(1)), work.grow(kernel.lanes * work_size(1)),
         row.grow(kernel.lanes * 64);
     EXPECT_STREQ(
-        kernel.run(input.data(), 1, {{0, 0, 0}, 1}, work.data(), {row.data(), 32, 0, nullptr, nullptr}),
+        kernel.run(input.data(), 1, {{{0, 0, 0}, 1}}, work.data(), {row.data(), 32, 0, nullptr, nullptr}),
         kernel.name);
   }
 }

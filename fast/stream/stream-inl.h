@@ -30,7 +30,7 @@ class Stream {
 
   /// input: input_size(depth) * lanes numbers, windows are overwritten; work: work_size(depth) * lanes.
   /// Both aligned to 64 bytes; work holds finite numbers.
-  HWY_ATTR Stream(Scalar* input, int depth, const Placement<Scalar>& placement, Scalar* work,
+  HWY_ATTR Stream(Scalar* input, int depth, const KernelPlacement<Scalar>& placement, Scalar* work,
                   const Target<Scalar>& target)
       : input_(input),
         border_(work + border_offset(depth) * L),
@@ -181,7 +181,7 @@ class Stream {
   Scalar *border_, *strip_work_, *strips_;
   std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
   int depth_;
-  Placement<Scalar> placement_;
+  KernelPlacement<Scalar> placement_;
   V centre_[3];
   Scalar unit_;
   Target<Scalar> target_;

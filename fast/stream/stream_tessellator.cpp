@@ -46,7 +46,7 @@ struct StreamTessellator::State final : EngineState<float> {
   void make_control() {
     std::vector<Vec3<float>> positions;
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-      const auto& p = stream.rings().points()[static_cast<std::size_t>(v)];
+      const auto& p = stream.rings().points()[v];
       positions.push_back({p[0], p[1], p[2]});
     }
     control.emplace(adjacency, positions);

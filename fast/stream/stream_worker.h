@@ -149,7 +149,7 @@ class StreamWorker {
           strip_[2 * static_cast<std::size_t>(c)] = at(row, c);
           strip_[2 * static_cast<std::size_t>(c) + 1] = at(row + 1, c);
         }
-        writer.half_strip(h, row, [&](int q) -> const Point& { return strip_[static_cast<std::size_t>(q)]; });
+        writer.half_strip(h, row, [&](int q) -> const Point& { return strip_[q]; });
       }
     }
   }
@@ -165,10 +165,8 @@ class StreamWorker {
         continue;
       }
       if (!centre_) centre_.emplace(frame.adjacency.max_valence());
-      const auto& placement = frame.stream.rings().placement();
-      const fast::Placement<float> place{placement.unit,
-                                         {placement.centre[0], placement.centre[1], placement.centre[2]}};
-      writer.fan(s, place(centre_->evaluate(*frame.control, half.face, frame.centre)), border);
+      const Placement<float>& placement = frame.stream.rings().placement();
+      writer.fan(s, placed(centre_->evaluate(*frame.control, half.face, frame.centre), placement), border);
     }
   }
 
@@ -179,10 +177,10 @@ class StreamWorker {
       const int depth = edge_depth(frame.plan, face, e);
       edge_.resize(static_cast<std::size_t>(side(depth)));
       frame.stream.edges({&h, 1}, depth, workspace_, edge_.data(), &frame.narrow);
-      auto& points = border_[static_cast<std::size_t>(e)];
+      auto& points = border_[e];
       points.clear();
       for (const Vertex& v : edge_) points.push_back(as_point(v));
-      border[static_cast<std::size_t>(e)] = points.data();
+      border[e] = points.data();
     }
     return border;
   }

@@ -36,7 +36,7 @@ constexpr const char* target_name(int lanes) {
 }
 
 template <int lanes>
-HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& placement, float* work,
+HWY_ATTR const char* run_lanes(float* input, int depth, const KernelPlacement<float>& placement, float* work,
                                const Target<float>& target) {
   using Number = LaneNumber<hn::CappedTag<float, lanes>>;
   Stream<Number>(input, depth, placement, work, target).run();
@@ -44,8 +44,8 @@ HWY_ATTR const char* run_lanes(float* input, int depth, const Placement<float>& 
 }
 
 template <int lanes>
-HWY_ATTR void run_edge_lanes(const float* input, int depth, const Placement<float>& placement, float* work,
-                             float* out) {
+HWY_ATTR void run_edge_lanes(const float* input, int depth, const KernelPlacement<float>& placement,
+                             float* work, float* out) {
   EdgeStream<LaneNumber<hn::CappedTag<float, lanes>>> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
   strip.store(out);
@@ -80,13 +80,13 @@ namespace {
 
 HWY_EXPORT(list_kernels);
 
-const char* run_scalar(float* input, int depth, const Placement<float>& placement, float* work,
+const char* run_scalar(float* input, int depth, const KernelPlacement<float>& placement, float* work,
                        const Target<float>& target) {
   generic::Stream<ScalarNumber<float>>(input, depth, placement, work, target).run();
   return "scalar";
 }
 
-void run_edge_scalar(const float* input, int depth, const Placement<float>& placement, float* work,
+void run_edge_scalar(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
                      float* out) {
   generic::EdgeStream<ScalarNumber<float>> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernel's compiled variants, and which of them this machine can run.
+// The compiled variants of the float kernel, and which of them this machine can run.
 #pragma once
 
 #include <span>
@@ -15,14 +15,14 @@ struct Kernel {
   bool fused;        // hardware multiply-add; without it the bits come from std::fma, slowly
   /// A batch from input to target, see Stream. Returns `name` of the variant that really ran, as compiled
   /// into it.
-  const char* (*run)(float* input, int depth, const Placement<float>& placement, float* work,
+  const char* (*run)(float* input, int depth, const KernelPlacement<float>& placement, float* work,
                      const Target<float>& target);
   /// `lanes` control edges, see EdgeStream: edge_output_size(depth) * lanes numbers to out.
-  void (*run_edges)(const float* input, int depth, const Placement<float>& placement, float* work,
+  void (*run_edges)(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
                     float* out);
 };
 
-/// Those the machine has, best first; the last is plain scalar code and always there.
+/// The variants that this machine can run, best first; the last is plain scalar code and always there.
 std::span<const Kernel> kernels();
 
 /// The variant of that name, or nullptr if there is none or the machine cannot run it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of several lanes, from an array each to one vector per number.
+// From an array per lane to one vector per number.
 #pragma once
 
 #include <type_traits>

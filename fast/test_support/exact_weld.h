@@ -97,7 +97,7 @@ std::vector<std::array<SurfaceVertex<Real>, 3>> triangles_of(const DrawList<Real
   for (const Draw& draw : list.draws) {
     for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
       const auto v = draw.triangle(t);
-      const auto at = [&](std::int32_t i) { return list.vertices[static_cast<std::size_t>(draw.first + i)]; };
+      const auto at = [&](std::int32_t i) { return list.vertices[draw.first + i]; };
       out.push_back({at(v[0]), at(v[1]), at(v[2])});
     }
   }

@@ -62,12 +62,12 @@ struct RefinedMesh {
   std::pair<bool, std::vector<int>> ring(int v) const {
     std::map<int, int> next;  // neighbour -> neighbour after it
     std::set<int> second;
-    for (const int f : incident()[static_cast<std::size_t>(v)]) {
-      const auto& t = faces[static_cast<std::size_t>(f)];
+    for (const int f : incident()[v]) {
+      const auto& t = faces[f];
       for (int k = 0; k < 3; ++k) {
-        if (t[static_cast<std::size_t>(k)] != v) continue;
-        next[t[static_cast<std::size_t>((k + 1) % 3)]] = t[static_cast<std::size_t>((k + 2) % 3)];
-        second.insert(t[static_cast<std::size_t>((k + 2) % 3)]);
+        if (t[k] != v) continue;
+        next[t[(k + 1) % 3]] = t[(k + 2) % 3];
+        second.insert(t[(k + 2) % 3]);
       }
     }
     int first = next.begin()->first;
@@ -81,16 +81,12 @@ struct RefinedMesh {
   }
 
   /// The limit of point (i, j) of a control face.
-  Limit limit(std::int32_t face, int i, int j) const {
-    return limit(lattice[static_cast<std::size_t>(face)].at({i, j}));
-  }
+  Limit limit(std::int32_t face, int i, int j) const { return limit(lattice[face].at({i, j})); }
   Limit limit(int v) const {
     const auto [open, r] = ring(v);
-    const Point c = points[static_cast<std::size_t>(v)];
+    const Point c = points[v];
     const int n = static_cast<int>(r.size());
-    const auto p = [&, &rr = r](int i) {
-      return points[static_cast<std::size_t>(rr[static_cast<std::size_t>(i)])];
-    };
+    const auto p = [&, &rr = r](int i) { return points[rr[i]]; };
     const long double pi = std::numbers::pi_v<long double>;
     Point position{}, u{}, w{};
     if (!open) {
@@ -124,7 +120,7 @@ struct RefinedMesh {
     if (incident_.size() != points.size()) {
       incident_.assign(points.size(), {});
       for (std::size_t f = 0; f < faces.size(); ++f)
-        for (const int v : faces[f]) incident_[static_cast<std::size_t>(v)].push_back(static_cast<int>(f));
+        for (const int v : faces[f]) incident_[v].push_back(static_cast<int>(f));
     }
     return incident_;
   }
@@ -134,7 +130,7 @@ struct RefinedMesh {
     for (const auto& t : faces)
       for (std::size_t k = 0; k < 3; ++k)
         opposite[std::minmax(t[k], t[(k + 1) % 3])].push_back(t[(k + 2) % 3]);
-    const auto at = [&](int v) { return points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](int v) { return points[v]; };
     std::vector<Point> refined;
     for (std::size_t v = 0; v < points.size(); ++v) {
       const auto [open, r] = ring(static_cast<int>(v));

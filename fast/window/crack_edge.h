@@ -68,7 +68,7 @@ class EdgeStrip {
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:
-  using Ring = Corner<N, Vertex>;
+  using Ring = CornerRing<N, Vertex>;
   struct Rows {
     Vec3<N>*line, *up, *down;
     Ring left, right;  // slot 0 along the line

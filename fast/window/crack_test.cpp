@@ -32,16 +32,15 @@ void expect_one_set_of_bits(const data::ControlMesh& mesh, int depth) {
   std::vector<std::vector<SurfaceVertex<N>>> edge(static_cast<std::size_t>(3 * adjacency.face_count()),
                                                   std::vector<SurfaceVertex<N>>(count));
   for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h)
-    strip.evaluate(prepared, h, depth, edge[static_cast<std::size_t>(h)].data());
+    strip.evaluate(prepared, h, depth, edge[h].data());
   std::int64_t different = 0;
   const auto expect = [&](std::int32_t h, int t, const SurfaceVertex<N>& got) {
-    different += same_bits(edge[static_cast<std::size_t>(h)][static_cast<std::size_t>(t)], got) ? 0 : 1;
+    different += same_bits(edge[h][t], got) ? 0 : 1;
   };
   for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h) {
     const std::int32_t twin = adjacency.twin(h);
     if (twin < 0) continue;
-    for (int t = 0; t <= k; ++t)
-      expect(twin, k - t, edge[static_cast<std::size_t>(h)][static_cast<std::size_t>(t)]);
+    for (int t = 0; t <= k; ++t) expect(twin, k - t, edge[h][t]);
     window.run(prepared, h, depth, [&](int row, const SurfaceVertex<N>* s) {
       for (int r = row; r <= row + 1; ++r) {
         const auto at = [&](int c) -> const SurfaceVertex<N>& { return s[2 * c + r - row]; };
@@ -81,10 +80,10 @@ TEST(Sec5_Plan, AFaceIsAFanIfAnEdgeIsDeeperThanItself) {
                                 : 0));
   for (std::int32_t f = 0; f < 32; ++f) {
     for (int k = 0; k < 3; ++k) {
-      const int got = plan.edge_depth[static_cast<std::size_t>(3 * f + k)];
+      const int got = plan.edge_depth[3 * f + k];
       const std::int32_t g = adjacency.neighbour(f, k);
-      const int other = depth[static_cast<std::size_t>(g)] < 0 ? -1 : depth[static_cast<std::size_t>(g)];
-      const int own = depth[static_cast<std::size_t>(f)];
+      const int other = depth[g] < 0 ? -1 : depth[g];
+      const int own = depth[f];
       EXPECT_EQ(got, own < 0 ? -1 : std::max(own, other));
     }
   }

@@ -17,7 +17,7 @@
 
 namespace limitcheck::fast {
 
-/// Everything that is reused from patch to patch: one per thread.
+/// What a thread reuses from patch to patch.
 template <class Real>
 struct Worker {
   Worker(int max_depth, int max_valence, bool isolated_faces)
@@ -68,9 +68,9 @@ void evaluate(const PreparedMesh<Real>& mesh, const Patch& patch, const CrackPla
     if (!half.repaired()) continue;
     Border<Real> border;
     for (int e = 0; e < 3; ++e) {
-      auto& points = worker.border[static_cast<std::size_t>(e)];
+      auto& points = worker.border[e];
       worker.edge.evaluate(mesh, 3 * half.face + e, edge_depth(plan, half.face, e), points.data());
-      border[static_cast<std::size_t>(e)] = points.data();
+      border[e] = points.data();
     }
     if (half.display == Half::Display::kFan)
       writer.fan(side, worker.centre.evaluate(mesh, half.face, centre), border);

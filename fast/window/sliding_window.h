@@ -48,13 +48,13 @@ class SlidingWindow {
     storage_.resize(total);
     Vec3<N>* next = storage_.data();
     for (int s = 0; s <= max_depth; ++s) {
-      Level& level = levels_[static_cast<std::size_t>(s)];
+      Level& level = levels_[s];
       for (Vec3<N>** row : {&level.outtop, &level.top, &level.middle, &level.bottom, &level.outbottom}) {
         *row = next;
         next += row_length(s);
       }
-      for (Corner<N, Vertex>* corner : {&level.corner[0], &level.corner[1], &level.corner[2],
-                                        &level.corner[3], &level.mcorner[0], &level.mcorner[1]}) {
+      for (Corner* corner : {&level.corner[0], &level.corner[1], &level.corner[2], &level.corner[3],
+                             &level.mcorner[0], &level.mcorner[1]}) {
         corner->ring = next;
         next += corner_length();
       }
@@ -88,10 +88,10 @@ class SlidingWindow {
   }
 
  private:
-  using CornerRing = Corner<N, Vertex>;
+  using Corner = CornerRing<N, Vertex>;
   struct Level {
     Vec3<N>*outtop, *top, *middle, *bottom, *outbottom;
-    CornerRing corner[4], mcorner[2];
+    Corner corner[4], mcorner[2];
   };
 
   static std::size_t row_length(int s) { return (std::size_t{1} << s) + 1; }
@@ -132,8 +132,8 @@ class SlidingWindow {
   /// `row`: index of `top` among the rows of its level, which also places the pair's diagonal.
   template <class Sink>
   void subdivide(int level, int row, const Vec3<N>* top, const Vec3<N>* bottom, const Vec3<N>* outtop,
-                 const Vec3<N>* outbottom, const CornerRing& corner0, const CornerRing& corner1,
-                 const CornerRing& corner2, const CornerRing& corner3, Sink& sink) {
+                 const Vec3<N>* outbottom, const Corner& corner0, const Corner& corner1,
+                 const Corner& corner2, const Corner& corner3, Sink& sink) {
     if (level == 0) {
       emit(row, top, bottom, outtop, outbottom, corner0, corner1, corner2, corner3, sink);
       return;
@@ -157,7 +157,7 @@ class SlidingWindow {
     probe_.add(&WindowCounts::middle_corners, l.mcorner[0].n + l.mcorner[1].n);
 
     using Row = const Vec3<N>*;
-    using Ring = const CornerRing*;
+    using Ring = const Corner*;
     const auto subdivide_half = [&](int half_row) {
       return [&, half_row](Row t, Row b, Row ot, Row ob, Ring c0, Ring c1, Ring c2, Ring c3) {
         subdivide(level - 1, half_row, t, b, ot, ob, *c0, *c1, *c2, *c3, sink);
@@ -186,7 +186,7 @@ class SlidingWindow {
 
   /// A row of n edges becomes one of 2 n. `diagonal`: the column where the pair's diagonal meets it.
   static void refine_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
-                         const CornerRing& left, const CornerRing& right, Vec3<N>* out) {
+                         const Corner& left, const Corner& right, Vec3<N>* out) {
     out[0] = subdivide_corner(line[0], left);
     out[2 * n] = subdivide_corner(line[n], right);
     if (above == nullptr || below == nullptr) {
@@ -215,8 +215,8 @@ class SlidingWindow {
   }
 
   /// The edge points of the upright edges (even) and of the diagonals (odd).
-  static void refine_middle(int n, const Vec3<N>* top, const Vec3<N>* bottom, const CornerRing& corner0,
-                            const CornerRing& corner2, Vec3<N>* out) {
+  static void refine_middle(int n, const Vec3<N>* top, const Vec3<N>* bottom, const Corner& corner0,
+                            const Corner& corner2, Vec3<N>* out) {
     out[0] = corner0.has_face_after(2) ? edge_point(top[0], bottom[0], top[1], corner0.at(3))
                                        : midpoint(top[0], bottom[0]);
     for (int i = 0; i < n; ++i) {
@@ -227,8 +227,8 @@ class SlidingWindow {
                                            : midpoint(top[n], bottom[n]);
   }
 
-  static void refine_outtop(int n, const Vec3<N>* top, const Vec3<N>* outtop, const CornerRing& corner2,
-                            const CornerRing& corner3, Level& l) {
+  static void refine_outtop(int n, const Vec3<N>* top, const Vec3<N>* outtop, const Corner& corner2,
+                            const Corner& corner3, Level& l) {
     const bool left = corner3.has_face_after(1), right = corner2.has_face_after(corner2.n - 2);
     l.outtop[1] = left ? edge_point(top[0], outtop[1], top[1], outtop[0]) : midpoint(top[0], outtop[1]);
     for (int i = 1; i < n; ++i) {
@@ -240,8 +240,8 @@ class SlidingWindow {
     l.outtop[0] = l.corner[3].at(2);
   }
 
-  static void refine_outbottom(int n, const Vec3<N>* bottom, const Vec3<N>* outbottom,
-                               const CornerRing& corner0, const CornerRing& corner1, Level& l) {
+  static void refine_outbottom(int n, const Vec3<N>* bottom, const Vec3<N>* outbottom, const Corner& corner0,
+                               const Corner& corner1, Level& l) {
     const bool left = corner0.has_face_after(corner0.n - 2), right = corner1.has_face_after(1);
     l.outbottom[0] = left ? edge_point(bottom[0], outbottom[0], bottom[1], corner0.ring[corner0.n - 2])
                           : midpoint(bottom[0], outbottom[0]);
@@ -255,12 +255,12 @@ class SlidingWindow {
   }
 
   /// The rings of middle's two ends: copies of points just computed.
-  static void collect_middle_corners(int n, const CornerRing& corner0, const CornerRing& corner2, Level& l) {
-    const auto collect = [](CornerRing& out, bool inside, const Vec3<N>& along, const Vec3<N>& diagonal,
-                            const Vec3<N>& up, const CornerRing& upper, const CornerRing& lower,
+  static void collect_middle_corners(int n, const Corner& corner0, const Corner& corner2, Level& l) {
+    const auto collect = [](Corner& out, bool inside, const Vec3<N>& along, const Vec3<N>& diagonal,
+                            const Vec3<N>& up, const Corner& upper, const Corner& lower,
                             const Vec3<N>& down) {
       Vec3<N>* const ring = out.ring;
-      out = CornerRing{};
+      out = Corner{};
       out.ring = ring;
       ring[0] = along;
       ring[1] = diagonal;
@@ -281,8 +281,8 @@ class SlidingWindow {
 
   template <class Sink>
   void emit(int row, const Vec3<N>* top, const Vec3<N>* bottom, const Vec3<N>* outtop,
-            const Vec3<N>* outbottom, const CornerRing& corner0, const CornerRing& corner1,
-            const CornerRing& corner2, const CornerRing& corner3, Sink& sink) {
+            const Vec3<N>* outbottom, const Corner& corner0, const Corner& corner1, const Corner& corner2,
+            const Corner& corner3, Sink& sink) {
     const int n = 1 << depth_;
     if (Carry && row > 0) {
       for (int i = 0; i <= n; ++i)
@@ -298,7 +298,7 @@ class SlidingWindow {
 
   /// Limit vertices of a row into every other place of the strip.
   void limit_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
-                 const CornerRing& left, const CornerRing& right, Vertex* out) {
+                 const Corner& left, const Corner& right, Vertex* out) {
     out[0] = limit_corner<N, Surface>(line[0], left, zero_normals_);
     out[2 * n] = limit_corner<N, Surface>(line[n], right, zero_normals_);
     if (above == nullptr) {

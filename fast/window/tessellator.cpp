@@ -54,10 +54,9 @@ struct Tessellator<Real>::State final : EngineState<Real> {
     }
     int exponent = 0;
     if (largest > 0) std::frexp(largest, &exponent);
-    placement.scale = static_cast<Real>(std::ldexp(1.0, exponent));
-    placement.offset = {static_cast<Real>(centre[0]), static_cast<Real>(centre[1]),
-                        static_cast<Real>(centre[2])};
-    if (!std::isfinite(placement.scale) || !(placement.scale > 0))
+    placement = {{static_cast<Real>(centre[0]), static_cast<Real>(centre[1]), static_cast<Real>(centre[2])},
+                 static_cast<Real>(std::ldexp(1.0, exponent))};
+    if (!std::isfinite(placement.unit) || !(placement.unit > 0))
       throw data::ArgumentError("tessellator: the mesh is too large or too small for its number type");
     std::vector<Vec3<Real>> positions;
     positions.reserve(mesh.positions.size());
@@ -76,7 +75,7 @@ struct Tessellator<Real>::State final : EngineState<Real> {
     if (static_cast<double>(static_cast<Real>(coarse)) != coarse) return 0;
     if (std::abs(coarse) > 2 * size) return coarse;
     for (const auto& p : mesh.positions) {
-      const double x = static_cast<double>(static_cast<Real>(p[static_cast<std::size_t>(axis)]));
+      const double x = static_cast<double>(static_cast<Real>(p[axis]));
       if (static_cast<double>(static_cast<Real>(x - coarse)) != x - coarse || x - coarse + coarse != x)
         return 0;
     }
@@ -105,7 +104,7 @@ struct Tessellator<Real>::State final : EngineState<Real> {
     run(0, patches.size(), [&](std::size_t i, Worker<Real>&) { return this->index_writer(i, layout, out); });
   }
 
-  SurfaceVertex<Real> limit(std::int32_t v) const override { return placement(prepared->limit(v)); }
+  SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }
 
   std::int64_t zero_normals() const override {
     std::int64_t count = prepared->zero_normals() - zero_normals_before;
@@ -117,7 +116,7 @@ struct Tessellator<Real>::State final : EngineState<Real> {
   template <class MakeWriter>
   void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
     const auto chunk = [&](std::size_t from, std::size_t to) {
-      Worker<Real>& worker = *workers[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+      Worker<Real>& worker = *workers[tbb::this_task_arena::current_thread_index()];
       for (std::size_t i = from; i < to; ++i) {
         auto writer = make_writer(i, worker);
         evaluate(*prepared, patches[i], plan, options.cracks.centre, worker, writer);

@@ -161,9 +161,8 @@ TEST(Sec4_Frame, OpensOnlyWhereCulledFacesBegin) {
       const auto& final_depth = tessellator.last_pairing().depth;
       std::int64_t expected = 0;
       for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h)
-        if (final_depth[static_cast<std::size_t>(h / 3)] >= 0 &&
-            final_depth[static_cast<std::size_t>(adjacency.twin(h) / 3)] < 0)
-          expected += 1 << tessellator.last_plan().edge_depth[static_cast<std::size_t>(h)];
+        if (final_depth[h / 3] >= 0 && final_depth[adjacency.twin(h) / 3] < 0)
+          expected += 1 << tessellator.last_plan().edge_depth[h];
       const WeldReport report = weld(triangles_of(list), true);
       EXPECT_EQ(report.open, expected) << name(strategy);
       EXPECT_EQ(report.repeated, 0);

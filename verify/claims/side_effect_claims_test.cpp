@@ -46,7 +46,7 @@ TEST(Sec5_Centre, NeedsNoPointOfItsStepThatTheLimitPointsOfTheFirstBorderStepDoN
       // They are the twelve points that the centre is made of, each once.
       std::vector<V> storage(3 * static_cast<std::size_t>(adjacency.max_valence()));
       std::array<V, 3> corner;
-      std::array<fast::Corner<double, fast::SurfaceVertex<double>>, 3> rings;
+      std::array<fast::CornerRing<double, fast::SurfaceVertex<double>>, 3> rings;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto h = 3 * f + static_cast<std::int32_t>(k);
         corner[k] = prepared.position(adjacency.origin(h));

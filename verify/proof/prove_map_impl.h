@@ -57,7 +57,7 @@ bool scales_rightly(int depth, Scaled&& scaled) {
 template <class T>
 bool scales_rightly(int depth) {
   return scales_rightly<T>(depth, [](T unit, int d) {
-    return fast::row_stream::scaled(fast::row_stream::Placement<T>{{}, unit}, d).unit;
+    return fast::row_stream::scaled(fast::row_stream::KernelPlacement<T>{{{}, unit}}, d).unit;
   });
 }
 

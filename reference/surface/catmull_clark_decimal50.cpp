@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// Catmull-Clark with 50 decimal digits.
+#include "reference/catmull_clark/stam_impl.h"
+#include "reference/catmull_clark/subdivision_evaluator_impl.h"
+
+namespace limitcheck::reference::catmull_clark {
+
+template class StamEvaluator<Decimal50>;
+template class SubdivisionEvaluator<Decimal50>;
+
+}  // namespace limitcheck::reference::catmull_clark

@@ -108,7 +108,7 @@ class SpiderKind {
   SpiderPower<N> power(long exponent) const;
   /// The same, from a table when the exponent is small; `buffer` is used otherwise.
   const SpiderPower<N>& power(long exponent, SpiderPower<N>& buffer) const {
-    if (exponent < kTable) return table_[static_cast<std::size_t>(exponent)];
+    if (exponent < kTable) return table_[exponent];
     buffer = power(exponent);
     return buffer;
   }

@@ -27,8 +27,8 @@ struct Matrix {
   template <class M>
   std::vector<M> step(const std::vector<M>& x) const {
     std::vector<M> y(x.size());
-    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
-    const auto set = [&](int i, const M& value) { y[static_cast<std::size_t>(i)] = value; };
+    const auto at = [&](int i) { return x[i]; };
+    const auto set = [&](int i, const M& value) { y[i] = value; };
     M sum(0);
     for (int i = 0; i < count; ++i) sum = sum + at(r(i));
     const M a = loop_a<M>(std::max(count, 3));
@@ -50,9 +50,9 @@ struct Matrix {
     Eigen::MatrixXd s(size(), size());
     for (int j = 0; j < size(); ++j) {
       std::vector<double> unit(static_cast<std::size_t>(size()));
-      unit[static_cast<std::size_t>(j)] = 1;
+      unit[j] = 1;
       const auto column = step(unit);
-      for (int i = 0; i < size(); ++i) s(i, j) = column[static_cast<std::size_t>(i)];
+      for (int i = 0; i < size(); ++i) s(i, j) = column[i];
     }
     return s;
   }
@@ -118,7 +118,7 @@ TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
       const Matrix m{count, boundary};
       std::vector<N> x;
       for (int i = 0; i < m.size(); ++i) x.push_back(N((i * 37 + 11) % 97 - 48) / 31);
-      const auto vec = [&](int i) { return Vec3<N>{x[static_cast<std::size_t>(i)], N(0), N(0)}; };
+      const auto vec = [&](int i) { return Vec3<N>{x[i], N(0), N(0)}; };
       std::vector<Vec3<N>> r, q, p;
       for (int i = 0; i < m.rings; ++i) r.push_back(vec(m.r(i))), p.push_back(vec(m.p(i)));
       for (int i = 0; i < count; ++i) q.push_back(vec(m.q(i)));
@@ -138,8 +138,7 @@ TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
             const N scale = std::max(growth, shrink);
             const auto check = [&](const Vec3<N>& part, int a, int b, int index, const char* what) {
               const N got = spider.limit().x + (g1.x * a + g2.x * b) * shrink + part.x * growth;
-              const double e =
-                  static_cast<N>(abs(got - x[static_cast<std::size_t>(index)]) / scale).convert_to<double>();
+              const double e = static_cast<N>(abs(got - x[index]) / scale).convert_to<double>();
               worst = std::max(worst, e);
               EXPECT_LE(e, 1e-30) << count << (boundary ? " boundary " : " interior ") << "step " << step
                                   << " sector " << i << " " << what;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <map>
-#include <stdexcept>
 #include <string>
 
+#include "data/error.h"
 #include "reference/loop/spider_impl.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/stam_patches.h"
@@ -25,29 +25,28 @@ class StamData {
     make_spiders();
   }
 
-  std::size_t face_count() const { return topology_.triangles().size(); }
+  std::size_t face_count() const { return topology_.faces().size(); }
 
   template <class P>
   SurfacePoint<N> evaluate(int face, const P& l1, const P& l2, Order order) const {
     if (face < 0 || static_cast<std::size_t>(face) >= face_count())
-      throw std::out_of_range("no face " + std::to_string(face));
+      throw data::ArgumentError("no face " + std::to_string(face));
     const auto f = static_cast<std::size_t>(face);
     const Site<P> site = locate<P>(l1, l2);
     SurfacePoint<N> result;
     const auto corner = static_cast<std::size_t>(site.subface);
-    const std::int32_t spider =
-        site.subface == 3 ? -1 : spider_of_[static_cast<std::size_t>(topology_.triangles()[f][corner])];
+    const std::int32_t spider = site.subface == 3 ? -1 : spider_of_[topology_.faces()[f][corner]];
     if (spider < 0)
       evaluate_regular(f, site, order, result);
     else if (site.u + site.v == 0)
       return evaluate_corner(f, site.subface, site.placement, order);
     else
-      evaluate_near_corner(f, site, spiders_[static_cast<std::size_t>(spider)], order, result);
+      evaluate_near_corner(f, site, spiders_[spider], order, result);
     if (order == Order::kPosition) return result;
     Tangents<N> tangents = tangents_of(result);
-    if (spider >= 0 && topology_.on_boundary(topology_.triangles()[f][corner]) &&
+    if (spider >= 0 && topology_.on_boundary(topology_.faces()[f][corner]) &&
         nearly_parallel(result.t1, result.t2))
-      separate_tangents(f, site, spiders_[static_cast<std::size_t>(spider)], tangents);
+      separate_tangents(f, site, spiders_[spider], tangents);
     set_normal(result, tangents, fallback_normal(f));
     return result;
   }
@@ -58,19 +57,17 @@ class StamData {
     std::vector<Vec3<N>> r, q, p;
     for (std::size_t id = 0; id < topology_.vertex_count(); ++id) {
       const auto v = static_cast<std::int32_t>(id);
-      if (topology_.ring(v).empty() || is_regular(topology_, v)) continue;
+      const Sector sector = topology_.sector(v);
+      if (sector.faces.empty() || is_regular(sector)) continue;
       r.clear(), q.clear(), p.clear();
-      for (const std::int32_t spoke : topology_.spokes(v))
-        r.push_back(refined_.point(refined_.edge_point(spoke)));
-      for (const std::int32_t neighbour : topology_.ring(v)) p.push_back(refined_.point(neighbour));
-      for (const std::int32_t f : topology_.faces(v)) {
-        if (f < 0) continue;
-        const Triangle& t = topology_.triangles()[static_cast<std::size_t>(f)];
+      for (const std::int32_t edge : sector.edges) r.push_back(refined_.point(refined_.edge_point(edge)));
+      for (const std::int32_t neighbour : sector.neighbours) p.push_back(refined_.point(neighbour));
+      for (const std::int32_t f : sector.faces) {
+        const Triangle t = triangle_of(topology_, f);
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-        q.push_back(
-            refined_.point(refined_.edge_point(topology_.edge(static_cast<std::size_t>(f), (k + 1) % 3))));
+        q.push_back(refined_.point(refined_.edge_point(topology_.edge(f, (k + 1) % 3))));
       }
-      const std::pair key(static_cast<int>(q.size()), topology_.on_boundary(v));
+      const std::pair key(static_cast<int>(q.size()), !sector.closed);
       const auto kind = kinds_.try_emplace(key, key.first, key.second, weights_).first;
       spider_of_[id] = static_cast<std::int32_t>(spiders_.size());
       spiders_.emplace_back(kind->second, refined_.point(v), r, q, p);
@@ -93,17 +90,18 @@ class StamData {
   }
 
   SurfacePoint<N> evaluate_corner(std::size_t f, int k, const Placement& placement, Order order) const {
-    const std::int32_t v = topology_.triangles()[f][static_cast<std::size_t>(k)];
+    const std::int32_t v = topology_.faces()[f][k];
+    const Sector sector = topology_.sector(v);
     std::vector<Vec3<N>> ring;
-    for (const std::int32_t r : topology_.ring(v)) ring.push_back(control_[static_cast<std::size_t>(r)]);
-    return extraordinary_corner<N>(control_[static_cast<std::size_t>(v)], ring, topology_.on_boundary(v),
-                                   topology_.sector(f, k), placement, weights_, order);
+    for (const std::int32_t r : sector.neighbours) ring.push_back(control_[r]);
+    return extraordinary_corner<N>(control_[v], ring, !sector.closed, topology_.ring_index(f, k), placement,
+                                   weights_, order);
   }
 
   template <class P>
   void evaluate_near_corner(std::size_t f, const Site<P>& site, const Spider<N>& spider, Order order,
                             SurfacePoint<N>& result) const {
-    const int sector = topology_.sector(f, site.subface);
+    const int sector = topology_.ring_index(f, site.subface);
     const long steps = steps_to_corner(site.u, site.v);
     const P u = scaled(site.u, steps + 1), v = scaled(site.v, steps + 1);  // 1 < u + v <= 2
     SpiderPower<N> buffer;
@@ -209,9 +207,8 @@ class StamData {
 
   /// Twice the control face's area times its normal: what D12 falls back to inside a face.
   Vec3<N> fallback_normal(std::size_t f) const {
-    const Triangle& t = topology_.triangles()[f];
-    const auto at = [&](std::size_t k) { return control_[static_cast<std::size_t>(t[k])]; };
-    return cross(at(1) - at(0), at(2) - at(0));
+    const auto [a, b, c] = triangle_of(topology_, f);
+    return cross(control_[b] - control_[a], control_[c] - control_[a]);
   }
 
   Weights weights_;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cmath>
-#include <stdexcept>
 
+#include "data/error.h"
 #include "reference/loop/patch.h"
 #include "reference/number/number.h"
 #include "reference/point/parameter_exact.h"
@@ -22,7 +22,7 @@ struct Site {
 template <class P>
 Site<P> locate(P l1, P l2) {
   if (!(l1 >= 0) || !(l2 >= 0) || !(l1 + l2 <= 1))
-    throw std::invalid_argument("l1, l2 must be >= 0 and l1 + l2 <= 1");
+    throw data::ArgumentError("l1, l2 must be >= 0 and l1 + l2 <= 1");
   if (l2 > 1 - l1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);  // the sum was rounded to 1
   const P half = P(1) / P(2);
   // Differences from 1 are exact in double where it matters: next to the corner they are measured from.

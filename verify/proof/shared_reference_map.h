@@ -105,7 +105,7 @@ class SharedReferenceMap {
         const Gradient next = gradient[(k + 1) % 3], before = gradient[(k + 2) % 3];
         for (std::size_t t = 0; t < face->rings.size(); ++t) {
           const auto& c = face->rings[t].corner[k];
-          put(t, reference::extraordinary_corner<C>(c.point, c.span(), c.on_boundary, c.sector,
+          put(t, reference::extraordinary_corner<C>(c.point, c.span(), c.on_boundary, c.ring_index,
                                                     {next[0], next[1], before[0], before[1], level},
                                                     face->rings[t].weights, reference::Order::kFirst));
         }

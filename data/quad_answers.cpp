@@ -52,7 +52,8 @@ std::vector<QuadAnswer> load_quad_answers() {
   if (!stream) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, "cannot be opened for reading");
   std::vector<QuadAnswer> answers;
   try {
-    for (const Json& one : Json::parse(stream).at("cases")) answers.push_back(answer(one));
+    const Json json = Json::parse(stream);
+    for (const Json& one : json.at("cases")) answers.push_back(answer(one));
   } catch (const Json::exception& error) {
     throw InputError("FILE_SYNTAX", file.string(), 0, error.what());
   }

@@ -68,7 +68,9 @@ void check_all() {
       if (s.normal) check("normal", p.normal, *s.normal);
       EXPECT_EQ(p.at_corner, s.at_vertex) << a.id;
       EXPECT_EQ(p.first_exist, s.du.has_value()) << a.id;
-      if (s.no_tangent_plane) EXPECT_EQ(p.normal_kind, NormalKind::kNoTangentPlane) << a.id;
+      if (s.no_tangent_plane) {
+        EXPECT_EQ(p.normal_kind, NormalKind::kNoTangentPlane) << a.id;
+      }
       if (s.du) check("du", p.d1, *s.du), check("dv", p.d2, *s.dv);
       if (s.dudu) check("duu", p.d11, *s.dudu), check("duv", p.d12, *s.dudv), check("dvv", p.d22, *s.dvdv);
     }

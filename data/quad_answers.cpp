@@ -47,7 +47,8 @@ QuadAnswer answer(const Json& json) {
 }  // namespace
 
 std::vector<QuadAnswer> load_quad_answers() {
-  const std::filesystem::path file = known_answers_path().replace_filename("known_answers_catmull_clark.json");
+  const std::filesystem::path file =
+      known_answers_path().replace_filename("known_answers_catmull_clark.json");
   std::ifstream stream(file);
   if (!stream) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, "cannot be opened for reading");
   std::vector<QuadAnswer> answers;

@@ -18,9 +18,9 @@ namespace limitcheck::data {
 /// One point of a surface, and what lies there.
 struct QuadSample {
   int face = 0;
-  int corner = 0;            ///< of a face that is no quad: whose sub-quad (u, v) is in
+  int corner = 0;  ///< of a face that is no quad: whose sub-quad (u, v) is in
   std::array<Numeral, 2> uv;
-  bool at_vertex = false;    ///< an extraordinary vertex itself: no derivatives
+  bool at_vertex = false;  ///< an extraordinary vertex itself: no derivatives
   bool no_tangent_plane = false;
   Numeral3 position;
   std::optional<Numeral3> normal, du, dv, dudu, dudv, dvdv;
@@ -29,10 +29,10 @@ struct QuadSample {
 /// A mesh and samples on it.
 struct QuadAnswer {
   std::string id;
-  std::string scheme;     ///< "catmull-clark" or "loop"
-  std::string boundary;   ///< "edge": vertices of one face are smooth; "edge+corner": they are held
-  std::string triangles;  ///< "catmark" or "smooth"
-  bool has_sharp = false; ///< edges or vertices with a sharpness
+  std::string scheme;      ///< "catmull-clark" or "loop"
+  std::string boundary;    ///< "edge": vertices of one face are smooth; "edge+corner": they are held
+  std::string triangles;   ///< "catmark" or "smooth"
+  bool has_sharp = false;  ///< edges or vertices with a sharpness
   std::vector<Numeral3> vertices;
   Faces faces;
   std::vector<QuadSample> samples;

@@ -30,7 +30,8 @@ struct CubicBasis {
     const N tt = t * t, ttt = tt * t;
     value = {s * s * s * sixth, (N(3) * ttt - N(6) * tt + N(4)) * sixth,
              (N(3) * (tt - ttt) + N(3) * t + N(1)) * sixth, ttt * sixth};
-    first = {N(0) - s * s * half, (N(3) * tt - N(4) * t) * half, (N(2) * t - N(3) * tt + N(1)) * half, tt * half};
+    first = {N(0) - s * s * half, (N(3) * tt - N(4) * t) * half, (N(2) * t - N(3) * tt + N(1)) * half,
+             tt * half};
     second = {s, N(3) * t - N(2), N(1) - N(3) * t, t};
   }
 };

@@ -56,13 +56,13 @@ void check_all() {
   for (const auto& a : smooth_answers()) {
     const Evaluator evaluator(a.faces, vecs<N>(a.vertices));
     for (const auto& s : a.samples) {
-      const auto p =
-          evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]), Order::kSecond);
+      const auto p = evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]),
+                                        Parameter::parse(s.uv[1]), Order::kSecond);
       const auto check = [&](const char* what, const Vec3<N>& got, const data::Numeral3& expected) {
         const double d = digits(got, vec<N>(expected));
         fewest = std::min(fewest, d);
-        EXPECT_GE(d, kDigits) << a.id << " (" << s.uv[0] << ", " << s.uv[1] << ") " << what << ": " << got.x << " "
-                              << got.y << " " << got.z;
+        EXPECT_GE(d, kDigits) << a.id << " (" << s.uv[0] << ", " << s.uv[1] << ") " << what << ": " << got.x
+                              << " " << got.y << " " << got.z;
       };
       check("position", p.position, s.position);
       if (s.normal) check("normal", p.normal, *s.normal);

@@ -52,7 +52,8 @@ Vec3<N> boundary_edge_point(const Vec3<N>& a, const Vec3<N>& b) {
 
 /// Interior vertex of valence n: (n - 2) / n c + (sum e_i + sum F_i) / n^2, F_i the face points of this step.
 template <class N>
-Vec3<N> interior_vertex_point(const Vec3<N>& c, std::span<const Vec3<N>> edges, std::span<const Vec3<N>> face_points) {
+Vec3<N> interior_vertex_point(const Vec3<N>& c, std::span<const Vec3<N>> edges,
+                              std::span<const Vec3<N>> face_points) {
   const auto n = static_cast<int>(edges.size());
   Vec3<N> sum{};
   for (const Vec3<N>& e : edges) sum += e - c;
@@ -93,7 +94,8 @@ N four_lambda_minus_one(long q) {
 /// C = sum 4 cos(i t) e_i + (cos(i t) + cos((i + 1) t)) / (4 lambda - 1) f_i and S with sines, t = 2 pi / n, taken
 /// from differences to c. C points towards e_0, S a quarter turn on.
 template <class N>
-Tangents<N> interior_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges, std::span<const Vec3<N>> faces) {
+Tangents<N> interior_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges,
+                              std::span<const Vec3<N>> faces) {
   const std::size_t n = edges.size();
   const CircleTable<N>& table = circle_table<N>(static_cast<long>(n));
   const N share = N(1) / four_lambda_minus_one<N>(static_cast<long>(n));
@@ -119,7 +121,8 @@ Tangents<N> interior_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges, 
 /// The mask of catmarkScheme.h in OpenSubdiv belongs to another edge rule (Biermann, Levin, Zorin 2000). For K = 4
 /// the surface takes the plane on like 1/k, for K >= 5 it has none.
 template <class N>
-Tangents<N> boundary_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges, std::span<const Vec3<N>> faces) {
+Tangents<N> boundary_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges,
+                              std::span<const Vec3<N>> faces) {
   const std::size_t count = faces.size();
   Tangents<N> t{};
   add_difference(t.first, t.first_terms, N(1), edges.front(), edges.back());

@@ -15,7 +15,9 @@ namespace limitcheck::reference::catmull_clark {
 
 /// Whether normals can be had: not in exact rationals, which have no square roots.
 template <class N>
-inline constexpr bool kHasNormals = requires(N a) { NumberTraits<N>::sqrt(a); };
+inline constexpr bool kHasNormals = requires(N a) {
+  NumberTraits<N>::sqrt(a);
+};
 
 /// A quad's sub-quad whose (u, v) is turned against the quad's: its u runs along the quad's direction u a + v b, with
 /// these for u and v of the sub-quad at corner k when that starts at the corner.
@@ -31,8 +33,8 @@ constexpr Turn turn_of(std::size_t corner) {
 /// Sets the derivatives of `result` from those of a patch whose (u, v) is turned; `first`, `second` are positive
 /// factors.
 template <class N>
-void set_derivatives(SurfacePoint<N>& result, const PatchPoint<N>& p, const Turn& turn, const N& first, const N& second,
-                     Order order) {
+void set_derivatives(SurfacePoint<N>& result, const PatchPoint<N>& p, const Turn& turn, const N& first,
+                     const N& second, Order order) {
   if (order == Order::kPosition) return;
   const N a(turn.uu), b(turn.uv), c(turn.vu), d(turn.vv);
   result.d1 = (p.u * a + p.v * c) * first;

@@ -20,10 +20,13 @@ namespace limitcheck::reference::catmull_clark {
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions) {
   const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
-  const std::size_t vertices = positions.size(), edges = topology.edges().size(), faces = topology.faces().size();
+  const std::size_t vertices = positions.size(), edges = topology.edges().size(),
+                    faces = topology.faces().size();
   std::vector<Vec3<N>> refined(vertices + edges + faces);
   std::vector<Vec3<N>> around, near;
-  const auto face = [&](std::int32_t f) -> Vec3<N>& { return refined[vertices + edges + static_cast<std::size_t>(f)]; };
+  const auto face = [&](std::int32_t f) -> Vec3<N>& {
+    return refined[vertices + edges + static_cast<std::size_t>(f)];
+  };
   for (std::size_t f = 0; f < faces; ++f) {
     around.clear();
     for (const std::int32_t v : topology.faces()[f]) around.push_back(at(v));
@@ -40,7 +43,8 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
     if (sector.faces.empty()) {
       refined[v] = positions[v];
     } else if (!sector.closed) {
-      refined[v] = boundary_vertex_point(positions[v], at(sector.neighbours.front()), at(sector.neighbours.back()));
+      refined[v] =
+          boundary_vertex_point(positions[v], at(sector.neighbours.front()), at(sector.neighbours.back()));
     } else {
       around.clear(), near.clear();
       for (const std::int32_t e : sector.neighbours) around.push_back(at(e));
@@ -81,7 +85,8 @@ struct QuadMesh {
   std::vector<Vec3<N>> positions;
   data::Faces given;  ///< the faces before that step, empty if there was none
 
-  QuadMesh(data::Faces faces, std::vector<Vec3<N>> points) : topology(points.size(), faces), positions(std::move(points)) {
+  QuadMesh(data::Faces faces, std::vector<Vec3<N>> points)
+      : topology(points.size(), faces), positions(std::move(points)) {
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (faces[f].size() != 4) {
         positions = refine_once(topology, positions);
@@ -109,12 +114,14 @@ struct QuadParameter {
 template <class N, class P>
 QuadParameter<P> locate(const QuadMesh<N>& mesh, int face, int corner, const P& u, const P& v) {
   const auto refuse = [](const std::string& why) { throw data::ArgumentError(why); };
-  if (face < 0 || static_cast<std::size_t>(face) >= mesh.face_count()) refuse("no face " + std::to_string(face));
+  if (face < 0 || static_cast<std::size_t>(face) >= mesh.face_count())
+    refuse("no face " + std::to_string(face));
   if (!(u >= 0) || !(u <= 1) || !(v >= 0) || !(v <= 1)) refuse("u, v must be in 0..1");
   const auto f = static_cast<std::size_t>(face);
   const std::size_t corners = mesh.given.size() > 0 ? mesh.given[f].size() : 4;
   if (corner < 0 || static_cast<std::size_t>(corner) >= (corners == 4 ? 1 : corners))
-    refuse("face " + std::to_string(face) + " has no corner " + std::to_string(corner) + " with a domain of its own");
+    refuse("face " + std::to_string(face) + " has no corner " + std::to_string(corner) +
+           " with a domain of its own");
   if (mesh.given.size() == 0) return {f, u, v, false};
   const std::size_t first = mesh.given.first_corner(f);
   if (corners != 4) return {first + static_cast<std::size_t>(corner), u, v, false};

@@ -68,7 +68,8 @@ struct RingedQuad {
   std::array<bool, 4> edge_on_boundary{};  ///< edge k from corner k to k + 1
 
   bool is_regular() const {
-    return corner[0].is_regular() && corner[1].is_regular() && corner[2].is_regular() && corner[3].is_regular();
+    return corner[0].is_regular() && corner[1].is_regular() && corner[2].is_regular() &&
+           corner[3].is_regular();
   }
 
   /// The sixteen points of a regular quad. A boundary vertex of two faces is completed by linear ghosts beyond the
@@ -123,7 +124,8 @@ RingedQuad<Point> gather(const Topology& topology, std::size_t face, PointOf&& p
     c.sector = topology.ring_index(face, k);
     for (const std::int32_t e : sector.neighbours) c.edges.push_back(point(e));
     for (const std::int32_t f : sector.faces) c.faces.push_back(point(opposite(topology, f, v)));
-    result.edge_on_boundary[k] = topology.edges()[static_cast<std::size_t>(topology.edge(face, k))].on_boundary();
+    result.edge_on_boundary[k] =
+        topology.edges()[static_cast<std::size_t>(topology.edge(face, k))].on_boundary();
   }
   return result;
 }
@@ -151,7 +153,8 @@ class SubdividedQuad {
   }
 
   RingedQuad<Vec3<N>> subquad(int which) const {
-    const auto k = static_cast<std::size_t>(which), next = (k + 1) % 4, across = (k + 2) % 4, before = (k + 3) % 4;
+    const auto k = static_cast<std::size_t>(which), next = (k + 1) % 4, across = (k + 2) % 4,
+               before = (k + 3) % 4;
     RingedQuad<Vec3<N>> result;
     result.corner[k] = vertex_[k];
     result.corner[next] = edge_[k];

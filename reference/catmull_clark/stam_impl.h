@@ -25,8 +25,8 @@ inline long steps_to_corner(double x, double y) {
 }
 inline long steps_to_corner(const Rational& x, const Rational& y) {
   const Rational largest = std::max(x, y);
-  long steps =
-      std::max(0L, static_cast<long>(msb(denominator(largest))) - static_cast<long>(msb(numerator(largest))) - 2);
+  long steps = std::max(
+      0L, static_cast<long>(msb(denominator(largest))) - static_cast<long>(msb(numerator(largest))) - 2);
   while (numerator(largest) << static_cast<unsigned long>(steps + 1) <= denominator(largest)) ++steps;
   return steps;
 }
@@ -125,7 +125,8 @@ class FinerSector {
   }
 
  private:
-  static Vec3<N> regular(const Vec3<N>& v, const std::array<Vec3<N>, 4>& edges, const std::array<Vec3<N>, 4>& faces) {
+  static Vec3<N> regular(const Vec3<N>& v, const std::array<Vec3<N>, 4>& edges,
+                         const std::array<Vec3<N>, 4>& faces) {
     return interior_vertex_point<N>(v, edges, faces);
   }
   Vec3<N>& put(int x, int y) { return points_[static_cast<std::size_t>(5 * (y + 1) + x + 1)]; }
@@ -138,8 +139,7 @@ template <class N>
 class StamData {
  public:
   StamData(data::Faces faces, std::vector<Vec3<N>> positions)
-      : mesh_(std::move(faces), std::move(positions)),
-        points_(refine_once(mesh_.topology, mesh_.positions)) {
+      : mesh_(std::move(faces), std::move(positions)), points_(refine_once(mesh_.topology, mesh_.positions)) {
     const Topology finer(points_.size(), refined_faces(mesh_.topology));
     make_two_rings(finer);
     make_patches(finer);
@@ -158,19 +158,21 @@ class StamData {
     SurfacePoint<N> result;
     if (ring < 0) {
       Patch<N> patch;
-      for (std::size_t i = 0; i < 16; ++i) patch[i] = points_[static_cast<std::size_t>(patches_[4 * at.quad + k][i])];
+      for (std::size_t i = 0; i < 16; ++i)
+        patch[i] = points_[static_cast<std::size_t>(patches_[4 * at.quad + k][i])];
       const PatchPoint<N> p = evaluate_patch<N>(patch, number_from<N>(P(2 * at.u - (right ? 1 : 0))),
                                                 number_from<N>(P(2 * at.v - (up ? 1 : 0))), order);
       result.position = p.position;
       set_derivatives(result, p, turn_of(0), N(2) * halved, N(4) * halved * halved, order);
     } else {
       // Towards the next and the previous corner; 1 - u is exact next to u = 1.
-      const P from_right = 2 * (1 - at.u), from_top = 2 * (1 - at.v), from_left = 2 * at.u, from_bottom = 2 * at.v;
+      const P from_right = 2 * (1 - at.u), from_top = 2 * (1 - at.v), from_left = 2 * at.u,
+              from_bottom = 2 * at.v;
       const P x = k == 0 ? from_left : k == 1 ? from_bottom : k == 2 ? from_right : from_top;
       const P y = k == 0 ? from_bottom : k == 1 ? from_right : k == 2 ? from_top : from_left;
       if (x == 0 && y == 0) return extraordinary_corner<N>(corner_of(at.quad, k), k, order);
-      near_corner(rings_[static_cast<std::size_t>(ring)], mesh_.topology.ring_index(at.quad, k), x, y, turn_of(k),
-                  halved, order, result);
+      near_corner(rings_[static_cast<std::size_t>(ring)], mesh_.topology.ring_index(at.quad, k), x, y,
+                  turn_of(k), halved, order, result);
     }
     if (order != Order::kPosition)
       set_normal(result, {result.t1, result.t2, result.t1_terms, result.t2_terms}, fallback(at.quad));
@@ -179,9 +181,9 @@ class StamData {
 
  private:
   RingedCorner<Vec3<N>> corner_of(std::size_t quad, std::size_t k) const {
-    return gather<Vec3<N>>(mesh_.topology, quad, [&](std::int32_t v) {
-      return mesh_.positions[static_cast<std::size_t>(v)];
-    }).corner[k];
+    return gather<Vec3<N>>(mesh_.topology, quad,
+                           [&](std::int32_t v) { return mesh_.positions[static_cast<std::size_t>(v)]; })
+        .corner[k];
   }
   Vec3<N> fallback(std::size_t quad) const {
     const auto at = [&](std::size_t k) -> const Vec3<N>& {
@@ -191,10 +193,11 @@ class StamData {
   }
 
   template <class P>
-  void near_corner(const TwoRing<N>& ring, int sector, const P& x, const P& y, const Turn& turn, const N& halved,
-                   Order order, SurfacePoint<N>& result) const {
+  void near_corner(const TwoRing<N>& ring, int sector, const P& x, const P& y, const Turn& turn,
+                   const N& halved, Order order, SurfacePoint<N>& result) const {
     const long steps = steps_to_corner(x, y);
-    const P a = times_power_of_two(x, steps + 1), b = times_power_of_two(y, steps + 1);  // the larger in (1, 2]
+    const P a = times_power_of_two(x, steps + 1),
+            b = times_power_of_two(y, steps + 1);  // the larger in (1, 2]
     TwoRingSector<N> s;
     ring.sector(sector, steps, s);
     const int i = a >= 1 ? 1 : 0, j = b >= 1 ? 1 : 0;
@@ -220,7 +223,8 @@ class StamData {
         const auto quad = gather<std::int32_t>(finer, static_cast<std::size_t>(f), index);
         std::size_t k = 0;
         while (quad.corner[k].point != v) ++k;
-        const auto &next = quad.corner[(k + 1) % 4], &far = quad.corner[(k + 2) % 4], &last = quad.corner[(k + 3) % 4];
+        const auto &next = quad.corner[(k + 1) % 4], &far = quad.corner[(k + 2) % 4],
+                   &last = quad.corner[(k + 3) % 4];
         points.e.push_back(at(next.point)), points.p.push_back(at(next.edge(-1)));
         points.f.push_back(at(far.point)), points.r.push_back(at(far.face(2)));
         points.g.push_back(at(next.face(-1))), points.h.push_back(at(last.face(1)));
@@ -243,7 +247,8 @@ class StamData {
       patches_[child] = gather<std::int32_t>(finer, child, [](std::int32_t v) {
                           return v;
                         }).patch([&](std::int32_t on, std::int32_t inside) {
-        points_.push_back(ghost_point(points_[static_cast<std::size_t>(on)], points_[static_cast<std::size_t>(inside)]));
+        points_.push_back(
+            ghost_point(points_[static_cast<std::size_t>(on)], points_[static_cast<std::size_t>(inside)]));
         return static_cast<std::int32_t>(points_.size() - 1);
       });
     }
@@ -288,7 +293,8 @@ template <class N>
 SurfacePoint<N> StamEvaluator<N>::evaluate(int face, int corner, const Parameter& u, const Parameter& v,
                                            Order order) const {
   if constexpr (std::is_same_v<N, double>)
-    if (u.is_double() && v.is_double()) return data_->evaluate(face, corner, u.as_double(), v.as_double(), order);
+    if (u.is_double() && v.is_double())
+      return data_->evaluate(face, corner, u.as_double(), v.as_double(), order);
   return data_->evaluate(face, corner, exact_value(u), exact_value(v), order);
 }
 

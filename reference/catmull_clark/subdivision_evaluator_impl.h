@@ -28,8 +28,8 @@ int SubdivisionEvaluator<N>::face_count() const {
 }
 
 template <class N>
-SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Parameter& u, const Parameter& v,
-                                                  Order order) const {
+SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Parameter& u,
+                                                  const Parameter& v, Order order) const {
   QuadParameter<Rational> at = locate(*mesh_, face, corner, exact_value(u), exact_value(v));
   RingedQuad<Vec3<N>> quad = gather<Vec3<N>>(mesh_->topology, at.quad, [&](std::int32_t p) {
     return mesh_->positions[static_cast<std::size_t>(p)];
@@ -59,8 +59,8 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Pa
   const PatchPoint<N> p = evaluate_patch<N>(quad.patch(ghost_point<N>), number(at.u), number(at.v), order);
   SurfacePoint<N> result;
   result.position = p.position;
-  set_derivatives(result, p, turn_of(0), NumberTraits<N>::scale(N(1), level), NumberTraits<N>::scale(N(1), 2 * level),
-                  order);
+  set_derivatives(result, p, turn_of(0), NumberTraits<N>::scale(N(1), level),
+                  NumberTraits<N>::scale(N(1), 2 * level), order);
   if (order != Order::kPosition)
     set_normal(result, {result.t1, result.t2, result.t1_terms, result.t2_terms}, fallback);
   return result;

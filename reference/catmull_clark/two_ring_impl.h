@@ -50,8 +50,10 @@ typename InteriorKind<N>::Block step_block(long m, long n) {
   set(a[kF][kE], 1, 1, 0, 4), set(a[kF][kF], 1, 0, 0, 4);
   set(a[kP][kE], 36, 1, 1, 64), set(a[kP][kF], 6, 0, 6, 64), set(a[kP][kP], 6, 0, 0, 64);
   set(a[kP][kG], 1, 0, 0, 64), set(a[kP][kH], 0, 0, 1, 64);
-  set(a[kG][kE], 6, 1, 0, 16), set(a[kG][kF], 6, 0, 0, 16), set(a[kG][kP], 1, 0, 0, 16), set(a[kG][kG], 1, 0, 0, 16);
-  set(a[kH][kE], 1, 6, 0, 16), set(a[kH][kF], 6, 0, 0, 16), set(a[kH][kP], 0, 1, 0, 16), set(a[kH][kH], 1, 0, 0, 16);
+  set(a[kG][kE], 6, 1, 0, 16), set(a[kG][kF], 6, 0, 0, 16), set(a[kG][kP], 1, 0, 0, 16),
+      set(a[kG][kG], 1, 0, 0, 16);
+  set(a[kH][kE], 1, 6, 0, 16), set(a[kH][kF], 6, 0, 0, 16), set(a[kH][kP], 0, 1, 0, 16),
+      set(a[kH][kH], 1, 0, 0, 16);
   set(a[kR][kE], 6, 6, 0, 64), set(a[kR][kF], 36, 0, 0, 64), set(a[kR][kP], 1, 1, 0, 64);
   set(a[kR][kG], 6, 0, 0, 64), set(a[kR][kH], 6, 0, 0, 64), set(a[kR][kR], 1, 0, 0, 64);
   if (m == 0)  // c moves by 3 / (2 n) of the mean e and 1 / (4 n) of the mean f
@@ -79,7 +81,8 @@ InteriorKind<N>::InteriorKind(int n)
     table_.push_back(power(0));
     for (long j = 1; j < kTable; ++j) {
       std::vector<Block> next;
-      for (std::size_t m = 0; m < step_.size(); ++m) next.push_back(detail::product(step_[m], table_.back()[m]));
+      for (std::size_t m = 0; m < step_.size(); ++m)
+        next.push_back(detail::product(step_[m], table_.back()[m]));
       table_.push_back(std::move(next));
     }
   }
@@ -109,8 +112,7 @@ const std::vector<typename InteriorKind<N>::Block>& InteriorKind<N>::power(long 
 }
 
 template <class N>
-BoundaryKind<N>::BoundaryKind(int faces)
-    : faces_(faces), size_(6 * static_cast<std::size_t>(faces) + 2) {
+BoundaryKind<N>::BoundaryKind(int faces) : faces_(faces), size_(6 * static_cast<std::size_t>(faces) + 2) {
   const auto count = static_cast<std::size_t>(faces);
   growth_ = faces == 1 ? N(1) / N(2) : (four_lambda_minus_one<N>(2 * faces) + N(1)) * (N(1) / N(4));
   const std::size_t e = 0, p = count + 1, f = 2 * count + 2, g = f + count, h = g + count, r = h + count;
@@ -244,7 +246,8 @@ void TwoRing<N>::interior_sector(int i, long steps, TwoRingSector<N>& s) const {
       }
     const N count = N(m == 0 || 2 * m == n ? 1 : 2);
     const auto add = [&](Vec3<N>& point, std::size_t type, int at) {
-      const std::size_t k = 2 * (m * static_cast<std::size_t>((i + at) % static_cast<int>(n) + static_cast<int>(n)) % n);
+      const std::size_t k =
+          2 * (m * static_cast<std::size_t>((i + at) % static_cast<int>(n) + static_cast<int>(n)) % n);
       point += (x[type][0] * circle.cosine[k] - x[type][1] * circle.sine[k]) * count;
     };
     for (int at = -2; at <= 3; ++at) add(s.e[static_cast<std::size_t>(at + 2)], kE, at);
@@ -267,7 +270,8 @@ void TwoRing<N>::boundary_sector(int i, long steps, TwoRingSector<N>& s) const {
   const int count = boundary_->faces();
   const std::vector<Vec3<N>> points = boundary_->advance(points_, steps);
   const auto list = [&](int first) {
-    return [&points, first](int at) -> const Vec3<N>& { return points[static_cast<std::size_t>(first + at)]; };
+    return
+        [&points, first](int at) -> const Vec3<N>& { return points[static_cast<std::size_t>(first + at)]; };
   };
   const auto e = list(0), p = list(count + 1), f = list(2 * count + 2), g = list(3 * count + 2),
              h = list(4 * count + 2), r = list(5 * count + 2);

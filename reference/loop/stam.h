@@ -3,7 +3,7 @@
 //
 //   J. Stam, Evaluation of Loop Subdivision Surfaces, 1998. One subdivision step leaves at most one
 //   extraordinary vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one,
-//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues (spider.h),
+//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues (two_ring.h),
 //   so that the cost does not depend on how near the point is; one more step then gives the twelve control
 //   points of a regular piece.
 #pragma once

@@ -94,8 +94,9 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   const LocalPoint<N> s = evaluate_patch<N>(detail::regular_patch(f), basis, order);
   SurfacePoint<N> result;
   result.position = s.position;
-  const Placement at{gradient[1][0], gradient[1][1], gradient[2][0], gradient[2][1], level};
-  place(result, s, at, NumberTraits<N>::scale(N(1), level), NumberTraits<N>::scale(N(1), 2 * level), order);
+  const ParameterGradients at{gradient[1][0], gradient[1][1], gradient[2][0], gradient[2][1], level};
+  set_derivatives(result, s, at, NumberTraits<N>::scale(N(1), level), NumberTraits<N>::scale(N(1), 2 * level),
+                  order);
   if (order == Order::kPosition) return result;
   const auto corner = [&](std::size_t k) { return positions_[topology_.faces()[face][k]]; };
   set_normal(result, tangents_of(result), cross(corner(1) - corner(0), corner(2) - corner(0)));

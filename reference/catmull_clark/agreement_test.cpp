@@ -11,6 +11,8 @@
 
 #include "data/generators/quad_meshes.h"
 #include "data/splitmix64.h"
+#include "reference/catmull_clark/naive.h"
+#include "reference/catmull_clark/refined_mesh.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/number/number_exact.h"
@@ -177,6 +179,55 @@ TEST(CatmullClark_Evaluators, InDoubleWithinAFewUnits) {
     EXPECT_LE(by_steps, 4) << c.name;
     EXPECT_LE(turned, kRoundingsOfATangent) << c.name;
   }
+}
+
+// Four ways to one point: the recursion, the refinement of the whole mesh, both evaluators. In units of the last place of
+// the largest coordinate; normals, where the tangents are not parallel, against their condition.
+TEST(CatmullClark_Tessellations, AreTheEvaluatorsPoints) {
+  double worst = 0, worst_normal = 0;
+  std::size_t looked_at = 0;
+  for (const Case& c : cases()) {
+    double largest = 0;
+    for (const auto& p : c.mesh.positions)
+      largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    const auto positions = positions_of<double>(c.mesh);
+    const NaiveSubdivider<double> naive(c.mesh.faces, positions);
+    const StamEvaluator<double> stam(c.mesh.faces, positions);
+    RefinedMesh<double> refined(c.mesh.faces, positions);
+    for (int depth = 0; depth <= 3; ++depth) {
+      if (depth > 0) refined.refine();
+      const auto limits = refined.limits();
+      for (int face = 0; face < c.faces; ++face)
+        for (int corner = 0; corner < corners_of(c, face); ++corner) {
+          const bool is_quad = corners_of(c, face) == 1;
+          if (!is_quad && depth == 0) continue;
+          const int side = 1 << (is_quad ? depth : depth - 1);
+          std::size_t leaves = 0;
+          const auto f = static_cast<std::size_t>(face), k = static_cast<std::size_t>(corner);
+          naive.tessellate(f, k, depth, [&](const LeafQuad<double>& leaf) {
+            ++leaves;
+            for (const auto& p : leaf) {
+              ++looked_at;
+              const auto want = stam.evaluate(face, corner, static_cast<double>(p.i) / side,
+                                              static_cast<double>(p.j) / side, Order::kFirst);
+              const auto v = static_cast<std::size_t>(refined.vertex(f, k, p.i, p.j));
+              const double unit = largest * 0x1p-52;
+              worst = std::max({worst, magnitude(p.position - want.position) / unit,
+                                magnitude(limits.positions[v] - want.position) / unit});
+              ASSERT_EQ(p.normal_kind, limits.kinds[v]) << c.name;
+              if (p.normal_kind != NormalKind::kRegular || want.normal_kind != NormalKind::kRegular) continue;
+              const double bound = 0x1p-52 * std::max(8., want.normal_condition);
+              worst_normal = std::max({worst_normal, magnitude(p.normal - want.normal) / bound,
+                                       magnitude(limits.normals[v] - want.normal) / bound});
+            }
+          });
+          EXPECT_EQ(leaves, static_cast<std::size_t>(side * side)) << c.name;
+        }
+    }
+  }
+  std::printf("%zu corners: position %.2f, normal over its condition %.2f\n", looked_at, worst, worst_normal);
+  EXPECT_LE(worst, 4);
+  EXPECT_LE(worst_normal, kRoundingsOfATangent);
 }
 
 }  // namespace

@@ -110,22 +110,27 @@ inline std::int32_t opposite(const Topology& topology, std::int32_t face, std::i
   return quad[0] == v ? quad[2] : quad[1] == v ? quad[3] : quad[2] == v ? quad[0] : quad[1];
 }
 
-/// The face of a mesh of quads with its neighbourhood; point(v) is that of a vertex.
+/// A vertex of a mesh of quads with its ring; point(v) is that of a vertex.
+template <class Point, class PointOf>
+RingedCorner<Point> gather_vertex(const Topology& topology, std::int32_t v, PointOf&& point) {
+  const Sector sector = topology.sector(v);
+  RingedCorner<Point> c;
+  c.point = point(v);
+  c.on_boundary = !sector.closed;
+  for (const std::int32_t e : sector.neighbours) c.edges.push_back(point(e));
+  for (const std::int32_t f : sector.faces) c.faces.push_back(point(opposite(topology, f, v)));
+  return c;
+}
+
+/// The face of a mesh of quads with its neighbourhood.
 template <class Point, class PointOf>
 RingedQuad<Point> gather(const Topology& topology, std::size_t face, PointOf&& point) {
   RingedQuad<Point> result;
-  const auto quad = topology.faces()[face];
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::int32_t v = quad[k];
-    const Sector sector = topology.sector(v);
-    RingedCorner<Point>& c = result.corner[k];
-    c.point = point(v);
-    c.on_boundary = !sector.closed;
-    c.sector = topology.ring_index(face, k);
-    for (const std::int32_t e : sector.neighbours) c.edges.push_back(point(e));
-    for (const std::int32_t f : sector.faces) c.faces.push_back(point(opposite(topology, f, v)));
-    result.edge_on_boundary[k] =
-        topology.edges()[static_cast<std::size_t>(topology.edge(face, k))].on_boundary();
+    result.corner[k] = gather_vertex<Point>(topology, topology.faces()[face][k], point);
+    result.corner[k].sector = topology.ring_index(face, k);
+    const auto edge = static_cast<std::size_t>(topology.edge(face, k));
+    result.edge_on_boundary[k] = topology.edges()[edge].on_boundary();
   }
   return result;
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "data/generators/quad_meshes.h"
+#include "data/generators/polygon_meshes.h"
 #include "data/splitmix64.h"
 #include "reference/catmull_clark/naive.h"
 #include "reference/catmull_clark/refined_mesh.h"

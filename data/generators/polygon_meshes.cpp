@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "data/generators/quad_meshes.h"
+#include "data/generators/polygon_meshes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "data/splitmix64.h"
 
@@ -82,6 +85,37 @@ PolygonMesh polygon_prism(int n) {
   mesh.faces.push_back(top);
   for (int i = 0; i < n; ++i) mesh.faces.push_back(std::array{i, (i + 1) % n, n + (i + 1) % n, n + i});
   return mesh;
+}
+
+PolygonMesh dual(const ControlMesh& mesh) {
+  PolygonMesh result;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> face_of;  // of each directed edge
+  std::vector<std::int32_t> some_edge(mesh.positions.size(), -1);  // the vertex that an edge from v leads to
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& t = mesh.triangles[f];
+    std::array<double, 3> middle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      face_of[{t[k], t[(k + 1) % 3]}] = static_cast<std::int32_t>(f);
+      some_edge[static_cast<std::size_t>(t[k])] = t[(k + 1) % 3];
+      for (std::size_t c = 0; c < 3; ++c) middle[c] += mesh.positions[static_cast<std::size_t>(t[k])][c] / 3;
+    }
+    result.positions.push_back(middle);
+  }
+  for (std::size_t v = 0; v < some_edge.size(); ++v) {
+    if (some_edge[v] < 0) continue;
+    const auto from = static_cast<std::int32_t>(v);
+    std::vector<std::int32_t> corners;
+    std::int32_t to = some_edge[v];
+    do {
+      const auto face = face_of.find({from, to});
+      if (face == face_of.end()) throw ArgumentError("the dual is for closed meshes");
+      corners.push_back(face->second);
+      const auto& t = mesh.triangles[static_cast<std::size_t>(face->second)];
+      to = t[0] == from ? t[2] : t[1] == from ? t[0] : t[1];
+    } while (to != some_edge[v]);
+    result.faces.push_back(corners);
+  }
+  return result;
 }
 
 }  // namespace limitcheck::data

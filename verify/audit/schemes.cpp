@@ -8,7 +8,7 @@
 #include <map>
 
 #include "reference/loop/masks.h"
-#include "reference/mesh/topology.h"
+#include "reference/loop/triangles.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -45,8 +45,12 @@ void refine(std::vector<Vector>& points, Triangles& triangles, Scheme scheme) {
   }
   for (const reference::Edge& e : topology.edges()) {
     const Vector ends = points[e.a] + points[e.b];
-    next.push_back(linear || e.on_boundary() ? .5 * ends
-                                             : .375 * ends + .125 * (points[e.left] + points[e.right]));
+    if (linear || e.on_boundary()) {
+      next.push_back(.5 * ends);
+      continue;
+    }
+    const auto flap = [&](std::int32_t face) { return points[opposite(topology, e, face)]; };
+    next.push_back(.375 * ends + .125 * (flap(e.left_face) + flap(e.right_face)));
   }
   Triangles fine;
   const auto first = static_cast<std::int32_t>(points.size());

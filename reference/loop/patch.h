@@ -12,7 +12,8 @@
 namespace limitcheck::reference {
 
 /// The gradients of a sub-triangle's parameters with respect to those of its face: its first and second
-/// barycentric coordinate (a, b) as functions of (l1, l2) have the gradients 2^level (a1, a2), 2^level (b1, b2).
+/// barycentric coordinate (a, b) as functions of (l1, l2) have the gradients 2^level (a1, a2), 2^level (b1,
+/// b2).
 struct ParameterGradients {
   int a1 = 1, a2 = 0, b1 = 0, b2 = 1;
   long level = 0;

@@ -14,8 +14,8 @@
 namespace limitcheck::reference {
 namespace detail {
 
-/// The twelve points of a regular face in the order of Appendix A; two linear ghosts complete a boundary
-/// vertex.   [D10]
+/// The twelve points of a regular face in the order of Appendix A. Two linear ghosts complete the ring of a
+/// boundary vertex.   [D10]
 template <class N>
 std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
   std::array<std::array<Vec3<N>, 6>, 3> rings;

@@ -10,7 +10,7 @@ namespace limitcheck::reference {
 /// The exponent of zero: below that of every other number.
 inline constexpr long kZeroExponent = -(1L << 40);
 
-/// Specialised per number type (double here; the others in number_mp.h and ball.h).
+/// Specialised per number type (double here; the others in number_exact.h and ball.h).
 template <class N>
 struct NumberTraits;
 

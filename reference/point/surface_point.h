@@ -8,15 +8,19 @@
 
 namespace limitcheck::reference {
 
-/// Where a normal comes from. Everything but kRegular is to be counted by whoever audits: there the surface
-/// has no normal, or none that this number type can tell from rounding.                     [D5, D12]
+/// Where a normal comes from. For all but kRegular the surface has no normal, or none that this number type
+/// can tell from rounding; an audit counts these points.   [D5, D12]
 enum class NormalKind : std::uint8_t {
-  kRegular,         ///< d1 x d2, or the tangent masks at a vertex
-  kNoTangentPlane,  ///< boundary vertex of 6 or more faces: deep normals do not converge; the mask's
-                    ///< direction is given
-  kFallback,        ///< tangents parallel or zero, but for rounding: area-weighted normal of the control
-                    ///< faces around
-  kArbitrary        ///< those vanish too: (0, 0, 1)
+  /// d1 x d2, or the tangent masks at a vertex.
+  kRegular,
+  /// A boundary vertex of 6 or more faces, where normals of ever finer levels do not converge. The normal is
+  /// that of the tangent masks.
+  kNoTangentPlane,
+  /// The tangents are parallel or zero, but for rounding. The normal is the area-weighted normal of the
+  /// control faces around.
+  kFallback,
+  /// That vanishes too. The normal is (0, 0, 1).
+  kArbitrary
 };
 
 /// How much to compute.

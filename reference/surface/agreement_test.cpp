@@ -45,8 +45,8 @@ void compare(const std::string& name, int depth) {
     });
   }
   EXPECT_EQ(leaves, naive.face_count() << (2 * depth));
-  EXPECT_LE(position, 1e-14 * box) << name;
-  EXPECT_LE(normal, 1e-11) << name;
+  EXPECT_LE(position, NaiveError::kPosition * box) << name;
+  EXPECT_LE(normal, NaiveError::kNormal) << name;
   testing::Test::RecordProperty(name + " position / box", std::to_string(position / box));
   std::printf("%-16s depth %d: position %.2g of the box, normal %.2g\n", name.c_str(), depth, position / box,
               normal);

@@ -33,10 +33,9 @@ struct CertifiedPoint {
   std::optional<Enclosure> gaussian_curvature, mean_curvature;
   NormalKind normal_kind;
   bool first_exist;
-  bool boundary_corner;  ///< an extraordinary corner on the boundary: the derivative along that may exist
-                         ///< alone
-  double radius;   ///< the largest of the radii, the curvatures' aside (they have their own and may be huge)
-  long precision;  ///< bits that were needed
+  bool boundary_corner;  ///< an extraordinary corner on the boundary: d along it may exist alone
+  double radius;         ///< the largest radius of all but the curvatures, whose own may be huge
+  long precision;        ///< bits that were needed
 };
 
 /// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are,

@@ -196,7 +196,8 @@ std::vector<int> faces_of_the_hub(const data::ControlMesh& mesh) {
 }
 
 // Derivatives of order d grow like (2^d mu)^J towards the corner, mu the largest eigenvalue below 1
-// (two_ring_modes.h): of those that exist what is left falls like the next eigenvalue, the others grow at this rate.
+// (two_ring_modes.h): of those that exist what is left falls like the next eigenvalue, the others grow at
+// this rate.
 TEST(Evaluators, DerivativesAtExtraordinaryCornersAreWhatTheyTendToOrDoNotExist) {
   struct Corner {
     const char* mesh;
@@ -308,11 +309,11 @@ TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
           worst_double = e;
           worst_where = where;
         }
-        EXPECT_LE(e, 1e-11) << where;
+        EXPECT_LE(e, StamError::kNearCorner) << where;
       }
       const double n = error(d.normal, truth.normal);
       worst_normal = std::max(worst_normal, n);
-      EXPECT_LE(n, 1e-13) << where;
+      EXPECT_LE(n, StamError::kNormal) << where;
     }
   }
   std::printf("worst 50-digit %.2g, double %.2g (%s), normal %.2g\n", worst50, worst_double,

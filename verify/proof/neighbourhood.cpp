@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <stdexcept>
 
 #include "data/cut_out.h"
+#include "data/error.h"
 #include "data/splitmix64.h"
 #include "fast/mesh/adjacency.h"
 
@@ -41,7 +41,7 @@ struct CornerStart {
 };
 std::array<CornerStart, 4> corner_starts(const Adjacency& adjacency, std::int32_t ac) {
   const std::int32_t ca = adjacency.twin(ac);
-  if (ca < 0) throw std::invalid_argument("a pair needs a second face");
+  if (ca < 0) throw data::ArgumentError("a pair needs a second face");
   return {{{Adjacency::next(ca), 2},
            {Adjacency::prev(ca), 1},
            {Adjacency::next(ac), 2},

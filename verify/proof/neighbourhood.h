@@ -14,9 +14,10 @@ namespace limitcheck::verify {
 
 /// A pair of faces with every face that touches it: all that its limit points depend on.
 ///
-///        D ---- C        Vertices 0 1 2 3 are A B C D, the others lie around them. Face 0 is (A, C, D), face
-///        |    / |        1 is (A, B, C); half-edge 0 runs from A to C. A pair A B C D and the pair C D A B
-///        are |  /   |        the same two faces, but not the same run of a kernel. A ---- B
+///        D ---- C        Vertices 0 1 2 3 are A B C D; the others lie around them.
+///        |    / |        Face 0 is (A, C, D), face 1 is (A, B, C); half-edge 0 runs from A to C.
+///        |  /   |        The pairs A B C D and C D A B are the same two faces, but a kernel runs
+///        A ---- B        differently on them.
 struct Neighbourhood {
   std::string name;        ///< signature()
   data::ControlMesh mesh;  ///< positions mean nothing here; they are distinct floats in [-1, 1]
@@ -29,7 +30,7 @@ struct Neighbourhood {
 std::string signature(const data::ControlMesh& mesh, std::int32_t half_edge);
 
 /// The pair of a half-edge and the faces that touch it, renumbered; vertices that only far faces hold
-/// together are split. Throws std::invalid_argument: no twin, or not a manifold mesh.
+/// together are split. Throws data::ArgumentError: no twin, or not a manifold mesh.
 Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge);
 
 /// The pair whose corners A B C D are interior vertices of these valences, each at least 3; nothing if there

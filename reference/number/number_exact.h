@@ -40,6 +40,10 @@ struct NumberTraits<Rational> {
     throw data::ArgumentError("cosine is not rational");
   }
   static constexpr int kRounding = 0;
+  static Rational scale(const Rational& a, long e) {
+    return e < 0 ? Rational(numerator(a), denominator(a) << static_cast<unsigned long>(-e))
+                 : Rational(numerator(a) << static_cast<unsigned long>(e), denominator(a));
+  }
   static Rational from_double(double a) { return Rational(a); }
   static double approximate(const Rational& a) { return a.convert_to<double>(); }
 };

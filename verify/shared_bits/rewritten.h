@@ -36,7 +36,7 @@ Rewritten rewrite(const data::ControlMesh& mesh, std::uint64_t seed);
 
 /// Every face in one pair, whose partner and whose corner A chance decides; one in `singles` stays without
 /// partner though it has neighbours. All of one depth.
-std::vector<fast::Pair> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
+std::vector<fast::Grid> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
                                      std::uint64_t singles = 5);
 
 /// A depth for each face, least .. most.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of section 4, as the paper lists it: every face by itself, four sub-faces down to
-// the depth, limit point and normal at the leaves. Most points are computed several times; that is its point.
-// [C18]
+// The recursive subdivider of section 4, as the paper lists it: every face by itself, four sub-faces at each
+// level down to the depth, limit point and normal at the leaves. Faces share nothing, so most points are
+// computed several times.   [C18]
 #pragma once
 
 #include <array>

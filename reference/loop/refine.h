@@ -65,8 +65,8 @@ class RefinedMesh {
   }
   /// Index of (i, j) among the face's lattice points, rows of equal j.
   std::size_t point(int i, int j) const {
-    const auto k = std::size_t{1} << depth_, row = static_cast<std::size_t>(j);
-    return row * (k + 1) - row * (row - 1) / 2 + static_cast<std::size_t>(i);
+    const std::size_t k = std::size_t{1} << depth_, row = j;
+    return row * (k + 1) - row * (row - 1) / 2 + i;
   }
   void triangulate();
 

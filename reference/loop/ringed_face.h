@@ -92,7 +92,7 @@ class SubdividedFace {
       for (std::size_t k = 0; k < 3; ++k) result.corner[k] = edge_corner(k, 1);
       return result;  // its edges are inside
     }
-    const auto k = static_cast<std::size_t>(which), before = (k + 2) % 3;
+    const std::size_t k = which, before = (k + 2) % 3;
     result.corner[0] = vertex_[k];
     result.corner[1] = edge_corner(k, 2);
     result.corner[2] = edge_corner(before, 0);

@@ -107,9 +107,8 @@ Enclosure print(const Ball& a, long decimals) {
   } else if (decimals == 0) {
     result.value = digits;
   } else {
-    if (exponent < 0) digits = std::string(static_cast<std::size_t>(-exponent), '0') + digits;
-    result.value = digits.substr(0, digits.size() - static_cast<std::size_t>(decimals)) + "." +
-                   digits.substr(digits.size() - static_cast<std::size_t>(decimals));
+    if (exponent < 0) digits = std::string(-exponent, '0') + digits;
+    result.value = digits.substr(0, digits.size() - decimals) + "." + digits.substr(digits.size() - decimals);
   }
   if (negative) result.value = std::string(1, '-').append(result.value);
   return result;

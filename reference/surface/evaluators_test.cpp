@@ -270,7 +270,7 @@ TEST(Evaluators, StamEqualsSubdivisionAndRefinementUnderWarrensWeights) {
         most = std::max(most, length(p.position - loop.evaluate(face, l1, l2, Order::kPosition).position));
       }
       for (const auto& [i1, i2] : {std::pair{0, 0}, {4, 0}, {0, 4}, {1, 0}, {1, 2}, {1, 1}}) {
-        const auto v = static_cast<std::size_t>(refined.vertex(static_cast<std::size_t>(face), i1, i2));
+        const auto v = refined.vertex(face, i1, i2);
         const auto p = stam.evaluate(face, i1 / 4., i2 / 4., Order::kFirst);
         EXPECT_LE(length(p.position - limits.positions[v]), Big("1e-90")) << name;
         EXPECT_LE(length(p.normal - limits.normals[v]), Big("1e-90")) << name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a proof ranges over: the situations that a pair of faces, or a face without neighbours, can be in.
+// The topologies that proofs cover: a pair of faces, or a face without neighbours, with the faces around it.
 #pragma once
 
 #include <array>

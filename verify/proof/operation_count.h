@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a kernel costs, counted by running it: operations by kind, and vectors stored.
+// The cost of a kernel, counted by running it: operations by kind, and vectors stored.
 #pragma once
 
 #include <cstdint>

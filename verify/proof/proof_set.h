@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `limitcheck prove` proves: which topologies, in which arithmetic, to which depth.
+// The tasks of `limitcheck prove`: which topologies, in which arithmetic, to which depth.
 #pragma once
 
 #include <optional>

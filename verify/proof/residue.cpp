@@ -49,7 +49,7 @@ struct ResidueTables {
       }
     }
     for (int k = 1; k < kSmall; ++k) {
-      Residue& r = inverse[static_cast<std::size_t>(k)];
+      Residue& r = inverse[k];
       r.first_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[0].n);
       r.second_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[1].n);
       r.approximation_ = 1. / k;

@@ -13,8 +13,8 @@
 
 namespace limitcheck::reference {
 
-/// One step: the new vertex points, in the order of the
-/// vertices, then the edge points, in the order of the edges.
+/// One step: the new vertex points, in the order of the vertices, then the edge points, in the order
+/// of the edges.
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
                                  Weights weights = Weights::kLoop);

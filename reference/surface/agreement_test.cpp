@@ -18,8 +18,8 @@ double distance(const Vec3<double>& a, const Vec3<double>& b) {
   return std::sqrt(dot(a - b, a - b));
 }
 
-/// At every lattice point of every face: naive against
-/// refined mesh against evaluator. Returns the leaves seen.
+/// At every lattice point of every face: naive against refined mesh against evaluator. Returns
+/// the leaves seen.
 void compare(const std::string& name, int depth) {
   const data::ControlMesh mesh = data::named_mesh(name);
   const double box = data::box_diagonal(mesh), size = 1 << depth;

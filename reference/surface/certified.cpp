@@ -114,8 +114,8 @@ Enclosure print(const Ball& a, long decimals) {
   return result;
 }
 
-/// Prints a group of numbers to `digits` significant digits
-/// of the largest of them, or says that it cannot yet.
+/// Prints a group of numbers to `digits` significant digits of the largest of them, or says that
+/// it cannot yet.
 class Printer {
  public:
   Printer(int digits, bool last_chance) : digits_(digits), last_chance_(last_chance) {}

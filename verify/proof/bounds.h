@@ -24,8 +24,8 @@ const char* name_of(BoundedKernel kernel);
 /// Half the side of the unit box: control coordinates are floats in [-1/2, 1/2].
 inline constexpr double kUnitBox = .5;
 
-/// A tangent du or dv of the kernel's own: see regular_limit
-/// and NumberStream for which multiple of a derivative.
+/// A tangent du or dv of the kernel's own: see regular_limit and NumberStream for which multiple
+/// of a derivative.
 struct TangentBound {
   double error = 0;             ///< of a coordinate
   double size = 0;              ///< the largest coordinate that a mesh in the box can give it

@@ -150,8 +150,8 @@ class MapComparison {
            check_sum("sum of a tangent's weights", second, 0);
   }
 
-  // The tangents differ: of all pairs of control points to
-  // solve with, the one that leaves the fewest others wrong.
+  // The tangents differ: of all pairs of control points to solve with, the one that leaves the
+  // fewest others wrong.
   bool blame(const Row& du, const Row& dv, const MapRow<C>& e) {
     const std::size_t n = du.size();
     fail("tangents", 0, du[0], e.d1[0]);

@@ -42,9 +42,9 @@ std::optional<Neighbourhood> interior_pair(const std::array<int, 4>& valence);
 /// boundary vertices of every kind, the pair alone last.
 std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence);
 
-/// A face without neighbours, "alone": face 0 is all there is. A mesh has
-/// no other such face, since a vertex has its faces in one fan. A singleton
-/// of the pairing with a neighbour is a pair of which half is displayed.
+/// A face without neighbours, "alone": face 0 is all there is. A mesh has no other such face, since a vertex
+/// has its faces in one fan. A singleton of the pairing with a neighbour is a pair of which
+/// half is displayed.
 Neighbourhood face_alone();
 
 /// One pair of every signature that the mesh has, in both directions.

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "data/bounding_box.h"
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "reference/loop/stam.h"
 #include "verify/subject/host.h"
@@ -38,7 +39,7 @@ Spread spread(std::vector<double> errors) {
   const auto at = [&](double share) {
     const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(errors.size() - 1));
     std::nth_element(errors.begin(), errors.begin() + k, errors.end());
-    return errors[static_cast<std::size_t>(k)];
+    return errors[k];
   };
   return {at(.5), at(.999), *std::max_element(errors.begin(), errors.end())};
 }
@@ -52,8 +53,8 @@ void print_line(verify::Session& session, const reference::StamEvaluator<double>
   const auto faces = static_cast<std::int64_t>(session.mesh().triangles.size());
   const std::int64_t n = std::int64_t{1} << depth, each = (n + 1) * (n + 2) / 2;
   const std::int64_t sampled = std::clamp<std::int64_t>(kMostPoints / each, 1, faces);
-  std::vector<std::int32_t> depths(static_cast<std::size_t>(faces), -1);
-  for (std::int64_t s = 0; s < sampled; ++s) depths[static_cast<std::size_t>(s * faces / sampled)] = depth;
+  std::vector<std::int32_t> depths(faces, -1);
+  for (std::int64_t s = 0; s < sampled; ++s) depths[s * faces / sampled] = depth;
 
   const verify::Tessellation t = session.tessellate(depths);
   const auto count = static_cast<std::size_t>(t.vertex_count());
@@ -90,7 +91,7 @@ int run(const std::vector<std::string>& arguments) {
   for (const std::string& text : subjects) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const lc_subject* subject = verify::find_subject(text.substr(0, colon));
-    if (subject == nullptr) throw std::invalid_argument("there is no subject " + text);
+    if (subject == nullptr) throw data::ArgumentError("there is no subject " + text);
     verify::Session session(*subject, mesh, text.substr(std::min(colon + 1, text.size())));
     const reference::StamEvaluator<double> limit(session.mesh());
     for (int depth = 1; depth <= std::min(deepest, session.capabilities().max_depth); ++depth)

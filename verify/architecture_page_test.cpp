@@ -39,7 +39,7 @@ std::string top(const std::string& folder) {
 }
 
 // The arrow between two folders. The folders of fast and of reference are told apart among themselves only:
-// who comes from outside sees one house.
+// seen from elsewhere, each of the two is one folder.
 std::pair<std::string, std::string> arrow_between(const std::string& from, const std::string& to) {
   const auto seen = [](const std::string& whose, const std::string& other) {
     return top(whose) == "verify" || top(whose) == top(other) ? whose : top(whose);

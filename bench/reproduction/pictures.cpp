@@ -7,6 +7,7 @@
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
 #include "bench/reproduction/studio.h"
+#include "data/error.h"
 #include "fast/plan/depth.h"
 #include "reference/loop/refine.h"
 
@@ -42,7 +43,7 @@ Image normal_cone(Studio& studio) {
   std::vector<Image> images;
   for (int level = 0; level <= 2; ++level) {
     const auto& positions = refined.positions();
-    const auto at = [&](std::int32_t w) { return point(positions[static_cast<std::size_t>(w)]); };
+    const auto at = [&](std::int32_t w) { return point(positions[w]); };
     const fast::Point3 centre = at(v);
     const auto ring = refined.topology().ring(v);
     double reach = 0;
@@ -165,7 +166,7 @@ const std::vector<std::string>& picture_names() {
 void draw_picture(const std::string& name, const std::filesystem::path& folder) {
   for (const Picture& picture : kPictures)
     if (picture.name == name) return write_png(folder / (name + ".png"), picture.draw());
-  throw std::invalid_argument("no picture is called " + name);
+  throw data::ArgumentError("no picture is called " + name);
 }
 
 }  // namespace limitcheck::bench

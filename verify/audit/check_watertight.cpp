@@ -58,17 +58,13 @@ Looked look(const Evidence& e, const Outline& outline) {
   const auto fan_at = [&](std::int64_t triangle, std::uint32_t vertex) {
     const Lattice::Id id = e.point[vertex];
     const std::int32_t face = t.triangle_face()[triangle];
-    if (id == Lattice::kNone || !e.lattice.is_vertex(id) || face < 0 ||
-        static_cast<std::size_t>(face) >= e.mesh.triangles.size())
+    if (id == Lattice::kNone || !e.lattice.is_vertex(id) || face < 0 || face >= e.lattice.face_count())
       return 0;
-    const auto& corner = e.mesh.triangles[face];
-    for (int k = 0; k < 3; ++k)
-      if (corner[k] == id) return outline.fan(face, k);
-    return 0;
+    const auto k = e.lattice.corner_of(face, id);
+    return k ? outline.fan(face, *k) : 0;
   };
   std::map<std::pair<std::int32_t, int>, std::int32_t> further;  // welded point, fan -> point of its own
-  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()),
-                                                     {-1, -1, -1});
+  std::vector<std::array<std::int32_t, 3>> triangles(t.triangle_count(), {-1, -1, -1});
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     if (!t.triangle_ok(k)) continue;
     for (int c = 0; c < 3; ++c) {
@@ -113,7 +109,7 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
     w.triangle = triangle;
     return w;
   };
-  std::vector<bool> named(static_cast<std::size_t>(e.lattice.size()), false);
+  std::vector<bool> named(e.lattice.size(), false);
   for (const Lattice::Id id : e.point)
     if (id != Lattice::kNone) named[id] = true;
 
@@ -252,8 +248,7 @@ std::vector<Result> check_watertight(const Evidence& e) {
     surface.status = Status::kError;
     surface.message = fmt::format(
         "our own count (manifold {}, {} open edges, {} loops) and CGAL's (manifold {}, closed {}, {} cycles) "
-        "disagree; "
-        "ours: {}",
+        "disagree; ours: {}",
         ours.manifold(), ours.open_edges.size(), ours.open_loops, cgal.manifold(), cgal.closed,
         cgal.boundary_cycles, surface.message);
   }

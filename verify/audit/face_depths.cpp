@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/face_depths.h"
+#include "data/error.h"
 #include "data/io/whole_content.h"
 
 #include <fmt/core.h>
@@ -37,7 +38,7 @@ FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
   FaceDepths depths;
   for (const auto& t : mesh.triangles) {
     std::array<Vector, 3> p{};
-    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.positions.at(static_cast<std::size_t>(t[k]));
+    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.positions.at(t[k]);
     const Vector to_eye = eye - (1. / 3) * (p[0] + p[1] + p[2]);
     if (dot(cross(p[1] - p[0], p[2] - p[0]), to_eye) <= 0) {
       depths.push_back(-1);
@@ -63,19 +64,19 @@ FaceDepths random_depths(const Depths& depths, std::size_t faces, int deepest) {
 FaceDepths read_depths(const std::string& file, std::size_t faces, int deepest) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
-    throw std::invalid_argument(fmt::format("--depths: cannot read {}", file));
+    throw data::ArgumentError(fmt::format("--depths: cannot read {}", file));
   std::istringstream in(data::io::whole_content(file));
   FaceDepths depths;
   for (std::string word; in >> word;) {
     std::int32_t depth = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), depth);
     if (error != std::errc{} || end != word.data() + word.size() || depth < -1 || depth > deepest)
-      throw std::invalid_argument(
+      throw data::ArgumentError(
           fmt::format("--depths: {}: '{}' is no depth from -1 to {} (--depth)", file, word, deepest));
     depths.push_back(depth);
   }
   if (depths.size() != faces)
-    throw std::invalid_argument(
+    throw data::ArgumentError(
         fmt::format("--depths: {}: {} depths for {} faces", file, depths.size(), faces));
   return depths;
 }
@@ -99,7 +100,7 @@ Depths parse_depths(const std::string& text) {
     const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), *depths.seed);
     if (error == std::errc() && end == seed.data() + seed.size()) return depths;
   }
-  throw std::invalid_argument(fmt::format(
+  throw data::ArgumentError(fmt::format(
       "--depths {}: uniform, random[:SEED[:visible]], view, face0-culled, all-culled or file:FILE", text));
 }
 

@@ -20,13 +20,10 @@ struct Placed {
 
 // Where a vertex lies on the original mesh: its point, and that point together with the face that names it.
 Placed place(const Evidence& e, const Variant& v, const lc_provenance& p) {
-  if (p.face < 0 || static_cast<std::size_t>(p.face) >= v.face.size() || p.denominator == 0 ||
-      std::int64_t{p.i} + p.j > p.denominator)
+  if (p.face < 0 || p.face >= e.lattice.face_count() || p.denominator == 0 ||
+      !e.lattice.domain(p.face).contains(point_of(p), p.denominator))
     return {};
-  const std::array<std::uint32_t, 3> there{p.denominator - p.i - p.j, p.i, p.j};
-  std::array<std::uint32_t, 3> here{};
-  for (std::size_t k = 0; k < 3; ++k) here[v.corner[p.face][k]] = there[k];
-  const lc_provenance q{v.face[p.face], here[1], here[2], p.denominator};
+  const lc_provenance q = v.original(p);
   const Lattice::Id id = e.lattice.id(q);
   if (id == Lattice::kNone) return {};
   return {id * static_cast<Key>(v.face.size()) + q.face, id};
@@ -60,7 +57,7 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
   const double position_limit = slack * position_bound(e_.capabilities.precision, e_.lattice.depth(),
                                                        v.magnitude, std::max(e_.diagonal, 1e-300));
   const bool normals = v.normals && t.has_normals() && e_.tessellation.has_normals();
-  std::vector<bool> seen(static_cast<std::size_t>(e_.lattice.size()), false);
+  std::vector<bool> seen(e_.lattice.size(), false);
   std::unordered_set<Lattice::Id> not_finite;
   const auto note = [&](double excess, std::int64_t mine, const Vector& expected, const Vector& got) {
     if (c.witness && excess <= c.worst) return;

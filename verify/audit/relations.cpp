@@ -55,7 +55,10 @@ class Relations {
         row.inspect(v.name, t);
         row.judge(v.name, compared_.with(t, v, 2), v.same_numbers);
       });
-    return row.take();
+    Result r = row.take();
+    // A size that the subject does not take is no fault, nor does it undo what was compared at others.
+    if (r.status == Status::kNotSupported && r.of > 0) r.status = Status::kHeld;
+    return r;
   }
 
   Result degenerate_geometry() const {

@@ -7,19 +7,13 @@
 #include <cmath>
 #include <map>
 
-#include "reference/loop/masks.h"
-#include "reference/mesh/topology.h"
+#include "reference/loop/refine.h"
+#include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {
 namespace {
 
-using Triangles = std::vector<std::array<std::int32_t, 3>>;
 using Polygons = std::vector<std::vector<std::int32_t>>;
-
-double weight_a(Scheme scheme, std::size_t n) {
-  if (scheme == Scheme::kLoop) return reference::loop_a<double>(static_cast<int>(n));
-  return n == 3 ? 9. / 16 : 3. / 8;
-}
 
 Vector mean(const std::vector<Vector>& points, std::span<const std::int32_t> list) {
   Vector sum{};
@@ -27,77 +21,27 @@ Vector mean(const std::vector<Vector>& points, std::span<const std::int32_t> lis
   return (1. / static_cast<double>(list.size())) * sum;
 }
 
-// One step of a scheme on triangles.
-void refine(std::vector<Vector>& points, Triangles& triangles, Scheme scheme) {
-  const reference::Topology topology(points.size(), triangles);
-  const bool linear = scheme == Scheme::kLinear;
-  std::vector<Vector> next = points;
-  for (std::size_t k = 0; k < points.size() && !linear; ++k) {
-    const auto v = static_cast<std::int32_t>(k);
-    const auto ring = topology.ring(v);
-    if (ring.empty()) continue;
-    if (topology.on_boundary(v)) {
-      next[k] = .75 * points[k] + .125 * (points[ring.front()] + points[ring.back()]);
-    } else {
-      const double a = weight_a(scheme, ring.size());
-      next[k] = (1 - a) * points[k] + a * mean(points, ring);
-    }
-  }
-  for (const reference::Edge& e : topology.edges()) {
-    const Vector ends = points[e.a] + points[e.b];
-    next.push_back(linear || e.on_boundary() ? .5 * ends
-                                             : .375 * ends + .125 * (points[e.left] + points[e.right]));
-  }
-  Triangles fine;
-  const auto first = static_cast<std::int32_t>(points.size());
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    const auto t = triangles[f];
-    const std::array<std::int32_t, 3> m{first + topology.edge(f, 0), first + topology.edge(f, 1),
-                                        first + topology.edge(f, 2)};
-    fine.push_back({t[0], m[0], m[2]});
-    fine.push_back({m[0], t[1], m[1]});
-    fine.push_back({m[2], m[1], t[2]});
-    fine.push_back(m);
-  }
-  points = std::move(next);
-  triangles = std::move(fine);
-}
-
-std::vector<Vector> limits(const std::vector<Vector>& points, const Triangles& triangles, Scheme scheme) {
-  const reference::Topology topology(points.size(), triangles);
-  std::vector<Vector> result = points;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto v = static_cast<std::int32_t>(k);
-    const auto ring = topology.ring(v);
-    if (ring.empty()) continue;
-    if (topology.on_boundary(v)) {
-      result[k] = 2. / 3 * points[k] + 1. / 6 * (points[ring.front()] + points[ring.back()]);
-    } else {
-      const double a8 = 8 * weight_a(scheme, ring.size());
-      result[k] = 1 / (3 + a8) * (3. * points[k] + a8 * mean(points, ring));
-    }
-  }
-  return result;
-}
-
-// Each triangle of the control mesh has become 4^steps, in the order in which refine() makes them.
-std::vector<lc_provenance> places(std::size_t vertices, const Triangles& triangles, int steps) {
-  std::vector<lc_provenance> place(vertices, {0, 0, 0, 0});
+// Loop's rule and Warren's by the reference, linear interpolation by the lattice itself.
+SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit) {
+  const auto weights = scheme == Scheme::kWarren ? reference::Weights::kWarren : reference::Weights::kLoop;
+  const auto refined = reference::refine<double>(mesh, steps, weights);
+  SchemePoints result;
+  result.place.assign(refined.positions().size(), {0, 0, 0, 0});
+  for (const auto& p : limit ? refined.limits().positions : refined.positions())
+    result.position.push_back(vector_of(p));
   const std::uint32_t n = 1U << steps;
-  using Corners = std::array<std::array<std::uint32_t, 2>, 3>;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    Corners c{{{0, 0}, {n, 0}, {0, n}}};
-    for (int step = steps - 1; step >= 0; --step) {
-      Corners m;  // middles of the edges 01, 12, 20
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t axis = 0; axis < 2; ++axis) m[k][axis] = (c[k][axis] + c[(k + 1) % 3][axis]) / 2;
-      const std::array<Corners, 4> child{{{c[0], m[0], m[2]}, {m[0], c[1], m[1]}, {m[2], m[1], c[2]}, m}};
-      c = child[(t >> (2 * step)) & 3U];
-    }
-    const auto face = static_cast<std::int32_t>(t >> (2 * steps));
-    for (std::size_t k = 0; k < 3; ++k) place[triangles[t][k]] = {face, c[k][0], c[k][1], n};
-  }
-  return place;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    FaceDomain().for_each_point(n, [&](FaceDomain::Point p) {
+      const std::int32_t v = refined.vertex(f, static_cast<int>(p.i), static_cast<int>(p.j));
+      result.place[v] = {static_cast<std::int32_t>(f), static_cast<std::uint32_t>(p.i),
+                         static_cast<std::uint32_t>(p.j), n};
+      if (scheme != Scheme::kLinear) return;
+      const auto [a, b, c] = mesh.triangles[f];
+      const double l1 = static_cast<double>(p.i) / n, l2 = static_cast<double>(p.j) / n;
+      result.position[v] =
+          (1 - l1 - l2) * mesh.positions[a] + l1 * mesh.positions[b] + l2 * mesh.positions[c];
+    });
+  return result;
 }
 
 // Who is next to whom in a mesh of polygons.
@@ -227,14 +171,8 @@ std::vector<Vector> scheme_points(const data::ControlMesh& mesh, Scheme scheme, 
 }
 
 SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit) {
+  if (scheme != Scheme::kCatmullClark) return triangle_points(mesh, scheme, steps, limit);
   std::vector<Vector> points = mesh.positions;
-  if (scheme != Scheme::kCatmullClark) {
-    Triangles triangles = mesh.triangles;
-    for (int step = 0; step < steps; ++step) refine(points, triangles, scheme);
-    auto place = places(points.size(), triangles, steps);
-    if (limit && scheme != Scheme::kLinear) points = limits(points, triangles, scheme);
-    return {std::move(points), std::move(place)};
-  }
   Polygons polygons;
   std::vector<PolygonPlaces> of_polygons;
   for (const auto& t : mesh.triangles) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a waiver covers, and what is said of one that is of no use. And what is printed about checks.
 #include "verify/audit/waivers.h"
+#include "data/error.h"
 
 #include <gtest/gtest.h>
 
@@ -122,7 +123,7 @@ TEST(Waivers, ThatAreNotUnderstoodAreRefused) {
         R"({"waivers":[{"subject":"a","check":"b","reason":"c","expires":"2027-01-01","bund":1}]})",
         R"({"waivers":[{"subject":"a","check":"b","reason":"c","expires":"2027-01-01","bound":"1"}]})",
         R"({"waivers":[{"subject":1,"check":"b","reason":"c","expires":"2027-01-01"}]})"})
-    EXPECT_THROW(parse_waivers(bad), std::invalid_argument) << bad;
+    EXPECT_THROW(parse_waivers(bad), data::ArgumentError) << bad;
 }
 
 TEST(Explain, KnowsEveryRowOnce) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What sections 4.1, 6 and 7 say of how tessellations look, measured pixel by pixel against deep uniform
 // depth.
-//                                                                              [C31, C74, C76, C79]
+// [C31, C74, C76, C79]
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "data/error.h"
+
 namespace limitcheck::cli {
 namespace {
 
@@ -48,8 +50,7 @@ std::unique_ptr<verify::Journal> open_journal(const std::string& json, bool resu
   std::error_code ignored;
   const auto type = fs::status(json, ignored).type();
   if (json.empty() || json == "-" || (type != fs::file_type::not_found && type != fs::file_type::regular)) {
-    if (resume)
-      throw std::invalid_argument("--resume needs --json FILE.json: the rows are kept in FILE.jsonl");
+    if (resume) throw data::ArgumentError("--resume needs --json FILE.json: the rows are kept in FILE.jsonl");
     return nullptr;
   }
   nlohmann::json what{{"program", "limitcheck audit"},

@@ -127,7 +127,7 @@ class Reader {
   const T& element(const std::vector<T>& list, int index, const char* what) const {
     if (index < 0 || static_cast<std::size_t>(index) >= list.size())
       refuse("FILE_SYNTAX", fmt::format("it names {} {}, which is not there", what, index));
-    return list[static_cast<std::size_t>(index)];
+    return list[index];
   }
 
   Matrix local(const tinygltf::Node& node, int index) const {
@@ -174,9 +174,9 @@ class Reader {
     const tinygltf::Node& node = element(model_.nodes, index, "node");
     if (depth > kDeepest)
       refuse("FILE_UNSUPPORTED", fmt::format("more than {} nodes above each other", kDeepest));
-    if (visited_[static_cast<std::size_t>(index)])
+    if (visited_[index])
       refuse("FILE_SYNTAX", fmt::format("node {} occurs twice: the nodes of a scene must be trees", index));
-    visited_[static_cast<std::size_t>(index)] = true;
+    visited_[index] = true;
     const Matrix m = above * local(node, index);
     if (node.mesh >= 0) add(element(model_.meshes, node.mesh, "mesh"), m, index);
     for (const int child : node.children) visit(child, m, depth + 1);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "data/error.h"
+
 namespace limitcheck::verify {
 
 namespace {
@@ -41,12 +43,12 @@ Canvas::Corner Canvas::project(const fast::SurfaceVertex<float>& vertex) const {
   const Point3 from_eye = Point3{p.x, p.y, p.z} - camera_.eye;
   const double distance = -dot(from_eye, back_);
   if (!(distance >= camera_.near))
-    throw std::invalid_argument("picture: a vertex is not before the near plane");
+    throw data::ArgumentError("picture: a vertex is not before the near plane");
   const double x = camera_.width / 2. + focal_ * dot(from_eye, right_) / distance;
   const double y = camera_.height / 2. - focal_ * dot(from_eye, up_) / distance;
   constexpr double kFarthest = 1 << 17;  // pixels: differences fit in 31 bits, products of two of them in 62
   if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest))
-    throw std::invalid_argument("picture: a vertex is too far to the side of the view");
+    throw data::ArgumentError("picture: a vertex is too far to the side of the view");
   const auto& n = vertex.normal;
   return {std::llround(x * kUnit), std::llround(y * kUnit), 1 / distance,
           (1 / distance) * Point3{n.x, n.y, n.z}};
@@ -102,8 +104,7 @@ void Canvas::draw(const fast::Draw& draw, std::span<const fast::SurfaceVertex<fl
   for (const auto& vertex : vertices) corners_.push_back(project(vertex));
   for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
     const auto v = draw.triangle(t);
-    fill({corners_[static_cast<std::size_t>(v[0])], corners_[static_cast<std::size_t>(v[1])],
-          corners_[static_cast<std::size_t>(v[2])]});
+    fill({corners_[v[0]], corners_[v[1]], corners_[v[2]]});
   }
 }
 

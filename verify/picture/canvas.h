@@ -17,13 +17,11 @@ namespace limitcheck::verify {
 /// viewer's left shoulder: shade = 255 (0.22 + 0.78 max(0, normal . light)) with the normal interpolated
 /// between the corners. Triangles seen from behind are left out, as graphics libraries do with closed
 /// surfaces.
-///   corners    rounded to 1/4096 pixel; a pixel whose middle lies on an edge that two triangles share
-///   belongs
-///              to one of them (top-left rule), so that a mesh without cracks leaves no pixel out
+///   corners    rounded to 1/4096 pixel; a pixel whose middle lies on an edge that two triangles share belongs to
+///              one of them (top-left rule), so that a mesh without cracks leaves no pixel out
 ///   order      of two surfaces at equal distance the one drawn first is seen
-///   throws     std::invalid_argument: a camera that makes no view; a vertex that is not before its near
-///   plane
-///              or so far to the side that its rounded coordinates leave 32 bits
+///   throws     data::ArgumentError: a camera that makes no view; a vertex that is not before its near
+///              plane, or so far to the side that its rounded coordinates leave 32 bits
 class Canvas : public fast::DrawSink<float> {
  public:
   explicit Canvas(const fast::Camera& camera);

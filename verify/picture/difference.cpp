@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "data/error.h"
+
 namespace limitcheck::verify {
 
 namespace {
@@ -68,7 +70,7 @@ double quantile(std::vector<float>& values, double share) {
 
 void DifferenceMeter::add(const Picture& truth, const Picture& seen) {
   if (truth.width != seen.width || truth.height != seen.height)
-    throw std::invalid_argument("picture: the two to compare are not of one size");
+    throw data::ArgumentError("picture: the two to compare are not of one size");
   std::vector<bool> missing(truth.shade.size());
   for (int y = 0; y < truth.height; ++y) {
     for (int x = 0; x < truth.width; ++x) {

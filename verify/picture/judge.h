@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What sections 6 and 7 say of strategies, measured by what a viewer sees.          [mueller2000, 6, 7; C31,
-// C74, C76, C79]
+// What sections 6 and 7 say of strategies, measured by what a viewer sees.
+// [mueller2000, 6, 7; C31, C74, C76, C79]
 #pragma once
 
 #include <cstdint>

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "data/error.h"
 #include "verify/subject/coordinate_range.h"
 #include "verify/subject/host_memory.h"
 #include "verify/subject/subject_call.h"
@@ -116,7 +117,7 @@ Tessellation Session::tessellate(int depth, int threads) {
 Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int threads) {
   if (face_depth.size() != mesh_.triangles.size() || threads < 1 ||
       std::any_of(face_depth.begin(), face_depth.end(), [](std::int32_t d) { return d < -1; })) {
-    throw std::invalid_argument("tessellate: one depth >= -1 for each face, and one thread or more");
+    throw data::ArgumentError("tessellate: one depth >= -1 for each face, and one thread or more");
   }
   if (!face_depth.empty()) {
     const auto [least, most] = std::minmax_element(face_depth.begin(), face_depth.end());

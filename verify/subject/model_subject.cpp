@@ -39,7 +39,7 @@ std::vector<std::string_view> names() {
 
 struct Settings {
   explicit Settings(Options& options)
-      : mutation(names()[static_cast<std::size_t>(options.choice("mutation", names()))]),
+      : mutation(names()[options.choice("mutation", names())]),
         single(options.choice("precision", {"double", "float"}) == 1),
         weights(weights_option(options)),
         refined(options.choice("points", {"limit", "refined"}) == 1) {

@@ -18,6 +18,7 @@
 #include "reference/loop/naive.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
+#include "verify/subject/face_domain.h"
 #include "verify/subject/faces_in_parallel.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/weights_option.h"
@@ -79,18 +80,14 @@ using BorderPoint = std::array<std::int64_t, 3>;
 
 // False for a point inside the face.
 bool on_border(const std::array<std::int32_t, 3>& face, const Corner& corner, int depth, BorderPoint& point) {
-  const std::int64_t unit = std::int64_t{1} << (31 - depth), i = corner.i, j = corner.j;
-  const std::array<std::int64_t, 3> l{(std::int64_t{1} << depth) - i - j, i, j};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (l[k] != 0) continue;
-    std::int64_t a = face[(k + 1) % 3], b = face[(k + 2) % 3], way = l[(k + 2) % 3];
-    if (way == 0) b = a;
-    if (l[(k + 1) % 3] == 0) a = b, way = 0;
-    if (a > b) std::swap(a, b), way = l[(k + 1) % 3];
-    point = {a, b, way * unit};
-    return true;
-  }
-  return false;
+  const std::int64_t n = std::int64_t{1} << depth, unit = std::int64_t{1} << (31 - depth);
+  const auto place = FaceDomain().side_of({corner.i, corner.j}, n);
+  if (!place) return false;
+  std::int64_t a = face[place->side], b = face[FaceDomain().next(place->side)], way = place->along;
+  if (way == 0) b = a;
+  if (a > b) std::swap(a, b), way = n - way;
+  point = {a, b, way * unit};
+  return true;
 }
 
 class NaiveSubject {

@@ -146,7 +146,7 @@ class StarInspector {
 
 // Closed walks along the open edges, or -1 where a point has more than one of them leaving or none.
 std::int64_t count_loops(std::int64_t point_count, const std::vector<Edge>& open) {
-  std::vector<std::int32_t> leaving(static_cast<std::size_t>(point_count), -1);
+  std::vector<std::int32_t> leaving(point_count, -1);
   for (std::size_t e = 0; e < open.size(); ++e) {
     if (leaving[open[e].from] >= 0) return -1;
     leaving[open[e].from] = static_cast<std::int32_t>(e);
@@ -182,7 +182,7 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
     for (const std::int32_t p : triangles[t]) ++start[p + 1];
   }
   for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
-  std::vector<Ray> rays(static_cast<std::size_t>(start.back()));
+  std::vector<Ray> rays(start.back());
   {
     std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -194,7 +194,7 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
   }
 
   const auto block_count = static_cast<std::int32_t>((point_count + kGrain - 1) / kGrain);
-  std::vector<Block> blocks(static_cast<std::size_t>(block_count));
+  std::vector<Block> blocks(block_count);
   tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, block_count, 1), [&](const auto& range) {
     StarInspector inspector;
     for (std::int32_t b = range.begin(); b < range.end(); ++b) {

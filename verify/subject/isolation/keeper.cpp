@@ -136,7 +136,7 @@ void shed_memory() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpgid(0, 0);
   for (int k = 0; k < 3; ++k)
-    if (dup2(pipes.standard[static_cast<std::size_t>(k)], k) < 0) {
+    if (dup2(pipes.standard[k], k) < 0) {
       tell(pipes.news, News::kNotStarted, errno);
       _exit(126);
     }

@@ -51,7 +51,7 @@ class Connection final : public protocol::Source {
   }
   template <class T>
   std::vector<T> array(std::int64_t count) {
-    std::vector<T> result(static_cast<std::size_t>(count));
+    std::vector<T> result(count);
     read(std::as_writable_bytes(std::span(result)));
     return result;
   }

@@ -40,7 +40,7 @@ struct Thread {
 // A sum of bits, so that neither threads nor lanes matter.
 void add_row(void* context, const rs::RowView& view) {
   std::uint64_t& sum = *static_cast<std::uint64_t*>(context);
-  for (std::size_t lane = 0; lane < view.pairs.size(); ++lane) {
+  for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
     const float* row = view.vertices(lane)->position;
     for (int k = 0; k < 6 * rs::side(view.depth); ++k) {
       std::uint32_t bits;
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   const double start = seconds();
   const fast::Adjacency adjacency(mesh);
   const auto pairs =
-      fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs;
+      fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
   const rs::RowStream stream(mesh, adjacency);
   const double prepared = seconds();
 

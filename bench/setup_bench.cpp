@@ -14,7 +14,7 @@
 #include "data/generators/bumpy_sphere.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/depth.h"
-#include "fast/plan/pairing.h"
+#include "fast/plan/printed_rules.h"
 #include "fast/stream/rings.h"
 
 namespace {
@@ -84,8 +84,7 @@ int main(int argc, char** argv) {
     for (const auto s : {fast::Strategy::kUniform, fast::Strategy::kRandom, fast::Strategy::kCombined}) {
       std::map<const Scene*, std::vector<std::int32_t>> cache;
       add("pairing/" + std::string(rule_name) + "-" + std::string(fast::name(s)),
-          [options = strategy(s), pairing = fast::PairingOptions{rule, true},
-           cache](const Scene& sc) mutable {
+          [options = strategy(s), pairing = fast::PrintedRules{rule}, cache](const Scene& sc) mutable {
             std::vector<std::int32_t>& depth = cache[&sc];
             if (depth.empty()) depth = sc.heuristics.depths(options, {});
             benchmark::DoNotOptimize(fast::pair_faces(sc.adjacency, depth, pairing).singletons);

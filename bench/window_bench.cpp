@@ -33,15 +33,15 @@ void window(benchmark::State& state, int faces, int depth) {
   const fast::Adjacency adjacency(mesh);
   const fast::PreparedMesh<Real> prepared(adjacency, fast::positions_of<Real>(mesh));
   const auto pairing = fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth));
-  fast::SlidingWindow<Real, fast::LimitSurface<Real>, fast::NoCount, Carry> sliding(depth,
+  fast::SlidingWindow<Real, fast::LimitSurface<Real>, fast::NoProbe, Carry> sliding(depth,
                                                                                     adjacency.max_valence());
   for (auto _ : state) {
-    for (const fast::Pair& pair : pairing.pairs)
+    for (const fast::Grid& pair : pairing.grids)
       sliding.run(prepared, 3 * pair.face0 + pair.edge0, depth,
                   [](int, const fast::SurfaceVertex<Real>* strip) { benchmark::DoNotOptimize(strip); });
   }
   const double side = (1 << depth) + 1;
-  state.counters["points/s"] = benchmark::Counter(static_cast<double>(pairing.pairs.size()) * side * side,
+  state.counters["points/s"] = benchmark::Counter(static_cast<double>(pairing.grids.size()) * side * side,
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 

@@ -58,7 +58,7 @@ std::vector<std::int32_t> split_fans(std::vector<std::array<std::int32_t, 3>>& t
   for (std::size_t c = 0; c < 3 * triangles.size(); ++c) {
     std::int32_t& v = triangles[c / 3][c % 3];
     const std::size_t fan = corners.find(c);
-    std::size_t& first = fan_of[static_cast<std::size_t>(v)];
+    std::size_t& first = fan_of[v];
     if (first == kNone) first = fan;
     if (first == fan) continue;
     if (vertex_of[fan] < 0) {
@@ -75,7 +75,7 @@ CutOut cut_out(std::span<const std::array<std::int32_t, 3>> whole, std::span<con
   part.triangles.reserve(faces.size());
   std::unordered_map<std::int32_t, std::int32_t> number;
   for (const std::int32_t f : faces) {
-    auto t = whole[static_cast<std::size_t>(f)];
+    auto t = whole[f];
     for (std::int32_t& v : t) {
       const auto [entry, is_new] = number.try_emplace(v, static_cast<std::int32_t>(part.vertices.size()));
       if (is_new) part.vertices.push_back(v);
@@ -84,7 +84,7 @@ CutOut cut_out(std::span<const std::array<std::int32_t, 3>> whole, std::span<con
     part.triangles.push_back(t);
   }
   for (const std::int32_t v : split_fans(part.triangles, part.vertices.size()))
-    part.vertices.push_back(part.vertices[static_cast<std::size_t>(v)]);
+    part.vertices.push_back(part.vertices[v]);
   return part;
 }
 

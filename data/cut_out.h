@@ -28,7 +28,7 @@ struct CutOut {
   std::vector<T> of(const std::vector<T>& whole) const {
     std::vector<T> part;
     part.reserve(vertices.size());
-    for (const std::int32_t v : vertices) part.push_back(whole[static_cast<std::size_t>(v)]);
+    for (const std::int32_t v : vertices) part.push_back(whole[v]);
     return part;
   }
 };

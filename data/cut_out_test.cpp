@@ -28,8 +28,7 @@ TEST(CutOut, AnyFacesOfAValidMeshAreAValidMeshWithTheSameCorners) {
       ASSERT_EQ(part.triangles.size(), faces.size());
       for (std::size_t f = 0; f < faces.size(); ++f)
         for (std::size_t k = 0; k < 3; ++k)
-          EXPECT_EQ(part.vertices[static_cast<std::size_t>(part.triangles[f][k])],
-                    whole.triangles[static_cast<std::size_t>(faces[f])][k]);
+          EXPECT_EQ(part.vertices[part.triangles[f][k]], whole.triangles[faces[f]][k]);
       const auto findings = validate({part.of(whole.positions), part.triangles});
       EXPECT_TRUE(findings.empty()) << findings.front().message;
     }

@@ -60,7 +60,7 @@ class Validator {
   // Vertices and faces as messages number them.
   std::int64_t vertex(std::int64_t v) const { return v + numbering_.first; }
   std::int64_t face(std::int64_t f) const {
-    return (numbering_.face.empty() ? f : numbering_.face[static_cast<std::size_t>(f)]) + numbering_.first;
+    return (numbering_.face.empty() ? f : numbering_.face[f]) + numbering_.first;
   }
   template <class Faces>
   std::string faces(const Faces& list) const {

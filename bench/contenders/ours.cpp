@@ -58,7 +58,7 @@ class RowStreaming final : public Contender {
         threads_(threads),
         form_(form),
         adjacency_(mesh),
-        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs),
+        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids),
         stream_(mesh, adjacency_, kernel) {
     if (form == Form::kWhole || form == Form::kStreamed) out_.resize(evaluated());
     if (form == Form::kCompact) compact_.resize(evaluated());
@@ -102,7 +102,7 @@ class RowStreaming final : public Contender {
   int depth_, threads_;
   Form form_;
   fast::Adjacency adjacency_;
-  std::vector<fast::Pair> pairs_;
+  std::vector<fast::Grid> pairs_;
   rs::RowStream stream_;
   Pool<rs::Workspace> pool_;
   std::vector<rs::Vertex> out_;
@@ -116,7 +116,7 @@ class Window : public Contender {
       : depth_(depth),
         threads_(threads),
         adjacency_(mesh),
-        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs),
+        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids),
         prepared_(adjacency_, fast::positions_of<float>(mesh)) {}
 
   void run() override {
@@ -132,11 +132,11 @@ class Window : public Contender {
   double evaluated() const override { return per_pair(pairs_.size(), depth_); }
 
  private:
-  using Sliding = fast::SlidingWindow<float, fast::LimitSurface<float>, fast::NoCount, true>;
+  using Sliding = fast::SlidingWindow<float, fast::LimitSurface<float>, fast::NoProbe, true>;
 
   int depth_, threads_;
   fast::Adjacency adjacency_;
-  std::vector<fast::Pair> pairs_;
+  std::vector<fast::Grid> pairs_;
   fast::PreparedMesh<float> prepared_;
   Pool<Sliding> pool_;
 };

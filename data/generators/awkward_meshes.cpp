@@ -129,7 +129,7 @@ ControlMesh stellated() {
     const auto tip = static_cast<std::int32_t>(mesh.positions.size());
     Point p{};
     for (const std::int32_t v : t)
-      for (std::size_t k = 0; k < 3; ++k) p[k] += inner.positions[static_cast<std::size_t>(v)][k] / 2;
+      for (std::size_t k = 0; k < 3; ++k) p[k] += inner.positions[v][k] / 2;
     mesh.positions.push_back(p);
     for (std::size_t k = 0; k < 3; ++k) mesh.triangles.push_back({t[k], t[(k + 1) % 3], tip});
   }

@@ -137,17 +137,14 @@ class Editor {
     ControlMesh mesh;
     std::vector<Index> number(positions_.size(), -1);
     for (const Face& f : faces_) {
-      for (const Index v : f) number[static_cast<std::size_t>(v)] = 0;
+      for (const Index v : f) number[v] = 0;
     }
     for (std::size_t v = 0; v < number.size(); ++v) {
       if (number[v] < 0) continue;
       number[v] = static_cast<Index>(mesh.positions.size());
       mesh.positions.push_back(positions_[v]);
     }
-    for (const Face& f : faces_)
-      mesh.triangles.push_back({number[static_cast<std::size_t>(f[0])],
-                                number[static_cast<std::size_t>(f[1])],
-                                number[static_cast<std::size_t>(f[2])]});
+    for (const Face& f : faces_) mesh.triangles.push_back({number[f[0]], number[f[1]], number[f[2]]});
     return mesh;
   }
 
@@ -172,7 +169,7 @@ class Editor {
   // The face on the left of a -> b.
   void remove(Index a, Index b) {
     const Index f = face_.at(key(a, b));
-    const Face old = faces_[static_cast<std::size_t>(f)];
+    const Face old = faces_[f];
     for (std::size_t k = 0; k < 3; ++k) face_.erase(key(old[k], old[(k + 1) % 3]));
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = old[k], after = old[(k + 1) % 3], before = old[(k + 2) % 3];
@@ -181,7 +178,7 @@ class Editor {
     const Face last = faces_.back();
     faces_.pop_back();
     if (f == static_cast<Index>(faces_.size())) return;
-    faces_[static_cast<std::size_t>(f)] = last;
+    faces_[f] = last;
     for (std::size_t k = 0; k < 3; ++k) face_[key(last[k], last[(k + 1) % 3])] = f;
   }
 
@@ -194,13 +191,13 @@ class Editor {
   Index across(Index a, Index b) const {
     const Index f = face_of(a, b);
     if (f < 0) return -1;
-    const Face& t = faces_[static_cast<std::size_t>(f)];
+    const Face& t = faces_[f];
     return t[0] == a ? t[2] : t[1] == a ? t[0] : t[1];
   }
   Edge edge(Index a, Index b) const { return {a, b, across(a, b), across(b, a)}; }
 
   // v -> this one has a face on its left; -1 or a former neighbour if the faces about v came and went.
-  Index& neighbour_of(Index v) { return neighbour_[static_cast<std::size_t>(v)]; }
+  Index& neighbour_of(Index v) { return neighbour_[v]; }
   Index search_neighbour(Index v) const {
     for (const Face& f : faces_) {
       for (std::size_t k = 0; k < 3; ++k)
@@ -243,7 +240,7 @@ class Editor {
     for (std::size_t c = 0; c < 3; ++c) {
       double low = 1e30, high = -1e30;
       for (const Index v : amid) {
-        const double x = positions_[static_cast<std::size_t>(v)][c];
+        const double x = positions_[v][c];
         p[c] += x / static_cast<double>(amid.size());
         low = std::min(low, x), high = std::max(high, x);
       }
@@ -259,8 +256,8 @@ class Editor {
     std::vector<std::array<double, 4>> sum(positions_.size());
     for (const Face& f : faces_) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto& next = positions_[static_cast<std::size_t>(f[(k + 1) % 3])];
-        auto& s = sum[static_cast<std::size_t>(f[k])];
+        const auto& next = positions_[f[(k + 1) % 3]];
+        auto& s = sum[f[k]];
         for (std::size_t c = 0; c < 3; ++c) s[c] += next[c];
         s[3] += 1;
       }

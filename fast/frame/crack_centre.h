@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <vector>
 
+#include "data/error.h"
 #include "fast/plan/crack.h"
 #include "fast/rules/corner.h"
 
@@ -84,12 +84,12 @@ class FanCentreEvaluator {
   explicit FanCentreEvaluator(int max_valence) : storage_(3 * static_cast<std::size_t>(max_valence)) {}
 
   /// The normal is that of the limit surface, whatever the position.
-  ///   throws   std::invalid_argument: a valence beyond the arrays
+  ///   throws   data::ArgumentError: a valence beyond the arrays
   Vertex evaluate(const PreparedMesh<N, Surface>& mesh, std::int32_t face, FanCentre centre) {
     const Adjacency& adjacency = mesh.adjacency();
     const std::size_t stride = storage_.size() / 3;
     if (static_cast<std::size_t>(adjacency.max_valence()) > stride)
-      throw std::invalid_argument("fan centre: a valence beyond the arrays");
+      throw data::ArgumentError("fan centre: a valence beyond the arrays");
     std::array<Vec3<N>, 3> corner;
     std::array<Corner<N, Vertex>, 3> rings;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -42,9 +42,9 @@ inline std::int64_t limit_points_of(const Patch& patch, const CrackPlan& plan) {
   else if (patch.half[0].uses_window() || patch.half[1].uses_window())
     points = (k + 1) * (k + 1);
   for (const Half& half : patch.half) {
-    if (half.show != Half::Show::kFan && half.show != Half::Show::kStitch) continue;
+    if (!half.repaired()) continue;
     for (int e = 0; e < 3; ++e) points += std::int64_t{1} << edge_depth(plan, half.face, e);
-    points += half.show == Half::Show::kFan ? 1 : 0;
+    points += half.display == Half::Display::kFan ? 1 : 0;
   }
   return points;
 }
@@ -56,29 +56,29 @@ inline DrawSize draw_size(const Patch& patch, const CrackPlan& plan) {
   DrawSize size;
   for (const Half& half : patch.half) {
     std::int64_t border = 0, ring = 0;
-    if (half.show == Half::Show::kFan || half.show == Half::Show::kStitch) {
+    if (half.repaired()) {
       for (int e = 0; e < 3; ++e) {
         border += std::int64_t{1} << edge_depth(plan, half.face, e);
         ring += stitch_triangles(k, edge_depth(plan, half.face, e));
       }
     }
-    switch (half.show) {
-      case Half::Show::kStrips:
+    switch (half.display) {
+      case Half::Display::kStrips:
         size.vertices += k * k + 2 * k;
         size.draws += k;
         size.triangles += k * k;
         break;
-      case Half::Show::kFan:
+      case Half::Display::kFan:
         size.vertices += border + 2;
         size.draws += 1;
         size.triangles += border;
         break;
-      case Half::Show::kStitch:
+      case Half::Display::kStitch:
         size.vertices += (k - 1) * (k - 3) + 3 * ring;
         size.draws += k - 3 + 1;
         size.triangles += (k - 3) * (k - 3) + ring;
         break;
-      case Half::Show::kNothing:
+      case Half::Display::kNothing:
         break;
     }
   }
@@ -136,7 +136,7 @@ class DrawWriter {
     const Half& half = patch_.half[side];
     int from = 0, to = 2 * (k_ - row);
     Kind kind = patch_.kind;
-    if (half.show == Half::Show::kStitch) {
+    if (half.display == Half::Display::kStitch) {
       capture(side, row, at);
       if (row < 1 || row > k_ - 3) return;
       from = 2;

@@ -12,7 +12,6 @@ namespace limitcheck::fast {
 
 /// What holds for all frames of a mesh.
 struct TessellatorOptions {
-  PairingOptions pairing;
   CrackOptions cracks;
   int max_depth = 5;        // the largest depth a strategy assigns; depths given by hand may be deeper
   int threads = 0;          // at most so many, 0: all. The output does not depend on it.
@@ -24,7 +23,6 @@ struct FrameStats {
   std::int64_t faces = 0, culled = 0;
   std::int64_t pairs = 0, singletons = 0;  // pairs of two; faces without partner
   std::int64_t fans = 0, stitched = 0;     // faces repaired (their pairs count above as well)
-  std::int64_t revived = 0;                // faces given as culled that were displayed all the same: always 0
   std::int64_t strips = 0, draws = 0;
   std::int64_t triangles = 0, vertices = 0;  // as delivered
   std::int64_t limit_points = 0;             // evaluated in windows, along edges and at centres

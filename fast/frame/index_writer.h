@@ -101,7 +101,7 @@ class IndexWriter {
   template <class At>
   void half_strip(int side, int row, At&& at) {
     const Half& half = patch_.half[side];
-    const bool stitch = half.show == Half::Show::kStitch;
+    const bool stitch = half.display == Half::Display::kStitch;
     // Every row is written with the strip below it; row k is a corner.
     write_row(half, stitch, row, [&](int c) -> const Vertex& { return at(2 * c); });
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the points of a pair lie on its faces, and how each face is displayed.
+// Where the points of a grid lie on its faces, and how each face is displayed.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 #include "fast/frame/sink.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/crack.h"
-#include "fast/plan/pairing.h"
+#include "fast/plan/grid.h"
 
 namespace limitcheck::fast {
 
-/// One of the two triangles of a pair, in a frame of rows and columns of its own: (row, column) has weight
+/// One of the two triangles of a grid, in a frame of rows and columns of its own: (row, column) has weight
 /// `row` at corner `edge`, `column` at the next and k - row - column at the last. The upper left face uses
 /// the rows and columns of the window, the lower right one counts them from the other side (k - row, k -
 /// column), which turns it onto the first.
@@ -23,11 +23,11 @@ namespace limitcheck::fast {
 ///           |  /
 ///        (k, 0)
 struct Half {
-  enum class Show : std::uint8_t { kNothing, kStrips, kFan, kStitch };
+  enum class Display : std::uint8_t { kNothing, kStrips, kFan, kStitch };
 
   std::int32_t face = -1;
   std::int32_t edge = 0;
-  Show show = Show::kNothing;
+  Display display = Display::kNothing;
 
   std::array<int, 3> weights(int k, int row, int column) const {
     std::array<int, 3> w{};
@@ -41,38 +41,42 @@ struct Half {
     return {face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
             static_cast<std::uint32_t>(k)};
   }
-  bool uses_window() const { return show == Show::kStrips || show == Show::kStitch; }
+  bool uses_window() const { return display == Display::kStrips || display == Display::kStitch; }
+  /// Whether its border points come from its edges one by one.
+  bool repaired() const { return display == Display::kFan || display == Display::kStitch; }
 };
 
-/// What becomes of one entry of the pairing. half[0] is the upper left face; half[1].face = -1 if there is
+/// What becomes of one grid of a frame. half[0] is the upper left face; half[1].face = -1 if there is
 /// none, not even a dummy.
 struct Patch {
   Half half[2];
   int depth = 0;
   Kind kind = Kind::kPair;
 
-  bool full() const { return half[0].show == Half::Show::kStrips && half[1].show == Half::Show::kStrips; }
+  bool full() const {
+    return half[0].display == Half::Display::kStrips && half[1].display == Half::Display::kStrips;
+  }
 
-  static Patch of(const Adjacency& adjacency, const Pair& pair, const CrackPlan& plan) {
-    const auto show = [&](std::int32_t face) {
+  static Patch of(const Adjacency& adjacency, const Grid& grid, const CrackPlan& plan) {
+    const auto display = [&](std::int32_t face) {
       switch (plan.repair[static_cast<std::size_t>(face)]) {
         case Repair::kFan:
-          return Half::Show::kFan;
+          return Half::Display::kFan;
         case Repair::kStitch:
-          return Half::Show::kStitch;
+          return Half::Display::kStitch;
         default:
-          return Half::Show::kStrips;
+          return Half::Display::kStrips;
       }
     };
     Patch patch;
-    patch.depth = pair.depth;
-    patch.kind = pair.singleton() ? Kind::kSingleton : Kind::kPair;
-    patch.half[0] = {pair.face0, pair.edge0 < 0 ? 0 : pair.edge0, show(pair.face0)};
-    if (pair.singleton()) {
-      const std::int32_t dummy = pair.edge0 < 0 ? -1 : adjacency.twin(3 * pair.face0 + pair.edge0);
-      patch.half[1] = {dummy < 0 ? -1 : dummy / 3, dummy < 0 ? 0 : dummy % 3, Half::Show::kNothing};
+    patch.depth = grid.depth;
+    patch.kind = grid.singleton() ? Kind::kSingleton : Kind::kPair;
+    patch.half[0] = {grid.face0, grid.edge0 < 0 ? 0 : grid.edge0, display(grid.face0)};
+    if (grid.singleton()) {
+      const std::int32_t dummy = grid.edge0 < 0 ? -1 : adjacency.twin(3 * grid.face0 + grid.edge0);
+      patch.half[1] = {dummy < 0 ? -1 : dummy / 3, dummy < 0 ? 0 : dummy % 3, Half::Display::kNothing};
     } else {
-      patch.half[1] = {pair.face1, pair.edge1, show(pair.face1)};
+      patch.half[1] = {grid.face1, grid.edge1, display(grid.face1)};
     }
     return patch;
   }

@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "data/error.h"
 
 namespace limitcheck::fast {
 
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("control mesh: " + what);
+  throw data::ArgumentError("control mesh: " + what);
 }
 
 std::string two_faces(std::int32_t h, std::int32_t g) {

@@ -26,7 +26,7 @@ namespace limitcheck::fast {
 /// and 2 per vertex.
 class Adjacency {
  public:
-  /// Throws std::invalid_argument and names the element: index out of range, vertex repeated in a face, edge
+  /// Throws data::ArgumentError and names the element: index out of range, vertex repeated in a face, edge
   /// with more than two faces or with two faces of opposite orientation, vertex with two fans (bow-tie),
   /// interior vertex of valence below 3, more than 2^31 / 3 faces. [claims D9, D13] A vertex without faces is
   /// allowed: valence 0, outgoing -1. The mesh itself is not kept.

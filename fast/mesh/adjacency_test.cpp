@@ -7,9 +7,9 @@
 #include <array>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
+#include "data/error.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast {
@@ -101,7 +101,7 @@ void expect_refused(int vertices, std::vector<std::array<std::int32_t, 3>> trian
   try {
     const Adjacency adjacency(mesh);
     FAIL() << "accepted; expected: " << part;
-  } catch (const std::invalid_argument& error) {
+  } catch (const data::ArgumentError& error) {
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
 }

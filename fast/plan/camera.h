@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
+#include "data/error.h"
 #include "fast/mesh/point3.h"
 
 namespace limitcheck::fast {
@@ -25,10 +25,10 @@ struct Camera {
   /// Pixels that a length of 1 at distance 1 covers: height / (2 tan(field_of_view / 2)).
   double focal_pixels() const { return height / (2 * std::tan(field_of_view * std::numbers::pi / 360)); }
 
-  /// Throws std::invalid_argument and says which value makes no view: eye equal to target, up along the view,
+  /// Throws data::ArgumentError and says which value makes no view: eye equal to target, up along the view,
   /// field of view outside (0, 180), a viewport without pixels, near not positive, anything not finite.
   void validate() const {
-    const auto refuse = [](const char* what) { throw std::invalid_argument(std::string("camera: ") + what); };
+    const auto refuse = [](const char* what) { throw data::ArgumentError(std::string("camera: ") + what); };
     if (!is_finite(eye) || !is_finite(target) || !is_finite(up)) refuse("eye, target and up must be finite");
     if (eye == target) refuse("eye and target are the same point");
     if (length(cross(target - eye, up)) == 0) refuse("up points along the view");

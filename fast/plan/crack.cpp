@@ -2,14 +2,15 @@
 #include "fast/plan/crack.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include "data/error.h"
+#include "fast/plan/printed_rules.h"
 
 namespace limitcheck::fast {
 
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                      const CrackOptions& options) {
+                      const CrackOptions& options, const PrintedRules& rules) {
   const auto faces = static_cast<std::size_t>(adjacency.face_count());
-  if (depth.size() != faces) throw std::invalid_argument("cracks: not one depth per face");
+  if (depth.size() != faces) throw data::ArgumentError("cracks: not one depth per face");
   CrackPlan plan;
   plan.edge_depth.assign(3 * faces, -1);
   plan.repair.assign(faces, Repair::kNone);
@@ -25,19 +26,26 @@ CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> 
       deeper += neighbour[k] > own ? 1 : 0;
     }
     const bool repaired =
-        options.repair != Repair::kNone && deeper >= (options.rule == EdgeDepthRule::kTwoOrMore ? 2 : 1);
+        options.repair != Repair::kNone && deeper >= (rules.edge_depth == EdgeDepthRule::kTwoOrMore ? 2 : 1);
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t edge = !repaired                                    ? own
-                                : options.rule == EdgeDepthRule::kRespective ? neighbour[k]
-                                                                             : std::max(own, neighbour[k]);
+      const std::int32_t edge = !repaired ? own
+                                : rules.edge_depth == EdgeDepthRule::kRespective
+                                    ? neighbour[k]
+                                    : std::max(own, neighbour[k]);
       plan.edge_depth[3 * f + k] = static_cast<std::int8_t>(edge);
     }
     if (!repaired) continue;
-    const bool fan = options.repair == Repair::kFan || own < 2 || options.rule == EdgeDepthRule::kRespective;
+    const bool fan =
+        options.repair == Repair::kFan || own < 2 || rules.edge_depth == EdgeDepthRule::kRespective;
     plan.repair[f] = fan ? Repair::kFan : Repair::kStitch;
     ++(fan ? plan.fans : plan.stitched);
   }
   return plan;
+}
+
+CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
+                      const CrackOptions& options) {
+  return plan_cracks(adjacency, depth, options, PrintedRules{});
 }
 
 }  // namespace limitcheck::fast

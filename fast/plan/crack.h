@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Crack prevention between faces of different depth.
-// [mueller2000, section 5]
+// Crack prevention between faces of different depth. [mueller2000, section 5]
 #pragma once
 
 #include <cstdint>
@@ -25,18 +24,10 @@ enum class FanCentre : std::uint8_t {
   kFlatControl  // centroid of the control triangle [C62]
 };
 
-/// Up to which depth a face collects points on its edge to a neighbour.                           [C57, C58]
-enum class EdgeDepthRule : std::uint8_t {
-  kMaximum,     // max of both faces: symmetric, no cracks
-  kRespective,  // the neighbour's depth, as printed: two adjacent fans exchange depths
-  kTwoOrMore    // as kMaximum, but only faces with two or more deeper neighbours are repaired
-};
-
 /// How cracks are closed; the defaults leave none.
 struct CrackOptions {
   Repair repair = Repair::kFan;
   FanCentre centre = FanCentre::kLimit;
-  EdgeDepthRule rule = EdgeDepthRule::kMaximum;
 };
 
 /// Per face, which are repaired, and the depth of each of its edges.
@@ -46,7 +37,9 @@ struct CrackPlan {
   std::int64_t fans = 0, stitched = 0;
 };
 
-/// After pairing: `depth` is final, -1 = culled; a culled neighbour counts as the face's own depth.
+/// After the pairing, when `depth` is final, -1 = culled: a face is repaired if a neighbour is deeper, and the
+/// depth of an edge is the larger of its faces'. A culled neighbour counts as the face's own depth.
+///   throws   data::ArgumentError: not one depth per face
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                       const CrackOptions& options = {});
 

@@ -10,10 +10,10 @@
 #include <array>
 #include <atomic>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "data/error.h"
 #include "data/splitmix64.h"
 #include "fast/rules/ring.h"
 
@@ -30,7 +30,7 @@ constexpr std::array<std::pair<Strategy, std::string_view>, 6> kNames{
      {Strategy::kCustom, "custom"}}};
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("depth: " + what);
+  throw data::ArgumentError("depth: " + what);
 }
 
 // A hash of (seed, face).

@@ -34,7 +34,7 @@ enum class Strategy {
 
 /// The name on the command line: uniform, random, project-sphere, curvature, combined, custom.
 std::string_view name(Strategy strategy);
-/// Throws std::invalid_argument and lists the names.
+/// Throws data::ArgumentError and lists the names.
 Strategy parse_strategy(std::string_view text);
 
 /// By the limit normals N and limit positions L of the three
@@ -65,12 +65,12 @@ struct DepthOptions {
 /// number of threads.
 class DepthHeuristics {
  public:
-  /// `max_depth`: every depth is clamped to it. Throws std::invalid_argument if it is not in 0 .. kDeepest.
+  /// `max_depth`: every depth is clamped to it. Throws data::ArgumentError if it is not in 0 .. kDeepest.
   DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth = 5);
 
   int max_depth() const { return max_depth_; }
 
-  /// One depth per face, -1 .. max_depth. Throws std::invalid_argument: a camera that makes no view (if the
+  /// One depth per face, -1 .. max_depth. Throws data::ArgumentError: a camera that makes no view (if the
   /// strategy or culling uses it), a target or angle outside its range, a depth outside 0 .. max_depth, an
   /// empty `custom`.
   std::vector<std::int32_t> depths(const DepthOptions& options, const Camera& camera) const;
@@ -117,7 +117,7 @@ class DepthHeuristics {
   mutable std::vector<double> cones_;  // max_depth + 1 per vertex: the cosines of levels 0 .. max_depth
 };
 
-/// Throws std::invalid_argument with the face if `depth` has not one entry in -1 .. max_depth per face.
+/// Throws data::ArgumentError with the face if `depth` has not one entry in -1 .. max_depth per face.
 void check_depths(std::span<const std::int32_t> depth, int face_count, int max_depth);
 
 }  // namespace limitcheck::fast

@@ -9,8 +9,8 @@
 #include <atomic>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
+#include "data/error.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast {
@@ -28,7 +28,7 @@ TEST(Camera, RefusesWhatMakesNoView) {
   const auto refused = [](auto&& change) {
     Camera camera;
     change(camera);
-    EXPECT_THROW(camera.validate(), std::invalid_argument);
+    EXPECT_THROW(camera.validate(), data::ArgumentError);
   };
   EXPECT_NO_THROW(Camera{}.validate());
   refused([](Camera& c) { c.target = c.eye; });
@@ -47,7 +47,7 @@ TEST(Depth, NamesAndStrategiesAreInverse) {
                            Strategy::kCurvature, Strategy::kCombined, Strategy::kCustom}) {
     EXPECT_EQ(parse_strategy(name(s)), s);
   }
-  EXPECT_THROW(parse_strategy("spherical"), std::invalid_argument);
+  EXPECT_THROW(parse_strategy("spherical"), data::ArgumentError);
 }
 
 TEST(Depth, UniformIsUniformAndRandomMeetsEveryDepthAboutEquallyOften) {
@@ -201,13 +201,13 @@ TEST(Depth, ACameraInsideAClosedConvexSurfaceSeesOnlyBackFaces) {
 
 TEST(Depth, BadArgumentsAreRefused) {
   const Fixture f(octahedron());
-  EXPECT_THROW(DepthHeuristics(f.mesh, f.adjacency, 40), std::invalid_argument);
-  EXPECT_THROW(DepthHeuristics(f.mesh, f.adjacency, -1), std::invalid_argument);
+  EXPECT_THROW(DepthHeuristics(f.mesh, f.adjacency, 40), data::ArgumentError);
+  EXPECT_THROW(DepthHeuristics(f.mesh, f.adjacency, -1), data::ArgumentError);
   const auto refused = [&](auto&& change) {
     DepthOptions options;
     Camera camera;
     change(options, camera);
-    EXPECT_THROW(f.heuristics.depths(options, camera), std::invalid_argument);
+    EXPECT_THROW(f.heuristics.depths(options, camera), data::ArgumentError);
   };
   refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kUniform, o.depth = 6; });
   refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kUniform, o.depth = -1; });
@@ -217,9 +217,9 @@ TEST(Depth, BadArgumentsAreRefused) {
   refused([](DepthOptions& o, Camera&) { o.angle_back = 181; });
   refused([](DepthOptions& o, Camera&) { o.strategy = Strategy::kCustom; });
   refused([](DepthOptions&, Camera& c) { c.height = 0; });
-  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, 1}, 3, 5), std::invalid_argument);
-  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, -2, 1}, 3, 5), std::invalid_argument);
-  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, 6, 1}, 3, 5), std::invalid_argument);
+  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, 1}, 3, 5), data::ArgumentError);
+  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, -2, 1}, 3, 5), data::ArgumentError);
+  EXPECT_THROW(check_depths(std::vector<std::int32_t>{0, 6, 1}, 3, 5), data::ArgumentError);
   EXPECT_NO_THROW(check_depths(std::vector<std::int32_t>{0, -1, 5}, 3, 5));
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "fast/plan/depth.h"
+#include "fast/plan/printed_rules.h"
 
 namespace limitcheck::fast {
 
@@ -18,8 +19,8 @@ constexpr int kTaken = 4;  // paired, singleton or culled: in none of S0 .. S3
 // the queues need no deletion: what has moved on since it was appended is skipped when it comes up.
 class Greedy {
  public:
-  Greedy(const Adjacency& adjacency, const PairingOptions& options, PairingResult& result)
-      : adjacency_(adjacency), options_(options), result_(result), nodes_(result.depth.size()) {
+  Greedy(const Adjacency& adjacency, const PrintedRules& rules, PairingResult& result)
+      : adjacency_(adjacency), rules_(rules), result_(result), nodes_(result.depth.size()) {
     const auto faces = static_cast<std::int32_t>(nodes_.size());
     for (std::int32_t f = 0; f < faces; ++f) {
       if (result_.depth[f] < 0) {
@@ -105,7 +106,7 @@ class Greedy {
       const std::int32_t g = adjacency_.neighbour(f, k);
       if (!is_free(g)) continue;
       const std::int8_t set = nodes_[g].set;
-      const bool other_depth = options_.prefer_equal_depth && result_.depth[g] != result_.depth[f];
+      const bool other_depth = rules_.prefer_equal_depth && result_.depth[g] != result_.depth[f];
       const std::tuple<bool, bool, int, std::int32_t> rank{set != 0, other_depth, set, g};
       if (rank < best) {
         best = rank;
@@ -116,27 +117,27 @@ class Greedy {
   }
 
   void emit(std::int32_t f, int k) {
-    Pair pair;
-    pair.face0 = f;
-    pair.depth = result_.depth[f];
+    Grid grid;
+    grid.face0 = f;
+    grid.depth = result_.depth[f];
     if (k >= 0) {
       const std::int32_t h = adjacency_.twin(3 * f + k);
-      pair.face1 = h / 3;
-      pair.edge0 = k;
-      pair.edge1 = h % 3;
-      pair.depth = std::max(pair.depth, result_.depth[pair.face1]);
-      result_.depth[f] = result_.depth[pair.face1] = pair.depth;
+      grid.face1 = h / 3;
+      grid.edge0 = k;
+      grid.edge1 = h % 3;
+      grid.depth = std::max(grid.depth, result_.depth[grid.face1]);
+      result_.depth[f] = result_.depth[grid.face1] = grid.depth;
       ++result_.pair_count;
     } else {
       for (int dummy = 2; dummy >= 0; --dummy) {
         const std::int32_t h = adjacency_.twin(3 * f + dummy);
         if (h < 0) continue;
-        pair.edge0 = dummy;
-        pair.edge1 = h % 3;
+        grid.edge0 = dummy;
+        grid.edge1 = h % 3;
       }
       ++result_.singletons;
     }
-    result_.pairs.push_back(pair);
+    result_.grids.push_back(grid);
   }
 
   // Step 3. The free neighbours of f and g, at most four, in the order of their edges; a face that touches
@@ -157,7 +158,7 @@ class Greedy {
     if (k >= 0) visit(adjacency_.neighbour(f, k));
 
     const std::span<const std::int32_t> faces(touched.data(), count);
-    if (options_.rule == PairingRule::kCorrected) {
+    if (rules_.pairing == PairingRule::kCorrected) {
       raise_corrected(faces);
     } else {
       raise_printed(faces);
@@ -203,7 +204,7 @@ class Greedy {
   }
 
   const Adjacency& adjacency_;
-  const PairingOptions& options_;
+  const PrintedRules& rules_;
   PairingResult& result_;
   std::vector<Node> nodes_;
   std::array<Queue, 4> queues_;
@@ -212,13 +213,17 @@ class Greedy {
 }  // namespace
 
 PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                         const PairingOptions& options) {
+                         const PrintedRules& rules) {
   check_depths(depth, adjacency.face_count(), std::numeric_limits<std::int32_t>::max());
   PairingResult result;
   result.depth.assign(depth.begin(), depth.end());
-  result.pairs.reserve(depth.size() / 2 + 1);
-  Greedy(adjacency, options, result).run();
+  result.grids.reserve(depth.size() / 2 + 1);
+  Greedy(adjacency, rules, result).run();
   return result;
+}
+
+PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_t> depth) {
+  return pair_faces(adjacency, depth, PrintedRules{});
 }
 
 }  // namespace limitcheck::fast

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "data/error.h"
+#include "fast/plan/printed_rules.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast {
@@ -14,44 +15,44 @@ namespace {
 // What any result must be, whatever the choices: a partition
 // of the visible faces into neighbours and leftovers.
 void expect_partition(const data::ControlMesh& mesh, const std::vector<std::int32_t>& depth,
-                      PairingOptions options) {
+                      const PrintedRules& rules) {
   const Adjacency adjacency(mesh);
-  const PairingResult result = pair_faces(adjacency, depth, options);
+  const PairingResult result = pair_faces(adjacency, depth, rules);
   ASSERT_EQ(result.depth.size(), depth.size());
   std::vector<int> used(depth.size(), 0);
   std::int64_t singletons = 0;
-  for (const Pair& pair : result.pairs) {
-    ++used[pair.face0];
-    if (pair.singleton()) {
+  for (const Grid& grid : result.grids) {
+    ++used[grid.face0];
+    if (grid.singleton()) {
       ++singletons;
-      ASSERT_EQ(pair.depth, depth[pair.face0]);
+      ASSERT_EQ(grid.depth, depth[grid.face0]);
       bool lonely = true;
-      for (int k = 0; k < 3; ++k) lonely = lonely && adjacency.neighbour(pair.face0, k) < 0;
-      ASSERT_EQ(pair.edge0 < 0, lonely) << "a dummy exists if any neighbour does";
+      for (int k = 0; k < 3; ++k) lonely = lonely && adjacency.neighbour(grid.face0, k) < 0;
+      ASSERT_EQ(grid.edge0 < 0, lonely) << "a dummy exists if any neighbour does";
     } else {
-      ++used[pair.face1];
-      ASSERT_EQ(pair.depth, std::max(depth[pair.face0], depth[pair.face1]));
-      ASSERT_EQ(result.depth[pair.face1], pair.depth);
-      ASSERT_EQ(adjacency.neighbour(pair.face0, pair.edge0), pair.face1);
+      ++used[grid.face1];
+      ASSERT_EQ(grid.depth, std::max(depth[grid.face0], depth[grid.face1]));
+      ASSERT_EQ(result.depth[grid.face1], grid.depth);
+      ASSERT_EQ(adjacency.neighbour(grid.face0, grid.edge0), grid.face1);
     }
-    ASSERT_EQ(result.depth[pair.face0], pair.depth);
-    if (pair.edge0 >= 0) {
-      const std::int32_t h = adjacency.twin(3 * pair.face0 + pair.edge0);
+    ASSERT_EQ(result.depth[grid.face0], grid.depth);
+    if (grid.edge0 >= 0) {
+      const std::int32_t h = adjacency.twin(3 * grid.face0 + grid.edge0);
       ASSERT_GE(h, 0);
-      ASSERT_EQ(h % 3, pair.edge1);
+      ASSERT_EQ(h % 3, grid.edge1);
     } else {
-      ASSERT_EQ(pair.edge1, -1);
+      ASSERT_EQ(grid.edge1, -1);
     }
   }
   for (std::size_t f = 0; f < depth.size(); ++f) ASSERT_EQ(used[f], depth[f] < 0 ? 0 : 1) << "face " << f;
   ASSERT_EQ(result.singletons, singletons);
-  ASSERT_EQ(result.pair_count + result.singletons, static_cast<std::int64_t>(result.pairs.size()));
+  ASSERT_EQ(result.pair_count + result.singletons, static_cast<std::int64_t>(result.grids.size()));
   ASSERT_EQ(result.culled, std::count(depth.begin(), depth.end(), -1));
   // No two singletons are neighbours.
-  for (const Pair& pair : result.pairs) {
-    for (int k = 0; pair.singleton() && k < 3; ++k) {
-      const std::int32_t g = adjacency.neighbour(pair.face0, k);
-      for (const Pair& other : result.pairs) ASSERT_FALSE(g >= 0 && other.singleton() && other.face0 == g);
+  for (const Grid& grid : result.grids) {
+    for (int k = 0; grid.singleton() && k < 3; ++k) {
+      const std::int32_t g = adjacency.neighbour(grid.face0, k);
+      for (const Grid& other : result.grids) ASSERT_FALSE(g >= 0 && other.singleton() && other.face0 == g);
     }
   }
 }
@@ -78,8 +79,8 @@ TEST(Pairing, PartitionsTheVisibleFacesForAnyMeshDepthAndRule) {
 TEST(Pairing, ATriangleWithoutNeighboursIsASingletonWithoutDummy) {
   const Adjacency adjacency(single_triangle());
   const PairingResult result = pair_faces(adjacency, std::vector<std::int32_t>{3});
-  ASSERT_EQ(result.pairs.size(), 1u);
-  EXPECT_EQ(result.pairs[0], (Pair{0, -1, -1, -1, 3}));
+  ASSERT_EQ(result.grids.size(), 1u);
+  EXPECT_EQ(result.grids[0], (Grid{0, -1, -1, -1, 3}));
 }
 
 TEST(Pairing, ASingletonMayUseACulledNeighbourAsDummy) {
@@ -88,10 +89,10 @@ TEST(Pairing, ASingletonMayUseACulledNeighbourAsDummy) {
   std::vector<std::int32_t> depth(8, -1);
   depth[5] = 2;
   const PairingResult result = pair_faces(adjacency, depth);
-  ASSERT_EQ(result.pairs.size(), 1u);
-  EXPECT_EQ(result.pairs[0].face0, 5);
-  EXPECT_TRUE(result.pairs[0].singleton());
-  EXPECT_EQ(result.pairs[0].edge0, 0);
+  ASSERT_EQ(result.grids.size(), 1u);
+  EXPECT_EQ(result.grids[0].face0, 5);
+  EXPECT_TRUE(result.grids[0].singleton());
+  EXPECT_EQ(result.grids[0].edge0, 0);
   EXPECT_EQ(result.culled, 7);
   EXPECT_EQ(result.depth, depth) << "nothing culled comes back";
 }
@@ -101,9 +102,9 @@ TEST(Pairing, StartsWhereThereIsTheLeastChoice) {
   const Adjacency adjacency(fan(4));
   const PairingResult result = pair_faces(adjacency, std::vector<std::int32_t>(4, 1));
   EXPECT_EQ(result.singletons, 0);
-  ASSERT_EQ(result.pairs.size(), 2u);
-  EXPECT_EQ(result.pairs[0].face0, 0);
-  EXPECT_EQ(result.pairs[0].face1, 1);
+  ASSERT_EQ(result.grids.size(), 2u);
+  EXPECT_EQ(result.grids[0].face0, 0);
+  EXPECT_EQ(result.grids[0].face1, 1);
 }
 
 TEST(Pairing, PrefersAnEqualDepthAndGivesBothTheLarger) {
@@ -114,15 +115,15 @@ TEST(Pairing, PrefersAnEqualDepthAndGivesBothTheLarger) {
   const PairingResult with = pair_faces(adjacency, depth);
   EXPECT_EQ(with.depth, depth) << "1-1, 4-4, 2-2";
   EXPECT_EQ(with.singletons, 0);
-  const PairingResult without = pair_faces(adjacency, depth, {PairingRule::kCorrected, false});
+  const PairingResult without = pair_faces(adjacency, depth, PrintedRules{PairingRule::kCorrected, false});
   EXPECT_EQ(without.singletons, 0);
   EXPECT_EQ(without.depth, (std::vector<std::int32_t>{4, 4, 4, 4, 2, 2}));
 }
 
 TEST(Pairing, RefusesDepthsThatDoNotFit) {
   const Adjacency adjacency(octahedron());
-  EXPECT_THROW(pair_faces(adjacency, std::vector<std::int32_t>(7, 1)), std::invalid_argument);
-  EXPECT_THROW(pair_faces(adjacency, std::vector<std::int32_t>(8, -2)), std::invalid_argument);
+  EXPECT_THROW(pair_faces(adjacency, std::vector<std::int32_t>(7, 1)), data::ArgumentError);
+  EXPECT_THROW(pair_faces(adjacency, std::vector<std::int32_t>(8, -2)), data::ArgumentError);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gathers the control points of a batch of pairs into the lanes of a kernel's input.
+// Gathers the control points of a batch of grids into the lanes of a kernel's input.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// Which corner of the pairs is the lattice's A: the layout's, or after half a turn its C. The points and
+/// Which corner of the grids is the lattice's A: the layout's, or after half a turn its C. The points and
 /// their bits are the same, the other way round.
 enum class Order : std::uint8_t { kFromA = 0, kFromC = 2 };
 
 /// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector
-/// kernels, from 1 to `lanes` pairs; the lanes that remain repeat the last
-/// pair. A singleton without neighbour gets ghosts for its dummy partner.
+/// kernels, from 1 to `lanes` grids; the lanes that remain repeat the last
+/// grid. A singleton without neighbour gets ghosts for its dummy partner.
 template <class N>
-void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Pair> pairs, int depth,
+void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Grid> grids, int depth,
             int lanes, typename N::Scalar* input, Order order = Order::kFromA);
 
 /// The same for control edges, each from the origin to the
@@ -33,13 +33,13 @@ void gather_edges(const Adjacency& adjacency, const BasicRings<N>& rings,
 
 namespace detail {
 
-// A corner's vertex, and the index in its ring of core entry 0 (the first of the pair's own points).
+// A corner's vertex, and the index in its ring of core entry 0 (the first of the grid's own points).
 struct Place {
   std::int32_t vertex;
   std::int32_t core;
 };
 
-// Corner blocks of `group` lanes, whose rings are walked side by side. With an origin of its own a pair or
+// Corner blocks of `group` lanes, whose rings are walked side by side. With an origin of its own a grid or
 // edge wants differences from the corner; they are exact or nearly so.
 template <int group, class N>
 void put_group(const BasicRings<N>& rings, const Place* places, int width, int depth, int lanes,
@@ -105,14 +105,14 @@ void put_ghost(const BasicRings<N>& rings, Place a, int corner, int depth, int l
 }  // namespace detail
 
 template <class N>
-void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Pair> pairs, int depth,
+void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Grid> grids, int depth,
             int lanes, typename N::Scalar* input, Order order) {
   detail::Place places[4][kMaxLanes];
   bool ghost[kMaxLanes];
   for (int lane = 0; lane < lanes; ++lane) {
-    const Pair& pair = pairs[std::min(static_cast<std::size_t>(lane), pairs.size() - 1)];
+    const Grid& grid = grids[std::min(static_cast<std::size_t>(lane), grids.size() - 1)];
     // A singleton without neighbour may be cut along any edge.
-    const std::int32_t ac = 3 * pair.face0 + (pair.edge0 < 0 ? 0 : pair.edge0);
+    const std::int32_t ac = 3 * grid.face0 + (grid.edge0 < 0 ? 0 : grid.edge0);
     const std::int32_t cd = Adjacency::next(ac), da = Adjacency::prev(ac), ca = adjacency.twin(ac);
     places[kA][lane] = {adjacency.origin(ac), rings.slot(ac) - 1};
     places[kC][lane] = {adjacency.origin(cd), rings.slot(cd)};

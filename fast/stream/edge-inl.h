@@ -3,7 +3,7 @@
 
 /// `lanes` control edges P Q of one depth, N = 2^depth, at once. Work O(2^depth): the rows next to an edge
 /// need nothing but themselves and the rings of its two ends, and the same operations give the same bits as a
-/// pair that has the edge on its border or for its diagonal.
+/// grid that has the edge on its border or for its diagonal.
 ///
 ///      up 0   up 1   ..  up N-1        up: left of P Q, down: right of it. Points off the ends come from the
 ///      rings.
@@ -63,7 +63,7 @@ class EdgeStrip {
  private:
   const Scalar* end_limit(int end) const { return block_[end] + CornerBlock::kLimit * L; }
 
-  // Seen as rows of a pair: up begins half an edge further right there.
+  // Seen as rows of a grid: up begins half an edge further right there.
   HWY_ATTR LimitRow<N> row(Scalar* out, std::ptrdiff_t lane_stride) const {
     const int k = depth_ % 2;
     return LimitRow<N>(down_[k], line_[k], up_[k] - 3 * L, centre_, unit_, out, lane_stride);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The row-streaming kernel for any number type, one pair at a time.
+// The row-streaming kernel for any number type, one grid at a time.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a pair's lattice to its two faces' own parameters.
+// From a grid's lattice to its two faces' own parameters.
 #pragma once
 
 #include <array>
@@ -15,20 +15,20 @@ struct FacePoint {
   int i, j;
 };
 
-/// Point (column, row) of a pair of 2^depth = size, on the
+/// Point (column, row) of a grid of 2^depth = size, on the
 /// upper left member if row >= column, else the other.
 ///   face0   corners edge0 = A (0, 0), edge0 + 1 = C (size, size), edge0 + 2 = D (0, size)
 ///   face1   corners edge1 = C, edge1 + 1 = A, edge1 + 2 = B (size, 0)
-inline FacePoint face_point(const Pair& pair, int size, int column, int row, bool upper) {
+inline FacePoint face_point(const Grid& grid, int size, int column, int row, bool upper) {
   std::array<int, 3> l;  // barycentric, from corner edge0 or edge1 on
   if (upper) {
     l = {size - row, column, row - column};
   } else {
     l = {row, size - column, column - row};
   }
-  const int first = upper ? (pair.edge0 < 0 ? 0 : pair.edge0) : pair.edge1;
+  const int first = upper ? (grid.edge0 < 0 ? 0 : grid.edge0) : grid.edge1;
   const auto at = [&](int corner) { return l[static_cast<std::size_t>((corner - first + 3) % 3)]; };
-  return {upper ? pair.face0 : pair.face1, at(1), at(2)};
+  return {upper ? grid.face0 : grid.face1, at(1), at(2)};
 }
 
 }  // namespace limitcheck::fast::row_stream

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the numbers of one batch of pairs lie: shared by the gatherer, which fills them, and the kernels.
+// Where the numbers of one batch of grids lie: shared by the gatherer, which fills them, and the kernels.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,18 @@ namespace limitcheck::fast::row_stream {
 inline constexpr int kMaxDepth = 10;
 inline constexpr int kMaxLanes = 16;
 
-/// A pair on its lattice, N = 2^depth. Neighbours of (i,
+/// A grid on its lattice, N = 2^depth. Neighbours of (i,
 /// j): E (i+1, j), NE (i+1, j+1), NW (i, j+1), W, SW, SE.
 ///
-///        D (0,N) ---- C (N,N)      Upper left triangle A C D: face0 of the Pair; corner edge0 is A.
+///        D (0,N) ---- C (N,N)      Upper left triangle A C D: face0 of the Grid; corner edge0 is A.
 ///          |        /   |          Lower right triangle C A B: face1.
 ///          |      /     |
-///          |    /       |          Rows -1 and N+1, columns -1 and N+1: the points across the pair's border,
+///          |    /       |          Rows -1 and N+1, columns -1 and N+1: the points across the grid's border,
 ///          |  /         |          those that a border point has for neighbours.
 ///        A (0,0) ---- B (N,0)
 enum Corner { kA = 0, kB = 1, kC = 2, kD = 3 };
 
-/// Ring entries that the pair's own faces and their neighbours take at a corner, counter-clockwise:
+/// Ring entries that the grid's own faces and their neighbours take at a corner, counter-clockwise:
 /// flap, (2 faces: 3 points | 1 face: 2 points), flap. Index -1 is the first.
 ///   A: SE E NE NW W    C: NW W SW SE E    B: NE NW W SW    D: W SE E NE   (seen from the corner)
 constexpr int core_width(int corner) {
@@ -45,7 +45,7 @@ struct CornerBlock {
   static constexpr int kWindow = 14;       // window_width entries, less c with local origins; overwritten
 };
 
-/// From a depth on every control edge and every pair has an origin of its own, near it: differences of points
+/// From a depth on every control edge and every grid has an origin of its own, near it: differences of points
 /// are then formed from small numbers, and normals gain what the mesh is larger than an edge. The edges'
 /// points come from strips along them, which both faces compute alike. Below depth 4 the strips would cost
 /// more than normals need, but for meshes of many vertices with needles: these have origins of their own from
@@ -95,7 +95,7 @@ constexpr int border_offset(int depth) {
   return std::max(rows_offset(depth + 1), edge_work_size(depth));
 }
 
-/// Of the five edges of a pair, those whose points are kept: A D, B C and A C, which cross the rows, and D C,
+/// Of the five edges of a grid, those whose points are kept: A D, B C and A C, which cross the rows, and D C,
 /// the last row.
 inline constexpr int kKeptEdges = 4;
 constexpr int strips_offset(int depth) {
@@ -110,7 +110,7 @@ template <class T>
 struct Placement {
   T centre[3];
   T unit;
-  int local_from = kLocalFrom;  // edges and pairs have origins of their own from this depth on, 1 at least
+  int local_from = kLocalFrom;  // edges and grids have origins of their own from this depth on, 1 at least
 
   static Placement identity() { return {{T(0), T(0), T(0)}, T(1)}; }
   bool has_local_origin(int depth) const { return depth >= local_from; }
@@ -127,7 +127,7 @@ Placement<T> scaled(Placement<T> placement, int depth) {
   return placement;
 }
 
-/// Where the vertices of a batch go: vertex i of row j of the pair in lane k starts at
+/// Where the vertices of a batch go: vertex i of row j of the grid in lane k starts at
 /// base + k * lane_stride + j * row_stride + 6 * i, in numbers; position then unit normal.
 /// row_stride 0 reuses one row. `row` is called, if set, after each row.
 template <class T>

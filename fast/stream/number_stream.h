@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Row streaming in any number type: the same prepass, gathering and kernel as the vectors run, a pair at a
+// Row streaming in any number type: the same prepass, gathering and kernel as the vectors run, a grid at a
 // time.
 #pragma once
 
@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
+#include "data/error.h"
 #include "fast/stream/batch.h"
 #include "fast/stream/kernel.h"
 #include "fast/stream/rings.h"
@@ -20,10 +20,10 @@ namespace limitcheck::fast::row_stream {
 /// N = ScalarNumber<T> or LinearNumber<T, k>, see number.h and BasicRings for what T needs. A vertex of the
 /// output is six numbers: limit position in the caller's coordinates, then the unit normal or, for linear
 /// numbers, one tangent as the kernel has it, not placed:
-///   inside a face, on the rows of the pair   slant 4^d (4 dx + 2 dy), across 4^d (2 dx + 4 dy)
+///   inside a face, on the rows of the grid   slant 4^d (4 dx + 2 dy), across 4^d (2 dx + 4 dy)
 ///   on columns 0 and 2^d (edges A D, B C)    slant 4^d (2 dy - 2 dx), across -4^d (4 dx + 2 dy)
 ///   on the diagonal A C                      slant 4^d (2 dx + 4 dy), across 4^d (2 dy - 2 dx)
-/// where dx, dy are the derivatives of the limit by column / 2^d and row / 2^d of the pair, the unit of the
+/// where dx, dy are the derivatives of the limit by column / 2^d and row / 2^d of the grid, the unit of the
 /// points' own coordinates; at control vertices the tangents of RingWeights, slant = along.
 ///
 /// Double (DoubleStream): positions within 5e-16 of the mesh's extent from
@@ -46,15 +46,15 @@ class NumberStream {
 
   const BasicRings<N>& rings() const { return rings_; }
 
-  /// All vertices of pairs of one depth, 0..10: those of pairs[p] from out[6 p side^2], row by row, side =
-  /// 2^depth + 1. Throws std::invalid_argument for another depth.
-  void whole(std::span<const Pair> pairs, int depth, T* out) const {
+  /// All vertices of grids of one depth, 0..10: those of grids[p] from out[6 p side^2], row by row, side =
+  /// 2^depth + 1. Throws data::ArgumentError for another depth.
+  void whole(std::span<const Grid> grids, int depth, T* out) const {
     check(depth);
     const std::ptrdiff_t side = (1 << depth) + 1;
     std::vector<T> input(static_cast<std::size_t>(input_size(depth))),
         work(static_cast<std::size_t>(work_size(depth)));
-    for (std::size_t p = 0; p < pairs.size(); ++p, out += 6 * side * side) {
-      gather(adjacency_, rings_, pairs.subspan(p, 1), depth, 1, input.data());
+    for (std::size_t p = 0; p < grids.size(); ++p, out += 6 * side * side) {
+      gather(adjacency_, rings_, grids.subspan(p, 1), depth, 1, input.data());
       const Target<T> target{out, 0, 6 * side, nullptr, nullptr};
       generic::Stream<N>(input.data(), depth, rings_.placement(), work.data(), target).run();
     }
@@ -76,7 +76,7 @@ class NumberStream {
 
  private:
   static void check(int depth) {
-    if (depth < 0 || depth > kMaxDepth) throw std::invalid_argument("row streaming: depth is 0 to 10");
+    if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
   }
   static PlacedPoints<T> as_they_are(std::span<const std::array<T, 3>> points) {
     PlacedPoints<T> placed{{}, Placement<T>::identity()};
@@ -96,15 +96,15 @@ struct LinearPoint {
   std::array<T, 3> position, slant, across;
 };
 
-/// All vertices of the pairs in the order of NumberStream::whole.
+/// All vertices of the grids in the order of NumberStream::whole.
 template <class T>
 std::vector<LinearPoint<T>> linear_points(const Adjacency& adjacency,
                                           std::span<const std::array<T, 3>> points,
-                                          std::span<const Pair> pairs, int depth) {
-  const std::size_t side = (std::size_t{1} << depth) + 1, count = pairs.size() * side * side;
+                                          std::span<const Grid> grids, int depth) {
+  const std::size_t side = (std::size_t{1} << depth) + 1, count = grids.size() * side * side;
   std::vector<T> slant(6 * count), across(6 * count);
-  NumberStream<LinearNumber<T, 0>>(adjacency, points).whole(pairs, depth, slant.data());
-  NumberStream<LinearNumber<T, 1>>(adjacency, points).whole(pairs, depth, across.data());
+  NumberStream<LinearNumber<T, 0>>(adjacency, points).whole(grids, depth, slant.data());
+  NumberStream<LinearNumber<T, 1>>(adjacency, points).whole(grids, depth, across.data());
   std::vector<LinearPoint<T>> out(count);
   for (std::size_t v = 0; v < count; ++v) {
     const T *a = &slant[6 * v], *b = &across[6 * v];

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "data/error.h"
 #include "fast/stream/lattice.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
@@ -22,10 +23,10 @@ std::vector<std::array<Rational, 3>> exactly(const data::ControlMesh& mesh) {
   return points;
 }
 
-std::vector<Pair> pairs_of(const Adjacency& adjacency, int depth) {
+std::vector<Grid> grids_of(const Adjacency& adjacency, int depth) {
   return pair_faces(adjacency,
                     std::vector<std::int32_t>(static_cast<std::size_t>(adjacency.face_count()), depth))
-      .pairs;
+      .grids;
 }
 
 // Meshes all of whose weights are rational: valences 3, 4, 6, boundary vertices of one to three faces.
@@ -57,14 +58,14 @@ TEST(NumberStream, InRationalsIsTheLimitSurfaceWithItsTangents) {
     const Adjacency adjacency(mesh);
     const auto points = exactly(mesh);
     for (const int depth : {0, 1, 2, 4}) {
-      const auto pairs = pairs_of(adjacency, depth);
-      const auto found = linear_points<Rational>(adjacency, points, pairs, depth);
+      const auto grids = grids_of(adjacency, depth);
+      const auto found = linear_points<Rational>(adjacency, points, grids, depth);
       const auto expected = slow_limit(mesh, depth);
       const int size = 1 << depth;
       for (std::size_t v = 0; v < found.size(); ++v) {
         const int side = size + 1, inside = static_cast<int>(v) % (side * side);
         const int i = inside % side, j = inside / side;
-        const FacePoint at = face_point(pairs[v / static_cast<std::size_t>(side * side)], size, i, j, i <= j);
+        const FacePoint at = face_point(grids[v / static_cast<std::size_t>(side * side)], size, i, j, i <= j);
         if (at.face < 0) continue;
         const LimitPoint& e = expected.at({at.face, at.i, at.j});
         double p[3], a[3], b[3];
@@ -97,13 +98,13 @@ TEST(NumberStream, TangentsAreTheDocumentedMultiplesOfTheDerivatives) {
   const auto points = exactly(mesh);
   std::size_t seen = 0;
   for (const int depth : {1, 2, 4}) {
-    const auto pairs = pairs_of(adjacency, depth);
-    const auto found = linear_points<Rational>(adjacency, points, pairs, depth);
+    const auto grids = grids_of(adjacency, depth);
+    const auto found = linear_points<Rational>(adjacency, points, grids, depth);
     const int size = 1 << depth;
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      if (pairs[p].singleton()) continue;
+    for (std::size_t p = 0; p < grids.size(); ++p) {
+      if (grids[p].singleton()) continue;
       // Corners A, B, D in the plane.
-      const std::int32_t ac = 3 * pairs[p].face0 + pairs[p].edge0;
+      const std::int32_t ac = 3 * grids[p].face0 + grids[p].edge0;
       const auto& a = mesh.positions[adjacency.origin(ac)];
       const auto& d = mesh.positions[adjacency.origin(Adjacency::prev(ac))];
       const auto& b = mesh.positions[adjacency.origin(Adjacency::prev(adjacency.twin(ac)))];
@@ -166,10 +167,10 @@ TEST(NumberStream, OnLinearFormsYieldsTheMapItApplies) {
       EXPECT_EQ(total, sum);
     };
     for (const int depth : {0, 1, 4}) {
-      const auto all = pairs_of(adjacency, depth);
-      const auto pairs = std::span(all).first(depth == 4 ? 1 : all.size());
-      const auto maps = linear_points<Form>(adjacency, forms, pairs, depth);
-      const auto values = linear_points<Rational>(adjacency, points, pairs, depth);
+      const auto all = grids_of(adjacency, depth);
+      const auto grids = std::span(all).first(depth == 4 ? 1 : all.size());
+      const auto maps = linear_points<Form>(adjacency, forms, grids, depth);
+      const auto values = linear_points<Rational>(adjacency, points, grids, depth);
       for (std::size_t v = 0; v < maps.size(); ++v) {
         for (int c = 0; c < 3; ++c) {
           const auto k = static_cast<std::size_t>(c);
@@ -182,20 +183,20 @@ TEST(NumberStream, OnLinearFormsYieldsTheMapItApplies) {
   }
 }
 
-// Shared points of an edge, evaluated alone, are those of its pair: exactly, also from depth 4 on, where both
+// Shared points of an edge, evaluated alone, are those of its grid: exactly, also from depth 4 on, where both
 // move to local origins.
-TEST(NumberStream, EdgesAloneAreThoseOfThePairExactly) {
+TEST(NumberStream, EdgesAloneAreThoseOfTheGridExactly) {
   const auto mesh = shaken(octahedron(), .3, 1);
   const Adjacency adjacency(mesh);
   const auto points = exactly(mesh);
   using Number = LinearNumber<Rational, 1>;
   const NumberStream<Number> stream(adjacency, points);
   for (const int depth : {1, 3, 4}) {
-    const auto pairs = pairs_of(adjacency, depth);
+    const auto grids = grids_of(adjacency, depth);
     const int side = (1 << depth) + 1;
     std::vector<Rational> whole(6 * static_cast<std::size_t>(side * side)), edge(6 * side);
-    stream.whole(std::span(pairs).first(1), depth, whole.data());
-    const std::int32_t ac = 3 * pairs[0].face0 + pairs[0].edge0;
+    stream.whole(std::span(grids).first(1), depth, whole.data());
+    const std::int32_t ac = 3 * grids[0].face0 + grids[0].edge0;
     stream.edges({&ac, 1}, depth, edge.data());
     for (int t = 0; t < side; ++t) {
       for (int k = 0; k < 6; ++k) EXPECT_EQ(edge[6 * t + k], whole[6 * (t * side + t) + k]) << t << " " << k;
@@ -209,14 +210,14 @@ TEST(DoubleStream, IsWithinFiveTimesTenToTheMinusSixteenOfTheExactLimit) {
     const Adjacency adjacency(mesh);
     const auto points = exactly(mesh);
     for (const int depth : {0, 3, 5}) {
-      auto pairs = pairs_of(adjacency, depth);
-      pairs.resize(std::min<std::size_t>(pairs.size(), 4));
-      const auto expected = linear_points<Rational>(adjacency, points, pairs, depth);
+      auto grids = grids_of(adjacency, depth);
+      grids.resize(std::min<std::size_t>(grids.size(), 4));
+      const auto expected = linear_points<Rational>(adjacency, points, grids, depth);
       std::vector<double> found(6 * expected.size());
-      DoubleStream(mesh, adjacency).whole(pairs, depth, found.data());
+      DoubleStream(mesh, adjacency).whole(grids, depth, found.data());
       for (std::size_t v = 0; v < expected.size(); ++v) {
         const int side = (1 << depth) + 1, inside = static_cast<int>(v) % (side * side);
-        if (pairs[v / static_cast<std::size_t>(side * side)].singleton() && inside % side > inside / side)
+        if (grids[v / static_cast<std::size_t>(side * side)].singleton() && inside % side > inside / side)
           continue;
         std::array<double, 3> a, b;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -242,10 +243,10 @@ TEST(NumberStream, RefusesWhatItCannotDo) {
   const Adjacency adjacency(mesh);
   const auto points = exactly(mesh);
   using Number = LinearNumber<Rational, 0>;
-  EXPECT_THROW(NumberStream<Number>(adjacency, std::span(points).first(3)), std::invalid_argument);
+  EXPECT_THROW(NumberStream<Number>(adjacency, std::span(points).first(3)), data::ArgumentError);
   double out[6];
-  EXPECT_THROW(DoubleStream(mesh, adjacency).whole({}, 11, out), std::invalid_argument);
-  EXPECT_THROW(DoubleStream(mesh, adjacency).edges({}, -1, out), std::invalid_argument);
+  EXPECT_THROW(DoubleStream(mesh, adjacency).whole({}, 11, out), data::ArgumentError);
+  EXPECT_THROW(DoubleStream(mesh, adjacency).edges({}, -1, out), data::ArgumentError);
 }
 
 }  // namespace

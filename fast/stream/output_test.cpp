@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The output forms against whole pairs.
+// The output forms against whole grids.
 #include <gtest/gtest.h>
 // Those that output_targets.cpp leaves out.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
@@ -11,9 +11,10 @@
 #include <numbers>
 #include <set>
 
+#include "data/error.h"
 #include "fast/stream/compact_vertex.h"
+#include "fast/stream/grid_indices.h"
 #include "fast/stream/memory_stream.h"
-#include "fast/stream/pair_indices.h"
 #include "fast/stream/row_stream.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
@@ -56,20 +57,20 @@ TEST(RowStreamOutput, StreamedIsWholeByteForByteAndCompactIsItsCompaction) {
       if (!kernel.fused && kernel.lanes > 1) continue;  // slow, and the same code
       const RowStream stream(mesh, adjacency, kernel);
       for (int depth = 0; depth <= 6; ++depth) {
-        const auto pairs =
-            pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs;
-        const std::size_t count = base_vertex(pairs.size(), depth);
+        const auto grids =
+            pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+        const std::size_t count = base_vertex(grids.size(), depth);
         Workspace workspace;
         std::vector<Vertex> whole(count);
-        stream.whole(pairs, depth, workspace, whole.data());
+        stream.whole(grids, depth, workspace, whole.data());
         const Vertex guard{{-1, -2, -3}, {-4, -5, -6}};
         std::vector<Vertex> streamed(count + 2, guard);
-        stream.streamed(pairs, depth, workspace, streamed.data() + 1);
+        stream.streamed(grids, depth, workspace, streamed.data() + 1);
         ASSERT_EQ(std::memcmp(streamed.data() + 1, whole.data(), count * sizeof(Vertex)), 0) << depth;
         EXPECT_EQ(std::memcmp(&streamed.front(), &guard, sizeof guard), 0);
         EXPECT_EQ(std::memcmp(&streamed.back(), &guard, sizeof guard), 0);
         std::vector<CompactVertex> compact(count + 1, CompactVertex{{7, 7, 7}, 7});
-        stream.streamed(pairs, depth, workspace, compact.data());
+        stream.streamed(grids, depth, workspace, compact.data());
         for (std::size_t v = 0; v < count; ++v)
           ASSERT_EQ(compact[v], compacted(whole[v])) << depth << " " << v;
         EXPECT_EQ(compact.back(), (CompactVertex{{7, 7, 7}, 7}));
@@ -144,7 +145,7 @@ TEST(CompactVertex, ComesOutOfVectorsWithTheSameBitsOnEveryTargetWhateverTheLeng
 using Triangle = std::array<std::uint32_t, 3>;
 
 // Each triangle of the lattice once: half a unit of area, turning left, three different corners of one unit
-// square, and on the half of the pair it should be on.
+// square, and on the half of the grid it should be on.
 void expect_cover(const std::vector<Triangle>& triangles, int depth) {
   const std::uint32_t size = 1u << depth, side = size + 1;
   ASSERT_EQ(triangles.size(), std::size_t{2} << (2 * depth));
@@ -165,21 +166,21 @@ void expect_cover(const std::vector<Triangle>& triangles, int depth) {
       above += y[k] - low;
       sum += (x[k] - left == y[k] - low);
     }
-    EXPECT_EQ(sum, 2) << "cut along the pair's diagonal";
+    EXPECT_EQ(sum, 2) << "cut along the grid's diagonal";
     seen.insert({static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(low),
                  static_cast<std::uint32_t>(above)});
   }
   EXPECT_EQ(seen.size(), triangles.size());
 }
 
-TEST(PairIndices, CoverThePairOnceAndTurnOutward) {
+TEST(GridIndices, CoverTheGridOnceAndTurnOutward) {
   for (int depth = 0; depth <= 6; ++depth) {
-    const auto list = pair_triangles(depth);
+    const auto list = grid_triangles(depth);
     std::vector<Triangle> triangles;
     for (std::size_t k = 0; k < list.size(); k += 3) triangles.push_back({list[k], list[k + 1], list[k + 2]});
     expect_cover(triangles, depth);
 
-    const auto strips = pair_strips(depth);
+    const auto strips = grid_strips(depth);
     EXPECT_EQ(strips.size(), strip_indices(depth));
     std::vector<Triangle> unrolled;
     for (std::size_t start = 0; start < strips.size();) {
@@ -192,25 +193,25 @@ TEST(PairIndices, CoverThePairOnceAndTurnOutward) {
     }
     expect_cover(unrolled, depth);
   }
-  EXPECT_THROW(pair_triangles(11), std::invalid_argument);
-  EXPECT_THROW(pair_strips(-1), std::invalid_argument);
+  EXPECT_THROW(grid_triangles(11), data::ArgumentError);
+  EXPECT_THROW(grid_strips(-1), data::ArgumentError);
 }
 
-// With the base vertex of each pair the triangles are those of a closed surface, once points are taken as one
+// With the base vertex of each grid the triangles are those of a closed surface, once points are taken as one
 // where their bits are.
-TEST(PairIndices, WithABaseVertexPerPairCloseTheSurface) {
+TEST(GridIndices, WithABaseVertexPerGridCloseTheSurface) {
   const auto mesh = shaken(grid_torus(4, 5), .2, 2);
   const Adjacency adjacency(mesh);
   const RowStream stream(mesh, adjacency);
   for (const int depth : {0, 2, 4}) {
-    const auto pairs = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs;
-    std::vector<Vertex> vertices(base_vertex(pairs.size(), depth));
+    const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+    std::vector<Vertex> vertices(base_vertex(grids.size(), depth));
     Workspace workspace;
-    stream.whole(pairs, depth, workspace, vertices.data());
-    const auto indices = pair_triangles(depth);
+    stream.whole(grids, depth, workspace, vertices.data());
+    const auto indices = grid_triangles(depth);
     std::map<std::array<std::array<float, 3>, 2>, int> edges;
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      const std::size_t used = pairs[p].singleton() ? indices.size() / 2 : indices.size();
+    for (std::size_t p = 0; p < grids.size(); ++p) {
+      const std::size_t used = grids[p].singleton() ? indices.size() / 2 : indices.size();
       for (std::size_t t = 0; t < used; t += 3) {
         for (std::size_t k = 0; k < 3; ++k) {
           const auto at = [&](std::size_t i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every pair asks about a control vertex, computed once per vertex and in an order that no face decides.
+// What every grid asks about a control vertex, computed once per vertex and in an order that no face decides.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ class BasicRings {
   using T = typename N::Scalar;
   using Wide = typename NumberTraits<T>::Wide;
 
-  /// One point per vertex of the adjacency. Throws std::invalid_argument otherwise.
+  /// One point per vertex of the adjacency. Throws data::ArgumentError otherwise.
   BasicRings(const Adjacency& adjacency, PlacedPoints<T> points);
   BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency)
       : BasicRings(adjacency, place<T>(mesh)) {}

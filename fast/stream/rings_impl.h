@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
 
+#include "data/error.h"
 #include "fast/rules/vertex_normal.h"
 #include "fast/stream/rings.h"
 
@@ -40,8 +40,8 @@ template <class N>
 BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points)
     : points_(std::move(points.points)), placement_(points.placement) {
   if (points_.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
-    throw std::invalid_argument("rings: " + std::to_string(points_.size()) + " points for " +
-                                std::to_string(adjacency.vertex_count()) + " vertices");
+    throw data::ArgumentError("rings: " + std::to_string(points_.size()) + " points for " +
+                              std::to_string(adjacency.vertex_count()) + " vertices");
   }
   lay_out(adjacency);
   const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());

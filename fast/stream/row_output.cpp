@@ -11,10 +11,10 @@ namespace limitcheck::fast::row_stream {
 
 namespace {
 
-// Rows of whole pairs, in the order in which they lie in memory, as runs of `Out`.
+// Rows of whole grids, in the order in which they lie in memory, as runs of `Out`.
 template <class Out>
 struct Runs {
-  const Pair* first;
+  const Grid* first;
   Out* out;
   std::array<LineStream, kMaxLanes> lines;
   std::array<Out, side(kMaxDepth)> converted;
@@ -31,11 +31,11 @@ struct Runs {
   static void visit(void* context, const RowView& view) {
     Runs& runs = *static_cast<Runs*>(context);
     const auto length = static_cast<std::size_t>(side(view.depth));
-    const auto first_pair = static_cast<std::size_t>(view.pairs.data() - runs.first);
-    for (std::size_t lane = 0; lane < view.pairs.size(); ++lane) {
+    const auto first_grid = static_cast<std::size_t>(view.grids.data() - runs.first);
+    for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
       LineStream& lines = runs.lines[lane];
       if (view.j == 0)
-        lines.start(reinterpret_cast<std::byte*>(runs.out + (first_pair + lane) * length * length));
+        lines.start(reinterpret_cast<std::byte*>(runs.out + (first_grid + lane) * length * length));
       lines.append(runs.convert({view.vertices(lane), length}), length * sizeof(Out));
       if (view.j + 1 == side(view.depth)) lines.finish();
     }
@@ -43,24 +43,24 @@ struct Runs {
 };
 
 template <class Out>
-void write_runs(const RowStream& stream, std::span<const Pair> pairs, int depth, Workspace& workspace,
+void write_runs(const RowStream& stream, std::span<const Grid> grids, int depth, Workspace& workspace,
                 Out* out) {
   Runs<Out> runs;
-  runs.first = pairs.data();
+  runs.first = grids.data();
   runs.out = out;
-  stream.rows(pairs, depth, workspace, &Runs<Out>::visit, &runs);
+  stream.rows(grids, depth, workspace, &Runs<Out>::visit, &runs);
   fence_streams();
 }
 
 }  // namespace
 
-void RowStream::streamed(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const {
-  write_runs(*this, pairs, depth, workspace, out);
+void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const {
+  write_runs(*this, grids, depth, workspace, out);
 }
 
-void RowStream::streamed(std::span<const Pair> pairs, int depth, Workspace& workspace,
+void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace,
                          CompactVertex* out) const {
-  write_runs(*this, pairs, depth, workspace, out);
+  write_runs(*this, grids, depth, workspace, out);
 }
 
 }  // namespace limitcheck::fast::row_stream

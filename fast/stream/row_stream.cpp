@@ -5,7 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
-#include <stdexcept>
+
+#include "data/error.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -14,7 +15,7 @@ namespace {
 constexpr std::size_t kLine = 64;
 
 int checked(int depth) {
-  if (depth < 0 || depth > kMaxDepth) throw std::invalid_argument("row streaming: depth is 0 to 10");
+  if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
   return depth;
 }
 
@@ -60,12 +61,12 @@ void AlignedFloats::grow(std::size_t count) {
 RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel)
     : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency) {}
 
-void RowStream::rows(std::span<const Pair> pairs, int depth, Workspace& workspace,
+void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspace,
                      void (*visit)(void*, const RowView&), void* context, Order order) const {
-  batches(kernel_, pairs, depth, workspace, visit, context, order);
+  batches(kernel_, grids, depth, workspace, visit, context, order);
 }
 
-void RowStream::batches(const Kernel& kernel, std::span<const Pair> pairs, int depth, Workspace& workspace,
+void RowStream::batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
                         void (*visit)(void*, const RowView&), void* context, Order order) const {
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   prepare(workspace, depth, kernel.lanes);
@@ -74,35 +75,35 @@ void RowStream::batches(const Kernel& kernel, std::span<const Pair> pairs, int d
   const auto pitch = static_cast<std::ptrdiff_t>(row_pitch(depth));
   Rows rows{{{}, depth, 0, workspace.row.data(), pitch}, visit, context};
   Target<float> target{workspace.row.data(), pitch, 0, visit ? &visit_row : nullptr, &rows};
-  for (std::size_t first = 0; first < pairs.size(); first += lanes) {
-    rows.view.pairs = pairs.subspan(first, std::min(lanes, pairs.size() - first));
-    gather(adjacency_, rings_, rows.view.pairs, depth, kernel.lanes, workspace.input.data(), order);
+  for (std::size_t first = 0; first < grids.size(); first += lanes) {
+    rows.view.grids = grids.subspan(first, std::min(lanes, grids.size() - first));
+    gather(adjacency_, rings_, rows.view.grids, depth, kernel.lanes, workspace.input.data(), order);
     kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
 }
 
-void RowStream::whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out,
+void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out,
                       const Kernel* other) const {
   const Kernel& kernel = other != nullptr ? *other : kernel_;
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
-  const auto pair_size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
+  const auto grid_size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
   prepare(workspace, depth, kernel.lanes);
 
-  const std::size_t full = pairs.size() / lanes * lanes;
+  const std::size_t full = grids.size() / lanes * lanes;
   for (std::size_t first = 0; first < full; first += lanes) {
-    gather(adjacency_, rings_, pairs.subspan(first, lanes), depth, kernel.lanes, workspace.input.data(),
+    gather(adjacency_, rings_, grids.subspan(first, lanes), depth, kernel.lanes, workspace.input.data(),
            Order::kFromA);
-    const Target<float> target{out[first * pair_size].position, 6 * static_cast<std::ptrdiff_t>(pair_size),
+    const Target<float> target{out[first * grid_size].position, 6 * static_cast<std::ptrdiff_t>(grid_size),
                                6 * side(depth), nullptr, nullptr};
     kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
-  // The lanes beyond the last pair write too, but not into the caller's memory.
-  Vertex* rest = out + full * pair_size;
+  // The lanes beyond the last grid write too, but not into the caller's memory.
+  Vertex* rest = out + full * grid_size;
   batches(
-      kernel, pairs.subspan(full), depth, workspace,
+      kernel, grids.subspan(full), depth, workspace,
       [](void* context, const RowView& view) {
         const auto n = static_cast<std::size_t>(side(view.depth));
-        for (std::size_t lane = 0; lane < view.pairs.size(); ++lane)
+        for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
           std::memcpy(static_cast<Vertex*>(context) + (lane * n + static_cast<std::size_t>(view.j)) * n,
                       view.vertices(lane), n * sizeof(Vertex));
       },

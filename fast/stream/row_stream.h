@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Row streaming: the sliding window with every point of every level computed once, one pair per vector lane.
+// Row streaming: the sliding window with every point of every level computed once, one grid per vector lane.
 #pragma once
 
 #include <cstdint>
@@ -41,20 +41,20 @@ struct Workspace {
   std::size_t bytes() const { return 4 * (input.size() + work.size() + row.size()); }
 };
 
-/// Vertices per side of a pair.
+/// Vertices per side of a grid.
 constexpr int side(int depth) {
   return (1 << depth) + 1;
 }
 
-/// Row j of a batch of pairs, overwritten by the next row.
+/// Row j of a batch of grids, overwritten by the next row.
 struct RowView {
-  std::span<const Pair> pairs;
+  std::span<const Grid> grids;
   int depth;
   int j;
   const float* base;
   std::ptrdiff_t pitch;  // in floats
 
-  /// The side(depth) vertices of pairs[lane].
+  /// The side(depth) vertices of grids[lane].
   const Vertex* vertices(std::size_t lane) const {
     return reinterpret_cast<const Vertex*>(base + static_cast<std::ptrdiff_t>(lane) * pitch);
   }
@@ -62,9 +62,9 @@ struct RowView {
 
 /// A control mesh made ready: rings and limits per vertex. Read only afterwards, so threads may share it.
 ///
-/// Output forms, all of the same points: row buffers that the next row overwrites (rows), whole pairs in
-/// memory (whole; streamed: past the caches, or compact), to which pair_indices.h has the index buffers that
-/// all pairs of a depth share, and, by StreamTessellator, an indexed mesh in which shared points appear once.
+/// Output forms, all of the same points: row buffers that the next row overwrites (rows), whole grids in
+/// memory (whole; streamed: past the caches, or compact), to which grid_indices.h has the index buffers that
+/// all grids of a depth share, and, by StreamTessellator, an indexed mesh in which shared points appear once.
 class RowStream {
  public:
   /// Both must outlive this.
@@ -74,30 +74,30 @@ class RowStream {
   const Kernel& kernel() const { return kernel_; }
   const Rings& rings() const { return rings_; }
 
-  /// Calls visit(context, RowView) for each row of each batch of pairs, which all have this depth. From C,
+  /// Calls visit(context, RowView) for each row of each batch of grids, which all have this depth. From C,
   /// rows and columns are counted from that corner.
-  void rows(std::span<const Pair> pairs, int depth, Workspace& workspace,
+  void rows(std::span<const Grid> grids, int depth, Workspace& workspace,
             void (*visit)(void*, const RowView&), void* context, Order order = Order::kFromA) const;
 
-  /// All vertices: those of pairs[p] from out[p * side * side], row by row. `kernel`: another one for this
+  /// All vertices: those of grids[p] from out[p * side * side], row by row. `kernel`: another one for this
   /// call, with the same bits.
-  void whole(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out,
+  void whole(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out,
              const Kernel* kernel = nullptr) const;
 
   /// The same bytes as whole() by non-temporal stores, row after row: for output much larger than the caches
-  /// that nobody reads soon. `out` is aligned as any Vertex is; nothing beyond the pairs is touched. Visible
+  /// that nobody reads soon. `out` is aligned as any Vertex is; nothing beyond the grids is touched. Visible
   /// to other threads as whatever this thread writes afterwards.
-  void streamed(std::span<const Pair> pairs, int depth, Workspace& workspace, Vertex* out) const;
+  void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const;
   /// The same in 16 bytes per vertex, see compact_vertex.h.
-  void streamed(std::span<const Pair> pairs, int depth, Workspace& workspace, CompactVertex* out) const;
+  void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, CompactVertex* out) const;
 
   /// The points of control edges at a depth of their own: those of half_edges[e], from its origin to its
-  /// target, from out[e * side]. The same bits as a pair of that depth gives them.
+  /// target, from out[e * side]. The same bits as a grid of that depth gives them.
   void edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
              const Kernel* kernel = nullptr) const;
 
  private:
-  void batches(const Kernel& kernel, std::span<const Pair> pairs, int depth, Workspace& workspace,
+  void batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
                void (*visit)(void*, const RowView&), void* context, Order order) const;
 
   const Adjacency& adjacency_;

@@ -58,12 +58,12 @@ struct Worst {
 
 Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const Kernel& kernel) {
   const Adjacency adjacency(mesh);
-  const auto pairs = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs;
+  const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
   const RowStream stream(mesh, adjacency, kernel);
   const int size = 1 << depth;
   Workspace workspace;
-  std::vector<Vertex> out(pairs.size() * static_cast<std::size_t>(side(depth) * side(depth)));
-  stream.whole(pairs, depth, workspace, out.data());
+  std::vector<Vertex> out(grids.size() * static_cast<std::size_t>(side(depth) * side(depth)));
+  stream.whole(grids, depth, workspace, out.data());
 
   const auto expected = slow_limit(mesh, depth);
   const double scale = data::box_diagonal(mesh);
@@ -71,12 +71,12 @@ Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const K
   const auto raise = [&](double& most, double error, std::size_t p, int i, int j) {
     if (error <= most) return;
     most = error;  // NaN too
-    worst.where = "pair " + std::to_string(p) + " (" + std::to_string(i) + ", " + std::to_string(j) + ")";
+    worst.where = "grid " + std::to_string(p) + " (" + std::to_string(i) + ", " + std::to_string(j) + ")";
   };
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
+  for (std::size_t p = 0; p < grids.size(); ++p) {
     for (int j = 0; j <= size; ++j) {
       for (int i = 0; i <= size; ++i) {
-        const FacePoint at = face_point(pairs[p], size, i, j, j >= i);
+        const FacePoint at = face_point(grids[p], size, i, j, j >= i);
         if (at.face < 0) continue;
         const LimitPoint& e = expected.at({at.face, at.i, at.j});
         const Vertex& v = out[(p * side(depth) + j) * side(depth) + i];
@@ -183,13 +183,13 @@ TEST(RowStreamManyVertices, KeepTheNormalsOfNeedlesAtEveryDepth) {
   Workspace workspace;
   double allowed = 1e-3;
   for (const int depth : {4, 3, 2, 1}) {
-    auto pairs = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs;
-    pairs.resize(1000);  // ten rows of the sheet
-    const auto count = pairs.size() * static_cast<std::size_t>(side(depth) * side(depth));
+    auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+    grids.resize(1000);  // ten rows of the sheet
+    const auto count = grids.size() * static_cast<std::size_t>(side(depth) * side(depth));
     std::vector<Vertex> got(count);
     std::vector<double> want(6 * count);
-    stream.whole(pairs, depth, workspace, got.data());
-    exact.whole(pairs, depth, want.data());
+    stream.whole(grids, depth, workspace, got.data());
+    exact.whole(grids, depth, want.data());
     double worst = 0;
     for (std::size_t v = 0; v < count; ++v)
       for (std::size_t c = 0; c < 3; ++c)

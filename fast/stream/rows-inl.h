@@ -77,7 +77,7 @@ template <class N>
 HWY_ATTR void refine_even_row(const typename N::Scalar* s, const typename N::Scalar* m,
                               const typename N::Scalar* n, int size, int j, typename N::Scalar* even) {
   constexpr int L = N::lanes;
-  for (int c = 0; c < 3; ++c) {  // the column left of the pair: only odd columns count there
+  for (int c = 0; c < 3; ++c) {  // the column left of the grid: only odd columns count there
     const int k = (c - 3) * L;
     N::store(edge_rule<N>(N::load(m + k), N::load(m + c * L), N::load(n + c * L), N::load(s + k)), even + k);
   }

@@ -4,7 +4,7 @@
 //
 // Bits: the edge rule is symmetric in its two ends and in its two apexes. The six-neighbour rules are written
 // with an axis: half a turn about the point swaps the operands of every addition and negates every
-// difference, so two pairs that share an edge, and take it as the axis, compute the same bits from it.
+// difference, so two grids that share an edge, and take it as the axis, compute the same bits from it.
 // [claim D14]
 
 enum class Axis { kRow, kColumn, kDiagonal };

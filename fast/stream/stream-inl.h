@@ -2,7 +2,7 @@
 // The engine of a batch: rows trickle down the levels, each point of each level is computed once.
 // Included like rules-inl.h.
 
-/// `lanes` pairs of one depth, from their control points to their limit points, a row at a time. A level
+/// `lanes` grids of one depth, from their control points to their limit points, a row at a time. A level
 /// keeps a window of three rows, so memory is O(2^depth) whatever the mesh; nothing is allocated.
 template <class N>
 class Stream {
@@ -42,7 +42,7 @@ class Stream {
     return strips_ + (edge * edge_output_size(depth_) + 6 * point) * L;
   }
 
-  // A strip along an edge of the pair, from an origin of its own. first: where in a corner's window the
+  // A strip along an edge of the grid, from an origin of its own. first: where in a corner's window the
   // edge's begins, among the core entries after the flap.
   HWY_ATTR void refine_edge(Edge edge) {
     struct Ends {
@@ -53,8 +53,8 @@ class Stream {
     edge_.refine(corner_block(e.p), e.p_first, corner_block(e.q), e.q_first);
   }
 
-  // The pair's edges before its inside: A B is row 0, the others are kept until their rows come. Then the
-  // pair from an origin on its diagonal.
+  // The grid's edges before its inside: A B is row 0, the others are kept until their rows come. Then the
+  // grid from an origin on its diagonal.
   HWY_ATTR void move_origin() {
     refine_edge(kAB);
     edge_.scatter(target_.base, target_.lane_stride);

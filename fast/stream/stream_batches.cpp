@@ -8,10 +8,10 @@ namespace limitcheck::fast::row_stream {
 namespace {
 
 Delivery delivery_of(const Patch& patch) {
-  using Show = Half::Show;
+  using Display = Half::Display;
   const Half &first = patch.half[0], &second = patch.half[1];
   if (!first.uses_window() && !second.uses_window()) return Delivery::kNothing;
-  if (first.show == Show::kStitch || second.show == Show::kStitch) return Delivery::kWhole;
+  if (first.display == Display::kStitch || second.display == Display::kStitch) return Delivery::kWhole;
   return first.uses_window() ? Delivery::kRowsFromC : Delivery::kRowsFromA;
 }
 

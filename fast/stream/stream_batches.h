@@ -17,7 +17,7 @@ namespace limitcheck::fast::row_stream {
 enum class Delivery : std::uint8_t {
   kRowsFromC,  // face0, or both faces: as the rows come
   kRowsFromA,  // face1 alone: as the rows come
-  kWhole,      // stitched faces: from whole pairs, one after the other
+  kWhole,      // stitched faces: from whole grids, one after the other
   kNothing     // fans alone: nothing for the kernel
 };
 

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "fast/frame/frame_state.h"
+#include "fast/frame/engine_state.h"
 #include "fast/stream/stream_batches.h"
 #include "fast/stream/stream_worker.h"
 
@@ -20,8 +20,8 @@ namespace limitcheck::fast::row_stream {
 
 namespace {
 
-using Point = SurfaceVertex<float>;
-static_assert(sizeof(Point) == sizeof(Vertex));
+static_assert(sizeof(SurfaceVertex<float>) == sizeof(Vertex));
+static_assert(kMaxDepth == kDeepest);
 
 // The variant of four lanes of the same instructions, or the kernel itself.
 const Kernel& narrow_of(const Kernel& kernel) {
@@ -31,19 +31,15 @@ const Kernel& narrow_of(const Kernel& kernel) {
 
 }  // namespace
 
-struct StreamTessellator::State : FrameState {
-  State(const data::ControlMesh& given_mesh, const TessellatorOptions& given, const Kernel& kernel)
-      : FrameState(given_mesh, given), stream(mesh, adjacency, kernel), narrow(narrow_of(kernel)) {}
+struct StreamTessellator::State final : EngineState<float> {
+  State(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
+      : EngineState<float>(given, with, PrintedRules{}),
+        stream(mesh, adjacency, kernel),
+        narrow(narrow_of(kernel)) {}
 
-  FrameStats prepare(std::span<const std::int32_t> depth) {
-    FrameStats stats = plan_frame(depth, kMaxDepth);
-    const auto start = Clock::now();
-    batches.make(patches, static_cast<std::size_t>(stream.kernel().lanes),
-                 static_cast<std::size_t>(narrow.lanes));
+  void prepare() override {
     if (plan.fans > 0 && !control) make_control();
-    stats.zero_normals = stream.rings().degenerate_normals();
-    stats.seconds_planning += seconds_since(start);
-    return stats;
+    worker_bytes = 0;
   }
 
   // The centres of fans are no lattice points; they come from the sliding window's own rules.
@@ -56,42 +52,61 @@ struct StreamTessellator::State : FrameState {
     control.emplace(adjacency, positions);
   }
 
-  // make_writer(i, worker) for each patch, in parallel; a writer must not care about the order of patches.
+  void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
+    run(first, last, [&](std::size_t i, StreamWorker& worker) {
+      return draw_writer(first, first + i, out, worker.scratch());
+    });
+  }
+  void index(const IndexLayout& layout, IndexedMesh<float>& out) override {
+    run(0, patches.size(), [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
+  }
+
+  SurfaceVertex<float> limit(std::int32_t v) const override {
+    const float* x = stream.rings().corner(v).head.data() + CornerBlock::kLimit;
+    return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+  }
+
+  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
+
+  // Evaluates patches first .. last - 1 in parallel, patch first + i into make_writer(i, worker); a writer must
+  // not care about the order of patches.
   template <class MakeWriter>
-  void run(MakeWriter&& make_writer) {
+  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
+    const std::size_t total = last - first;
+    const std::span shown = std::span<const Patch>(patches).subspan(first, total);
+    batches.make(shown, static_cast<std::size_t>(stream.kernel().lanes),
+                 static_cast<std::size_t>(narrow.lanes));
     const StreamFrame frame{adjacency,
                             stream,
                             narrow,
                             plan,
-                            pairing.pairs,
-                            patches,
+                            std::span<const Grid>(pairing.grids).subspan(first, total),
+                            shown,
                             control ? &*control : nullptr,
                             options.cracks.centre,
                             max_depth};
     tbb::enumerable_thread_specific<StreamWorker> workers;
-    const std::size_t total = batches.list().size();
     std::atomic<std::size_t> done = 0;
     std::mutex telling;
     arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, total, [&](std::size_t b) {
+      tbb::parallel_for(std::size_t{0}, batches.list().size(), [&](std::size_t b) {
+        const Batch& batch = batches.list()[b];
         StreamWorker& worker = workers.local();
         if (worker.scratch().inner.empty()) worker.scratch().reserve(max_depth);
-        worker.run(frame, batches.list()[b], make_writer);
-        const std::size_t finished = ++done;
+        worker.run(frame, batch, make_writer);
+        const std::size_t finished = done += batch.patches.size();
         if (progress && telling.try_lock()) {
           progress(finished, total);
           telling.unlock();
         }
       });
     });
-    worker_bytes = 0;
     for (const StreamWorker& worker : workers) worker_bytes = std::max(worker_bytes, worker.bytes());
   }
 
   RowStream stream;
   const Kernel& narrow;
   std::optional<PreparedMesh<float>> control;
-  fast::Placement<float> as_they_are;  // the kernel has placed the points
   StreamBatches batches;
   std::function<void(std::size_t, std::size_t)> progress;
   std::size_t worker_bytes = 0;
@@ -99,78 +114,16 @@ struct StreamTessellator::State : FrameState {
 
 StreamTessellator::StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options,
                                      const Kernel& kernel)
-    : state_(std::make_unique<State>(mesh, options, kernel)) {}
-StreamTessellator::~StreamTessellator() = default;
-StreamTessellator::StreamTessellator(StreamTessellator&&) noexcept = default;
-StreamTessellator& StreamTessellator::operator=(StreamTessellator&&) noexcept = default;
+    : Engine<float>(std::make_unique<State>(mesh, options, kernel)) {}
 
-const Adjacency& StreamTessellator::adjacency() const {
-  return state_->adjacency;
-}
-const PairingResult& StreamTessellator::last_pairing() const {
-  return state_->pairing;
+StreamTessellator::State& StreamTessellator::stream_state() const {
+  return static_cast<State&>(state());
 }
 std::size_t StreamTessellator::worker_bytes() const {
-  return state_->worker_bytes;
+  return stream_state().worker_bytes;
 }
 void StreamTessellator::on_progress(std::function<void(std::size_t, std::size_t)> tell) {
-  state_->progress = std::move(tell);
-}
-
-FrameStats StreamTessellator::frame(std::span<const std::int32_t> depth, DrawList<float>& out) {
-  const auto start = Clock::now();
-  State& s = *state_;
-  FrameStats stats = s.prepare(depth);
-  const auto evaluation = Clock::now();
-  std::vector<DrawSize> offsets;
-  s.make_room(0, s.patches.size(), out, offsets);
-  s.run([&](std::size_t i, StreamWorker& worker) {
-    const DrawSize& at = offsets[i];
-    return DrawWriter<float>(s.patches[i], s.plan, s.as_they_are, out.vertices.data() + at.vertices,
-                             s.options.provenance ? out.provenance.data() + at.vertices : nullptr,
-                             out.draws.data() + at.draws, at.vertices, worker.scratch());
-  });
-  stats.vertices = static_cast<std::int64_t>(out.vertices.size());
-  stats.seconds_evaluation = seconds_since(evaluation);
-  stats.seconds_total = seconds_since(start);
-  return stats;
-}
-
-FrameStats StreamTessellator::frame(std::span<const std::int32_t> depth, IndexedMesh<float>& out) {
-  const auto start = Clock::now();
-  State& s = *state_;
-  FrameStats stats = s.prepare(depth);
-  const auto evaluation = Clock::now();
-  const IndexLayout layout = s.make_room(out);
-  for (std::int32_t f = s.adjacency.face_count() - 1; f >= 0; --f) {
-    for (int k = 0; k < 3 && s.pairing.depth[static_cast<std::size_t>(f)] >= 0; ++k) {
-      const std::int32_t v = s.adjacency.corner(f, k);
-      const auto at = static_cast<std::size_t>(layout.vertex[static_cast<std::size_t>(v)]);
-      Vertex limit;
-      std::memcpy(&limit, s.stream.rings().corner(v).head.data() + CornerBlock::kLimit, sizeof limit);
-      out.vertices[at] = as_point(limit);
-      if (s.options.provenance) out.provenance[at] = {f, k == 1 ? 1u : 0u, k == 2 ? 1u : 0u, 1};
-    }
-  }
-  s.run([&](std::size_t i, StreamWorker&) {
-    return IndexWriter<float>(s.adjacency, s.patches[i], s.plan, layout, s.as_they_are, out);
-  });
-  stats.vertices = static_cast<std::int64_t>(out.vertices.size());
-  stats.seconds_evaluation = seconds_since(evaluation);
-  stats.seconds_total = seconds_since(start);
-  return stats;
-}
-
-FrameStats StreamTessellator::frame(const DepthOptions& strategy, const Camera& camera,
-                                    DrawList<float>& out) {
-  return state_->by_strategy(strategy, camera,
-                             [&](std::span<const std::int32_t> depth) { return frame(depth, out); });
-}
-
-FrameStats StreamTessellator::frame(const DepthOptions& strategy, const Camera& camera,
-                                    IndexedMesh<float>& out) {
-  return state_->by_strategy(strategy, camera,
-                             [&](std::span<const std::int32_t> depth) { return frame(depth, out); });
+  stream_state().progress = std::move(tell);
 }
 
 }  // namespace limitcheck::fast::row_stream

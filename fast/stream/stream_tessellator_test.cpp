@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "data/error.h"
+#include "fast/test_support/collecting_sink.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
 
@@ -178,16 +180,26 @@ TEST(StreamFrame, StandsAShiftOfAThousandTimesItsSize) {
   RecordProperty("worst_normal", std::to_string(normal));
 }
 
+TEST(StreamFrame, OnTheFlyDeliversTheSameAsTheWholeList) {
+  TessellatorOptions options;
+  options.provenance = true;
+  for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+    options.cracks.repair = repair;
+    StreamTessellator tessellator(grid_torus(32, 40), options);
+    expect_a_sink_gets_the_whole_list(tessellator);
+  }
+}
+
 TEST(StreamFrame, RefusesWhatItCannotDo) {
-  EXPECT_THROW(StreamTessellator(data::ControlMesh{}), std::invalid_argument);
+  EXPECT_THROW(StreamTessellator(data::ControlMesh{}), data::ArgumentError);
   auto mesh = tetrahedron();
   StreamTessellator tessellator(mesh);
   DrawList<float> out;
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(3, 1), out), std::invalid_argument);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(4, 11), out), std::invalid_argument);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(4, -2), out), std::invalid_argument);
+  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(3, 1), out), data::ArgumentError);
+  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(4, 11), out), data::ArgumentError);
+  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(4, -2), out), data::ArgumentError);
   mesh.positions[0][0] = std::nan("");
-  EXPECT_THROW(StreamTessellator{mesh}, std::invalid_argument);
+  EXPECT_THROW(StreamTessellator{mesh}, data::ArgumentError);
 }
 
 }  // namespace

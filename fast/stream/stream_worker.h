@@ -23,13 +23,13 @@ inline SurfaceVertex<float> as_point(const Vertex& v) {
 struct StreamFrame {
   const Adjacency& adjacency;
   const RowStream& stream;
-  const Kernel& narrow;  // of few lanes, for pairs that have to be kept whole
+  const Kernel& narrow;  // of few lanes, for grids that have to be kept whole
   const CrackPlan& plan;
-  std::span<const Pair> pairs;
+  std::span<const Grid> grids;
   std::span<const Patch> patches;
   const PreparedMesh<float>* control;  // for the centres of fans; null if there are none
   FanCentre centre;
-  int deepest;  // of pairs and edges
+  int deepest;  // of grids and edges
 };
 
 class StreamWorker {
@@ -70,8 +70,8 @@ class StreamWorker {
 
  private:
   void collect(const StreamFrame& frame, const Batch& batch) {
-    pairs_.clear();
-    for (const std::size_t i : batch.patches) pairs_.push_back(frame.pairs[i]);
+    grids_.clear();
+    for (const std::size_t i : batch.patches) grids_.push_back(frame.grids[i]);
   }
 
   // Two rows make a strip: this one and the one before, which is kept. Frames count columns from D's side.
@@ -88,10 +88,10 @@ class StreamWorker {
       std::vector<Writer>& writers;
     } context{*this, frame, batch, writers};
     frame.stream.rows(
-        pairs_, batch.depth, workspace_,
+        grids_, batch.depth, workspace_,
         [](void* opaque, const RowView& view) {
           Context& c = *static_cast<Context*>(opaque);
-          for (std::size_t lane = 0; lane < view.pairs.size(); ++lane)
+          for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
             c.worker.take_row(c.frame.patches[c.batch.patches[lane]], view, lane, c.batch.delivery,
                               c.writers[lane]);
         },
@@ -124,13 +124,13 @@ class StreamWorker {
   void evaluate_whole(const StreamFrame& frame, const Batch& batch) {
     collect(frame, batch);
     const auto n = static_cast<std::size_t>(side(batch.depth));
-    // The pairs lie behind what narrow kernels need of the
+    // The grids lie behind what narrow kernels need of the
     // same memory, so that frames need no more than rows.
     const auto kernels_own = static_cast<std::size_t>(
         frame.narrow.lanes * std::max(work_size(batch.depth), edge_work_size(frame.deepest)));
     workspace_.work.grow(kernels_own + 6 * batch.patches.size() * n * n);
     whole_ = reinterpret_cast<Vertex*>(workspace_.work.data() + kernels_own);
-    frame.stream.whole(pairs_, batch.depth, workspace_, whole_, &frame.narrow);
+    frame.stream.whole(grids_, batch.depth, workspace_, whole_, &frame.narrow);
   }
 
   // The strips of each half in its own frame: row r of face0's is our row k - r, of face1's our row r.
@@ -158,9 +158,9 @@ class StreamWorker {
   void repairs(const StreamFrame& frame, const Patch& patch, Writer& writer) {
     for (int s = 0; s < 2; ++s) {
       const Half& half = patch.half[s];
-      if (half.show != Half::Show::kFan && half.show != Half::Show::kStitch) continue;
+      if (!half.repaired()) continue;
       const Border<float> border = evaluate_border(frame, half.face);
-      if (half.show == Half::Show::kStitch) {
+      if (half.display == Half::Display::kStitch) {
         writer.ring(s, border);
         continue;
       }
@@ -188,7 +188,7 @@ class StreamWorker {
   }
 
   Workspace workspace_;
-  std::vector<Pair> pairs_;
+  std::vector<Grid> grids_;
   std::vector<Vertex> before_, edge_;
   Vertex* whole_ = nullptr;  // in workspace_.work
   std::vector<Point> strip_;

@@ -11,7 +11,7 @@ namespace limitcheck::fast::row_stream {
 /// One compiled variant of the float kernel. All give the same bits.
 struct Kernel {
   const char* name;  // "avx512", "avx2", "avx2/4" (128-bit), "sse4", "neon", "scalar"
-  int lanes;         // pairs per batch
+  int lanes;         // grids per batch
   bool fused;        // hardware multiply-add; without it the bits come from std::fma, slowly
   /// A batch from input to target, see Stream. Returns `name` of the variant that really ran, as compiled
   /// into it.

@@ -82,23 +82,23 @@ class SharedPoints {
   std::int64_t compared_ = 0, different_ = 0;
 };
 
-/// Tessellates all pairs and adds every point of every control edge, the pairs' diagonals included.
+/// Tessellates all grids and adds every point of every control edge, the grids' diagonals included.
 inline void add_shared_points(const data::ControlMesh& mesh, int depth, const Kernel& kernel,
                               const std::vector<std::int32_t>& known, SharedPoints& shared) {
   const Adjacency adjacency(mesh);
-  const auto pairs = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).pairs;
+  const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
   const RowStream stream(mesh, adjacency, kernel);
   const int size = 1 << depth;
   Workspace workspace;
-  std::vector<Vertex> out(pairs.size() * static_cast<std::size_t>(side(depth) * side(depth)));
-  stream.whole(pairs, depth, workspace, out.data());
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
+  std::vector<Vertex> out(grids.size() * static_cast<std::size_t>(side(depth) * side(depth)));
+  stream.whole(grids, depth, workspace, out.data());
+  for (std::size_t p = 0; p < grids.size(); ++p) {
     for (int j = 0; j <= size; ++j) {
       for (int i = 0; i <= size; ++i) {
         if (i > 0 && i < size && j > 0 && j < size && i != j) continue;
         const Vertex& v = out[(p * side(depth) + j) * side(depth) + i];
         for (const bool upper : {true, false}) {
-          const FacePoint at = face_point(pairs[p], size, i, j, upper);
+          const FacePoint at = face_point(grids[p], size, i, j, upper);
           if (at.face < 0 || (upper ? j < i : i < j)) continue;
           shared.add(mesh, at, size, v, known);
         }

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a sliding window counts, if it counts.                                      [mueller2000, 4.3.1;
-// C48-C55]
+// What the tests of claims may hang into a sliding window: counters, or another order of arguments.
+// [mueller2000, 4.3.1; C43, C48-C55]
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,17 @@ struct WindowCounts {
   friend bool operator==(const WindowCounts&, const WindowCounts&) = default;
 };
 
-/// Counts nothing and costs nothing.
-struct NoCount {
+/// Changes nothing, counts nothing and costs nothing.
+struct NoProbe {
   static constexpr void add(std::int64_t WindowCounts::*, std::int64_t) {}
+  /// The two recursive calls, with their arguments in the order in which they are printed. A test may exchange
+  /// some, to show that no other order works. [C43]
+  static void upper(auto&& call, auto*... arguments) { call(arguments...); }
+  static void lower(auto&& call, auto*... arguments) { call(arguments...); }
 };
 
 /// Counts into `counts`.
-struct Counting {
+struct Counting : NoProbe {
   WindowCounts counts;
   void add(std::int64_t WindowCounts::*what, std::int64_t n) { counts.*what += n; }
 };

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "data/error.h"
 #include "fast/rules/corner.h"
 
 namespace limitcheck::fast {
@@ -42,10 +42,10 @@ class EdgeStrip {
   }
 
   /// Limit vertices at 0, 1, .., 2^depth of half-edge h from its origin into out[0 .. 2^depth].
-  ///   throws   std::invalid_argument: depth or valence beyond the arrays
+  ///   throws   data::ArgumentError: depth or valence beyond the arrays
   void evaluate(const PreparedMesh<N, Surface>& mesh, std::int32_t h, int depth, Vertex* out) {
     if (depth < 0 || depth > max_depth_ || mesh.adjacency().max_valence() > max_valence_)
-      throw std::invalid_argument("edge strip: depth or valence beyond the arrays");
+      throw data::ArgumentError("edge strip: depth or valence beyond the arrays");
     fill(mesh, h);
     Rows* from = &rows_[0];
     Rows* to = &rows_[1];

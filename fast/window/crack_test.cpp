@@ -3,9 +3,10 @@
 
 #include <cstring>
 
+#include "data/error.h"
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/crack_stitch.h"
-#include "fast/test_support/exact_weld.h"
+#include "fast/test_support/collecting_sink.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/crack_edge.h"
 #include "fast/window/sliding_window.h"
@@ -87,7 +88,7 @@ TEST(Sec5_Plan, AFaceIsAFanIfAnEdgeIsDeeperThanItself) {
       EXPECT_EQ(got, own < 0 ? -1 : std::max(own, other));
     }
   }
-  EXPECT_THROW(plan_cracks(adjacency, std::vector<std::int32_t>(3)), std::invalid_argument);
+  EXPECT_THROW(plan_cracks(adjacency, std::vector<std::int32_t>(3)), data::ArgumentError);
 }
 
 TEST(Sec5_Plan, AFaceIsStitchedFromDepthTwoOn) {
@@ -152,42 +153,20 @@ TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-/// Collects what a draw sink is given.
-struct Collector : DrawSink<float> {
-  DrawList<float> list;
-  void draw(const Draw& draw, std::span<const SurfaceVertex<float>> vertices,
-            std::span<const LatticePoint> provenance) override {
-    list.draws.push_back(draw);
-    list.vertices.insert(list.vertices.end(), vertices.begin(), vertices.end());
-    list.provenance.insert(list.provenance.end(), provenance.begin(), provenance.end());
-  }
-};
-
 TEST(Sec4_Sinks, OnTheFlyDeliversTheSameAsTheWholeList) {
-  const data::ControlMesh mesh = grid_torus(32, 40);
-  std::vector<std::int32_t> depth;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) depth.push_back(static_cast<std::int32_t>(f % 5));
   TessellatorOptions options;
   options.provenance = true;
-  Tessellator<float> tessellator(mesh, options);
-  DrawList<float> list;
-  Collector collector;
-  const FrameStats a = tessellator.frame(depth, list);
-  const FrameStats b = tessellator.frame(depth, static_cast<DrawSink<float>&>(collector));
-  EXPECT_GT(list.vertices.size(), std::size_t{1} << 18) << "more than one batch, or nothing is tested";
-  EXPECT_EQ(collector.list.vertices, list.vertices);
-  EXPECT_EQ(collector.list.provenance, list.provenance);
-  EXPECT_EQ(triangles_of(collector.list), triangles_of(list));
-  EXPECT_EQ(a.vertices, b.vertices);
+  Tessellator<float> tessellator(grid_torus(32, 40), options);
+  expect_a_sink_gets_the_whole_list(tessellator);
 }
 
 TEST(Sec4_Frame, RefusesWhatItCannotDo) {
   Tessellator<float> tessellator(octahedron());
   DrawList<float> out;
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(7, 1), out), std::invalid_argument);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(8, 40), out), std::invalid_argument);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(8, -2), out), std::invalid_argument);
-  EXPECT_THROW(Tessellator<float>(data::ControlMesh{}), std::invalid_argument);
+  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(7, 1), out), data::ArgumentError);
+  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(8, 40), out), data::ArgumentError);
+  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(8, -2), out), data::ArgumentError);
+  EXPECT_THROW(Tessellator<float>(data::ControlMesh{}), data::ArgumentError);
   const FrameStats nothing = tessellator.frame(std::vector<std::int32_t>(8, -1), out);
   EXPECT_EQ(nothing.culled, 8);
   EXPECT_TRUE(out.vertices.empty());

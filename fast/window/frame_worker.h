@@ -65,14 +65,14 @@ void evaluate(const PreparedMesh<Real>& mesh, const Patch& patch, const CrackPla
   }
   for (int side = 0; side < 2; ++side) {
     const Half& half = patch.half[side];
-    if (half.show != Half::Show::kFan && half.show != Half::Show::kStitch) continue;
+    if (!half.repaired()) continue;
     Border<Real> border;
     for (int e = 0; e < 3; ++e) {
       auto& points = worker.border[static_cast<std::size_t>(e)];
       worker.edge.evaluate(mesh, 3 * half.face + e, edge_depth(plan, half.face, e), points.data());
       border[static_cast<std::size_t>(e)] = points.data();
     }
-    if (half.show == Half::Show::kFan)
+    if (half.display == Half::Display::kFan)
       writer.fan(side, worker.centre.evaluate(mesh, half.face, centre), border);
     else
       writer.ring(side, border);

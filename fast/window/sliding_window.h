@@ -6,21 +6,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <vector>
 
+#include "data/error.h"
 #include "fast/rules/corner.h"
 #include "fast/rules/prepared_mesh.h"
 #include "fast/window/counting.h"
 
 namespace limitcheck::fast {
-
-/// The argument order of the recursion as printed. Another can be put in its place to show that no other
-/// works. [C43]
-struct PrintedOrder {
-  static void upper(auto&& call, auto*... arguments) { call(arguments...); }
-  static void lower(auto&& call, auto*... arguments) { call(arguments...); }
-};
 
 /// The paper's eleven arrays per level, allocated once, and the recursion over them. One instance per thread.
 ///
@@ -34,24 +27,21 @@ struct PrintedOrder {
 ///
 ///   N         number type (NumberTraits)
 ///   Surface   makes a vertex of a limit frame
-///   Count     NoCount or Counting
+///   Probe     NoProbe, or what a test hangs in, such as Counting
 ///   Carry     true: a row's limit points are evaluated once and carried to the next strip; false: both
-///             rows of every strip are evaluated, as printed [C51]. The output is the same,
-///             bit by bit.
-///   Order     of the arguments of the recursion
+///             rows of every strip are evaluated, as printed [C51]. The output has the same bits.
 ///
 /// Nothing is allocated after construction; the mesh is only read.
-template <class N, class Surface = LimitSurface<N>, class Count = NoCount, bool Carry = true,
-          class Order = PrintedOrder>
+template <class N, class Surface = LimitSurface<N>, class Probe = NoProbe, bool Carry = true>
 class SlidingWindow {
  public:
   using Vertex = typename Surface::Vertex;
 
-  /// Throws std::invalid_argument: max_depth outside 0 .. 20 or max_valence < 0.
+  /// Throws data::ArgumentError: max_depth outside 0 .. 20 or max_valence < 0.
   SlidingWindow(int max_depth, int max_valence)
       : max_depth_(max_depth), max_valence_(std::max(max_valence, 6)) {
     if (max_depth < 0 || max_depth > 20 || max_valence < 0)
-      throw std::invalid_argument("sliding window: depth outside 0..20 or negative valence");
+      throw data::ArgumentError("sliding window: depth outside 0..20 or negative valence");
     levels_.resize(static_cast<std::size_t>(max_depth) + 1);
     std::size_t total = 0;
     for (int s = 0; s <= max_depth; ++s) total += 5 * row_length(s) + 6 * corner_length();
@@ -79,7 +69,7 @@ class SlidingWindow {
   std::size_t allocated_vectors() const { return storage_.size() + 2 * strip_.size(); }
   /// Normals that came from the rule for vanishing tangents, in all runs so far. [D12]
   std::int64_t zero_normals() const { return zero_normals_; }
-  Count& count() { return count_; }
+  Probe& probe() { return probe_; }
 
   /// Tessellates the two faces on both sides of half-edge h0 (face0) and its twin (face1).
   ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in the
@@ -87,7 +77,7 @@ class SlidingWindow {
   ///                      as a triangle strip counter-clockwise from outside. Its first
   ///                      2 (2^depth - row) - 1 triangles belong to face0, the last 2 row + 1 to face1. The
   ///                      array may be read and overwritten until the call returns (with Carry: read only).
-  /// Throws std::invalid_argument: depth outside 0 .. max_depth(), no twin, a valence above max_valence().
+  /// Throws data::ArgumentError: depth outside 0 .. max_depth(), no twin, a valence above max_valence().
   template <class Sink>
   void run(const PreparedMesh<N, Surface>& mesh, std::int32_t h0, int depth, Sink&& sink) {
     fill(mesh, h0, depth);
@@ -112,14 +102,14 @@ class SlidingWindow {
     const Adjacency& adjacency = mesh.adjacency();
     const std::int32_t h1 = adjacency.twin(h0);
     if (depth < 0 || depth > max_depth_ || h1 < 0)
-      throw std::invalid_argument("sliding window: depth beyond the arrays, or a pair without a second face");
+      throw data::ArgumentError("sliding window: depth beyond the arrays, or a pair without a second face");
     if (adjacency.max_valence() > max_valence_)
-      throw std::invalid_argument("sliding window: a valence beyond the corner arrays");
+      throw data::ArgumentError("sliding window: a valence beyond the corner arrays");
     depth_ = depth;
     Level& l = levels_[0];
     const auto corner = [&](int i, std::int32_t h, bool from_last_slot) {
       l.corner[i] = gather_corner(mesh, h, from_last_slot, l.corner[i].ring);
-      count_.add(&WindowCounts::filled, l.corner[i].n);
+      probe_.add(&WindowCounts::filled, l.corner[i].n);
     };
     corner(0, Adjacency::next(h1), false);
     corner(1, Adjacency::prev(h1), true);
@@ -161,10 +151,10 @@ class SlidingWindow {
     if (outtop != nullptr) refine_outtop(n, top, outtop, corner2, corner3, l);
     if (outbottom != nullptr) refine_outbottom(n, bottom, outbottom, corner0, corner1, l);
     collect_middle_corners(n, corner0, corner2, l);
-    count_.add(&WindowCounts::rows,
+    probe_.add(&WindowCounts::rows,
                (2 * n + 1) * (3 + (outtop != nullptr ? 1 : 0) + (outbottom != nullptr ? 1 : 0)));
-    count_.add(&WindowCounts::corners, corner0.n + corner1.n + corner2.n + corner3.n);
-    count_.add(&WindowCounts::middle_corners, l.mcorner[0].n + l.mcorner[1].n);
+    probe_.add(&WindowCounts::corners, corner0.n + corner1.n + corner2.n + corner3.n);
+    probe_.add(&WindowCounts::middle_corners, l.mcorner[0].n + l.mcorner[1].n);
 
     using Row = const Vec3<N>*;
     using Ring = const CornerRing*;
@@ -179,10 +169,10 @@ class SlidingWindow {
     const Ring c0 = &l.corner[0], c1 = &l.corner[1], c2 = &l.corner[2], c3 = &l.corner[3];
     const Ring mcorner0 = &l.mcorner[0], mcorner1 = &l.mcorner[1];
     // subdivide upper row
-    Order::upper(subdivide_half(2 * row), new_top, middle, new_outtop, new_bottom, mcorner0, mcorner1, c2,
+    Probe::upper(subdivide_half(2 * row), new_top, middle, new_outtop, new_bottom, mcorner0, mcorner1, c2,
                  c3);
     // subdivide the lower row
-    Order::lower(subdivide_half(2 * row + 1), middle, new_bottom, new_top, new_outbottom, c0, c1, mcorner1,
+    Probe::lower(subdivide_half(2 * row + 1), middle, new_bottom, new_top, new_outbottom, c0, c1, mcorner1,
                  mcorner0);
   }
 
@@ -297,12 +287,12 @@ class SlidingWindow {
     if (Carry && row > 0) {
       for (int i = 0; i <= n; ++i)
         strip_[2 * static_cast<std::size_t>(i)] = strip_[2 * static_cast<std::size_t>(i) + 1];
-      count_.add(&WindowCounts::carried, n + 1);
+      probe_.add(&WindowCounts::carried, n + 1);
     } else {
       limit_row(n, n - row, top, outtop, bottom, corner3, corner2, strip_.data());
     }
     limit_row(n, n - row - 1, bottom, top, outbottom, corner0, corner1, strip_.data() + 1);
-    count_.add(&WindowCounts::strips, 1);
+    probe_.add(&WindowCounts::strips, 1);
     sink(row, strip_.data());
   }
 
@@ -334,7 +324,7 @@ class SlidingWindow {
         regular(1, n);
       }
     }
-    count_.add(&WindowCounts::limit_points, n + 1);
+    probe_.add(&WindowCounts::limit_points, n + 1);
   }
 
   int max_depth_, max_valence_;
@@ -343,7 +333,7 @@ class SlidingWindow {
   std::vector<Vec3<N>> storage_;
   std::vector<Vertex> strip_;
   std::int64_t zero_normals_ = 0;
-  [[no_unique_address]] Count count_;
+  [[no_unique_address]] Probe probe_;
 };
 
 }  // namespace limitcheck::fast

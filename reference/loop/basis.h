@@ -70,9 +70,7 @@ auto monomials(const std::array<N, 5>& a, const std::array<N, 5>& b, const std::
   std::array<N, (D + 1) * (D + 2) / 2> result;
   std::size_t t = 0;
   for (int i = 0; i <= D; ++i)
-    for (int j = 0; i + j <= D; ++j)
-      result[t++] = a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)] *
-                    g[static_cast<std::size_t>(D - i - j)];
+    for (int j = 0; i + j <= D; ++j) result[t++] = a[i] * b[j] * g[D - i - j];
   return result;
 }
 

@@ -151,9 +151,8 @@ RingedFace<Rational> regular_face(std::size_t which) {
   RingedFace<Rational> face;
   const int rings[3][7] = {{4, 7, 8, 5, 2, 1, 3}, {7, 8, 4, 3, 6, 10, 11}, {8, 4, 7, 11, 12, 9, 5}};
   for (std::size_t k = 0; k < 3; ++k) {
-    face.corner[k].point = p[static_cast<std::size_t>(rings[k][0])];
-    for (std::size_t i = 1; i < 7; ++i)
-      face.corner[k].ring.push_back(p[static_cast<std::size_t>(rings[k][i])]);
+    face.corner[k].point = p[rings[k][0]];
+    for (std::size_t i = 1; i < 7; ++i) face.corner[k].ring.push_back(p[rings[k][i]]);
   }
   return face;
 }

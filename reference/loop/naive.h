@@ -32,17 +32,17 @@ using LeafTriangle = std::array<LeafCorner<N>, 3>;
 template <class N>
 class NaiveSubdivider {
  public:
-  /// Throws std::invalid_argument if the mesh is not manifold (Topology).
+  /// Throws data::ArgumentError if the mesh is not manifold (Topology).
   explicit NaiveSubdivider(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                   Weights weights = Weights::kLoop);
 
-  std::size_t face_count() const { return topology_.triangles().size(); }
+  std::size_t face_count() const { return topology_.faces().size(); }
 
   /// Subdivides one face `depth` >= 0 times and hands 4^depth leaves to `emit`, depth first, sub-faces 0, 1,
   /// 2, 3. Any number of threads may do so at once.
   ///   error    in double <= 4e-16 of the bounding box from Stam's positions at depth 0..4 (measured)
-  ///   throws   std::out_of_range: no such face; std::invalid_argument: depth < 0 or > 30
+  ///   throws   data::ArgumentError: no such face, depth < 0 or > 30
   void tessellate(std::size_t face, int depth, const std::function<void(const LeafTriangle<N>&)>& emit) const;
 
  private:

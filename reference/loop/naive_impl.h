@@ -2,8 +2,7 @@
 // Definitions behind naive.h, for the .cpp files that instantiate them.
 #pragma once
 
-#include <stdexcept>
-
+#include "data/error.h"
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/ringed_face.h"
@@ -52,8 +51,8 @@ NaiveSubdivider<N>::NaiveSubdivider(std::vector<Vec3<N>> positions, const std::v
 template <class N>
 void NaiveSubdivider<N>::tessellate(std::size_t face, int depth,
                                     const std::function<void(const LeafTriangle<N>&)>& emit) const {
-  if (face >= face_count()) throw std::out_of_range("no face " + std::to_string(face));
-  if (depth < 0 || depth > 30) throw std::invalid_argument("depth must be 0..30");
+  if (face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
+  if (depth < 0 || depth > 30) throw data::ArgumentError("depth must be 0..30");
   const std::int32_t size = 1 << depth;
   detail::subdivide<N>(RingedFace<N>::gather(topology_, positions_, face, weights_), depth,
                        {{{0, 0}, {size, 0}, {0, size}}}, emit);

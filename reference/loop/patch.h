@@ -11,11 +11,14 @@
 
 namespace limitcheck::reference {
 
-/// Where a small triangle of the parameter domain lies: its first and second barycentric coordinate (a, b) as
-/// functions of (l1, l2) have the gradients 2^level (a1, a2), 2^level (b1, b2).
-struct Placement {
+/// The gradients of a sub-triangle's parameters with respect to those of its face: its first and second
+/// barycentric coordinate (a, b) as functions of (l1, l2) have the gradients 2^level (a1, a2), 2^level (b1, b2).
+struct ParameterGradients {
   int a1 = 1, a2 = 0, b1 = 0, b2 = 1;
   long level = 0;
+
+  /// Of a sub-triangle that is turned by half a turn.
+  ParameterGradients turned() const { return {-a1, -a2, -b1, -b2, level}; }
 };
 
 /// Derivatives with respect to (a, b), still to be turned into those with respect to (l1, l2).
@@ -59,11 +62,11 @@ LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order 
   return s;
 }
 
-/// Sets the derivatives of `result` by the chain rule; `first`,
-/// `second` are positive factors beside those of the placement.
+/// Sets the derivatives of `result` by the chain rule; `first` and `second` are positive factors of the first
+/// and second derivatives, in place of powers of 2^level.
 template <class N>
-void place(SurfacePoint<N>& result, const LocalPoint<N>& s, const Placement& at, const N& first,
-           const N& second, Order order) {
+void set_derivatives(SurfacePoint<N>& result, const LocalPoint<N>& s, const ParameterGradients& at,
+                     const N& first, const N& second, Order order) {
   if (order == Order::kPosition) return;
   const N a1(at.a1), a2(at.a2), b1(at.b1), b2(at.b2);
   result.d1 = (s.a * a1 + s.b * b1) * first;
@@ -105,11 +108,12 @@ Tangents<N> tangents_of(const SurfacePoint<N>& point) {
 ///                         the boundary edges and 0 along the inner one; all other mu are smaller. For K = 1
 ///                         the next is 1/4, a multiple of (a + b)^2: second derivatives exist. For K = 2 it
 ///                         is 3/8: they do not. For K >= 4 one is above 1/2.
-///   sector     of the face in the corner's ring, which is that of the control mesh
-///   at         (a, b) towards the corner's next and previous neighbour in the face; its level has no say
+///   ring_index   of the face in the corner's ring (Topology), which is that of the control mesh
+///   at           (a, b) towards the corner's next and previous neighbour in the face; its level has no say
 template <class N>
 SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
-                                     int sector, const Placement& at, Weights weights, Order order) {
+                                     int ring_index, const ParameterGradients& at, Weights weights,
+                                     Order order) {
   const VertexLimit<N> limit = vertex_limit(v, ring, on_boundary, weights);
   SurfacePoint<N> result;
   result.at_corner = true;
@@ -134,8 +138,8 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
     first = n <= 3;   // one or two faces
     second = n == 2;  // one
     const Vec3<N> along = c * half;
-    if (sector == 0) local.a = along;
-    if (static_cast<std::size_t>(sector) + 2 == n) local.b = Vec3<N>{} - along;
+    if (ring_index == 0) local.a = along;
+    if (static_cast<std::size_t>(ring_index) + 2 == n) local.b = Vec3<N>{} - along;
     local.aa = local.ab = local.bb = s;
   } else {
     const auto& circle = circle_table<N>(static_cast<long>(n));
@@ -143,7 +147,7 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
       const auto k = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
       return c * circle.cosine[k] + s * circle.sine[k];
     };
-    const Vec3<N> a = towards(sector), b = towards(sector + 1);
+    const Vec3<N> a = towards(ring_index), b = towards(ring_index + 1);
     t1 = (a * N(at.a1) + b * N(at.b1)) * share;
     t2 = (a * N(at.a2) + b * N(at.b2)) * share;
     first = n <= 5;
@@ -155,7 +159,7 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
   }
   result.d1 = t1;
   result.d2 = t2;
-  if (first) place(result, local, at, N(1), N(1), second ? order : std::min(order, Order::kFirst));
+  if (first) set_derivatives(result, local, at, N(1), N(1), second ? order : std::min(order, Order::kFirst));
   result.t1 = t1;
   result.t2 = t2;
   result.t1_terms = on_boundary ? c_terms : c_terms + s_terms;

@@ -29,14 +29,14 @@ std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh);
 template <class N>
 class RefinedMesh {
  public:
-  /// Depth 0: the mesh itself. Throws std::invalid_argument if it is not manifold (Topology).
+  /// Depth 0: the mesh itself. Throws data::ArgumentError if it is not manifold (Topology).
   explicit RefinedMesh(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles,
               Weights weights = Weights::kLoop);
 
   /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
   /// few times.
-  ///   throws std::length_error if the refined mesh would have more than 2^31 - 1 vertices
+  ///   throws data::ArgumentError if the refined mesh would have more than 2^31 - 1 vertices
   void refine();
 
   int depth() const { return depth_; }

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <limits>
-#include <stdexcept>
 
+#include "data/error.h"
 #include "reference/loop/masks.h"
 #include "reference/loop/refine.h"
+#include "reference/loop/triangles.h"
 #include "reference/loop/vertex_limit.h"
 
 namespace limitcheck::reference {
@@ -14,26 +15,30 @@ namespace limitcheck::reference {
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
                                  Weights weights) {
-  const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
   std::vector<Vec3<N>> result;
   result.reserve(topology.vertex_count() + topology.edges().size());
   std::vector<Vec3<N>> ring;
   for (std::size_t v = 0; v < topology.vertex_count(); ++v) {
-    const auto id = static_cast<std::int32_t>(v);
-    const auto neighbours = topology.ring(id);
-    if (neighbours.empty()) {
+    const Sector sector = topology.sector(static_cast<std::int32_t>(v));
+    if (sector.faces.empty()) {
       result.push_back(positions[v]);  // isolated: nothing to subdivide
-    } else if (topology.on_boundary(id)) {
-      result.push_back(boundary_vertex_point(positions[v], at(neighbours.front()), at(neighbours.back())));
+    } else if (!sector.closed) {
+      result.push_back(boundary_vertex_point(positions[v], positions[sector.neighbours.front()],
+                                             positions[sector.neighbours.back()]));
     } else {
       ring.clear();
-      for (const std::int32_t r : neighbours) ring.push_back(at(r));
+      for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
       result.push_back(interior_vertex_point<N>(positions[v], ring, weights));
     }
   }
-  for (const Edge& e : topology.edges())
-    result.push_back(e.on_boundary() ? boundary_edge_point(at(e.a), at(e.b))
-                                     : interior_edge_point(at(e.a), at(e.b), at(e.left), at(e.right)));
+  for (const Edge& e : topology.edges()) {
+    const auto across = [&](std::int32_t face) -> const Vec3<N>& {
+      return positions[opposite(topology, e, face)];
+    };
+    const Vec3<N>&a = positions[e.a], &b = positions[e.b];
+    result.push_back(e.on_boundary() ? boundary_edge_point(a, b)
+                                     : interior_edge_point(a, b, across(e.left_face), across(e.right_face)));
+  }
   return result;
 }
 
@@ -66,7 +71,7 @@ template <class N>
 void RefinedMesh<N>::refine() {
   const std::size_t count = positions_.size() + topology_.edges().size();
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw std::length_error("refined mesh has more than 2^31 - 1 vertices");
+    throw data::ArgumentError("refined mesh has more than 2^31 - 1 vertices");
   const auto old_vertices = static_cast<std::int32_t>(positions_.size());
   positions_ = refine_once(topology_, positions_, weights_);
 
@@ -118,16 +123,16 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
   result.kinds.reserve(positions_.size());
   std::vector<Vec3<N>> ring;
   for (std::size_t v = 0; v < positions_.size(); ++v) {
-    const auto id = static_cast<std::int32_t>(v);
+    const Sector sector = topology_.sector(static_cast<std::int32_t>(v));
     ring.clear();
-    for (const std::int32_t r : topology_.ring(id)) ring.push_back(positions_[static_cast<std::size_t>(r)]);
+    for (const std::int32_t r : sector.neighbours) ring.push_back(positions_[r]);
     if (ring.empty()) {
       result.positions.push_back(positions_[v]);
       result.normals.push_back({N(0), N(0), N(1)});
       result.kinds.push_back(NormalKind::kArbitrary);
       continue;
     }
-    const VertexLimit<N> limit = vertex_limit<N>(positions_[v], ring, topology_.on_boundary(id), weights_);
+    const VertexLimit<N> limit = vertex_limit<N>(positions_[v], ring, !sector.closed, weights_);
     result.positions.push_back(limit.position);
     result.normals.push_back(limit.normal.direction);
     result.kinds.push_back(limit.normal.kind);

@@ -12,19 +12,19 @@
 namespace limitcheck::reference {
 
 /// A corner with its ring, counter-clockwise, boundary neighbours first and last (masks.h). The face lies
-/// between ring entries `sector` and `sector` + 1 (cyclically when interior).
+/// between ring entries `ring_index` and `ring_index` + 1 (cyclically when interior).
 template <class N>
 struct RingedCorner {
   Vec3<N> point;
   boost::container::small_vector<Vec3<N>, 6> ring;
-  int sector = 0;
+  int ring_index = 0;
   bool on_boundary = false;
 
   int size() const { return static_cast<int>(ring.size()); }
   /// Neighbour i steps counter-clockwise from the face's first edge; i may be negative.
   const Vec3<N>& neighbour(int i) const {
-    const int at = sector + i;
-    return ring[static_cast<std::size_t>(on_boundary ? at : (at + size()) % size())];
+    const int at = ring_index + i;
+    return ring[on_boundary ? at : (at + size()) % size()];
   }
   std::span<const Vec3<N>> span() const { return {ring.data(), ring.size()}; }
   bool is_regular() const { return size() == (on_boundary ? 4 : 6); }
@@ -41,16 +41,15 @@ struct RingedFace {
                            Weights weights = Weights::kLoop) {
     RingedFace result;
     result.weights = weights;
-    const auto at = [&](std::int32_t v) { return positions[static_cast<std::size_t>(v)]; };
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t v = topology.triangles()[face][static_cast<std::size_t>(k)];
-      auto& c = result.corner[static_cast<std::size_t>(k)];
-      c.point = at(v);
-      c.on_boundary = topology.on_boundary(v);
-      c.sector = topology.sector(face, k);
-      for (const std::int32_t r : topology.ring(v)) c.ring.push_back(at(r));
-      result.edge_on_boundary[static_cast<std::size_t>(k)] =
-          topology.edges()[static_cast<std::size_t>(topology.edge(face, k))].on_boundary();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t v = topology.faces()[face][k];
+      const Sector sector = topology.sector(v);
+      auto& c = result.corner[k];
+      c.point = positions[v];
+      c.on_boundary = !sector.closed;
+      c.ring_index = topology.ring_index(face, k);
+      for (const std::int32_t r : sector.neighbours) c.ring.push_back(positions[r]);
+      result.edge_on_boundary[k] = topology.edges()[topology.edge(face, k)].on_boundary();
     }
     return result;
   }
@@ -70,7 +69,7 @@ class SubdividedFace {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& from = face.corner[k];
       auto& to = vertex_[k];
-      to.sector = from.sector;
+      to.ring_index = from.ring_index;
       to.on_boundary = from.on_boundary;
       const std::size_t n = from.ring.size();
       to.point = from.on_boundary ? boundary_vertex_point(from.point, from.ring.front(), from.ring.back())
@@ -121,9 +120,9 @@ class SubdividedFace {
       e.ring.push_back(b.neighbour(2));
     }
   }
-  RingedCorner<N> edge_corner(std::size_t k, int sector) const {
+  RingedCorner<N> edge_corner(std::size_t k, int ring_index) const {
     RingedCorner<N> result = edge_[k];
-    result.sector = sector;
+    result.ring_index = ring_index;
     return result;
   }
 

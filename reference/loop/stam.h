@@ -3,7 +3,7 @@
 //
 //   J. Stam, Evaluation of Loop Subdivision Surfaces, 1998. One subdivision step leaves at most one
 //   extraordinary vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one,
-//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues (spider.h),
+//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues (two_ring.h),
 //   so that the cost does not depend on how near the point is; one more step then gives the twelve control
 //   points of a regular piece.
 #pragma once
@@ -40,7 +40,7 @@ class StamData;
 template <class N>
 class StamEvaluator {
  public:
-  /// The mesh must be valid (data/validate.h). Throws std::invalid_argument if it is not manifold (Topology).
+  /// The mesh must be valid (data/validate.h). Throws data::ArgumentError if it is not manifold (Topology).
   explicit StamEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   /// Control points in the number type itself.
   StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
@@ -50,8 +50,7 @@ class StamEvaluator {
   StamEvaluator& operator=(StamEvaluator&&) noexcept;
 
   int face_count() const;
-  /// Throws std::out_of_range for a face that is not there,
-  /// std::invalid_argument for parameters outside the triangle.
+  /// Throws data::ArgumentError for a face that is not there and for parameters outside the triangle.
   SurfacePoint<N> evaluate(int face, double l1, double l2, Order order = Order::kSecond) const;
   SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
                            Order order = Order::kSecond) const;

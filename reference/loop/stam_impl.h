@@ -3,13 +3,13 @@
 #pragma once
 
 #include <map>
-#include <stdexcept>
 #include <string>
 
-#include "reference/loop/spider_impl.h"
+#include "data/error.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/stam_patches.h"
-#include "reference/loop/stam_site.h"
+#include "reference/loop/sub_face_location.h"
+#include "reference/loop/two_ring_impl.h"
 
 namespace limitcheck::reference {
 namespace detail {
@@ -22,176 +22,172 @@ class StamData {
         topology_(positions.size(), triangles),
         control_(std::move(positions)),
         refined_(topology_, control_, weights) {
-    make_spiders();
+    make_two_rings();
   }
 
-  std::size_t face_count() const { return topology_.triangles().size(); }
+  std::size_t face_count() const { return topology_.faces().size(); }
 
   template <class P>
   SurfacePoint<N> evaluate(int face, const P& l1, const P& l2, Order order) const {
     if (face < 0 || static_cast<std::size_t>(face) >= face_count())
-      throw std::out_of_range("no face " + std::to_string(face));
+      throw data::ArgumentError("no face " + std::to_string(face));
     const auto f = static_cast<std::size_t>(face);
-    const Site<P> site = locate<P>(l1, l2);
+    const SubFaceLocation<P> location = locate<P>(l1, l2);
     SurfacePoint<N> result;
-    const auto corner = static_cast<std::size_t>(site.subface);
-    const std::int32_t spider =
-        site.subface == 3 ? -1 : spider_of_[static_cast<std::size_t>(topology_.triangles()[f][corner])];
-    if (spider < 0)
-      evaluate_regular(f, site, order, result);
-    else if (site.u + site.v == 0)
-      return evaluate_corner(f, site.subface, site.placement, order);
+    const auto corner = static_cast<std::size_t>(location.subface);
+    const std::int32_t two_ring = location.subface == 3 ? -1 : two_ring_of_[topology_.faces()[f][corner]];
+    if (two_ring < 0)
+      evaluate_regular(f, location, order, result);
+    else if (location.u + location.v == 0)
+      return evaluate_corner(f, location.subface, location.gradients, order);
     else
-      evaluate_near_corner(f, site, spiders_[static_cast<std::size_t>(spider)], order, result);
+      evaluate_near_corner(f, location, two_rings_[two_ring], order, result);
     if (order == Order::kPosition) return result;
     Tangents<N> tangents = tangents_of(result);
-    if (spider >= 0 && topology_.on_boundary(topology_.triangles()[f][corner]) &&
+    if (two_ring >= 0 && topology_.on_boundary(topology_.faces()[f][corner]) &&
         nearly_parallel(result.t1, result.t2))
-      separate_tangents(f, site, spiders_[static_cast<std::size_t>(spider)], tangents);
+      separate_tangents(f, location, two_rings_[two_ring], tangents);
     set_normal(result, tangents, fallback_normal(f));
     return result;
   }
 
  private:
-  void make_spiders() {
-    spider_of_.assign(topology_.vertex_count(), -1);
+  void make_two_rings() {
+    two_ring_of_.assign(topology_.vertex_count(), -1);
     std::vector<Vec3<N>> r, q, p;
     for (std::size_t id = 0; id < topology_.vertex_count(); ++id) {
       const auto v = static_cast<std::int32_t>(id);
-      if (topology_.ring(v).empty() || is_regular(topology_, v)) continue;
+      const Sector sector = topology_.sector(v);
+      if (sector.faces.empty() || is_regular(sector)) continue;
       r.clear(), q.clear(), p.clear();
-      for (const std::int32_t spoke : topology_.spokes(v))
-        r.push_back(refined_.point(refined_.edge_point(spoke)));
-      for (const std::int32_t neighbour : topology_.ring(v)) p.push_back(refined_.point(neighbour));
-      for (const std::int32_t f : topology_.faces(v)) {
-        if (f < 0) continue;
-        const Triangle& t = topology_.triangles()[static_cast<std::size_t>(f)];
+      for (const std::int32_t edge : sector.edges) r.push_back(refined_.point(refined_.edge_point(edge)));
+      for (const std::int32_t neighbour : sector.neighbours) p.push_back(refined_.point(neighbour));
+      for (const std::int32_t f : sector.faces) {
+        const Triangle t = triangle_of(topology_, f);
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-        q.push_back(
-            refined_.point(refined_.edge_point(topology_.edge(static_cast<std::size_t>(f), (k + 1) % 3))));
+        q.push_back(refined_.point(refined_.edge_point(topology_.edge(f, (k + 1) % 3))));
       }
-      const std::pair key(static_cast<int>(q.size()), topology_.on_boundary(v));
-      const auto kind = kinds_.try_emplace(key, key.first, key.second, weights_).first;
-      spider_of_[id] = static_cast<std::int32_t>(spiders_.size());
-      spiders_.emplace_back(kind->second, refined_.point(v), r, q, p);
+      const std::pair key(static_cast<int>(q.size()), !sector.closed);
+      const auto modes = modes_.try_emplace(key, key.first, key.second, weights_).first;
+      two_ring_of_[id] = static_cast<std::int32_t>(two_rings_.size());
+      two_rings_.emplace_back(modes->second, refined_.point(v), r, q, p);
     }
   }
 
   template <class P>
-  void evaluate_regular(std::size_t f, const Site<P>& site, Order order, SurfacePoint<N>& result) const {
+  void evaluate_regular(std::size_t f, const SubFaceLocation<P>& location, Order order,
+                        SurfacePoint<N>& result) const {
     Basis<N> basis;
-    evaluate_basis(basis, number_from<N>(site.u), number_from<N>(site.v), order);
+    evaluate_basis(basis, number_from<N>(location.u), number_from<N>(location.v), order);
     struct Gather {
       const RefinedPatches<N>& refined;
       const typename RefinedPatches<N>::Patch& patch;
       const Vec3<N>& operator[](std::size_t i) const { return refined.point(patch[i]); }
     };
     const LocalPoint<N> s =
-        evaluate_patch<N>(Gather{refined_, refined_.patch(f, site.subface)}, basis, order);
+        evaluate_patch<N>(Gather{refined_, refined_.patch(f, location.subface)}, basis, order);
     result.position = s.position;
-    place(result, s, site.placement, N(2), N(4), order);
+    set_derivatives(result, s, location.gradients, N(2), N(4), order);
   }
 
-  SurfacePoint<N> evaluate_corner(std::size_t f, int k, const Placement& placement, Order order) const {
-    const std::int32_t v = topology_.triangles()[f][static_cast<std::size_t>(k)];
+  SurfacePoint<N> evaluate_corner(std::size_t f, int k, const ParameterGradients& gradients,
+                                  Order order) const {
+    const std::int32_t v = topology_.faces()[f][k];
+    const Sector sector = topology_.sector(v);
     std::vector<Vec3<N>> ring;
-    for (const std::int32_t r : topology_.ring(v)) ring.push_back(control_[static_cast<std::size_t>(r)]);
-    return extraordinary_corner<N>(control_[static_cast<std::size_t>(v)], ring, topology_.on_boundary(v),
-                                   topology_.sector(f, k), placement, weights_, order);
+    for (const std::int32_t r : sector.neighbours) ring.push_back(control_[r]);
+    return extraordinary_corner<N>(control_[v], ring, !sector.closed, topology_.ring_index(f, k), gradients,
+                                   weights_, order);
   }
 
   template <class P>
-  void evaluate_near_corner(std::size_t f, const Site<P>& site, const Spider<N>& spider, Order order,
-                            SurfacePoint<N>& result) const {
-    const int sector = topology_.sector(f, site.subface);
-    const long steps = steps_to_corner(site.u, site.v);
-    const P u = scaled(site.u, steps + 1), v = scaled(site.v, steps + 1);  // 1 < u + v <= 2
-    SpiderPower<N> buffer;
-    typename Spider<N>::Sector s;
-    spider.sector(sector, spider.kind().power(steps, buffer), s);
-
-    // One more step gives the points around the triangle's three outer sub-triangles, on the lattice with c =
-    // (0, 0), r_i = (1, 0), r_{i+1} = (0, 1).
-    const auto edge = [](const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
-      return interior_edge_point(a, b, c, d);
-    };
-    const auto &c = s.c, *r = s.r, *q = s.q, *p = s.p;
-    const auto vertex = [&](const Vec3<N>& centre, const std::array<Vec3<N>, 6>& ring) {
-      return interior_vertex_point<N>(centre, ring);
-    };
-    std::array<Vec3<N>, 12> points;
-    const Vec3<N> r_i = edge(c, r[2], r[1], r[3]), r_next = edge(c, r[3], r[2], r[4]);
-    const Vec3<N> q_i = edge(r[2], r[3], c, q[1]);
-    const Vec3<N> p_i = vertex(r[2], {c, r[3], q[1], p[0], q[0], r[1]}),
-                  p_next = vertex(r[3], {c, r[4], q[2], p[1], q[1], r[2]});
-    const Vec3<N> x_i = edge(r[2], q[1], r[3], p[0]), x_next = edge(r[3], q[1], r[2], p[1]);
-    const auto next_c = [&] { return centre_after(spider, s); };
-    const auto before = [&](const Vec3<N>& new_c) {  // r_{i-1}
-      if (s.first_edge_on_boundary) return ghost_point(new_c, r_i, r_next);
-      return sector == 1 && spider.kind().on_boundary() ? boundary_edge_point(c, r[1])
-                                                        : edge(c, r[1], r[0], r[2]);
-    };
-    const auto after = [&](const Vec3<N>& new_c) {  // r_{i+2}
-      if (s.last_edge_on_boundary) return ghost_point(new_c, r_next, r_i);
-      return sector + 2 == spider.kind().count() && spider.kind().on_boundary() ? boundary_edge_point(c, r[4])
-                                                                                : edge(c, r[4], r[3], r[5]);
-    };
-    const auto q_before = [&] { return edge(r[1], r[2], c, q[0]); };
-    const auto q_after = [&] { return edge(r[3], r[4], c, q[2]); };
-    Placement at = site.placement;
-    P a, b;
-    if (u >= 1) {  // (r_i, p_i, q_i)
-      const Vec3<N> new_c = next_c();
-      points = {before(new_c), new_c,
-                q_before(),    r_i,
-                r_next,        edge(r[2], q[0], p[0], r[1]),
-                p_i,           q_i,
-                p_next,        edge(r[2], p[0], q[0], q[1]),
-                x_i,           x_next};
-      a = u - 1;
-      b = v;
-    } else if (v >= 1) {  // (r_{i+1}, q_i, p_{i+1})
-      const Vec3<N> new_c = next_c();
-      points = {new_c,  after(new_c), r_i,
-                r_next, q_after(),    p_i,
-                q_i,    p_next,       edge(r[3], q[2], p[1], r[4]),
-                x_i,    x_next,       edge(r[3], p[1], q[1], q[2])};
-      a = u;
-      b = v - 1;
-    } else {  // (q_i, r_{i+1}, r_i)
-      const Vec3<N> new_c = next_c();
-      points = {x_next, x_i, p_next,     q_i,          p_i,   q_after(),
-                r_next, r_i, q_before(), after(new_c), new_c, before(new_c)};
-      a = 1 - u;
-      b = 1 - v;
-      at = {-at.a1, -at.a2, -at.b1, -at.b2, at.level};
-    }
+  void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const TwoRing<N>& two_ring,
+                            Order order, SurfacePoint<N>& result) const {
+    const int face = topology_.ring_index(f, location.subface);
+    const long steps = steps_to_corner(location.u, location.v);
+    const P u = scaled(location.u, steps + 1), v = scaled(location.v, steps + 1);  // 1 < u + v <= 2
+    TwoRingPower<N> buffer;
+    typename TwoRing<N>::FacePoints s;
+    two_ring.face_points(face, two_ring.modes().power(steps, buffer), s);
+    int which = 2;
+    P a = 1 - u, b = 1 - v;
+    if (u >= 1)
+      which = 0, a = u - 1, b = v;
+    else if (v >= 1)
+      which = 1, a = u, b = v - 1;
+    const ParameterGradients& g = location.gradients;
     Basis<N> basis;
     evaluate_basis(basis, number_from<N>(a), number_from<N>(b), order);
-    const LocalPoint<N> local = evaluate_patch<N>(points, basis, order, spider.size(steps));
+    const LocalPoint<N> local =
+        evaluate_patch<N>(outer_patch(two_ring.modes(), face, s, which), basis, order, two_ring.size(steps));
 
     // Put back growth^J, the scale of the triangle, the linear part and the limit.
-    const N& growth = spider.kind().growth();
-    const auto [to_first, to_second, first_size, second_size] = spider.linear_part(sector, steps);
-    result.position = spider.limit() +
-                      (to_first * number_from<N>(site.u) + to_second * number_from<N>(site.v)) +
+    const N& growth = two_ring.modes().growth();
+    const auto [to_first, to_second, first_size, second_size] = two_ring.linear_part(face, steps);
+    result.position = two_ring.limit() +
+                      (to_first * number_from<N>(location.u) + to_second * number_from<N>(location.v)) +
                       local.position * power(growth, steps);
     if (order == Order::kPosition) return;
-    place(result, local, at, N(4) * power(N(2) * growth, steps), N(16) * power(N(4) * growth, steps), order);
-    const Placement& g = site.placement;
+    set_derivatives(result, local, which == 2 ? g.turned() : g, N(4) * power(N(2) * growth, steps),
+                    N(16) * power(N(4) * growth, steps), order);
     result.t1 = result.d1 += (to_first * N(g.a1) + to_second * N(g.b1)) * N(2);
     result.t2 = result.d2 += (to_first * N(g.a2) + to_second * N(g.b2)) * N(2);
     result.t1_terms += (first_size * N(std::abs(g.a1)) + second_size * N(std::abs(g.b1))) * N(2);
     result.t2_terms += (first_size * N(std::abs(g.a2)) + second_size * N(std::abs(g.b2))) * N(2);
   }
 
+  /// The control points of one of the three sub-triangles that one more step of face (c, r_i, r_{i+1}) gives
+  /// away from c. On the lattice with c = (0, 0), r_i = (1, 0), r_{i+1} = (0, 1) they are
+  ///   0  (r_i, p_i, q_i)    1  (r_{i+1}, q_i, p_{i+1})    2  (q_i, r_{i+1}, r_i), the middle one
+  static std::array<Vec3<N>, 12> outer_patch(const TwoRingModes<N>& modes, int face,
+                                             const typename TwoRing<N>::FacePoints& s, int which) {
+    const auto edge = [](const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
+      return interior_edge_point(a, b, c, d);
+    };
+    const auto vertex = [](const Vec3<N>& centre, const std::array<Vec3<N>, 6>& ring) {
+      return interior_vertex_point<N>(centre, ring);
+    };
+    const auto &c = s.c, *r = s.r, *q = s.q, *p = s.p;
+    const Vec3<N> next_c = c * modes.mean_eigenvalue();  // without the linear part, which vanishes at c
+    const Vec3<N> r_i = edge(c, r[2], r[1], r[3]), r_next = edge(c, r[3], r[2], r[4]);
+    const Vec3<N> q_i = edge(r[2], r[3], c, q[1]);
+    const Vec3<N> p_i = vertex(r[2], {c, r[3], q[1], p[0], q[0], r[1]}),
+                  p_next = vertex(r[3], {c, r[4], q[2], p[1], q[1], r[2]});
+    const Vec3<N> x_i = edge(r[2], q[1], r[3], p[0]), x_next = edge(r[3], q[1], r[2], p[1]);
+    const auto before = [&] {  // r_{i-1}
+      if (s.first_edge_on_boundary) return ghost_point(next_c, r_i, r_next);
+      return face == 1 && modes.on_boundary() ? boundary_edge_point(c, r[1]) : edge(c, r[1], r[0], r[2]);
+    };
+    const auto after = [&] {  // r_{i+2}
+      if (s.last_edge_on_boundary) return ghost_point(next_c, r_next, r_i);
+      return face + 2 == modes.count() && modes.on_boundary() ? boundary_edge_point(c, r[4])
+                                                              : edge(c, r[4], r[3], r[5]);
+    };
+    const auto q_before = [&] { return edge(r[1], r[2], c, q[0]); };
+    const auto q_after = [&] { return edge(r[3], r[4], c, q[2]); };
+    if (which == 0)
+      return {before(),   next_c,
+              q_before(), r_i,
+              r_next,     edge(r[2], q[0], p[0], r[1]),
+              p_i,        q_i,
+              p_next,     edge(r[2], p[0], q[0], q[1]),
+              x_i,        x_next};
+    if (which == 1)
+      return {next_c, after(),   r_i,
+              r_next, q_after(), p_i,
+              q_i,    p_next,    edge(r[3], q[2], p[1], r[4]),
+              x_i,    x_next,    edge(r[3], p[1], q[1], q[2])};
+    return {x_next, x_i, p_next, q_i, p_i, q_after(), r_next, r_i, q_before(), after(), next_c, before()};
+  }
+
   /// Replaces one of d1, d2 so that their product keeps its direction and no longer cancels, near a boundary
   /// vertex: (f1 A + r1) x (f2 A + r2) = d1 x (r2 - (f2 / f1) r1).
   template <class P>
-  void separate_tangents(std::size_t f, const Site<P>& site, const Spider<N>& spider, Tangents<N>& t) const {
+  void separate_tangents(std::size_t f, const SubFaceLocation<P>& location, const TwoRing<N>& two_ring,
+                         Tangents<N>& t) const {
     SurfacePoint<N> rest, factor;
-    evaluate_near_corner(f, site, spider.without_dominant(), Order::kFirst, rest);
-    evaluate_near_corner(f, site, spider.only_dominant(), Order::kFirst, factor);
+    evaluate_near_corner(f, location, two_ring.without_dominant(), Order::kFirst, rest);
+    evaluate_near_corner(f, location, two_ring.only_dominant(), Order::kFirst, factor);
     const N f1 = factor.d1.x, f2 = factor.d2.x;
     if (f1 * f1 > f2 * f2) {
       t.second = rest.d2 - rest.d1 * (f2 / f1);
@@ -202,25 +198,19 @@ class StamData {
     }
   }
 
-  /// The centre one step later, without limit and linear part (which vanishes at c), in the scale of `s`.
-  static Vec3<N> centre_after(const Spider<N>& spider, const typename Spider<N>::Sector& s) {
-    return s.c * spider.kind().mean_eigenvalue();
-  }
-
   /// Twice the control face's area times its normal: what D12 falls back to inside a face.
   Vec3<N> fallback_normal(std::size_t f) const {
-    const Triangle& t = topology_.triangles()[f];
-    const auto at = [&](std::size_t k) { return control_[static_cast<std::size_t>(t[k])]; };
-    return cross(at(1) - at(0), at(2) - at(0));
+    const auto [a, b, c] = triangle_of(topology_, f);
+    return cross(control_[b] - control_[a], control_[c] - control_[a]);
   }
 
   Weights weights_;
   Topology topology_;
   std::vector<Vec3<N>> control_;
   RefinedPatches<N> refined_;
-  std::vector<std::int32_t> spider_of_;
-  std::map<std::pair<int, bool>, SpiderKind<N>> kinds_;
-  std::vector<Spider<N>> spiders_;
+  std::vector<std::int32_t> two_ring_of_;
+  std::map<std::pair<int, bool>, TwoRingModes<N>> modes_;
+  std::vector<TwoRing<N>> two_rings_;
 };
 
 }  // namespace detail

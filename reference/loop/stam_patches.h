@@ -9,12 +9,12 @@
 
 #include "reference/loop/patch.h"
 #include "reference/loop/refine.h"
-#include "reference/mesh/topology.h"
+#include "reference/loop/triangles.h"
 
 namespace limitcheck::reference::detail {
 
-inline bool is_regular(const Topology& topology, std::int32_t v) {
-  return topology.ring(v).size() == (topology.on_boundary(v) ? 4U : 6U);
+inline bool is_regular(const Sector& sector) {
+  return sector.neighbours.size() == (sector.closed ? 6U : 4U);
 }
 
 template <class N>
@@ -31,7 +31,7 @@ class RefinedPatches {
   }
 
   /// Of the refined mesh: vertex points in the order of the vertices, edge points, ghosts.
-  const Vec3<N>& point(std::int32_t id) const { return points_[static_cast<std::size_t>(id)]; }
+  const Vec3<N>& point(std::int32_t id) const { return points_[id]; }
   std::int32_t edge_point(std::int32_t edge) const {
     return static_cast<std::int32_t>(topology_.vertex_count()) + edge;
   }
@@ -47,13 +47,13 @@ class RefinedPatches {
   void refine(const std::vector<Vec3<N>>& control, Weights weights) {
     points_ = refine_once(topology_, control, weights);
     ghost_of_.assign(topology_.edges().size(), -1);
-    for (std::size_t f = 0; f < topology_.triangles().size(); ++f)
+    for (std::size_t f = 0; f < topology_.faces().size(); ++f)
       for (int k = 0; k < 3; ++k) {
         const std::int32_t e = topology_.edge(f, k);
-        if (!topology_.edges()[static_cast<std::size_t>(e)].on_boundary()) continue;
-        ghost_of_[static_cast<std::size_t>(e)] = static_cast<std::int32_t>(points_.size());
-        const Triangle& t = topology_.triangles()[f];
-        const auto a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
+        if (!topology_.edges()[e].on_boundary()) continue;
+        ghost_of_[e] = static_cast<std::int32_t>(points_.size());
+        const Triangle t = triangle_of(topology_, f);
+        const auto a = t[k], b = t[(k + 1) % 3];
         points_.push_back(
             ghost_point(point(a), point(edge_point(e)), point(edge_point(topology_.edge(f, (k + 2) % 3)))));
         points_.push_back(
@@ -64,50 +64,47 @@ class RefinedPatches {
   /// Six neighbours of a vertex point after one step, from corner k's first neighbour in face f; regular
   /// vertices only.
   std::array<std::int32_t, 6> vertex_ring(std::size_t f, int k) const {
-    const std::int32_t v = topology_.triangles()[f][static_cast<std::size_t>(k)];
-    const auto spokes = topology_.spokes(v);
+    const std::int32_t v = topology_.faces()[f][k];
+    const Sector sector = topology_.sector(v);
     std::array<std::int32_t, 6> ring;
-    for (std::size_t i = 0; i < spokes.size(); ++i) ring[i] = edge_point(spokes[i]);
-    if (topology_.on_boundary(v)) {
-      ring[4] = ghost(v, spokes[3]);
-      ring[5] = ghost(v, spokes[0]);
+    for (std::size_t i = 0; i < sector.edges.size(); ++i) ring[i] = edge_point(sector.edges[i]);
+    if (!sector.closed) {
+      ring[4] = ghost(v, sector.edges[3]);
+      ring[5] = ghost(v, sector.edges[0]);
     }
-    std::rotate(ring.begin(), ring.begin() + topology_.sector(f, k), ring.end());
+    std::rotate(ring.begin(), ring.begin() + topology_.ring_index(f, k), ring.end());
     return ring;
   }
   std::int32_t ghost(std::int32_t v, std::int32_t e) const {
-    return ghost_of_[static_cast<std::size_t>(e)] +
-           (topology_.edges()[static_cast<std::size_t>(e)].a == v ? 0 : 1);
+    return ghost_of_[e] + (topology_.edges()[e].a == v ? 0 : 1);
   }
   /// Six neighbours of the edge point of side k, from corner k + 1 on, as in ringed_face.h.
   std::array<std::int32_t, 6> edge_ring(std::size_t f, int k) const {
-    const Triangle& t = topology_.triangles()[f];
-    const auto a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
+    const Triangle t = triangle_of(topology_, f);
+    const auto a = t[k], b = t[(k + 1) % 3];
     const std::int32_t e = topology_.edge(f, k);
     std::array<std::int32_t, 6> ring{
         b, edge_point(topology_.edge(f, (k + 1) % 3)), edge_point(topology_.edge(f, (k + 2) % 3)), a, 0, 0};
-    if (topology_.edges()[static_cast<std::size_t>(e)].on_boundary()) {
+    if (topology_.edges()[e].on_boundary()) {
       ring[4] = ghost(a, e);
       ring[5] = ghost(b, e);
     } else {
       const auto beside = [&](std::int32_t v, int at) {
-        const auto spokes = topology_.spokes(v);
-        const auto n = static_cast<int>(spokes.size());
-        return edge_point(spokes[static_cast<std::size_t>((at + n) % n)]);
+        const auto edges = topology_.sector(v).edges;
+        const auto n = static_cast<int>(edges.size());
+        return edge_point(edges[(at + n) % n]);
       };
-      ring[4] = beside(a, topology_.sector(f, k) - 1);
-      ring[5] = beside(b, topology_.sector(f, (k + 1) % 3) + 2);
+      ring[4] = beside(a, topology_.ring_index(f, k) - 1);
+      ring[5] = beside(b, topology_.ring_index(f, (k + 1) % 3) + 2);
     }
     return ring;
   }
 
   void make_patches() {
-    patches_.resize(4 * topology_.triangles().size());
+    patches_.resize(4 * topology_.faces().size());
     const auto assemble = [](const std::array<std::int32_t, 6>& a, const std::array<std::int32_t, 6>& b,
                              int b_from, const std::array<std::int32_t, 6>& c, int c_from) {
-      const auto at = [](const std::array<std::int32_t, 6>& ring, int i) {
-        return ring[static_cast<std::size_t>(i % 6)];
-      };
+      const auto at = [](const std::array<std::int32_t, 6>& ring, int i) { return ring[i % 6]; };
       // Rings of points 4, 7, 8: (7 8 5 2 1 3), (8 4 3 6 10 11), (4 7 11 12 9 5).
       return Patch{a[4],
                    a[3],
@@ -122,14 +119,13 @@ class RefinedPatches {
                    at(b, b_from + 5),
                    at(c, c_from + 3)};
     };
-    for (std::size_t f = 0; f < topology_.triangles().size(); ++f) {
+    for (std::size_t f = 0; f < topology_.faces().size(); ++f) {
       const std::array<std::array<std::int32_t, 6>, 3> edges{edge_ring(f, 0), edge_ring(f, 1),
                                                              edge_ring(f, 2)};
       for (int k = 0; k < 3; ++k)
-        if (is_regular(topology_, topology_.triangles()[f][static_cast<std::size_t>(k)]))
+        if (is_regular(topology_.sector(topology_.faces()[f][k])))
           patches_[4 * f + static_cast<std::size_t>(k)] =
-              assemble(vertex_ring(f, k), edges[static_cast<std::size_t>(k)], 2,
-                       edges[static_cast<std::size_t>((k + 2) % 3)], 0);
+              assemble(vertex_ring(f, k), edges[k], 2, edges[(k + 2) % 3], 0);
       std::array<std::int32_t, 6> first = edges[0];
       std::rotate(first.begin(), first.begin() + 1, first.end());
       patches_[4 * f + 3] = assemble(first, edges[1], 1, edges[2], 1);

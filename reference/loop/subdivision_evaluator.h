@@ -26,7 +26,7 @@ class SubdivisionEvaluator {
   SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                        Weights weights = Weights::kLoop);
 
-  int face_count() const { return static_cast<int>(topology_.triangles().size()); }
+  int face_count() const { return static_cast<int>(topology_.faces().size()); }
   /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
   SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
                            Order order = Order::kSecond) const;

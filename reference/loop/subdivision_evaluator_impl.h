@@ -2,9 +2,9 @@
 // Definitions behind subdivision_evaluator.h, for the .cpp files that instantiate them.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include "data/error.h"
 #include "reference/loop/patch.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/ringed_face.h"
@@ -27,7 +27,7 @@ std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
       full[4] = ghost_point(c.point, c.ring[3], c.ring[2]);
       full[5] = ghost_point(c.point, c.ring[0], c.ring[1]);
     }
-    for (std::size_t i = 0; i < 6; ++i) rings[k][i] = full[(i + static_cast<std::size_t>(c.sector)) % 6];
+    for (std::size_t i = 0; i < 6; ++i) rings[k][i] = full[(i + c.ring_index) % 6];
   }
   const auto& [a, b, c] = rings;
   return {a[4], a[3], a[5], face.corner[0].point, a[2], b[3], a[0], a[1], c[4], b[4], b[5], c[3]};
@@ -47,12 +47,12 @@ SubdivisionEvaluator<N>::SubdivisionEvaluator(std::vector<Vec3<N>> positions,
 template <class N>
 SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2,
                                                   Order order) const {
-  if (face < 0 || face >= face_count()) throw std::out_of_range("no face " + std::to_string(face));
+  if (face < 0 || face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
   Rational first = exact_value(l1), second = exact_value(l2);
   if (l1.is_double() && l2.is_double() && l1.as_double() + l2.as_double() == 1.0 && first + second > 1)
     (first > second ? second : first) = 1 - (first > second ? first : second);
   if (first < 0 || second < 0 || first + second > 1)
-    throw std::invalid_argument("l1, l2 must be >= 0 and l1 + l2 <= 1");
+    throw data::ArgumentError("l1, l2 must be >= 0 and l1 + l2 <= 1");
 
   std::array<Rational, 3> w{1 - first - second, first, second};  // barycentric in the current sub-face
   std::array<std::array<int, 2>, 3> gradient{{{-1, -1}, {1, 0}, {0, 1}}};  // of w, in units of 2^level
@@ -63,8 +63,8 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
       if (w[k] == 1 && !f.corner[k].is_regular()) {
         const auto next = gradient[(k + 1) % 3], before = gradient[(k + 2) % 3];
         return extraordinary_corner<N>(f.corner[k].point, f.corner[k].span(), f.corner[k].on_boundary,
-                                       f.corner[k].sector, {next[0], next[1], before[0], before[1], level},
-                                       weights_, order);
+                                       f.corner[k].ring_index,
+                                       {next[0], next[1], before[0], before[1], level}, weights_, order);
       }
     const SubdividedFace<N> subdivided(f);
     const Rational half(1, 2);
@@ -94,12 +94,11 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   const LocalPoint<N> s = evaluate_patch<N>(detail::regular_patch(f), basis, order);
   SurfacePoint<N> result;
   result.position = s.position;
-  const Placement at{gradient[1][0], gradient[1][1], gradient[2][0], gradient[2][1], level};
-  place(result, s, at, NumberTraits<N>::scale(N(1), level), NumberTraits<N>::scale(N(1), 2 * level), order);
+  const ParameterGradients at{gradient[1][0], gradient[1][1], gradient[2][0], gradient[2][1], level};
+  set_derivatives(result, s, at, NumberTraits<N>::scale(N(1), level), NumberTraits<N>::scale(N(1), 2 * level),
+                  order);
   if (order == Order::kPosition) return result;
-  const auto corner = [&](std::size_t k) {
-    return positions_[static_cast<std::size_t>(topology_.triangles()[static_cast<std::size_t>(face)][k])];
-  };
+  const auto corner = [&](std::size_t k) { return positions_[topology_.faces()[face][k]]; };
   set_normal(result, tangents_of(result), cross(corner(1) - corner(0), corner(2) - corner(0)));
   return result;
 }

@@ -2,143 +2,148 @@
 #include "reference/mesh/topology.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <tuple>
+
+#include "data/error.h"
 
 namespace limitcheck::reference {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw std::invalid_argument("control mesh: " + why);
+  throw data::ArgumentError("control mesh: " + why);
 }
 
-/// Directed edge from -> to, the side k of a face.
-struct HalfEdge {
-  std::int32_t low, high, face, k;
+void check_faces(std::size_t vertex_count, const data::Faces& faces) {
+  std::vector<std::int32_t> last_face(vertex_count, -1);  // of those that name the vertex
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto refuse_face = [f](const std::string& why) { refuse("face " + std::to_string(f) + why); };
+    if (faces[f].size() < 3) refuse_face(" has " + std::to_string(faces[f].size()) + " corners");
+    for (const std::int32_t v : faces[f])
+      if (v < 0 || static_cast<std::size_t>(v) >= vertex_count)
+        refuse_face(" names vertex " + std::to_string(v));
+    for (const std::int32_t v : faces[f]) {
+      const auto face = static_cast<std::int32_t>(f);
+      if (last_face[v] == face) refuse_face(" repeats a vertex");
+      last_face[v] = face;
+    }
+  }
+}
+
+/// The numbers 0 .. count - 1 in groups of one key (below `keys`) each, rising within a group.
+struct Groups {
+  template <class Key>
+  Groups(std::size_t keys, std::size_t count, Key key) : start(keys + 1, 0), members(count) {
+    for (std::size_t i = 0; i < count; ++i) ++start[key(i) + 1];
+    for (std::size_t k = 0; k < keys; ++k) start[k + 1] += start[k];
+    auto fill = start;
+    for (std::size_t i = 0; i < count; ++i) members[fill[key(i)]++] = static_cast<std::int32_t>(i);
+  }
+  std::span<std::int32_t> operator[](std::size_t key) {
+    return std::span(members).subspan(start[key], start[key + 1] - start[key]);
+  }
+
+  std::vector<std::size_t> start;
+  std::vector<std::int32_t> members;
 };
 
 }  // namespace
 
-Topology::Topology(std::size_t vertex_count, std::span<const Triangle> triangles)
-    : triangles_(triangles.begin(), triangles.end()) {
-  const std::size_t faces = triangles_.size();
-  for (std::size_t f = 0; f < faces; ++f) {
-    const Triangle& t = triangles_[f];
-    for (const std::int32_t v : t)
-      if (v < 0 || static_cast<std::size_t>(v) >= vertex_count)
-        refuse("face " + std::to_string(f) + " names vertex " + std::to_string(v));
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-      refuse("face " + std::to_string(f) + " repeats a vertex");
+/// The sides of all faces. Side s leaves corner s towards the next corner of the face.
+struct Topology::Sides {
+  explicit Sides(const data::Faces& all) : faces(all) {
+    face.reserve(all.corners().size());
+    for (std::size_t f = 0; f < all.size(); ++f)
+      face.insert(face.end(), all[f].size(), static_cast<std::int32_t>(f));
   }
 
-  // Bucket the sides by their smaller vertex, then sort the small buckets: sides of one edge become
-  // neighbours. O(n)
-  std::vector<std::size_t> start(vertex_count + 1, 0);
-  for (const Triangle& t : triangles_)
-    for (std::size_t k = 0; k < 3; ++k) ++start[static_cast<std::size_t>(std::min(t[k], t[(k + 1) % 3])) + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
-  std::vector<HalfEdge> sides(3 * faces);
-  auto fill = start;
-  for (std::size_t f = 0; f < faces; ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(triangles_[f][k], triangles_[f][(k + 1) % 3]);
-      sides[fill[static_cast<std::size_t>(low)]++] = {low, high, static_cast<std::int32_t>(f),
-                                                      static_cast<std::int32_t>(k)};
-    }
-  for (std::size_t v = 0; v < vertex_count; ++v)
-    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(start[v]),
-              sides.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
-              [](const HalfEdge& a, const HalfEdge& b) {
-                return std::tie(a.high, a.face) < std::tie(b.high, b.face);
-              });
-
-  // Pair the sides into edges.
-  face_edges_.resize(faces);
-  sectors_.resize(faces);
-  const auto corner = [&](const HalfEdge& s, std::int32_t offset) {
-    return triangles_[static_cast<std::size_t>(s.face)][static_cast<std::size_t>((s.k + offset) % 3)];
-  };
-  for (std::size_t i = 0; i < sides.size();) {
-    const HalfEdge& s = sides[i];
-    Edge e{corner(s, 0), corner(s, 1), corner(s, 2), -1};
-    const auto id = static_cast<std::int32_t>(edges_.size());
-    face_edges_[static_cast<std::size_t>(s.face)][static_cast<std::size_t>(s.k)] = id;
-    std::size_t next = i + 1;
-    if (next < sides.size() && sides[next].low == s.low && sides[next].high == s.high) {
-      const HalfEdge& t = sides[next];
-      if (corner(t, 0) != e.b)
-        refuse("faces " + std::to_string(s.face) + " and " + std::to_string(t.face) +
-               " clash in orientation");
-      e.right = corner(t, 2);
-      face_edges_[static_cast<std::size_t>(t.face)][static_cast<std::size_t>(t.k)] = id;
-      ++next;
-    }
-    if (next < sides.size() && sides[next].low == s.low && sides[next].high == s.high)
-      refuse("edge " + std::to_string(s.low) + "-" + std::to_string(s.high) + " has more than two faces");
-    edges_.push_back(e);
-    i = next;
+  std::size_t count() const { return face.size(); }
+  std::size_t next(std::size_t s) const {
+    return s + 1 == faces.first_corner(face[s] + 1) ? faces.first_corner(face[s]) : s + 1;
   }
-
-  // The faces round each vertex, unordered, as 3 * face + corner.
-  std::vector<std::size_t> corner_start(vertex_count + 1, 0);
-  for (const Triangle& t : triangles_)
-    for (const std::int32_t v : t) ++corner_start[static_cast<std::size_t>(v) + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) corner_start[v + 1] += corner_start[v];
-  std::vector<std::int32_t> corners(3 * faces);
-  fill = corner_start;
-  for (std::size_t f = 0; f < faces; ++f)
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[fill[static_cast<std::size_t>(triangles_[f][k])]++] = static_cast<std::int32_t>(3 * f + k);
-
-  // Faces over an edge, to walk round the vertices: `across[3 f + k]` is 3 g + m, the side of the other face.
-  std::vector<std::int32_t> across(3 * faces, -1), first_side(edges_.size(), -1);
-  for (std::size_t h = 0; h < 3 * faces; ++h) {
-    auto& first = first_side[static_cast<std::size_t>(face_edges_[h / 3][h % 3])];
-    if (first < 0) {
-      first = static_cast<std::int32_t>(h);
-    } else {
-      across[h] = first;
-      across[static_cast<std::size_t>(first)] = static_cast<std::int32_t>(h);
-    }
+  std::size_t previous(std::size_t s) const {
+    return (s == faces.first_corner(face[s]) ? faces.first_corner(face[s] + 1) : s) - 1;
   }
-  const auto before = [](std::int32_t h) { return h % 3 == 0 ? h + 2 : h - 1; };
+  std::int32_t from(std::size_t s) const { return faces.corners()[s]; }
+  std::int32_t to(std::size_t s) const { return from(next(s)); }
+  std::int32_t low(std::size_t s) const { return std::min(from(s), to(s)); }
+  std::int32_t high(std::size_t s) const { return std::max(from(s), to(s)); }
 
-  ring_start_.assign(1, 0);
-  boundary_.assign(vertex_count, 0);
+  const data::Faces& faces;
+  std::vector<std::int32_t> face;
+  std::vector<std::int32_t> across;  ///< the side of the other face at the same edge, or -1
+};
+
+Topology::Topology(std::size_t vertex_count, data::Faces faces) : faces_(std::move(faces)) {
+  check_faces(vertex_count, faces_);
+  Sides sides(faces_);
+  join(sides, vertex_count);
+  order_sectors(sides, vertex_count);
+}
+
+/// Makes an edge of the one or two sides that join the same vertices.
+void Topology::join(Sides& sides, std::size_t vertex_count) {
+  edge_.resize(sides.count());
+  sides.across.assign(sides.count(), -1);
+  Groups at_low(vertex_count, sides.count(), [&](std::size_t s) { return sides.low(s); });
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    const std::size_t count = corner_start[v + 1] - corner_start[v];
-    if (count > 0) {
-      // Begin at the side that leaves v along the boundary, if there is one.
-      std::int32_t begin = corners[corner_start[v]];
-      for (std::size_t i = corner_start[v]; i < corner_start[v + 1]; ++i)
-        if (across[static_cast<std::size_t>(corners[i])] < 0) {
-          begin = corners[i];
-          boundary_[v] = 1;
-          break;
-        }
-      // Counter-clockwise: over the side that comes back to v.
-      std::size_t walked = 0;
-      for (std::int32_t h = begin; walked < count;) {
-        const auto f = static_cast<std::size_t>(h / 3), k = static_cast<std::size_t>(h % 3);
-        sectors_[f][k] = static_cast<std::int32_t>(walked++);
-        ring_.push_back(triangles_[f][(k + 1) % 3]);
-        spokes_.push_back(face_edges_[f][k]);
-        faces_.push_back(static_cast<std::int32_t>(f));
-        const std::int32_t back = before(h);
-        h = across[static_cast<std::size_t>(back)];
-        if (h < 0) {
-          ring_.push_back(triangles_[f][(k + 2) % 3]);
-          spokes_.push_back(face_edges_[f][(k + 2) % 3]);
-          faces_.push_back(-1);
-          break;
-        }
-        if (h == begin) break;
+    const auto group = at_low[v];
+    std::sort(group.begin(), group.end(), [&](std::int32_t s, std::int32_t t) {
+      return std::tuple(sides.high(s), s) < std::tuple(sides.high(t), t);
+    });
+    for (std::size_t i = 0; i < group.size();) {
+      const std::int32_t s = group[i], high = sides.high(s);
+      const auto same_edge = [&](std::size_t at) {
+        return at < group.size() && sides.high(group[at]) == high;
+      };
+      Edge edge{sides.from(s), sides.to(s), sides.face[s], -1};
+      edge_[s] = static_cast<std::int32_t>(edges_.size());
+      if (same_edge(++i)) {
+        const std::int32_t t = group[i];
+        if (sides.from(t) != edge.b)
+          refuse("faces " + std::to_string(sides.face[s]) + " and " + std::to_string(sides.face[t]) +
+                 " clash in orientation");
+        edge.right_face = sides.face[t];
+        edge_[t] = edge_[s];
+        sides.across[s] = t;
+        sides.across[t] = s;
+        ++i;
       }
-      if (walked != count) refuse("vertex " + std::to_string(v) + " joins two fans of faces");
-      if (!boundary_[v] && count < 3)
-        refuse("interior vertex " + std::to_string(v) + " has valence " + std::to_string(count));
+      if (same_edge(i))
+        refuse("edge " + std::to_string(v) + "-" + std::to_string(high) + " has more than two faces");
+      edges_.push_back(edge);
     }
+  }
+}
+
+/// Walks round every vertex, counter-clockwise: over the side that comes back to it into the next face.
+void Topology::order_sectors(const Sides& sides, std::size_t vertex_count) {
+  ring_index_.resize(sides.count());
+  ring_start_.assign(1, 0);
+  const auto add = [&](std::int32_t neighbour, std::int32_t edge, std::int32_t face) {
+    ring_.push_back(neighbour);
+    ring_edges_.push_back(edge);
+    ring_faces_.push_back(face);
+  };
+  Groups leaving(vertex_count, sides.count(), [&](std::size_t s) { return sides.from(s); });
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    const auto group = leaving[v];
+    // An open sector begins with the side that leaves along the boundary.
+    const auto first =
+        std::find_if(group.begin(), group.end(), [&](std::int32_t s) { return sides.across[s] < 0; });
+    const bool closed = first == group.end();
+    std::size_t walked = 0;
+    std::int32_t s = group.empty() ? -1 : closed ? group.front() : *first;
+    for (const std::int32_t begin = s; s >= 0 && (walked == 0 || s != begin);) {
+      ring_index_[s] = static_cast<std::int32_t>(walked++);
+      add(sides.to(s), edge_[s], sides.face[s]);
+      const std::size_t back = sides.previous(s);
+      s = sides.across[back];
+      if (s < 0) add(sides.from(back), edge_[back], -1);
+    }
+    if (walked != group.size()) refuse("vertex " + std::to_string(v) + " joins two fans of faces");
+    if (closed && walked > 0 && walked < 3)
+      refuse("interior vertex " + std::to_string(v) + " has valence " + std::to_string(walked));
     ring_start_.push_back(ring_.size());
   }
 }

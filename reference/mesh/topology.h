@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who is next to whom in a control mesh: ordered vertex rings and edges.
+// Who is next to whom in a control mesh: the edges, and the faces around each vertex in order.
 #pragma once
 
 #include <array>
@@ -7,56 +7,82 @@
 #include <span>
 #include <vector>
 
+#include "data/faces.h"
+
 namespace limitcheck::reference {
 
 /// Vertex indices, counter-clockwise.
 using Triangle = std::array<std::int32_t, 3>;
 
-/// An edge from a to b; `left` is opposite in the face that
-/// runs a -> b, `right` in the other face, -1 on the boundary.
+/// An edge from a to b. `left_face` runs from a to b, `right_face` from b to a; it is -1 on the boundary.
 struct Edge {
-  std::int32_t a, b, left, right;
-  bool on_boundary() const { return right < 0; }
+  std::int32_t a, b, left_face, right_face;
+  bool on_boundary() const { return right_face < 0; }
 };
 
-/// Ordered neighbourhoods of a manifold triangle mesh, possibly with boundary.                         O(n)
-///   throws std::invalid_argument: index out of range, edge with more than two faces, clashing orientations,
-///   bow-tie vertex, interior vertex with fewer than three faces. (data/validate.h gives the friendlier
-///   story.)
+/// The faces around a vertex v that are reached one from the other across edges, counter-clockwise seen from
+/// outside. A closed sector goes all the way round and has as many neighbours as faces. An open sector begins
+/// and ends on the boundary and has one neighbour more than faces.
+///
+///      r_2     r_1              r_3   r_2   r_1
+///        \  1  /                  \  2 | 1  /
+///      2  \   /  0               3  \  |  /  0
+///    r_3 -- v -- r_0            r_4 -- v -- r_0
+///      3  /   \  5
+///        /  4  \                  open: r_0 and r_4
+///      r_4     r_5              are on the boundary
+///         closed
+struct Sector {
+  std::span<const std::int32_t> neighbours;  ///< r_0, r_1, ..: the other ends of the edges at v
+  std::span<const std::int32_t> edges;       ///< the edge to each neighbour
+  std::span<const std::int32_t> faces;       ///< face i has the edges i and i + 1, modulo their number
+  bool closed;
+};
+
+/// Edges and ordered sectors of a manifold mesh of polygons, possibly with boundary.               O(corners)
+/// A vertex has one sector: closed inside, open on the boundary, closed and empty where it has no faces.
+///   throws data::ArgumentError: index out of range, face of fewer than three corners or with a vertex twice,
+///   edge with more than two faces, clashing orientations, vertex with two sectors (a bow tie), closed sector
+///   of fewer than three faces. (data/validate.h reports the same faults with their lines.)
 class Topology {
  public:
-  Topology(std::size_t vertex_count, std::span<const Triangle> triangles);
+  Topology(std::size_t vertex_count, data::Faces faces);
+  Topology(std::size_t vertex_count, std::span<const Triangle> triangles)
+      : Topology(vertex_count, data::Faces(triangles)) {}
 
   std::size_t vertex_count() const { return ring_start_.size() - 1; }
-  std::span<const Triangle> triangles() const { return triangles_; }
+  const data::Faces& faces() const { return faces_; }
   std::span<const Edge> edges() const { return edges_; }
 
-  /// Neighbours counter-clockwise from outside: v_1..v_n of an interior vertex; r_0..r_K of a boundary
-  /// vertex, the first and the last being its boundary neighbours.
-  std::span<const std::int32_t> ring(std::int32_t v) const { return slice(ring_, v); }
-  /// The edge to each of them.
-  std::span<const std::int32_t> spokes(std::int32_t v) const { return slice(spokes_, v); }
-  /// The face between neighbour i and the next; the last entry of a boundary vertex is -1.
-  std::span<const std::int32_t> faces(std::int32_t v) const { return slice(faces_, v); }
-  bool on_boundary(std::int32_t v) const { return boundary_[static_cast<std::size_t>(v)] != 0; }
+  Sector sector(std::int32_t v) const {
+    const std::size_t begin = ring_start_[v], count = ring_start_[v + 1] - begin;
+    const bool closed = count == 0 || ring_faces_[begin + count - 1] >= 0;
+    return {{ring_.data() + begin, count},
+            {ring_edges_.data() + begin, count},
+            {ring_faces_.data() + begin, closed ? count : count - 1},
+            closed};
+  }
+  /// The neighbours of a vertex: those of its sector.
+  std::span<const std::int32_t> ring(std::int32_t v) const { return sector(v).neighbours; }
+  bool on_boundary(std::int32_t v) const { return !sector(v).closed; }
 
-  /// The edge from corner k to corner k + 1 of a face.
-  std::int32_t edge(std::size_t face, int k) const { return face_edges_[face][static_cast<std::size_t>(k)]; }
-  /// Position of corner k + 1 in the ring of corner k: the face is sector `sector` of that vertex.
-  std::int32_t sector(std::size_t face, int k) const { return sectors_[face][static_cast<std::size_t>(k)]; }
-
- private:
-  std::span<const std::int32_t> slice(const std::vector<std::int32_t>& all, std::int32_t v) const {
-    const auto begin = ring_start_[static_cast<std::size_t>(v)];
-    return {all.data() + begin, ring_start_[static_cast<std::size_t>(v) + 1] - begin};
+  /// The edge from corner k of a face to the next corner.
+  std::int32_t edge(std::size_t face, std::size_t k) const { return edge_[faces_.first_corner(face) + k]; }
+  /// Where a face comes in the sector of its corner k: the i for which `sector(v).faces[i]` is the face.
+  std::int32_t ring_index(std::size_t face, std::size_t k) const {
+    return ring_index_[faces_.first_corner(face) + k];
   }
 
-  std::vector<Triangle> triangles_;
+ private:
+  struct Sides;
+  void join(Sides& sides, std::size_t vertex_count);
+  void order_sectors(const Sides& sides, std::size_t vertex_count);
+
+  data::Faces faces_;
   std::vector<Edge> edges_;
-  std::vector<std::array<std::int32_t, 3>> face_edges_, sectors_;
-  std::vector<std::size_t> ring_start_;
-  std::vector<std::int32_t> ring_, spokes_, faces_;
-  std::vector<char> boundary_;
+  std::vector<std::int32_t> edge_, ring_index_;  ///< of each corner
+  std::vector<std::size_t> ring_start_;          ///< of each vertex, and where the last one's ends
+  std::vector<std::int32_t> ring_, ring_edges_, ring_faces_;  ///< an open sector has a face -1 at its end
 };
 
 }  // namespace limitcheck::reference

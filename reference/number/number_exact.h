@@ -4,8 +4,8 @@
 
 #include <boost/multiprecision/gmp.hpp>
 #include <boost/multiprecision/mpfr.hpp>
-#include <stdexcept>
 
+#include "data/error.h"
 #include "reference/number/number.h"
 
 namespace limitcheck::reference {
@@ -27,7 +27,7 @@ using Decimal100 = Decimal<100>;
 /// Exact, as long as no cosine is asked for that is not rational.
 template <>
 struct NumberTraits<Rational> {
-  /// Only 0, +-1/2, +-1 are rational: throws std::domain_error otherwise.
+  /// Only 0, +-1/2, +-1 are rational: throws data::ArgumentError otherwise.
   static Rational cos_pi(long p, long q) {
     p %= 2 * q;
     if (p < 0) p += 2 * q;
@@ -37,9 +37,13 @@ struct NumberTraits<Rational> {
     if (2 * p == q) return Rational(0);
     if (3 * p == q) return Rational(1, 2);
     if (3 * p == 2 * q) return Rational(-1, 2);
-    throw std::domain_error("cosine is not rational");
+    throw data::ArgumentError("cosine is not rational");
   }
   static constexpr int kRounding = 0;
+  static Rational scale(const Rational& a, long e) {
+    return e < 0 ? Rational(numerator(a), denominator(a) << static_cast<unsigned long>(-e))
+                 : Rational(numerator(a) << static_cast<unsigned long>(e), denominator(a));
+  }
   static Rational from_double(double a) { return Rational(a); }
   static double approximate(const Rational& a) { return a.convert_to<double>(); }
 };

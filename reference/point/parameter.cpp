@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "reference/point/parameter.h"
+#include "data/error.h"
 
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 
 #include "reference/point/parameter_exact.h"
 
@@ -15,7 +15,7 @@ constexpr std::size_t kMaxCharacters = 10000;
 constexpr int kMaxExponent = 10000;
 
 [[noreturn]] void refuse(std::string_view text, const char* why) {
-  throw std::invalid_argument("'" + std::string(text.substr(0, 60)) + "' " + why);
+  throw data::ArgumentError("'" + std::string(text.substr(0, 60)) + "' " + why);
 }
 
 bool all_digits(std::string_view s) {
@@ -59,7 +59,7 @@ Rational parse_decimal(std::string_view whole, std::string_view text) {
 }  // namespace
 
 Parameter Parameter::fraction(std::int64_t numerator, std::int64_t denominator) {
-  if (denominator == 0) throw std::invalid_argument("denominator is zero");
+  if (denominator == 0) throw data::ArgumentError("denominator is zero");
   Parameter p(static_cast<double>(numerator) / static_cast<double>(denominator));
   Rational value = Rational(numerator) / Rational(denominator);
   p.exact_ = std::make_shared<RationalParameter>(RationalParameter{std::move(value)});

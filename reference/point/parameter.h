@@ -16,10 +16,10 @@ struct RationalParameter;  // reference/point/parameter_exact.h
 class Parameter {
  public:
   Parameter(double value) : value_(value) {}  // NOLINT: a double is a parameter
-  /// numerator / denominator; throws std::invalid_argument if the denominator is zero.
+  /// numerator / denominator; throws data::ArgumentError if the denominator is zero.
   static Parameter fraction(std::int64_t numerator, std::int64_t denominator);
   /// "1/3", "0.25", "-2", "1e-300": exactly. At most 10000 characters and exponents of +-10000.
-  /// Throws std::invalid_argument on anything else.
+  /// Throws data::ArgumentError on anything else.
   static Parameter parse(std::string_view text);
 
   /// 1 - l1 - l2, exactly

@@ -103,12 +103,12 @@ TEST(Refinement, LeavesIsolatedVerticesWhereTheyAre) {
 
 TEST(Topology, RefusesWhatIsNotManifold) {
   const auto refuse = [](std::size_t vertices, std::vector<Triangle> triangles) {
-    EXPECT_THROW(Topology(vertices, triangles), std::invalid_argument);
+    EXPECT_THROW(Topology(vertices, triangles), data::ArgumentError);
   };
   try {
     Topology(3, std::vector<Triangle>{{0, 1, 3}});
     ADD_FAILURE() << "there is no vertex 3";
-  } catch (const std::invalid_argument& error) {
+  } catch (const data::ArgumentError& error) {
     EXPECT_NE(std::string(error.what()).find("face 0 names vertex 3"), std::string::npos) << error.what();
   }
   refuse(3, {{0, 1, 1}});                                          // repeated vertex
@@ -127,9 +127,9 @@ TEST(Parameters, OutsideTheFaceAreRefused) {
                                {std::nan(""), 0.0},
                                {0.0, std::nan("")},
                                {HUGE_VAL, 0.0}})
-    EXPECT_THROW(stam.evaluate(0, l1, l2), std::invalid_argument) << l1 << " " << l2;
-  EXPECT_THROW(stam.evaluate(20, 0.0, 0.0), std::out_of_range);
-  EXPECT_THROW(stam.evaluate(-1, 0.0, 0.0), std::out_of_range);
+    EXPECT_THROW(stam.evaluate(0, l1, l2), data::ArgumentError) << l1 << " " << l2;
+  EXPECT_THROW(stam.evaluate(20, 0.0, 0.0), data::ArgumentError);
+  EXPECT_THROW(stam.evaluate(-1, 0.0, 0.0), data::ArgumentError);
 }
 
 TEST(Parameters, WhoseSumIsRoundedToOneLieOnTheEdge) {
@@ -159,7 +159,7 @@ TEST(Parameters, AreReadExactlyOrRefused) {
   EXPECT_EQ(Parameter(0.1).to_string(), "3602879701896397/36028797018963968");
   for (const char* bad : {"", "abc", "1/0", "1/", "/2", ".", "1e", "1e99999", "1e-999999999999", "0x10",
                           "1 2", "nan", "--1", "1/2/3", "1.2.3"})
-    EXPECT_THROW(Parameter::parse(bad), std::invalid_argument) << bad;
+    EXPECT_THROW(Parameter::parse(bad), data::ArgumentError) << bad;
 }
 
 TEST(DegenerateSurfaces, HaveFiniteNormals) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "reference/surface/certified.h"
+#include "data/error.h"
 
 #include <flint/flint.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <stdexcept>
 
 #include "data/cut_out.h"
 #include "reference/loop/stam.h"
@@ -19,6 +19,7 @@ namespace limitcheck::reference {
 struct CertifiedEvaluator::Data {
   using Position = std::array<Rational, 3>;
   Topology topology;
+  std::vector<Triangle> triangles;
   std::function<Position(std::int32_t)> position;  // of a vertex
   Weights weights;
 };
@@ -28,9 +29,9 @@ namespace {
 /// The faces that touch the corners of one face, itself first: all that its surface depends on.
 std::vector<std::int32_t> faces_near(const Topology& topology, std::int32_t face) {
   std::vector<std::int32_t> faces{face};
-  for (const std::int32_t v : topology.triangles()[static_cast<std::size_t>(face)])
-    for (const std::int32_t f : topology.faces(v))
-      if (f >= 0 && std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+  for (const std::int32_t v : topology.faces()[face])
+    for (const std::int32_t f : topology.sector(v).faces)
+      if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
   return faces;
 }
 
@@ -38,7 +39,7 @@ std::vector<std::int32_t> faces_near(const Topology& topology, std::int32_t face
 std::int32_t corner_at(const Topology& topology, std::int32_t face, const Parameter& l1,
                        const Parameter& l2) {
   const std::size_t k = exact_value(l1) == 1 ? 1 : exact_value(l2) == 1 ? 2 : 0;
-  return topology.triangles()[static_cast<std::size_t>(face)][k];
+  return topology.faces()[face][k];
 }
 
 double radius_of(const Ball& a) {
@@ -173,12 +174,12 @@ class Printer {
 CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights) {
   for (const auto& p : mesh.positions)
     for (const double x : p)
-      if (!std::isfinite(x)) throw std::invalid_argument("control mesh: a coordinate is not finite");
+      if (!std::isfinite(x)) throw data::ArgumentError("control mesh: a coordinate is not finite");
   const auto position = [positions = mesh.positions](std::int32_t v) {
-    const auto& p = positions[static_cast<std::size_t>(v)];
+    const auto& p = positions[v];
     return Data::Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
   };
-  data_.reset(new Data{Topology(mesh.positions.size(), mesh.triangles), position, weights});
+  data_.reset(new Data{Topology(mesh.positions.size(), mesh.triangles), mesh.triangles, position, weights});
 }
 
 CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
@@ -187,20 +188,18 @@ CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string,
   for (const auto& p : positions)
     exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
                      exact_value(Parameter::parse(p[2]))});
-  const auto position = [exact = std::move(exact)](std::int32_t v) {
-    return exact[static_cast<std::size_t>(v)];
-  };
-  data_.reset(new Data{Topology(positions.size(), triangles), position, weights});
+  const auto position = [exact = std::move(exact)](std::int32_t v) { return exact[v]; };
+  data_.reset(new Data{Topology(positions.size(), triangles), triangles, position, weights});
 }
 
 CertifiedEvaluator::~CertifiedEvaluator() = default;
 
 CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const Parameter& l2,
                                             int digits) const {
-  if (digits < 1 || digits > 10000) throw std::invalid_argument("digits must be 1..10000");
-  if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.triangles().size())
-    throw std::out_of_range("no face " + std::to_string(face));
-  const data::CutOut local = data::cut_out(data_->topology.triangles(), faces_near(data_->topology, face));
+  if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
+  if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.faces().size())
+    throw data::ArgumentError("no face " + std::to_string(face));
+  const data::CutOut local = data::cut_out(data_->triangles, faces_near(data_->topology, face));
   std::vector<Data::Position> exact;
   for (const std::int32_t v : local.vertices) exact.push_back(data_->position(v));
 

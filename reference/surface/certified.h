@@ -43,9 +43,9 @@ struct CertifiedPoint {
 /// parameters as exact rationals.
 class CertifiedEvaluator {
  public:
-  /// As StamEvaluator; throws std::invalid_argument also if a coordinate is not finite.
+  /// As StamEvaluator; throws data::ArgumentError also if a coordinate is not finite.
   explicit CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
-  /// Control points as text, "1/3" or "0.125", taken exactly. Throws std::invalid_argument as
+  /// Control points as text, "1/3" or "0.125", taken exactly. Throws data::ArgumentError as
   /// Parameter::parse does.
   CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
                      const std::vector<Triangle>& triangles, Weights weights = Weights::kLoop);
@@ -56,7 +56,7 @@ class CertifiedEvaluator {
   ///            within one unit of its last decimal. Precision rises until that is certain; a vector that
   ///            cannot be told from zero at eight times the digits, and what nearness to a corner costs, is
   ///            printed as 0 with its radius
-  ///   throws   std::invalid_argument: digits or parameters out of range; std::out_of_range: no such face
+  ///   throws   data::ArgumentError: digits or parameters out of range, no such face
   CertifiedPoint evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const;
 
  private:

@@ -177,7 +177,7 @@ TEST(Evaluators, TheMapOfAnExtraordinaryCornerPointsAlongTheEdges) {
     const data::ControlMesh mesh = data::wheel(n);
     const StamEvaluator<Big> stam(mesh);
     for (int face = 0; face < stam.face_count(); ++face) {
-      if (mesh.triangles[static_cast<std::size_t>(face)][0] != 0) continue;
+      if (mesh.triangles[face][0] != 0) continue;
       const auto corner = stam.evaluate(face, 0.0, 0.0);
       const Vec3<Big> first = stam.evaluate(face, 0x1p-60, 0.0).position - corner.position;
       const Vec3<Big> second = stam.evaluate(face, 0.0, 0x1p-60).position - corner.position;
@@ -196,7 +196,7 @@ std::vector<int> faces_of_the_hub(const data::ControlMesh& mesh) {
 }
 
 // Derivatives of order d grow like (2^d mu)^J towards the corner, mu the largest eigenvalue below 1
-// (spider.h): of those that exist what is left falls like the next eigenvalue, the others grow at this rate.
+// (two_ring_modes.h): of those that exist what is left falls like the next eigenvalue, the others grow at this rate.
 TEST(Evaluators, DerivativesAtExtraordinaryCornersAreWhatTheyTendToOrDoNotExist) {
   struct Corner {
     const char* mesh;
@@ -294,7 +294,7 @@ TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
     const StamEvaluator<double> fast(mesh);
     int face = 0;
     for (int f = 0; f < exact.face_count(); ++f)
-      if (mesh.triangles[static_cast<std::size_t>(f)][0] == 0) face = f;
+      if (mesh.triangles[f][0] == 0) face = f;
     for (const double distance : {1e-3, 1e-8, 1e-16, 1e-60, 1e-300}) {
       const double l1 = distance, l2 = 0.375 * distance;
       const auto truth = exact.evaluate(face, l1, l2);

@@ -178,7 +178,7 @@ TEST(KnownAnswers_ClosedMeshes, OneStepIsExactInRationals) {
     for (std::size_t v = 0; v < a.vertices.size(); ++v) {
       std::vector<Vec3<Rational>> ring;
       for (const auto r : topology.ring(static_cast<std::int32_t>(v)))
-        ring.push_back(vec<Rational>(a.vertices[static_cast<std::size_t>(r)]));
+        ring.push_back(vec<Rational>(a.vertices[r]));
       EXPECT_EQ(interior_limit<Rational>(vec<Rational>(a.vertices[v]), ring),
                 vec<Rational>(a.limit_positions[v]))
           << a.id;

@@ -14,6 +14,7 @@
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 #include "fast/frame/crack_centre.h"
+#include "fast/plan/printed_rules.h"
 #include "fast/window/crack_edge.h"
 #include "fast/window/sliding_window.h"
 #include "fast/window/tessellator.h"
@@ -98,9 +99,9 @@ TEST(Sec5_EdgeDepth, MustBeTheMaximumOfBothFaces) {
     const auto depth = random_depths(mesh.triangles.size(), 0, 4, random);
     for (const EdgeDepthRule rule :
          {EdgeDepthRule::kMaximum, EdgeDepthRule::kRespective, EdgeDepthRule::kTwoOrMore}) {
-      TessellatorOptions options;
-      options.cracks.rule = rule;
-      Tessellator<float> tessellator(mesh, options);
+      PrintedRules rules;
+      rules.edge_depth = rule;
+      Tessellator<float> tessellator(mesh, {}, rules);
       DrawList<float> list;
       tessellator.frame(depth, list);
       const std::int64_t mismatched = mismatched_edges(tessellator.adjacency(), tessellator.last_plan());

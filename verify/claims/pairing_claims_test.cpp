@@ -13,6 +13,7 @@
 #include "data/splitmix64.h"
 #include "fast/plan/depth.h"
 #include "fast/plan/pairing.h"
+#include "fast/plan/printed_rules.h"
 #include "verify/claims/pairing_oracle.h"
 
 namespace limitcheck::verify {
@@ -35,7 +36,7 @@ struct Scene {
   }
   fast::PairingResult pair(const std::vector<std::int32_t>& depth, PairingRule rule,
                            bool prefer = true) const {
-    return fast::pair_faces(adjacency, depth, {rule, prefer});
+    return fast::pair_faces(adjacency, depth, fast::PrintedRules{rule, prefer});
   }
 
   data::ControlMesh mesh;
@@ -118,7 +119,7 @@ TEST(Sec42_Loop, RunsWhileNotAllSetsAreEmptyAndEndsWithinAsManyRoundsAsFaces) {
   EXPECT_EQ(std::count(set.begin(), set.end(), 3), 800) << "S0, S1 and S2 are empty in the beginning";
   for (const PairingRule rule : {PairingRule::kCorrected, PairingRule::kPrinted}) {
     const auto result = scene.pair(scene.depths(Strategy::kRandom), rule);
-    EXPECT_LE(result.pairs.size(), 800u);
+    EXPECT_LE(result.grids.size(), 800u);
     EXPECT_EQ(2 * result.pair_count + result.singletons, 800) << "each face is taken exactly once";
   }
 }
@@ -166,7 +167,7 @@ TEST(Sec42_Step3, AFaceBesideBothMembersGoesFromS3ToS0) {
     const auto depth = scene.depths(Strategy::kUniform);
     const auto result = scene.pair(depth, PairingRule::kCorrected);
     std::vector<bool> free(800, true);
-    for (const fast::Pair& pair : result.pairs) {
+    for (const fast::Grid& pair : result.grids) {
       const auto before = sets_by_definition(scene.adjacency, free);
       free[pair.face0] = false;
       if (!pair.singleton()) free[pair.face1] = false;
@@ -259,7 +260,7 @@ TEST(Sec42_Depths, BothMembersGetTheLargerAndEqualOnesArePreferred) {
     for (const auto& depth : {scene.depths(Strategy::kRandom), scene.depths(Strategy::kCombined, true)}) {
       const auto result = scene.pair(depth, PairingRule::kCorrected);
       std::vector<std::int32_t> expected(depth.begin(), depth.end());
-      for (const fast::Pair& pair : result.pairs) {
+      for (const fast::Grid& pair : result.grids) {
         if (!pair.singleton())
           expected[pair.face0] = expected[pair.face1] = std::max(depth[pair.face0], depth[pair.face1]);
       }

@@ -88,8 +88,8 @@ std::string first_violation(const fast::Adjacency& adjacency, std::span<const st
   for (std::size_t f = 0; f < depth.size(); ++f) free[f] = depth[f] >= 0;
   const bool printed = rule == fast::PairingRule::kPrinted;
   std::vector<int> set = sets_by_definition(adjacency, free);
-  for (std::size_t round = 0; round < result.pairs.size(); ++round) {
-    const std::int32_t f = result.pairs[round].face0, g = result.pairs[round].face1;
+  for (std::size_t round = 0; round < result.grids.size(); ++round) {
+    const std::int32_t f = result.grids[round].face0, g = result.grids[round].face1;
     if (!printed) set = sets_by_definition(adjacency, free);
     if (set[f] < 0) return fmt::format("round {}: face {} is not free", round, f);
     int highest = 4;

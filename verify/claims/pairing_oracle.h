@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/plan/pairing.h"
+#include "fast/plan/printed_rules.h"
 
 namespace limitcheck::verify {
 

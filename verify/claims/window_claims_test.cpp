@@ -71,7 +71,7 @@ CountedRun run(const data::ControlMesh& mesh, int depth) {
   Window window(depth, adjacency.max_valence());
   const std::int64_t before = Counted::stores;
   window.run(prepared, 0, depth, [](int, const SurfaceVertex<Counted>*) {});
-  CountedRun result{window.count().counts, Counted::stores - before, {}};
+  CountedRun result{window.probe().counts, Counted::stores - before, {}};
   const std::int32_t twin = adjacency.twin(0);
   int i = 0;
   for (const std::int32_t v : {adjacency.origin(0), adjacency.origin(twin),
@@ -199,7 +199,7 @@ TEST(Sec43_Time, IsLinearInTheLimitPointsWithTheFourOutsideTheSquare) {
 
 /// The recursion with arguments I and J of the upper or lower call exchanged.
 template <bool kUpper, std::size_t I, std::size_t J>
-struct Exchanged {
+struct Exchanged : NoProbe {
   static void upper(auto&& call, auto*... arguments) { pass<kUpper>(call, arguments...); }
   static void lower(auto&& call, auto*... arguments) { pass<!kUpper>(call, arguments...); }
   template <bool kExchange>
@@ -211,12 +211,12 @@ struct Exchanged {
 };
 
 /// Largest difference of any position of a pair, at depth 3, from the printed order.
-template <class Order>
+template <class Probe>
 double departure(const data::ControlMesh& mesh) {
   const Adjacency adjacency(mesh);
   const PreparedMesh<double> prepared(adjacency, fast::positions_of<double>(mesh));
   SlidingWindow<double> right(3, adjacency.max_valence());
-  SlidingWindow<double, LimitSurface<double>, NoCount, true, Order> other(3, adjacency.max_valence());
+  SlidingWindow<double, LimitSurface<double>, Probe> other(3, adjacency.max_valence());
   std::vector<SurfaceVertex<double>> expected;
   right.run(prepared, 0, 3,
             [&](int, const auto* strip) { expected.insert(expected.end(), strip, strip + 18); });
@@ -246,7 +246,7 @@ void expect_no_pair_of_arguments_exchangeable(const data::ControlMesh& mesh) {
 TEST(Sec43_Pseudocode, NoTwoArgumentsOfEitherCallCanBeExchanged) {
   RecordProperty("claim", "C43");
   const data::ControlMesh mesh = data::bumpy_sphere(80, 5);
-  EXPECT_EQ(departure<PrintedOrder>(mesh), 0);
+  EXPECT_EQ(departure<NoProbe>(mesh), 0);
   expect_no_pair_of_arguments_exchangeable<true, 0>(mesh);
   expect_no_pair_of_arguments_exchangeable<false, 0>(mesh);
   expect_no_pair_of_arguments_exchangeable<true, 4>(mesh);

@@ -100,7 +100,7 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
         l1 = reference::Parameter::fraction(integer(kI), integer(kDenominator));
         l2 = reference::Parameter::fraction(integer(kJ), integer(kDenominator));
       }
-    } catch (const std::invalid_argument& error) {
+    } catch (const data::ArgumentError& error) {
       fail("FILE_SYNTAX", error.what());
     }
     // Decimals of l1 and l2 may sum to a little more than 1.

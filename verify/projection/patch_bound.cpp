@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "reference/loop/triangles.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -79,8 +81,7 @@ struct Surroundings {
 Surroundings surroundings(const Topology& topology, std::span<const Point> positions, std::int32_t vertex) {
   std::vector<std::int32_t> faces;
   const auto add = [&](std::int32_t v) {
-    for (const std::int32_t f : topology.faces(v))
-      if (f >= 0) faces.push_back(f);
+    for (const std::int32_t f : topology.sector(v).faces) faces.push_back(f);
   };
   add(vertex);
   for (const std::int32_t v : topology.ring(vertex)) add(v);
@@ -91,7 +92,7 @@ Surroundings surroundings(const Topology& topology, std::span<const Point> posit
   std::map<std::int32_t, std::int32_t> number{{vertex, 0}};
   s.positions.push_back(positions[vertex]);
   for (const std::int32_t f : faces) {
-    Triangle t = topology.triangles()[f];
+    Triangle t = triangle_of(topology, f);
     for (std::int32_t& v : t) {
       const auto [it, is_new] = number.try_emplace(v, static_cast<std::int32_t>(s.positions.size()));
       if (is_new) s.positions.push_back(positions[v]);

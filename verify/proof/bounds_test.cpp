@@ -162,7 +162,7 @@ std::vector<fast::Vec3<float>> normals(BoundedKernel kernel, const Neighbourhood
   std::vector<std::array<float, 3>> points;
   for (const auto& p : mesh) points.push_back({p.x, p.y, p.z});
   const std::int32_t twin = adjacency.twin(0);
-  const fast::Pair pair{0, twin / 3, 0, twin % 3, depth};
+  const fast::Grid pair{0, twin / 3, 0, twin % 3, depth};
   const std::size_t side = (std::size_t{1} << depth) + 1;
   std::vector<float> numbers(6 * side * side);
   fast::row_stream::NumberStream<fast::row_stream::ScalarNumber<float>>(adjacency, points)

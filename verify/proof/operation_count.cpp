@@ -111,8 +111,8 @@ KernelCost count_window(const data::ControlMesh& mesh, int depth) {
   fast::SlidingWindow<Number, fast::LimitSurface<Number>, fast::Counting, kCarry> window(
       depth, adjacency.max_valence());
   cost.operations = count([&] { window.run(*prepared, 0, depth, [](int, const auto*) {}); });
-  cost.limits = window.count().counts.limit_points;
-  cost.stored_vectors = window.count().counts.stored();
+  cost.limits = window.probe().counts.limit_points;
+  cost.stored_vectors = window.probe().counts.stored();
   return cost;
 }
 
@@ -124,7 +124,7 @@ KernelCost count_stream(const data::ControlMesh& mesh, int depth) {
   std::optional<fast::row_stream::NumberStream<CountedLane>> stream;
   cost.prepass = count([&] { stream.emplace(adjacency, points); });
   const std::int32_t twin = adjacency.twin(0);
-  const fast::Pair pair{0, twin / 3, 0, twin % 3, depth};
+  const fast::Grid pair{0, twin / 3, 0, twin % 3, depth};
   const std::int64_t side = (std::int64_t{1} << depth) + 1;
   std::vector<Number> out(static_cast<std::size_t>(6 * side * side));
   stored_numbers = 0;

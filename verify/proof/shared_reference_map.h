@@ -89,13 +89,14 @@ class SharedReferenceMap {
           return Coefficient<C>::ratio(static_cast<int>(n), static_cast<int>(one));
         };
         reference::evaluate_basis<C>(basis, ratio(w[1]), ratio(w[2]), reference::Order::kFirst);
-        const reference::Placement at{gradient[1][0], gradient[1][1], gradient[2][0], gradient[2][1], level};
+        const reference::ParameterGradients at{gradient[1][0], gradient[1][1], gradient[2][0], gradient[2][1],
+                                               level};
         const C scale = reference::NumberTraits<C>::scale(C(1), level);
         for (std::size_t t = 0; t < face->patches.size(); ++t) {
           const auto local = reference::evaluate_patch<C>(face->patches[t], basis, reference::Order::kFirst);
           Point point;
           point.position = local.position;
-          reference::place(point, local, at, scale, scale, reference::Order::kFirst);
+          reference::set_derivatives(point, local, at, scale, scale, reference::Order::kFirst);
           put(t, point);
         }
         return row;
@@ -105,7 +106,7 @@ class SharedReferenceMap {
         const Gradient next = gradient[(k + 1) % 3], before = gradient[(k + 2) % 3];
         for (std::size_t t = 0; t < face->rings.size(); ++t) {
           const auto& c = face->rings[t].corner[k];
-          put(t, reference::extraordinary_corner<C>(c.point, c.span(), c.on_boundary, c.sector,
+          put(t, reference::extraordinary_corner<C>(c.point, c.span(), c.on_boundary, c.ring_index,
                                                     {next[0], next[1], before[0], before[1], level},
                                                     face->rings[t].weights, reference::Order::kFirst));
         }

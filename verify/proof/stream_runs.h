@@ -34,8 +34,8 @@ class StreamRuns {
   void pair(int depth, Visit&& visit) const {
     const std::int32_t twin = adjacency_.twin(0);
     const bool alone = twin < 0;
-    const fast::Pair pair =
-        alone ? fast::Pair{.face0 = 0, .depth = depth} : fast::Pair{0, twin / 3, 0, twin % 3, depth};
+    const fast::Grid pair =
+        alone ? fast::Grid{.face0 = 0, .depth = depth} : fast::Grid{0, twin / 3, 0, twin % 3, depth};
     const int size = 1 << depth, side = size + 1;
     std::vector<T> first(static_cast<std::size_t>(6 * side * side)), second(first.size());
     first_.whole({&pair, 1}, depth, first.data());
@@ -58,7 +58,7 @@ class StreamRuns {
     std::vector<T> first(static_cast<std::size_t>(6 * (size + 1))), second(first.size());
     first_.edges({&h, 1}, depth, first.data());
     second_.edges({&h, 1}, depth, second.data());
-    const fast::Half half{h / 3, h % 3, fast::Half::Show::kFan};
+    const fast::Half half{h / 3, h % 3, fast::Half::Display::kFan};
     for (int t = 0; t <= size; ++t)
       visit(half.lattice(size, size - t, t),
             frame(&first[static_cast<std::size_t>(6 * t)], &second[static_cast<std::size_t>(6 * t)]));

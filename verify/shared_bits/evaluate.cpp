@@ -23,7 +23,7 @@ struct Sink {
   }
 
   // Row j of a pair: its ends and its point on the diagonal, or all of the outer rows.
-  void row(const fast::Pair& pair, int depth, int j, const rs::Vertex* vertices) {
+  void row(const fast::Grid& pair, int depth, int j, const rs::Vertex* vertices) {
     const int size = 1 << depth;
     const bool outer = j == 0 || j == size;
     for (int i = 0; i <= size; i = outer || i + 1 > size ? i + 1 : i < j ? j : std::max(i + 1, size)) {
@@ -46,8 +46,8 @@ void add_pairs(const Rewriting& mesh, int depth, const rs::Kernel& kernel, Form 
     stream.rows(
         pairs, depth, workspace,
         [](void* context, const rs::RowView& view) {
-          for (std::size_t lane = 0; lane < view.pairs.size(); ++lane)
-            static_cast<Sink*>(context)->row(view.pairs[lane], view.depth, view.j, view.vertices(lane));
+          for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
+            static_cast<Sink*>(context)->row(view.grids[lane], view.depth, view.j, view.vertices(lane));
         },
         &sink);
     return;

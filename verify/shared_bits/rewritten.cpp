@@ -19,16 +19,16 @@ Rewriting rewrite(const data::ControlMesh& mesh, std::uint64_t seed) {
   return out;
 }
 
-std::vector<fast::Pair> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
+std::vector<fast::Grid> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
                                      std::uint64_t singles) {
   data::SplitMix64 random(seed);
   const auto faces = static_cast<std::size_t>(adjacency.face_count());
   std::vector<bool> taken(faces, false);
-  std::vector<fast::Pair> pairs;
+  std::vector<fast::Grid> pairs;
   for (const std::int32_t f : shuffled(faces, random)) {
     if (taken[f]) continue;
     taken[f] = true;
-    fast::Pair pair{f, -1, -1, -1, depth};
+    fast::Grid pair{f, -1, -1, -1, depth};
     const bool single = random.next() % singles == 0;
     const std::size_t turn = random.next() % 3;
     for (std::size_t k = 0; k < 3; ++k) {

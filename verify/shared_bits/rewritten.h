@@ -20,7 +20,7 @@ Rewriting rewrite(const data::ControlMesh& mesh, std::uint64_t seed);
 
 /// Every face is in one pair; its partner and its corner A are drawn at random. One face in `singles` stays
 /// without a partner though it has neighbours. All have one depth.
-std::vector<fast::Pair> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
+std::vector<fast::Grid> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
                                      std::uint64_t singles = 5);
 
 /// A depth for each face, least .. most.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "reference/loop/masks.h"
+#include "reference/loop/triangles.h"
 #include "reference/point/normal.h"
 
 namespace limitcheck::verify {
@@ -76,17 +77,19 @@ V ModelRules::vertex_point(const Topology& topology, const std::vector<V>& point
 V ModelRules::edge_point(const Topology& topology, const std::vector<V>& points, const Edge& e) const {
   const auto at = [&](std::int32_t v) { return points[v]; };
   const V a = at(e.a), b = at(e.b);
+  const std::int32_t left = opposite(topology, e, e.left_face);
   if (e.on_boundary()) {
-    if (is("boundary_edge_flap")) return (a + b) * (3. / 8) + at(e.left) * .25;
+    if (is("boundary_edge_flap")) return (a + b) * (3. / 8) + at(left) * .25;
     return (a + b) * .5;
   }
-  V c = at(e.left), d = at(e.right);
+  const std::int32_t right = opposite(topology, e, e.right_face);
+  V c = at(left), d = at(right);
   if (is("midpoints")) return (a + b) * .5;
   if (is("one_flap")) return (a + b) * (3. / 8) + c * .25;
   if (is("indices_modulo_n")) {
     const std::int32_t last = topology.ring(e.a).back();  // v_n, seen from v_0 = a
-    if (last == e.left) c = a;
-    if (last == e.right) d = a;
+    if (last == left) c = a;
+    if (last == right) d = a;
   }
   V p = reference::interior_edge_point(a, b, c, d);
   if (is("edge_weight_1e-6")) p += (a - b) * 1e-6;

@@ -117,7 +117,7 @@ class ModelSubject {
       if (!rules_.is("accepts_nan") && !rules_.is("accepts_wild_indices")) refuse_unusable(mesh);
       remember(control);
       mesh_ = std::make_unique<ModelMesh>(control);
-    } catch (const std::invalid_argument& error) {
+    } catch (const data::ArgumentError& error) {
       if (!rules_.is("accepts_anything") && !rules_.is("accepts_wild_indices"))
         throw SubjectError(LC_INVALID_INPUT, error.what());
       return;

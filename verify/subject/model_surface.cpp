@@ -36,7 +36,7 @@ void smooth(const reference::Topology& topology, std::vector<V>& limits) {
 
 ModelMesh::ModelMesh(const data::ControlMesh& given)
     : control(given), topology(given.positions.size(), given.triangles) {
-  if (control.triangles.empty()) throw std::invalid_argument("the mesh has no faces");
+  if (control.triangles.empty()) throw data::ArgumentError("the mesh has no faces");
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double low = control.positions[0][axis], high = low;
     for (const auto& p : control.positions) {
@@ -49,11 +49,8 @@ ModelMesh::ModelMesh(const data::ControlMesh& given)
 }
 
 std::int32_t ModelMesh::neighbour(std::size_t face, int k) const {
-  const std::int32_t v = control.triangles[face][k];
-  const auto around = topology.faces(v);
-  const auto sector = static_cast<std::size_t>(topology.sector(face, k));
-  if (sector == 0 && topology.on_boundary(v)) return -1;
-  return around[(sector + around.size() - 1) % around.size()];
+  const reference::Edge& edge = topology.edges()[topology.edge(face, k)];
+  return edge.left_face == static_cast<std::int32_t>(face) ? edge.right_face : edge.left_face;
 }
 
 int ModelMesh::neighbour_depth(std::span<const std::int32_t> depth, std::size_t face, int k) const {

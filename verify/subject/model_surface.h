@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/error.h"
 #include "reference/loop/refine.h"
 #include "reference/mesh/topology.h"
 #include "verify/subject/model_rules.h"
@@ -15,7 +16,7 @@
 namespace limitcheck::verify {
 
 struct ModelMesh {
-  /// Throws std::invalid_argument: `control` has no faces or is no manifold.
+  /// Throws data::ArgumentError: `control` has no faces or is no manifold.
   explicit ModelMesh(const data::ControlMesh& control);
 
   /// The face beyond the edge from corner k to the next, or -1.

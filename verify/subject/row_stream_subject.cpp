@@ -6,9 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
+#include "data/error.h"
 #include "fast/stream/stream_tessellator.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
@@ -62,7 +62,7 @@ class RowStreamSubject {
     settings_.tessellator.threads = threads;
     try {
       tessellator_ = std::make_unique<rs::StreamTessellator>(mesh_, settings_.tessellator, *settings_.kernel);
-    } catch (const std::invalid_argument& error) {
+    } catch (const data::ArgumentError& error) {
       throw SubjectError(LC_INVALID_INPUT, error.what());
     }
   }

@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <variant>
 
+#include "data/error.h"
+#include "fast/plan/printed_rules.h"
 #include "fast/window/tessellator.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
@@ -31,12 +32,12 @@ struct Settings {
     tessellator.cracks.centre = std::array{
         fast::FanCentre::kLimit, fast::FanCentre::kFlatLimit,
         fast::FanCentre::kFlatControl}[options.choice("centre", {"limit", "flat", "flat-control"})];
-    tessellator.pairing.rule = options.choice("pairing", {"corrected", "printed"}) == 1
-                                   ? fast::PairingRule::kPrinted
-                                   : fast::PairingRule::kCorrected;
+    rules.pairing = options.choice("pairing", {"corrected", "printed"}) == 1 ? fast::PairingRule::kPrinted
+                                                                             : fast::PairingRule::kCorrected;
   }
   bool wide = false, indexed = false;
   fast::TessellatorOptions tessellator;
+  fast::PrintedRules rules;
 };
 
 class SlidingWindowSubject {
@@ -72,10 +73,10 @@ class SlidingWindowSubject {
     settings_.tessellator.threads = threads;
     try {
       if (settings_.wide)
-        double_ = std::make_unique<fast::Tessellator<double>>(mesh_, settings_.tessellator);
+        double_ = std::make_unique<fast::Tessellator<double>>(mesh_, settings_.tessellator, settings_.rules);
       else
-        float_ = std::make_unique<fast::Tessellator<float>>(mesh_, settings_.tessellator);
-    } catch (const std::invalid_argument& error) {
+        float_ = std::make_unique<fast::Tessellator<float>>(mesh_, settings_.tessellator, settings_.rules);
+    } catch (const data::ArgumentError& error) {
       throw SubjectError(LC_INVALID_INPUT, error.what());
     }
   }

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "reference/loop/spider_impl.h"
+#include "reference/loop/two_ring_impl.h"
 #include "reference/number/number_exact.h"
 
 namespace limitcheck::reference {
@@ -13,7 +13,7 @@ namespace {
 
 using N = Decimal50;
 
-/// The subdivision matrix of a spider, from the masks: points c, r_0.., q_0.., p_0.. .
+/// The subdivision matrix of a two-ring, from the masks: points c, r_0.., q_0.., p_0.. .
 struct Matrix {
   int count;
   bool boundary;
@@ -27,8 +27,8 @@ struct Matrix {
   template <class M>
   std::vector<M> step(const std::vector<M>& x) const {
     std::vector<M> y(x.size());
-    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
-    const auto set = [&](int i, const M& value) { y[static_cast<std::size_t>(i)] = value; };
+    const auto at = [&](int i) { return x[i]; };
+    const auto set = [&](int i, const M& value) { y[i] = value; };
     M sum(0);
     for (int i = 0; i < count; ++i) sum = sum + at(r(i));
     const M a = loop_a<M>(std::max(count, 3));
@@ -50,9 +50,9 @@ struct Matrix {
     Eigen::MatrixXd s(size(), size());
     for (int j = 0; j < size(); ++j) {
       std::vector<double> unit(static_cast<std::size_t>(size()));
-      unit[static_cast<std::size_t>(j)] = 1;
+      unit[j] = 1;
       const auto column = step(unit);
-      for (int i = 0; i < size(); ++i) s(i, j) = column[static_cast<std::size_t>(i)];
+      for (int i = 0; i < size(); ++i) s(i, j) = column[i];
     }
     return s;
   }
@@ -73,7 +73,7 @@ std::vector<double> closed_form(const Matrix& m) {
   return values;
 }
 
-TEST(Spider_Eigenvalues, AreThoseOfTheDenseMatrix) {
+TEST(TwoRing_Eigenvalues, AreThoseOfTheDenseMatrix) {
   double worst = 0;
   for (const bool boundary : {false, true})
     for (int count = boundary ? 1 : 3; count <= 13; ++count) {
@@ -101,7 +101,7 @@ int geometric(const Matrix& m, double eigenvalue) {
   return m.size() - static_cast<int>(lu.rank());
 }
 
-TEST(Spider_JordanBlocks, AreAtValenceThreeAndAtMultiplesOfSixBoundaryFaces) {
+TEST(TwoRing_JordanBlocks, AreAtValenceThreeAndAtMultiplesOfSixBoundaryFaces) {
   // D8: the full two-ring of valence 3 has 1/16 four times, with three eigenvectors.
   EXPECT_EQ(geometric({3, false}, 1.0 / 16), 3);
   for (int n = 4; n <= 12; ++n) EXPECT_EQ(geometric({n, false}, 1.0 / 16), n) << n;
@@ -110,7 +110,7 @@ TEST(Spider_JordanBlocks, AreAtValenceThreeAndAtMultiplesOfSixBoundaryFaces) {
     EXPECT_EQ(geometric({k, true}, 0.5), k % 6 == 0 ? 1 : k % 3 == 0 ? 2 : 1) << k;
 }
 
-TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
+TEST(TwoRing_Powers, EqualRepeatedSubdivisionOfTheWholeTwoRing) {
   double worst = 0;
   for (const bool boundary : {false, true})
     for (const int count : {1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 18, 30}) {
@@ -118,31 +118,30 @@ TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
       const Matrix m{count, boundary};
       std::vector<N> x;
       for (int i = 0; i < m.size(); ++i) x.push_back(N((i * 37 + 11) % 97 - 48) / 31);
-      const auto vec = [&](int i) { return Vec3<N>{x[static_cast<std::size_t>(i)], N(0), N(0)}; };
+      const auto vec = [&](int i) { return Vec3<N>{x[i], N(0), N(0)}; };
       std::vector<Vec3<N>> r, q, p;
       for (int i = 0; i < m.rings; ++i) r.push_back(vec(m.r(i))), p.push_back(vec(m.p(i)));
       for (int i = 0; i < count; ++i) q.push_back(vec(m.q(i)));
-      const SpiderKind<N> kind(count, boundary, Weights::kLoop);
-      const Spider<N> spider(kind, vec(0), r, q, p);
+      const TwoRingModes<N> modes(count, boundary, Weights::kLoop);
+      const TwoRing<N> two_ring(modes, vec(0), r, q, p);
       for (int step = 0; step <= 60; ++step) {
         if (step < 12 || step == 39 || step == 40 || step == 60)
           for (int i = 0; i < count; ++i) {
-            Spider<N>::Sector s;
-            SpiderPower<N> buffer;
-            spider.sector(i, kind.power(step, buffer), s);
-            const auto linear = spider.linear_part(i, step);
+            TwoRing<N>::FacePoints s;
+            TwoRingPower<N> buffer;
+            two_ring.face_points(i, modes.power(step, buffer), s);
+            const auto linear = two_ring.linear_part(i, step);
             const Vec3<N>&g1 = linear.to_first, &g2 = linear.to_second;
-            const N shrink = power(N(1) / 2, step), growth = power(kind.growth(), step);
-            // Position of a lattice point (a, b) of the sector: limit + linear part + modes; relative to the
+            const N shrink = power(N(1) / 2, step), growth = power(modes.growth(), step);
+            // Position of a lattice point (a, b) of the face: limit + linear part + modes; relative to the
             // slowest mode.
             const N scale = std::max(growth, shrink);
             const auto check = [&](const Vec3<N>& part, int a, int b, int index, const char* what) {
-              const N got = spider.limit().x + (g1.x * a + g2.x * b) * shrink + part.x * growth;
-              const double e =
-                  static_cast<N>(abs(got - x[static_cast<std::size_t>(index)]) / scale).convert_to<double>();
+              const N got = two_ring.limit().x + (g1.x * a + g2.x * b) * shrink + part.x * growth;
+              const double e = static_cast<N>(abs(got - x[index]) / scale).convert_to<double>();
               worst = std::max(worst, e);
               EXPECT_LE(e, 1e-30) << count << (boundary ? " boundary " : " interior ") << "step " << step
-                                  << " sector " << i << " " << what;
+                                  << " face " << i << " " << what;
             };
             check(s.c, 0, 0, 0, "c");
             check(s.r[2], 1, 0, m.r(i), "r_i");
@@ -159,7 +158,7 @@ TEST(Spider_Powers, EqualRepeatedSubdivisionOfTheWholeSpider) {
   RecordProperty("worst", std::to_string(worst));
 }
 
-TEST(Spider_BlockPower, HandlesEqualArgumentsAsAJordanBlockDoes) {
+TEST(TwoRing_BlockPower, HandlesEqualArgumentsAsAJordanBlockDoes) {
   const N x = N(1) / 16, y = N(1) / 8;
   const BlockPower<N> b(x, y, x, 9);
   EXPECT_EQ(b.xz, 9 * power(x, 8));

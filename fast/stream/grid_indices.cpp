@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "fast/stream/pair_indices.h"
+#include "fast/stream/grid_indices.h"
 
-#include <stdexcept>
-
+#include "data/error.h"
 #include "fast/stream/layout.h"
 
 namespace limitcheck::fast::row_stream {
@@ -10,7 +9,7 @@ namespace limitcheck::fast::row_stream {
 namespace {
 
 int checked(int depth) {
-  if (depth < 0 || depth > kMaxDepth) throw std::invalid_argument("pair indices: depth is 0 to 10");
+  if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("grid indices: depth is 0 to 10");
   return depth;
 }
 
@@ -28,7 +27,7 @@ struct Lattice {
 
 }  // namespace
 
-std::vector<std::uint32_t> pair_triangles(int depth) {
+std::vector<std::uint32_t> grid_triangles(int depth) {
   const Lattice lattice(depth);
   std::vector<std::uint32_t> out;
   out.reserve(6 * std::size_t{lattice.size} * lattice.size);
@@ -46,7 +45,7 @@ std::vector<std::uint32_t> pair_triangles(int depth) {
 }
 
 // Row j of a face, upper points first: (0, j+1) (0, j) (1, j+1) (1, j) .. (j+1, j+1).
-std::vector<std::uint32_t> pair_strips(int depth) {
+std::vector<std::uint32_t> grid_strips(int depth) {
   const Lattice lattice(depth);
   std::vector<std::uint32_t> out;
   out.reserve(strip_indices(depth));

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Which sub-face of a control face, and which ring around its corner, a parameter lies in.
+// Which of the four sub-faces of a control face a point lies in, and after how many steps it is away from the
+// corner.
 #pragma once
 
 #include <cmath>
-#include <stdexcept>
 
+#include "data/error.h"
 #include "reference/loop/patch.h"
 #include "reference/number/number.h"
 #include "reference/point/parameter_exact.h"
 
 namespace limitcheck::reference::detail {
 
-/// Where a point lies, decided on the parameters alone (P is double or Rational).
+/// Where a point lies after one step, decided on the parameters alone (P is double or Rational).
 template <class P>
-struct Site {
-  int subface;          ///< 0..2 at a corner, 3 the middle
-  P u, v;               ///< coordinates in the sub-face: towards its second and third corner
-  Placement placement;  ///< of (u, v)
+struct SubFaceLocation {
+  int subface;                   ///< 0..2 at a corner, 3 the middle
+  P u, v;                        ///< coordinates in the sub-face: towards its second and third corner
+  ParameterGradients gradients;  ///< of u and v
 };
 
 template <class P>
-Site<P> locate(P l1, P l2) {
+SubFaceLocation<P> locate(P l1, P l2) {
   if (!(l1 >= 0) || !(l2 >= 0) || !(l1 + l2 <= 1))
-    throw std::invalid_argument("l1, l2 must be >= 0 and l1 + l2 <= 1");
+    throw data::ArgumentError("l1, l2 must be >= 0 and l1 + l2 <= 1");
   if (l2 > 1 - l1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);  // the sum was rounded to 1
   const P half = P(1) / P(2);
   // Differences from 1 are exact in double where it matters: next to the corner they are measured from.

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What every tessellator can do: one frame after the other, at given depths or by a strategy.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fast/frame/frame_options.h"
+#include "fast/frame/sink.h"
+
+namespace limitcheck::fast {
+
+struct PrintedRules;  // plan/printed_rules.h, for the tests of the paper's claims
+template <class Real>
+struct EngineState;
+
+/// The part that fast::Tessellator and row_stream::StreamTessellator share: a control mesh is copied and
+/// prepared once, then each call of frame() is one frame. Real is float or double.
+///   throws      data::ArgumentError. The constructors: a mesh that Adjacency refuses or without faces, a
+///               coordinate that is not finite, a negative number of threads, a mesh too large or too small
+///               for Real. frame(): not one depth per face, a depth outside -1 .. kDeepest, a strategy or
+///               camera that DepthHeuristics refuses, more vertices than 32-bit indices reach (indexed mesh)
+///   precision   the control points are rounded to Real
+/// Every point of a control edge or vertex comes out with the same bits from every face that touches it, with
+/// any number of threads. [D14] One frame at a time per object; inside, grids are evaluated in parallel.
+template <class Real>
+class Engine {
+ public:
+  const Adjacency& adjacency() const;
+
+  /// A frame at given depths, one per face, -1 = culled: as strips and fans in memory, as one indexed mesh,
+  /// or handed to a sink draw by draw, so that only part of the frame is kept at a time.
+  FrameStats frame(std::span<const std::int32_t> depth, DrawList<Real>& out);
+  FrameStats frame(std::span<const std::int32_t> depth, IndexedMesh<Real>& out);
+  FrameStats frame(std::span<const std::int32_t> depth, DrawSink<Real>& sink);
+
+  /// A frame at the depths that a strategy of section 4.1 assigns, at most options.max_depth. Output: as
+  /// above.
+  template <class Output>
+  FrameStats frame(const DepthOptions& strategy, const Camera& camera, Output& out) {
+    double seconds = 0;
+    const std::vector<std::int32_t> depth = depths(strategy, camera, seconds);
+    FrameStats stats = frame(depth, out);
+    stats.seconds_heuristics = seconds;
+    stats.seconds_total += seconds;
+    return stats;
+  }
+
+  /// The depths of the last frame after pairing, one per face, and its grids: to colour by, and to check.
+  const PairingResult& last_pairing() const;
+  const CrackPlan& last_plan() const;
+
+ protected:
+  explicit Engine(std::unique_ptr<EngineState<Real>> state);
+  ~Engine();
+  Engine(Engine&&) noexcept;
+  Engine& operator=(Engine&&) noexcept;
+
+  EngineState<Real>& state() const { return *state_; }
+
+ private:
+  std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera, double& seconds);
+
+  std::unique_ptr<EngineState<Real>> state_;
+};
+
+extern template class Engine<float>;
+extern template class Engine<double>;
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Every smooth known answer, to 39 digits with 100-digit arithmetic, by both evaluators; and exactly in rationals.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "data/quad_answers.h"
+#include "reference/catmull_clark/stam.h"
+#include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/number/number_exact.h"
+
+namespace limitcheck::reference::catmull_clark {
+namespace {
+
+using N = Decimal100;
+
+template <class M>
+Vec3<M> vec(const data::Numeral3& text) {
+  return {data::parse<M>(text[0]), data::parse<M>(text[1]), data::parse<M>(text[2])};
+}
+template <class M>
+std::vector<Vec3<M>> vecs(const std::vector<data::Numeral3>& texts) {
+  std::vector<Vec3<M>> result;
+  for (const auto& t : texts) result.push_back(vec<M>(t));
+  return result;
+}
+
+// The cases without sharp edges and held corners, with the face points of the standard rule.
+const std::vector<data::QuadAnswer>& smooth_answers() {
+  static const auto loaded = [] {
+    std::vector<data::QuadAnswer> smooth;
+    for (auto& a : data::load_quad_answers())
+      if (a.scheme == "catmull-clark" && !a.has_sharp && a.boundary == "edge" && a.triangles == "catmark")
+        smooth.push_back(std::move(a));
+    return smooth;
+  }();
+  return loaded;
+}
+
+// Decimal digits in which two vectors agree, relative to the larger of 1 and the expected one's size.
+double digits(const Vec3<N>& got, const Vec3<N>& expected) {
+  const double scale = std::max(1.0, magnitude(expected).convert_to<double>());
+  const double error = magnitude(got - expected).convert_to<double>() / scale;
+  return error == 0 ? 100 : -std::log10(error);
+}
+
+constexpr double kDigits = 39;
+
+template <class Evaluator>
+void check_all() {
+  ASSERT_EQ(smooth_answers().size(), 24U);
+  double fewest = 100;
+  for (const auto& a : smooth_answers()) {
+    const Evaluator evaluator(a.faces, vecs<N>(a.vertices));
+    for (const auto& s : a.samples) {
+      const auto p = evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]),
+                                        Parameter::parse(s.uv[1]), Order::kSecond);
+      const auto check = [&](const char* what, const Vec3<N>& got, const data::Numeral3& expected) {
+        const double d = digits(got, vec<N>(expected));
+        fewest = std::min(fewest, d);
+        EXPECT_GE(d, kDigits) << a.id << " (" << s.uv[0] << ", " << s.uv[1] << ") " << what << ": " << got.x
+                              << " " << got.y << " " << got.z;
+      };
+      check("position", p.position, s.position);
+      if (s.normal) check("normal", p.normal, *s.normal);
+      EXPECT_EQ(p.at_corner, s.at_vertex) << a.id;
+      EXPECT_EQ(p.first_exist, s.du.has_value()) << a.id;
+      if (s.no_tangent_plane) {
+        EXPECT_EQ(p.normal_kind, NormalKind::kNoTangentPlane) << a.id;
+      }
+      if (s.du) check("du", p.d1, *s.du), check("dv", p.d2, *s.dv);
+      if (s.dudu) check("duu", p.d11, *s.dudu), check("duv", p.d12, *s.dudv), check("dvv", p.d22, *s.dvdv);
+    }
+  }
+  std::printf("fewest digits: %.1f\n", fewest);
+}
+
+TEST(CatmullClark_KnownAnswers, BySubdivisionToThirtyNineDigits) {
+  check_all<SubdivisionEvaluator<N>>();
+}
+TEST(CatmullClark_KnownAnswers, ByStamToThirtyNineDigits) {
+  check_all<StamEvaluator<N>>();
+}
+
+}  // namespace
+}  // namespace limitcheck::reference::catmull_clark

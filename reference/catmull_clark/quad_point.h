@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// A point of the surface from a regular patch, or at an extraordinary corner.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "reference/catmull_clark/basis.h"
+#include "reference/catmull_clark/vertex_limit.h"
+#include "reference/point/normal.h"
+#include "reference/point/surface_point.h"
+
+namespace limitcheck::reference::catmull_clark {
+
+/// Whether normals can be had: not in exact rationals, which have no square roots.
+template <class N>
+inline constexpr bool kHasNormals = requires(N a) {
+  NumberTraits<N>::sqrt(a);
+};
+
+/// A quad's sub-quad whose (u, v) is turned against the quad's: its u runs along the quad's direction u a + v b, with
+/// these for u and v of the sub-quad at corner k when that starts at the corner.
+struct Turn {
+  int uu, uv, vu, vv;  ///< the sub-quad's u is uu u + uv v, its v is vu u + vv v, but for what is added
+};
+/// (u, v), (v, 1 - u), (1 - u, 1 - v), (1 - v, u).
+constexpr Turn turn_of(std::size_t corner) {
+  constexpr std::array<Turn, 4> turns{{{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}}};
+  return turns[corner];
+}
+
+/// Sets the derivatives of `result` from those of a patch whose (u, v) is turned; `first`, `second` are positive
+/// factors.
+template <class N>
+void set_derivatives(SurfacePoint<N>& result, const PatchPoint<N>& p, const Turn& turn, const N& first,
+                     const N& second, Order order) {
+  if (order == Order::kPosition) return;
+  const N a(turn.uu), b(turn.uv), c(turn.vu), d(turn.vv);
+  result.d1 = (p.u * a + p.v * c) * first;
+  result.d2 = (p.u * b + p.v * d) * first;
+  result.t1 = result.d1;
+  result.t2 = result.d2;
+  if constexpr (kRounds<N>) {
+    const bool swapped = turn.uu == 0;
+    result.t1_terms = (swapped ? p.v_terms : p.u_terms) * first;
+    result.t2_terms = (swapped ? p.u_terms : p.v_terms) * first;
+  }
+  result.first_exist = true;
+  if (order == Order::kFirst) return;
+  result.d11 = (p.uu * (a * a) + p.vv * (c * c)) * second;
+  result.d12 = p.uv * (a * d + b * c) * second;
+  result.d22 = (p.uu * (b * b) + p.vv * (d * d)) * second;
+  result.second_exist = true;
+}
+
+/// The normal of a point whose tangents are set.
+template <class N>
+void set_normal(SurfacePoint<N>& point, const Tangents<N>& tangents, const Vec3<N>& fallback) {
+  if constexpr (kHasNormals<N>) {
+    const Normal<N> normal = unit_normal(tangents, fallback);
+    point.normal = normal.direction;
+    point.normal_kind = normal.kind;
+    point.normal_condition = normal.condition;
+  }
+}
+
+/// Twice the area of a quad times its normal: what takes the normal's place where the tangents vanish. [D12]
+template <class N>
+Vec3<N> area_of(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
+  return cross(c - a, d - b);
+}
+
+/// At an extraordinary corner itself: a vertex of valence other than four, or of other than two faces on the boundary.
+/// Towards it the derivatives of order d grow like (2^d lambda)^J, lambda as in masks.h: they vanish at valence 3 and
+/// have no limit above 4, so that none is said to exist there. What is given is the tangent plane:
+///   interior   t1, t2 along the u and v of the quad, of the size of its edges
+///   boundary   t1 along the boundary (r_0 - r_K) / 2, t2 across it into the surface
+///   k          which corner of the quad it is
+template <class N>
+SurfacePoint<N> extraordinary_corner(const RingedCorner<Vec3<N>>& corner, std::size_t k, Order order) {
+  SurfacePoint<N> result;
+  result.at_corner = true;
+  result.position = limit_position(corner);
+  if constexpr (kHasNormals<N>) {
+    const Tangents<N> tangents = limit_tangents(corner);
+    const Normal<N> normal = limit_normal(corner, tangents);
+    result.normal = normal.direction;
+    result.normal_kind = normal.kind;
+    result.normal_condition = normal.condition;
+    if (order == Order::kPosition) return result;
+    const int count = corner.face_count();
+    if (corner.on_boundary) {
+      const N half = N(1) / N(2), share = N(1) / N(2 * count + 1);
+      result.t1 = tangents.first * half;
+      result.t2 = tangents.second * share;
+      result.t1_terms = tangents.first_terms * half;
+      result.t2_terms = tangents.second_terms * share;
+    } else {
+      const CircleTable<N>& circle = circle_table<N>(count);
+      const N share = N(1) / N(2 * count);
+      const auto towards = [&](int i) {
+        const auto at = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
+        return (tangents.first * circle.cosine[at] + tangents.second * circle.sine[at]) * share;
+      };
+      PatchPoint<N> local{};
+      local.u = towards(corner.sector);
+      local.v = towards(corner.sector + 1);
+      local.u_terms = local.v_terms = (tangents.first_terms + tangents.second_terms) * share;
+      set_derivatives(result, local, turn_of(k), N(1), N(1), Order::kFirst);
+      result.first_exist = false;
+    }
+    result.d1 = result.t1;
+    result.d2 = result.t2;
+  }
+  return result;
+}
+
+}  // namespace limitcheck::reference::catmull_clark

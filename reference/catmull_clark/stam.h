@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Surface points without subdivision: the exact evaluation of Stam [1998], by powers of the two-ring's map.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "data/faces.h"
+#include "reference/number/vec3.h"
+#include "reference/point/parameter.h"
+#include "reference/point/surface_point.h"
+
+namespace limitcheck::reference::catmull_clark {
+
+namespace detail {
+template <class N>
+class StamData;
+}
+
+/// Two steps at most for the whole mesh, once; then a bicubic patch, or, next to an extraordinary vertex, the two-ring
+/// after J steps at a cost that grows with log J (two_ring.h). Built for double, Decimal50, Decimal100 and Ball.
+///   threads   any number may evaluate at once
+template <class N>
+class StamEvaluator {
+ public:
+  /// Throws data::ArgumentError if the mesh is not manifold (Topology).
+  StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions);
+  ~StamEvaluator();
+  StamEvaluator(StamEvaluator&&) noexcept;
+  StamEvaluator& operator=(StamEvaluator&&) noexcept;
+
+  int face_count() const;
+  /// As SubdivisionEvaluator::evaluate.
+  SurfacePoint<N> evaluate(int face, int corner, const Parameter& u, const Parameter& v,
+                           Order order = Order::kSecond) const;
+  /// The same with parameters that are doubles, for speed.
+  SurfacePoint<N> evaluate(int face, int corner, double u, double v, Order order = Order::kSecond) const;
+
+ private:
+  std::unique_ptr<detail::StamData<N>> data_;
+};
+
+}  // namespace limitcheck::reference::catmull_clark

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// Definitions behind stam.h, for the .cpp files that instantiate them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <type_traits>
+#include <utility>
+
+#include "reference/catmull_clark/quad_point.h"
+#include "reference/catmull_clark/refine.h"
+#include "reference/catmull_clark/stam.h"
+#include "reference/catmull_clark/two_ring_impl.h"
+#include "reference/point/parameter_exact.h"
+
+namespace limitcheck::reference::catmull_clark {
+namespace detail {
+
+/// Smallest J >= 0 with 2^J max(x, y) > 1/2, for 0 < max(x, y) <= 1.
+inline long steps_to_corner(double x, double y) {
+  int exponent;
+  const double mantissa = std::frexp(std::max(x, y), &exponent);  // in [1/2, 1)
+  return std::max(0L, static_cast<long>(mantissa == 0.5 ? 1 - exponent : -exponent));
+}
+inline long steps_to_corner(const Rational& x, const Rational& y) {
+  const Rational largest = std::max(x, y);
+  long steps = std::max(
+      0L, static_cast<long>(msb(denominator(largest))) - static_cast<long>(msb(numerator(largest))) - 2);
+  while (numerator(largest) << static_cast<unsigned long>(steps + 1) <= denominator(largest)) ++steps;
+  return steps;
+}
+inline double times_power_of_two(double a, long e) {
+  return std::ldexp(a, static_cast<int>(e));
+}
+inline Rational times_power_of_two(const Rational& a, long e) {
+  return NumberTraits<Rational>::scale(a, e);
+}
+
+template <class N, class P>
+N number_from(const P& a) {
+  if constexpr (std::is_same_v<N, P>)
+    return a;
+  else if constexpr (std::is_same_v<P, double>)
+    return NumberTraits<N>::from_double(a);
+  else if constexpr (std::is_same_v<N, double>)
+    return a.template convert_to<double>();
+  else
+    return NumberTraits<N>::from_rational(a);
+}
+
+/// a^e, e >= 0.
+template <class N>
+N power(N a, long e) {
+  N result(1);
+  for (; e > 0; e >>= 1) {
+    if ((e & 1) != 0) result = result * a;
+    if (e > 1) a = a * a;
+  }
+  return result;
+}
+
+/// The points (x, y), -1 <= x, y <= 3, one step after a sector's two-ring, where c is (0, 0), e_i (2, 0) and e_{i+1}
+/// (0, 2). (-1, -1) has no point and is not needed.
+template <class N>
+class FinerSector {
+ public:
+  explicit FinerSector(const TwoRingSector<N>& s) {
+    const Vec3<N> c{};
+    const auto &e = s.e, &f = s.f, &p = s.p;
+    // Face points, then edge points between them, then vertices.
+    put(1, 1) = face_point(c, e[2], f[2], e[3]);
+    put(3, 1) = face_point(e[2], p[0], s.g, f[2]);
+    put(1, 3) = face_point(e[3], f[2], s.h, p[1]);
+    put(3, 3) = face_point(f[2], s.g, s.r, s.h);
+    put(1, 2) = edge_point(e[3], f[2], at(1, 1), at(1, 3));
+    put(2, 1) = edge_point(e[2], f[2], at(1, 1), at(3, 1));
+    put(3, 2) = edge_point(f[2], s.g, at(3, 1), at(3, 3));
+    put(2, 3) = edge_point(f[2], s.h, at(1, 3), at(3, 3));
+    put(2, 2) = regular(f[2], {e[2], e[3], s.g, s.h}, {at(1, 1), at(3, 1), at(1, 3), at(3, 3)});
+    put(0, 0) = s.c_after;
+    using Side = typename TwoRingSector<N>::Side;
+    if (s.before == Side::kBoundary) {
+      put(1, 0) = boundary_edge_point(c, e[2]);
+      put(3, 0) = boundary_edge_point(e[2], p[0]);
+      put(2, 0) = boundary_vertex_point(e[2], c, p[0]);
+    } else {
+      put(1, -1) = face_point(c, e[1], f[1], e[2]);
+      put(3, -1) = face_point(e[2], f[1], s.h_before, p[0]);
+      put(1, 0) = edge_point(c, e[2], at(1, 1), at(1, -1));
+      put(3, 0) = edge_point(e[2], p[0], at(3, 1), at(3, -1));
+      put(2, -1) = edge_point(e[2], f[1], at(1, -1), at(3, -1));
+      put(2, 0) = regular(e[2], {c, p[0], f[2], f[1]}, {at(1, 1), at(3, 1), at(1, -1), at(3, -1)});
+      put(0, -1) = s.before == Side::kFaceThenBoundary
+                       ? boundary_edge_point(c, e[1])
+                       : edge_point(c, e[1], at(1, -1), face_point(c, e[0], f[0], e[1]));
+    }
+    if (s.after == Side::kBoundary) {
+      put(0, 1) = boundary_edge_point(c, e[3]);
+      put(0, 3) = boundary_edge_point(e[3], p[1]);
+      put(0, 2) = boundary_vertex_point(e[3], c, p[1]);
+    } else {
+      put(-1, 1) = face_point(c, e[3], f[3], e[4]);
+      put(-1, 3) = face_point(e[3], p[1], s.g_after, f[3]);
+      put(0, 1) = edge_point(c, e[3], at(1, 1), at(-1, 1));
+      put(0, 3) = edge_point(e[3], p[1], at(1, 3), at(-1, 3));
+      put(-1, 2) = edge_point(e[3], f[3], at(-1, 1), at(-1, 3));
+      put(0, 2) = regular(e[3], {c, p[1], f[2], f[3]}, {at(1, 1), at(1, 3), at(-1, 1), at(-1, 3)});
+      put(-1, 0) = s.after == Side::kFaceThenBoundary
+                       ? boundary_edge_point(c, e[4])
+                       : edge_point(c, e[4], at(-1, 1), face_point(c, e[4], f[4], e[5]));
+    }
+    for (int i = 0; i <= 3; ++i) {
+      if (s.before == Side::kBoundary) put(i, -1) = ghost_point(at(i, 0), at(i, 1));
+      if (s.after == Side::kBoundary) put(-1, i) = ghost_point(at(0, i), at(1, i));
+    }
+  }
+
+  /// The sixteen points around the quad from (x, y) to (x + 1, y + 1).
+  Patch<N> patch(int x, int y) const {
+    Patch<N> result;
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i) result[static_cast<std::size_t>(4 * j + i)] = at(x - 1 + i, y - 1 + j);
+    return result;
+  }
+
+ private:
+  static Vec3<N> regular(const Vec3<N>& v, const std::array<Vec3<N>, 4>& edges,
+                         const std::array<Vec3<N>, 4>& faces) {
+    return interior_vertex_point<N>(v, edges, faces);
+  }
+  Vec3<N>& put(int x, int y) { return points_[static_cast<std::size_t>(5 * (y + 1) + x + 1)]; }
+  const Vec3<N>& at(int x, int y) const { return points_[static_cast<std::size_t>(5 * (y + 1) + x + 1)]; }
+
+  std::array<Vec3<N>, 25> points_;
+};
+
+template <class N>
+class StamData {
+ public:
+  StamData(data::Faces faces, std::vector<Vec3<N>> positions)
+      : mesh_(std::move(faces), std::move(positions)), points_(refine_once(mesh_.topology, mesh_.positions)) {
+    const Topology finer(points_.size(), refined_faces(mesh_.topology));
+    make_two_rings(finer);
+    make_patches(finer);
+  }
+
+  std::size_t face_count() const { return mesh_.face_count(); }
+
+  template <class P>
+  SurfacePoint<N> evaluate(int face, int corner, const P& u, const P& v, Order order) const {
+    const QuadParameter<P> at = locate(mesh_, face, corner, u, v);
+    const P half = P(1) / P(2);
+    const bool right = at.u > half, up = at.v > half;
+    const std::size_t k = up ? (right ? 2 : 3) : (right ? 1 : 0);
+    const std::int32_t ring = two_ring_of_[static_cast<std::size_t>(mesh_.topology.faces()[at.quad][k])];
+    const N halved(at.halved ? 2 : 1);
+    SurfacePoint<N> result;
+    if (ring < 0) {
+      Patch<N> patch;
+      for (std::size_t i = 0; i < 16; ++i)
+        patch[i] = points_[static_cast<std::size_t>(patches_[4 * at.quad + k][i])];
+      const PatchPoint<N> p = evaluate_patch<N>(patch, number_from<N>(P(2 * at.u - (right ? 1 : 0))),
+                                                number_from<N>(P(2 * at.v - (up ? 1 : 0))), order);
+      result.position = p.position;
+      set_derivatives(result, p, turn_of(0), N(2) * halved, N(4) * halved * halved, order);
+    } else {
+      // Towards the next and the previous corner; 1 - u is exact next to u = 1.
+      const P from_right = 2 * (1 - at.u), from_top = 2 * (1 - at.v), from_left = 2 * at.u,
+              from_bottom = 2 * at.v;
+      const P x = k == 0 ? from_left : k == 1 ? from_bottom : k == 2 ? from_right : from_top;
+      const P y = k == 0 ? from_bottom : k == 1 ? from_right : k == 2 ? from_top : from_left;
+      if (x == 0 && y == 0) return extraordinary_corner<N>(corner_of(at.quad, k), k, order);
+      near_corner(rings_[static_cast<std::size_t>(ring)], mesh_.topology.ring_index(at.quad, k), x, y,
+                  turn_of(k), halved, order, result);
+    }
+    if (order != Order::kPosition)
+      set_normal(result, {result.t1, result.t2, result.t1_terms, result.t2_terms}, fallback(at.quad));
+    return result;
+  }
+
+ private:
+  RingedCorner<Vec3<N>> corner_of(std::size_t quad, std::size_t k) const {
+    return gather<Vec3<N>>(mesh_.topology, quad,
+                           [&](std::int32_t v) { return mesh_.positions[static_cast<std::size_t>(v)]; })
+        .corner[k];
+  }
+  Vec3<N> fallback(std::size_t quad) const {
+    const auto at = [&](std::size_t k) -> const Vec3<N>& {
+      return mesh_.positions[static_cast<std::size_t>(mesh_.topology.faces()[quad][k])];
+    };
+    return area_of(at(0), at(1), at(2), at(3));
+  }
+
+  template <class P>
+  void near_corner(const TwoRing<N>& ring, int sector, const P& x, const P& y, const Turn& turn,
+                   const N& halved, Order order, SurfacePoint<N>& result) const {
+    const long steps = steps_to_corner(x, y);
+    const P a = times_power_of_two(x, steps + 1),
+            b = times_power_of_two(y, steps + 1);  // the larger in (1, 2]
+    TwoRingSector<N> s;
+    ring.sector(sector, steps, s);
+    const int i = a >= 1 ? 1 : 0, j = b >= 1 ? 1 : 0;
+    const PatchPoint<N> p = evaluate_patch<N>(FinerSector<N>(s).patch(i, j), number_from<N>(P(a - i)),
+                                              number_from<N>(P(b - j)), order, ring.size());
+    const N& growth = ring.growth();
+    result.position = ring.limit() + (p.position - s.c_to_limit) * power(growth, steps);
+    set_derivatives(result, p, turn, N(4) * halved * power(N(2) * growth, steps),
+                    N(16) * halved * halved * power(N(4) * growth, steps), order);
+  }
+
+  void make_two_rings(const Topology& finer) {
+    two_ring_of_.assign(mesh_.topology.vertex_count(), -1);
+    const auto at = [&](std::int32_t v) -> const Vec3<N>& { return points_[static_cast<std::size_t>(v)]; };
+    const auto index = [](std::int32_t v) { return v; };
+    for (std::size_t id = 0; id < two_ring_of_.size(); ++id) {
+      const auto v = static_cast<std::int32_t>(id);
+      const Sector sector = finer.sector(v);
+      if (sector.faces.empty() || sector.faces.size() == (sector.closed ? 4U : 2U)) continue;
+      TwoRingPoints<N> points;
+      points.c = at(v);
+      for (const std::int32_t f : sector.faces) {
+        const auto quad = gather<std::int32_t>(finer, static_cast<std::size_t>(f), index);
+        std::size_t k = 0;
+        while (quad.corner[k].point != v) ++k;
+        const auto &next = quad.corner[(k + 1) % 4], &far = quad.corner[(k + 2) % 4],
+                   &last = quad.corner[(k + 3) % 4];
+        points.e.push_back(at(next.point)), points.p.push_back(at(next.edge(-1)));
+        points.f.push_back(at(far.point)), points.r.push_back(at(far.face(2)));
+        points.g.push_back(at(next.face(-1))), points.h.push_back(at(last.face(1)));
+        if (!sector.closed && f == sector.faces.back())
+          points.e.push_back(at(last.point)), points.p.push_back(at(last.edge(2)));
+      }
+      two_ring_of_[id] = static_cast<std::int32_t>(rings_.size());
+      const auto faces = static_cast<int>(sector.faces.size());
+      if (sector.closed)
+        rings_.emplace_back(interior_.try_emplace(faces, faces).first->second, points);
+      else
+        rings_.emplace_back(boundary_.try_emplace(faces, faces).first->second, points);
+    }
+  }
+
+  void make_patches(const Topology& finer) {
+    patches_.resize(finer.faces().size());
+    for (std::size_t child = 0; child < patches_.size(); ++child) {
+      if (two_ring_of_[static_cast<std::size_t>(mesh_.topology.faces()[child / 4][child % 4])] >= 0) continue;
+      patches_[child] = gather<std::int32_t>(finer, child, [](std::int32_t v) {
+                          return v;
+                        }).patch([&](std::int32_t on, std::int32_t inside) {
+        points_.push_back(
+            ghost_point(points_[static_cast<std::size_t>(on)], points_[static_cast<std::size_t>(inside)]));
+        return static_cast<std::int32_t>(points_.size() - 1);
+      });
+    }
+  }
+
+  QuadMesh<N> mesh_;
+  std::vector<Vec3<N>> points_;  ///< after one more step: vertices, edge points, face points, then ghosts
+  std::vector<std::array<std::int32_t, 16>> patches_;  ///< of the quads of that step
+  std::vector<std::int32_t> two_ring_of_;              ///< of each vertex of mesh_, -1 where it is regular
+  std::map<int, InteriorKind<N>> interior_;
+  std::map<int, BoundaryKind<N>> boundary_;
+  std::vector<TwoRing<N>> rings_;
+};
+
+}  // namespace detail
+
+template <class N>
+StamEvaluator<N>::StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions)
+    : data_(std::make_unique<detail::StamData<N>>(std::move(faces), std::move(positions))) {}
+template <class N>
+StamEvaluator<N>::~StamEvaluator() = default;
+template <class N>
+StamEvaluator<N>::StamEvaluator(StamEvaluator&&) noexcept = default;
+template <class N>
+StamEvaluator<N>& StamEvaluator<N>::operator=(StamEvaluator&&) noexcept = default;
+
+template <class N>
+int StamEvaluator<N>::face_count() const {
+  return static_cast<int>(data_->face_count());
+}
+
+template <class N>
+SurfacePoint<N> StamEvaluator<N>::evaluate(int face, int corner, double u, double v, Order order) const {
+  if constexpr (std::is_same_v<N, double>) {
+    return data_->evaluate(face, corner, u, v, order);
+  } else {
+    return evaluate(face, corner, Parameter(u), Parameter(v), order);
+  }
+}
+
+template <class N>
+SurfacePoint<N> StamEvaluator<N>::evaluate(int face, int corner, const Parameter& u, const Parameter& v,
+                                           Order order) const {
+  if constexpr (std::is_same_v<N, double>)
+    if (u.is_double() && v.is_double())
+      return data_->evaluate(face, corner, u.as_double(), v.as_double(), order);
+  return data_->evaluate(face, corner, exact_value(u), exact_value(v), order);
+}
+
+}  // namespace limitcheck::reference::catmull_clark

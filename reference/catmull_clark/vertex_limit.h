@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The limit of a vertex in a mesh of quads: position, tangents, and a normal that is never NaN.
+#pragma once
+
+#include <vector>
+
+#include "reference/catmull_clark/ringed_quad.h"
+#include "reference/point/normal.h"
+#include "reference/point/surface_point.h"
+
+namespace limitcheck::reference::catmull_clark {
+
+/// Where a vertex goes.
+template <class N>
+Vec3<N> limit_position(const RingedCorner<Vec3<N>>& c) {
+  return c.on_boundary ? boundary_limit(c.point, c.edges.front(), c.edges.back())
+                       : interior_limit<N>(c.point, c.edge_span(), c.face_span());
+}
+
+/// Two directions in the tangent plane, their product outward.
+template <class N>
+Tangents<N> limit_tangents(const RingedCorner<Vec3<N>>& c) {
+  return c.on_boundary ? boundary_tangents<N>(c.point, c.edge_span(), c.face_span())
+                       : interior_tangents<N>(c.point, c.edge_span(), c.face_span());
+}
+
+/// The normal of a vertex from its tangents. Where they fail, that of the faces around after one to three steps,
+/// weighted by area, else of the control faces, else (0, 0, 1). [D12] A boundary vertex of four faces and more has no
+/// tangent plane, or takes it on like 1/k only: the mask's direction is given.
+template <class N>
+Normal<N> limit_normal(const RingedCorner<Vec3<N>>& corner, const Tangents<N>& tangents) {
+  Normal<N> normal = unit_normal(tangents, Vec3<N>{});
+  if (normal.kind == NormalKind::kRegular) {
+    if (corner.on_boundary && corner.face_count() >= 4) normal.kind = NormalKind::kNoTangentPlane;
+    return normal;
+  }
+  const auto sum_of = [](const RingedCorner<Vec3<N>>& c) {
+    std::vector<Vec3<N>> ring;
+    for (std::size_t i = 0; i < c.edges.size(); ++i) {
+      ring.push_back(c.edges[i]);
+      if (i < c.faces.size()) ring.push_back(c.faces[i]);
+    }
+    N size{};
+    for (const Vec3<N>& r : ring) size += dot(r - c.point, r - c.point);
+    const Vec3<N> sum = area_normal<N>(c.point, ring, c.on_boundary);
+    const N threshold = N(NumberTraits<N>::kNormalThreshold);
+    return dot(sum, sum) > size * size * threshold * threshold ? sum : Vec3<N>{};
+  };
+  RingedCorner<Vec3<N>> moving = corner;
+  for (int step = 0; step < 3; ++step) {
+    moving = subdivide<N>(moving);
+    const Vec3<N> sum = sum_of(moving);
+    if (dot(sum, sum) > N(0)) return {unit(sum), NormalKind::kFallback, {}};
+  }
+  return unit_normal(Tangents<N>{}, sum_of(corner));
+}
+
+}  // namespace limitcheck::reference::catmull_clark

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Catmull-Clark with 50 decimal digits.
+#include "reference/catmull_clark/naive_impl.h"
+#include "reference/catmull_clark/refined_mesh_impl.h"
+#include "reference/catmull_clark/stam_impl.h"
+#include "reference/catmull_clark/subdivision_evaluator_impl.h"
+
+namespace limitcheck::reference::catmull_clark {
+
+template class NaiveSubdivider<Decimal50>;
+template class RefinedMesh<Decimal50>;
+template class StamEvaluator<Decimal50>;
+template class SubdivisionEvaluator<Decimal50>;
+
+}  // namespace limitcheck::reference::catmull_clark

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The rules of the architecture: arrows point down only, the reference and the fast engine have nothing in common but the
-// control mesh, and no two types have one name. Read from the sources and from the symbols of the libraries.
+// The rules of the architecture: arrows point down only, the reference and the fast engine have nothing in
+// common but the control mesh, and no two types have one name. Read from the sources and from the symbols of
+// the libraries.
 #include <gtest/gtest.h>
 
 #include <cstdio>

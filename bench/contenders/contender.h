@@ -36,7 +36,8 @@ struct Route {
 /// naive subdivider.
 std::vector<Route> our_routes();
 
-/// Each as fast as the library's own interface lets it be, in float where it can be: no plug-in interface, no provenance.
+/// Each as fast as the library's own interface lets it be, in float where it can be: no plug-in interface, no
+/// provenance.
 Route bfr_streaming();
 Route bfr_cached_stencils();
 Route far_uniform();

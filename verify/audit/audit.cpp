@@ -29,9 +29,9 @@ bool has_boundary(const data::ControlMesh& mesh) {
                      [](const Lattice::Edge& edge) { return edge.on_boundary(); });
 }
 
-// Why a subject that says "not supported" offers what it was asked for, by what it declares; empty if it
-// does not, or if nobody declares such a thing: sizes beyond 2^-40 and 2^40, where a float's squares end, and
-// more triangles than 32-bit indices name.
+// A subject answered "not supported": why its capabilities say that it does support this request. Empty if
+// they do not, or cannot say so: of sizes beyond 2^-40 and 2^40, where the squares of floats overflow or
+// vanish, and of more triangles than 32-bit indices name.
 std::string contradicts_capabilities(const std::exception& error, const AuditSubject& audited,
                                      const AuditMesh& mesh, std::span<const std::int32_t> asked) {
   const auto* refusal = dynamic_cast<const SubjectError*>(&error);
@@ -79,7 +79,7 @@ void close(Session& session, Result& tessellates) {
 
 }  // namespace
 
-// The rows of one subject on one mesh, as they come.
+// Collects the rows of one subject on one mesh.
 struct Auditor::Rows {
   std::string subject, mesh;
   std::vector<Result>& results;
@@ -146,7 +146,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     cache_.clear();
     out_of_memory_ = true;
   }
-  // Of a sample, however far it came: faces as the whole numbers them.
+  // Witnesses on a sample name the faces of the whole mesh, also in rows of an audit that was interrupted.
   if (mesh.sample)
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
@@ -254,7 +254,7 @@ void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::
 
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
                                  const std::vector<AuditMesh>& meshes, Journal* journal) {
-  // Mesh by mesh, so that subjects share the reference; told subject by subject.
+  // Audited mesh by mesh, so that subjects share the reference; returned subject by subject.
   done_ = 0;
   total_ = subjects.size() * meshes.size();
   std::vector<std::vector<Result>> of_subject(subjects.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exact: everything happens on lattice coordinates.
+// All arithmetic is on lattice coordinates, and so exact.
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
@@ -36,7 +36,7 @@ struct Verdict {
 // Take every triangle counter-clockwise and add up the boundaries: how often a point is covered is the
 // winding number of the sum. So every point is covered exactly once if and only if the sum is the outline of
 // the face, whichever diagonals the tiling has. Sides are cut into primitive steps, so that a side may meet
-// two shorter ones (a T-vertex is not the business of this check).
+// two shorter ones (`t-vertices` reports T-vertices).
 void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::int64_t scale, Verdict& v) {
   struct Step {
     std::int64_t i, j, di, dj;  // canonical direction
@@ -74,7 +74,7 @@ void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::in
     if (sum != 0) v.note(v.holes, {steps[k].i, steps[k].j});
     k = end;
   }
-  // The sum of the areas tells which of the two it is, if only one is.
+  // The sum of the areas tells whether it is a hole, an overlap or both.
   if (!v.holes) return;
   std::int64_t covered = 0;
   for (const Corners& c : triangles) covered += std::abs(area(c));
@@ -106,7 +106,8 @@ void judge_points(std::span<const Corners> triangles, FaceDomain domain, std::in
   v.fan = v.coarser && fan && !triangles.empty();
 }
 
-// Nothing finer in sight, also not beyond a neighbour, which may be displayed as deep as that.
+// Neither the face nor a neighbour is deeper, nor the faces beyond a neighbour, which may be displayed as
+// deep as they are.
 bool is_plain(const Evidence& e, std::int32_t face) {
   const auto finer = [&](std::int32_t f) { return f >= 0 && deepest_near(e, f) > e.face_depth[face]; };
   if (finer(face)) return false;
@@ -162,7 +163,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
     }
   });
 
-  // What has no place is held against the face that it names.
+  // What has no place counts as a fault of the face that it names.
   std::int64_t misplaced = 0, off_lattice = 0;
   Verdict nowhere;  // no face of the mesh at all
   const auto blame = [&](std::int32_t face, std::int64_t triangle) {

@@ -20,12 +20,12 @@ Verdict judge(const Evidence& e, std::int64_t triangle, double slack) {
   std::array<Lattice::Coordinates, 3> c;
   if (!e.place(triangle, c)) return Verdict::kNotPlaced;
 
-  // On the lattice: exact, and all that counts where the facet is nearly degenerate in space.
+  // On the lattice this is exact; where the facet is nearly degenerate in space, nothing else is judged.
   const std::int64_t on_lattice = area(c);
   if (on_lattice < 0) return Verdict::kClockwise;
   if (on_lattice == 0) return Verdict::kGood;  // no orientation; `watertight` counts it
 
-  // In space: as the facet of the exact surface over the same three lattice points faces.
+  // In space the facet must face as that of the exact surface over the same three lattice points.
   const auto& v = e.tessellation.triangles()[triangle];
   std::array<Vector, 3> got, exact;
   for (int k = 0; k < 3; ++k) {

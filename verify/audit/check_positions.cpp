@@ -29,7 +29,7 @@ std::vector<Result> check_positions(const Evidence& e) {
   });
   r.bound = position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal);
   r.unit = "diagonal";
-  // Refined points are means of control points, as good in double as anywhere.
+  // Refined points are means of control points, for which double is as good as any arithmetic.
   const Confirmation confirmation =
       limit ? confirm(
                   e, error, [&](std::size_t) { return *r.bound; },

@@ -32,7 +32,7 @@ std::vector<double> numbers_of(const Json& json) {
   return list;
 }
 
-// The members are taken apart by their number: one more, and this does not compile until it is kept, too.
+// The structured binding names all members: with a new one this does not compile until it is written, too.
 Json to_json(const Witness& w) {
   const auto& [face, l1, l2, vertex, triangle, expected, got, digits] = w;
   return Json::array({face, l1, l2, vertex, triangle, Json(numbers(expected)), Json(numbers(got)), digits});

@@ -78,7 +78,7 @@ data::ControlMesh read_broken_mesh(const std::string& file) {
   }
   if (data::validate(mesh).empty())
     throw data::ArgumentError(
-        fmt::format("--must-refuse: nothing is wrong with {}, so nobody must refuse it", file));
+        fmt::format("--must-refuse: nothing is wrong with {}, so no subject must refuse it", file));
   return mesh;
 }
 

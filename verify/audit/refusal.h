@@ -32,8 +32,8 @@ std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, int threads);
 /// Hands `mesh` to the subject as it is. Never throws for what the subject does.
 Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, int threads);
 
-/// A broken mesh from a file, as it is; polygons are cut into fans. Throws data::InputError: the file cannot be
-/// read, or an index has more than 32 bits; data::ArgumentError: nothing is wrong with the mesh.
+/// A broken mesh from a file, as it is; polygons are cut into fans. Throws data::InputError: the file cannot
+/// be read, or an index has more than 32 bits; data::ArgumentError: nothing is wrong with the mesh.
 data::ControlMesh read_broken_mesh(const std::string& file);
 
 /// One row `rejected-inputs` for each subject and mesh: whether the subject refuses the mesh.

@@ -102,8 +102,8 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.bad += wrong;
     c.other_bits += !bits;
   }
-  // Which points are not finite may depend on the order of things: the business of `finite`. That there are
-  // more of them than in the original is nobody else's.
+  // Which points are not finite may depend on the order of the input, and `finite` reports them. Only here it
+  // shows that there are more of them than in the original.
   if (not_finite.size() > not_finite_.size()) {
     c.bad += static_cast<std::int64_t>(not_finite.size() - not_finite_.size());
     c.of += static_cast<std::int64_t>(not_finite.size());
@@ -111,7 +111,8 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.message =
         fmt::format("{} points are not finite, {} in the original", not_finite.size(), not_finite_.size());
   }
-  // A face may be displayed deeper than asked for where its neighbours are: which, may depend on the order.
+  // Next to deeper neighbours a face may be displayed deeper than asked for; which face is may depend on the
+  // order.
   for (const auto& [id, vertex] : by_point_)
     if (uniform_ && !seen[id]) {
       ++c.of;

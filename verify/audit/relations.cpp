@@ -15,7 +15,7 @@
 namespace limitcheck::verify {
 namespace {
 
-// What the rows are made of. Nothing in here may end the others: a subject may break down in any request.
+// Finds each row. A subject may break down in any request, which must not affect the other rows.
 class Relations {
  public:
   Relations(const AuditSubject& subject, const Evidence& e, int threads)
@@ -117,7 +117,8 @@ class Relations {
            (!t.has_normals() || std::abs(norm(t.normal(v)) - 1) <= length_bound(e_.capabilities.precision));
   }
 
-  // By place in the list: on degenerate geometry nothing else tells vertices apart.
+  // Vertices are matched by their place in the list, because on degenerate geometry nothing else tells them
+  // apart.
   Witness witness(const Tessellation& t, std::int64_t v) const {
     Witness w;
     if (v < e_.tessellation.vertex_count()) w = e_.at_vertex(v);

@@ -14,7 +14,8 @@ namespace limitcheck::verify {
 /// Numbers 0 .. count - 1 in a random order.
 std::vector<std::int32_t> shuffled(std::size_t count, data::SplitMix64& random);
 
-/// A mesh, and how its faces lie on those of the mesh that it was made of. Each change adds to the ones before.
+/// A mesh, and how its faces lie on those of the mesh that it was made of. Each change adds to the ones
+/// before.
 struct Rewriting {
   data::ControlMesh mesh;
   std::vector<std::int32_t> face;              // of the original, for each face

@@ -24,7 +24,7 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   return out;
 }
 
-// b goes into a; the faces that have both vanish. Validity is the caller's to see.
+// Vertex b is merged into a, and faces with both vanish. The result may be invalid; the caller checks.
 AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
   AuditMesh out = whole;
   Faces left;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the tangents of the surface vanish but for rounding nobody is blamed, and row streaming takes the
-// same side as the sliding window.
+// Where the tangents of the surface vanish but for rounding no subject has a finding, and row streaming takes
+// the same side as the sliding window.
 #include <gtest/gtest.h>
 
 #include <array>

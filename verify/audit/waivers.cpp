@@ -51,7 +51,7 @@ bool is_a_day(const std::string& date) {
       .ok();
 }
 
-// Of a key that occurs twice the parser would keep one, and nobody knows which.
+// If a key occurs twice, the parser would silently keep one of the two values.
 nlohmann::json parse_without_duplicates(const std::string& text) {
   using Json = nlohmann::json;
   if (data::json_nesting(text) > 32) throw data::ArgumentError("waivers: brackets nest more than 32 deep");

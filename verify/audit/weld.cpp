@@ -15,7 +15,7 @@ Welded weld(const Evidence& e) {
       t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
   Welded welded;
   welded.point_of.assign(e.point.size(), -1);
-  // The points of each lattice point and of each place, of which there is nearly always one.
+  // The points at each lattice point and at each place, of which there is nearly always one.
   std::vector<std::int32_t> of_lattice_point(e.lattice.size(), -1), next, place;
   std::vector<std::int32_t> of_place(places.vertex_of.size(), -1);
   const auto add = [&](std::size_t v) {

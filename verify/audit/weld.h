@@ -13,7 +13,8 @@ namespace limitcheck::verify {
 /// between them is a crack. Equal positions alone are not enough: two boundaries of a control mesh may lie in
 /// one place (the seam of a texture), a vertex of one part may lie on another part, a control triangle may
 /// have no area; what is apart in the control mesh stays apart.
-///   point_of   for each vertex the number of its point; -1: neither its position nor its provenance can be used
+///   point_of   for each vertex the number of its point; -1: neither its position nor its provenance can be
+///              used
 ///   vertex_of  for each point its first vertex
 /// A vertex that is not finite goes with the others of its lattice point: only the check `finite` reports it.
 /// One that names no lattice point goes with those in its place.

@@ -125,7 +125,7 @@ void check_json(const std::string& json) {
         json));
 }
 
-// The meshes of the command line, or those that are tried first, each as it says.
+// The meshes of the command line, or the default ones, at the depths that it says.
 std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify::Depths& depths,
                                                 const std::optional<Sampling>& sampling, Progress& progress) {
   std::vector<std::string> names = a.meshes;
@@ -172,7 +172,7 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
   return report;
 }
 
-// Everything that is settled before the first subject is asked.
+// The arguments as checked and completed before the first subject is called.
 struct Job {
   Arguments arguments;  // with SUBJECT and --threads filled in
   verify::Depths depths;
@@ -217,9 +217,9 @@ int exit_code_of(const verify::Auditor& auditor, const verify::Report& report, i
   return report.held() ? kHeld : kFindings;
 }
 
-// Everything that goes into files; `finished` is a journal that the report makes superfluous. They are written
-// before the table, because a reader of the table may close the pipe. The table is printed even if a file cannot
-// be written: the error is returned.
+// Everything that goes into files; `finished` is a journal that the report makes superfluous. They are
+// written before the table, because a reader of the table may close the pipe. The table is printed even if a
+// file cannot be written: the error is returned.
 std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSubject>& audited,
                                const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
                                verify::Journal* finished) {

@@ -102,8 +102,8 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
   report.results = audit.results;
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  // Files are written first, because a reader of the table may close the pipe; and the table is printed even if
-  // a file cannot be written.
+  // Files are written first, because a reader of the table may close the pipe; and the table is printed even
+  // if a file cannot be written.
   std::exception_ptr not_written;
   try {
     if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, audit.per_vertex);

@@ -111,7 +111,7 @@ void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& su
 
 namespace {
 
-// What a result is about; nullptr if it is none of these.
+// The mesh that a result is about; nullptr if it is none of these.
 const verify::AuditMesh* case_of(const verify::Result& r, const std::vector<verify::AuditMesh>& meshes) {
   for (const verify::AuditMesh& m : meshes)
     if (m.name == r.mesh && m.depth == r.depth && m.depths == r.depths &&

@@ -26,7 +26,7 @@ std::string_view bytes(const std::vector<T>& list) {
   return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
 }
 
-// Another mesh of the same name has another one.
+// A hash, which differs for another mesh of the same name.
 std::string content(const verify::AuditMesh& m) {
   std::uint64_t hash = fnv1a(bytes(m.mesh.positions), 0xcbf29ce484222325ULL);
   hash = fnv1a(bytes(m.face_depth), fnv1a(bytes(m.mesh.triangles), hash));

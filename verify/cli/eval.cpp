@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// limitcheck eval: the oracle as a calculator.
+// limitcheck eval: the exact surface at one point.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Commands that are separate programs: they need libraries that limitcheck does without, or run limitcheck itself.
+// Commands that are separate programs: they need libraries that limitcheck does without, or run limitcheck
+// itself.
 #include <fmt/core.h>
 #include <unistd.h>
 

@@ -44,7 +44,7 @@ double vertices_after(const data::ControlMesh& mesh, Scheme scheme, int steps) {
   return scheme == Scheme::kCatmullClark ? .75 * growth : .5 * growth;
 }
 
-// Every so many-th of a list, some kSample of them.
+// The stride with which about kSample elements of a list are taken.
 std::size_t stride(std::size_t count) {
   return std::max<std::size_t>(1, count / kSample);
 }

@@ -33,10 +33,10 @@ struct Similarity {
 };
 
 /// The map that brings the points nearest to the surface in the sense of least squares.
-///   start    the bounding boxes of points and surface, in each of the 24 orientations along the axes (y up, z up
-///            ...; one for kScale); the best of them by closest points
-///   rounds   closest points, then Umeyama's similarity between pairs; at the end Gauss and Newton's steps on the
-///            distances along the normals, which converge quadratically
+///   start    the bounding boxes of points and surface, in each of the 24 orientations along the axes (y up,
+///            z up ...; one for kScale); the best of them by closest points
+///   rounds   closest points, then Umeyama's similarity between pairs; at the end Gauss and Newton's steps on
+///            the distances along the normals, which converge quadratically
 ///   points   three or more, finite; at most 4096 of them, evenly chosen, are used
 Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, Fit kind);
 

@@ -45,14 +45,14 @@ std::string_view json_of(std::string_view content, bool binary) {
   return content.substr(20, length);
 }
 
-// What is required to see the model as it is meant, and changes nothing of its shape.
+// Extensions that a viewer needs but that do not change the shape.
 bool is_about_looks(const std::string& extension) {
   static constexpr std::array kLooks{"KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_"};
   return std::any_of(kLooks.begin(), kLooks.end(),
                      [&](const char* begin) { return extension.starts_with(begin); });
 }
 
-// Opens nothing: a pipe would be waited for.
+// Does not open the file, because opening a pipe would block.
 bool is_beside(const std::string& file, void*) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What sections 6 and 7 say of strategies, measured by what a viewer sees.
+// What sections 6 and 7 say of strategies, measured on pictures.
 // [mueller2000, 6, 7; C31, C74, C76, C79]
 #pragma once
 

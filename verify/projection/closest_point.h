@@ -36,8 +36,8 @@ class ClosestPoint {
   ///   method   all pieces whose proved bound lets them hold a nearer point, by rising distance; from each,
   ///            Newton's iteration on the exact evaluator over the whole domain (across face borders, along
   ///            boundaries) with line searches, and a pattern search where that does not descend
-  ///   error    foot and distance as the evaluator's, that is about 2e-16 of the mesh, for points nearer than the
-  ///            smallest radius of curvature; the test has measurements
+  ///   error    foot and distance as the evaluator's, that is about 2e-16 of the mesh, for points nearer than
+  ///            the smallest radius of curvature; the test has measurements
   /// Where several points are nearest, it is one of them.
   Foot closest(const Vector& p) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The subject's side of the plug-in interface, for adapters written in C++: a class becomes an lc_subject, its exceptions
-// become statuses with messages.
+// The subject's side of the plug-in interface, for adapters written in C++: a class becomes an lc_subject,
+// its exceptions become statuses with messages.
 #pragma once
 
 #include <cmath>

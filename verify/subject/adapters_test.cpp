@@ -130,8 +130,8 @@ TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
   }
 }
 
-// It decides that both libraries use Loop's weights (with Warren's the vertex of valence 4 would move by 0.375
-// instead of 0.484 of the way) and the B-spline boundary.
+// Decides that both libraries use Loop's weights (with Warren's the vertex of valence 4 would move by
+// 0.375 instead of 0.484 of the way) and the B-spline boundary.
 TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
   double worst = 0;
   for (const char* subject : {"cgal", "openmesh"}) {

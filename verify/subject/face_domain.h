@@ -16,8 +16,8 @@ namespace limitcheck::verify {
 /// l1 = i / n, l2 = j / n. Corners are numbered counter-clockwise from 0. Side k runs from corner k to corner
 /// next(k), and a point on it is given by its number of steps of 1 / n from corner k.
 ///
-/// Whoever asks a domain in place of counting to three is ready for other faces: a quad (the unit square), and
-/// an n-gon (n unit squares side by side, one for each corner, which meet in the middle of the face).
+/// Code that asks a domain in place of counting to three is ready for other faces: a quad (the unit square),
+/// and an n-gon (n unit squares side by side, one for each corner, which meet in the middle of the face).
 class FaceDomain {
  public:
   struct Point {

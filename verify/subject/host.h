@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The host's side of the plug-in interface (verify/subject/subject.h): hands a control mesh to a subject and takes back
-// what it delivers, trusting nothing.
+// The host's side of the plug-in interface (verify/subject/subject.h): hands a control mesh to a subject and
+// takes back what it delivers, trusting nothing.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The memory behind lc_request::allocate: filled with 0xFF, between guard zones, and these between pages that
-// nobody may touch.
+// The memory behind lc_request::allocate: filled with 0xFF, between guard zones, and these between pages
+// without access.
 //
 //   | no access | guard zone | block | guard zone | no access |
 //

@@ -171,7 +171,8 @@ TEST(Host, SeesWhatIsLeftUnwritten) {
   EXPECT_TRUE(has_only(planted("unwritten_triangle"), Kind::kIndexOutOfRange, "triangles"));
 }
 
-// What the interface promises about memory, and what comes of a subject that allocates and then writes nothing.
+// What the interface promises about memory, and what comes of a subject that allocates and then writes
+// nothing.
 TEST(Host, HandsOutAlignedMemoryFullOfOnes) {
   lc_subject subject = *lc_subject_null();
   subject.tessellate = [](void*, const lc_request* request, lc_tessellation* out, const char** message) {

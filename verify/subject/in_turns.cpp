@@ -14,11 +14,11 @@
 namespace limitcheck::verify {
 namespace {
 
-constexpr double kMany = 16384;  // triangles that nobody looks at
+constexpr double kMany = 16384;  // triangles of requests whose answers are thrown away
 
 const lc_subject* inner = nullptr;  // the functions of a subject are not told whose they are
 
-// Memory for answers that nobody looks at, as the plug-in interface promises it.
+// Memory for answers that are thrown away, as the plug-in interface promises it.
 struct Scratch {
   std::vector<std::unique_ptr<void, decltype(&std::free)>> blocks;
 

@@ -20,9 +20,9 @@ inline constexpr std::array<const char*, 8> kTurns{
     "for the eighth time, another mesh made in between",
     "made again after another mesh, and asked for another depth first"};
 
-/// Another subject around `inner`: create() first makes two other meshes and tessellates them, then the one that
-/// is asked for, and all live together; each tessellate() is passed on after the turn above. All other meshes
-/// are valid and closed. A failure in a turn is a failure of the request. One at a time in a process.
+/// Another subject around `inner`: create() first makes two other meshes and tessellates them, then the one
+/// that is asked for, and all live together; each tessellate() is passed on after the turn above. All other
+/// meshes are valid and closed. A failure in a turn is a failure of the request. One at a time in a process.
 class InTurns {
  public:
   explicit InTurns(const lc_subject& inner);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of the paper's section 4 (reference/loop/naive.h) in double. It sends single triangles,
-// and rounds differently in each: of all that it says of one point, the first in the order of the bits is
-// taken, so that neither the triangles of a face nor faces of one depth leave cracks of one ulp. Faces share
-// no vertices. [C18]
+// The recursive subdivider of the paper's section 4 (reference/loop/naive.h) in double. It sends single
+// triangles, and rounds differently in each: of all that it says of one point, the first in the order of the
+// bits is taken, so that neither the triangles of a face nor faces of one depth leave cracks of one ulp.
+// Faces share no vertices. [C18]
 //
 //   options   weights=loop|warren (default loop)
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The OpenSubdiv adapters against the reference; and OpenSubdiv's known faults, which the adapters must hand on
-// as they are.
+// The OpenSubdiv adapters against the reference; and OpenSubdiv's known faults, which the adapters must hand
+// on as they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ class Expected {
   std::size_t boundary_faces(std::int32_t v) const {
     return refined_.topology().on_boundary(v) ? refined_.topology().ring(v).size() - 1 : 0;
   }
-  /// Of a boundary vertex of four faces or more, by OpenSubdiv's mask for the tangent across (D4): the ends of
-  /// the ring weigh sin(theta) / (2 cos(theta) - 2), theta = pi / faces, those between sin(k theta).
+  /// Of a boundary vertex of four faces or more, by OpenSubdiv's mask for the tangent across (D4): the ends
+  /// of the ring weigh sin(theta) / (2 cos(theta) - 2), theta = pi / faces, those between sin(k theta).
   Vector normal_by_the_other_mask(std::int32_t v) const {
     const auto ring = refined_.topology().ring(v);
     const double theta = std::numbers::pi / static_cast<double>(ring.size() - 1);

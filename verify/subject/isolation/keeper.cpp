@@ -65,7 +65,7 @@ bool write_line(const char* file, const char* text, unsigned a, unsigned b) {
   return written;
 }
 
-// In a user namespace of its own everybody stays who he is.
+// In the new user namespace, user and group keep their numbers.
 bool keep_identity(const Identity& own) {
   return write_line("/proc/self/setgroups", "deny", 0, 0) &&
          write_line("/proc/self/uid_map", "", own.user, own.user) &&

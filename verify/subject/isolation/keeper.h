@@ -2,10 +2,12 @@
 // The process between this program and a child: it starts the child, and nothing that the child starts
 // outlives it. It leads a session of its own, so that the child has no terminal.
 //
-//   in a PID namespace   where the system allows one (root, or user namespaces). The keeper is its first process:
-//                        when it ends, however it ends, the kernel kills all others. They see no process outside.
-//   as a subreaper       elsewhere. What a descendant leaves behind becomes a child of the keeper, which kills its
-//                        children until none is left. A descendant that kills the keeper escapes this.
+//   in a PID namespace   where the system allows one (root, or user namespaces). The keeper is its first
+//                        process: when it ends, however it ends, the kernel kills all others. They see no
+//                        process outside.
+//   as a subreaper       elsewhere. What a descendant leaves behind becomes a child of the keeper, which
+//                        kills its children until none is left. A descendant that kills the keeper escapes
+//                        this.
 #pragma once
 
 #include <sys/types.h>

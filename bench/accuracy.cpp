@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How far the float engines are from the limit surface, by depth: median, 99.9 % and worst, as a table.
-//   accuracy [MESH [DEEPEST [SUBJECT...]]]     bumpy:4000 8 row-stream:output=indexed
-//   sliding-window:output=indexed
+//   accuracy [MESH [DEEPEST [SUBJECT...]]]
+// Defaults: bumpy:4000, 8, row-stream:output=indexed and sliding-window:output=indexed.
 // Every lattice point of all faces up to two million of them; beyond, of faces evenly spread over the mesh.
 // The reference is Stam's evaluator in double on the control mesh rounded to float.
 #include <fmt/core.h>

@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&arguments_left, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(arguments_left, arguments.data())) return 2;
 
-  // What tells runs apart that may not be compared.
+  // Runs that differ in these must not be compared.
   std::string targets;
   for (const auto& kernel : fast::row_stream::kernels())
     targets += std::string(targets.empty() ? "" : " ") + kernel.name;

@@ -19,14 +19,7 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 
-// What PrimvarRefiner interpolates.
-struct Vector {
-  std::array<float, 3> x;
-  void Clear(void* = nullptr) { x = {}; }
-  void AddWithWeight(const Vector& v, float weight) {
-    for (std::size_t c = 0; c < 3; ++c) x[c] += weight * v.x[c];
-  }
-};
+using Vector = verify::OpenSubdivVector<float>;
 
 /// Uniformly refined topology; run() interpolates level by level, then applies the limit masks.
 class Uniform : public Contender {

@@ -25,7 +25,7 @@ Image normal_cone(Studio& studio) {
   reference::RefinedMesh<double> refined(studio.mesh());
   const fast::Adjacency adjacency(studio.mesh());
   const fast::DepthHeuristics heuristics(studio.mesh(), adjacency);
-  // Of those that need just two steps the one that begins with its triangles widest, but not folded.
+  // Of the vertices that need just two steps, the one whose triangles are widest at first, but not folded.
   std::int32_t v = 0;
   double widest = 1;
   for (std::int32_t w = 0; w < adjacency.vertex_count(); ++w) {

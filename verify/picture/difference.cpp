@@ -79,8 +79,7 @@ void DifferenceMeter::add(const Picture& truth, const Picture& seen) {
       const bool both = shows(is) && shows(looks);
       errors_.push_back(both ? std::abs(is - looks) : 255);
       if (both) continue;
-      // What is missing lies that far outside the contour that is drawn; what is too much, outside the true
-      // one.
+      // Missing pixels are that far outside the contour drawn, extra pixels outside the true contour.
       sum_.contour = std::max(sum_.contour, distance_to_surface(shows(is) ? seen : truth, x, y));
       ++(shows(is) ? sum_.missing : sum_.extra);
       if (shows(is))

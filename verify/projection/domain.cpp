@@ -26,7 +26,7 @@ bool Domain::express(const FacePoint& point, std::int32_t face, FacePoint& resul
 }
 
 FacePoint Domain::walk(FacePoint from, std::array<double, 3> step) const {
-  // A straight line crosses few edges unless it circles a vertex; then anything on its way will do.
+  // A straight line crosses few edges unless it circles a vertex; then any point on its way is good enough.
   for (int crossing = 0; crossing < 24; ++crossing) {
     double way = 1;
     int exit = -1;

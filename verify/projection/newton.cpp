@@ -116,7 +116,8 @@ class Descent {
         if (halving == 40) return way.length <= 1e-14 * scale_;
         next = domain_.walk(at_, {t * way.l[0], t * way.l[1], t * way.l[2]});
         there = distance_at(next);
-        // Near the minimum the distance itself no longer tells: as good as equal will do for a whole step.
+        // Near the minimum the distance cannot decide any more: a whole step is taken if the distances are
+        // nearly equal.
         if (there * there <= distance_ * distance_ + 2e-4 * t * std::min(way.slope, 0.0)) break;
         if (t == 1 && there <= distance_ * (1 + 4e-16) + tiny && way.length < 1e-7 * scale_) break;
       }

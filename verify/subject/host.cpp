@@ -20,7 +20,8 @@ const char* text(const std::string& options) {
   return options.empty() ? nullptr : options.c_str();
 }
 
-// What is wrong with them, or nothing. As numbers: an enumeration from outside may hold any.
+// What is wrong with the capabilities, or nothing. Enumerations are compared as numbers, because those of a
+// foreign library may hold any.
 std::string impossible(const lc_capabilities& c) {
   const auto number = [](const auto& value) {
     std::int32_t n = 0;

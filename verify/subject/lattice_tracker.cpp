@@ -53,7 +53,7 @@ void LatticeTracker::step(std::int64_t vertex_count, std::vector<std::array<std:
     }
   }
 
-  // The two old vertices that each vertex comes from; an old one comes from itself.
+  // The two old vertices whose edge each vertex divides; an old vertex is both of them.
   std::vector<std::array<std::uint32_t, 2>> ends(vertex_count, {kNone, kNone});
   for (std::uint32_t v = 0; v < old; ++v) ends[v] = {v, v};
   for (const auto& t : triangles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the model can be told to do wrong: something that a real tessellator could do.
+// The faults that the model can be told to have, each of a kind that a real tessellator could have.
 #include "verify/subject/model_rules.h"
 
 namespace limitcheck::verify {

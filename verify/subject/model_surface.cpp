@@ -11,7 +11,7 @@ namespace {
 
 using V = ModelRules::V;
 
-// Edge points between faces that are shown and faces that are not, as if the latter were not there.
+// Edge points between visible and culled faces, as if the culled faces did not exist.
 void cut_holes(const ModelMesh& from, const std::vector<V>& points, std::span<const std::int32_t> shown,
                std::vector<V>& next) {
   for (std::size_t f = 0; f < shown.size(); ++f)

@@ -37,7 +37,7 @@ std::vector<Tile> stitched_tiles(int depth, const std::array<int, 3>& edge, int 
   std::vector<Tile> tiles;
   add_lattice(tiles, 1, inner, depth);
   for (int k = 0; k < 3; ++k) {
-    // Between the edge and the first row inside: on with the side that lags behind.
+    // Between the edge and the first inner row: advance on the side that is behind.
     const int steps = 1 << edge[k];
     int outside = 0, inside = 0;
     while (outside < steps || inside < inner) {

@@ -102,7 +102,7 @@ class FarPatchesSubject {
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
-    // The points of all levels, then those the end caps have of their own.
+    // The points of all levels, then those of the end caps.
     const auto refined = static_cast<std::size_t>(refiner_->GetNumVerticesTotal());
     std::vector<Vector<Real>> points(refined + static_cast<std::size_t>(table_->GetNumLocalPoints()));
     for (std::size_t v = 0; v < static_cast<std::size_t>(mesh_.vertex_count); ++v) {

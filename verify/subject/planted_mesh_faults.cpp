@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faults that hide on most control meshes: tables too short, assumptions about the shape.
+// Faults that show on some control meshes only: tables too short, assumptions about the shape.
 #include <algorithm>
 #include <cmath>
 #include <limits>

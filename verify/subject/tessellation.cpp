@@ -44,7 +44,7 @@ void note(std::vector<Defect>& defects, Kind kind, const char* array, std::strin
   defects.push_back({kind, array, 1, -1, std::move(message)});
 }
 
-// The guard zones around each block, told by the array that begins in it.
+// Finds writes to the guard zones of each block; a block is named by the array that begins in it.
 void find_overruns(const detail::Memory& memory, const Arrays& arrays, std::vector<Overrun>& overruns) {
   for (const auto& block : memory.blocks()) {
     const auto owner =

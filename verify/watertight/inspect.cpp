@@ -18,7 +18,8 @@ bool degenerate(const Triangle& t) {
   return t[0] < 0 || t[1] < 0 || t[2] < 0 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-// What one block of consecutive points found; blocks are joined in order, so threads do not show.
+// The findings of one block of consecutive points. Blocks are joined in order, so the result does not depend
+// on threads.
 struct Block {
   std::int64_t directed_edges = 0, crowded = 0, clashing = 0, bow_ties = 0, duplicates = 0;
   std::vector<Edge> open, crowded_witness, clashing_witness;
@@ -87,7 +88,7 @@ class StarInspector {
     }
   }
 
-  // Told by the smallest of the three points.
+  // Counted once, by the smallest of the three points.
   void duplicates(std::int32_t v, std::span<const Ray> star, Block& out) {
     pairs_.clear();
     for (const Ray& r : star)

@@ -203,11 +203,11 @@ void sweep(pid_t child) {
 }
 
 [[noreturn]] void keep(bool in_namespace, const Identity* mapped, char* const* argv, KeeperPipes pipes) {
-  // Without a namespace it must live to kill its children: there the lifeline alone tells it.
+  // Without a namespace the keeper must live to kill its children: there only the lifeline ends it.
   if (in_namespace) prctl(PR_SET_PDEATHSIG, SIGKILL);
   setsid();
   for (const int signal : kIgnored) std::signal(signal, SIG_IGN);
-  // No descriptor but its own: the lifeline of another child in here would keep that one alive.
+  // It keeps no other descriptors: the lifeline of another child, if open here, would keep that child alive.
   std::array<int, 5> own{pipes.standard[0], pipes.standard[1], pipes.standard[2], pipes.lifeline, pipes.news};
   std::sort(own.begin(), own.end());
   unsigned next = 3;
@@ -253,7 +253,8 @@ void sweep(pid_t child) {
     if (read(signals, taken.data(), sizeof taken) < 0 && errno != EAGAIN && errno != EINTR) end();
     host_lives = awaited[0].revents == 0;
     if (!first) continue;
-    // Once all that is called below has been called: to find a function for the first time takes the heap.
+    // After every function used below has been called once, because resolving a function for the first time
+    // uses the heap.
     kill_children(std::numeric_limits<pid_t>::max());
     kill(getpid(), 0);
     shed_memory();

@@ -13,8 +13,8 @@
 
 namespace limitcheck::verify {
 
-// The functions behind the table. capabilities() and create() are not told whose they are: each remote
-// subject has a pair of its own, made by the compiler for one of 64 slots.
+// The functions behind the table. capabilities() and create() get no pointer to their subject, so each remote
+// subject has a pair of its own, which the compiler makes for each of 64 slots.
 struct RemoteCalls {
   struct Instance {
     RemoteSubject& subject;
@@ -31,7 +31,7 @@ struct RemoteCalls {
     return all;
   }
 
-  // What goes wrong with a process, and refusals, in the words of the plug-in interface.
+  // Errors of the process, and refusals, as statuses of the plug-in interface.
   template <class Work>
   static lc_status answer(RemoteSubject& s, ChildProcess& child, const char** message, const Input& input,
                           Work&& work) {
@@ -50,7 +50,7 @@ struct RemoteCalls {
     } catch (const std::bad_alloc&) {
       throw HostOutOfMemory();
     } catch (const SubjectDied& error) {
-      // What has answered once can be started: a later failure is its own.
+      // A program that has answered once can be started: a later failure is the program's own.
       if (!child.not_started() || s.has_answered_) died(error);
       text = error.what();  // a wrong command line, not a fault of the subject
       *message = text.c_str();

@@ -65,7 +65,7 @@ Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& m
     auto* data = static_cast<std::byte*>(request.allocate(request.host, static_cast<std::size_t>(b.size)));
     if (data == nullptr) throw std::bad_alloc();
     source.read({data, static_cast<std::size_t>(b.size)});
-    // Any other byte than what stands there.
+    // Any byte other than the present one.
     if (b.before > 0) *(data - b.before) ^= std::byte{1};
     if (b.behind > 0) *(data + b.size + b.behind - 1) ^= std::byte{1};
     memory.push_back(data);

@@ -13,6 +13,10 @@ std::array<double, 3> clamped(std::array<double, 3> l) {
   return l;
 }
 
+std::int32_t Domain::across(std::int32_t face, int k) const {
+  return lattice_.across(face, lattice_.domain(face).next(k));
+}
+
 bool Domain::express(const FacePoint& point, std::int32_t face, FacePoint& result) const {
   result = {face, {0, 0, 0}};
   for (int k = 0; k < 3; ++k) {

@@ -28,9 +28,7 @@ class Domain {
   std::span<const std::array<std::int32_t, 3>> triangles() const { return lattice_.mesh().triangles; }
 
   /// The face across the edge opposite corner k, or -1 on the boundary.
-  std::int32_t across(std::int32_t face, int k) const {
-    return lattice_.across(face, lattice_.domain(face).next(k));
-  }
+  std::int32_t across(std::int32_t face, int k) const;
 
   /// All faces at a control vertex.
   std::span<const std::int32_t> faces_at(std::int32_t vertex) const { return around_.of(vertex); }

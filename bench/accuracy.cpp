@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -20,13 +19,15 @@
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "reference/loop/stam.h"
+#include "verify/audit/vector.h"
+#include "verify/subject/face_domain.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace {
 
 using namespace limitcheck;
-using Vector = std::array<double, 3>;
+using verify::operator-;
 
 constexpr std::int64_t kMostPoints = 2'000'000;
 
@@ -44,14 +45,13 @@ Spread spread(std::vector<double> errors) {
   return {at(.5), at(.999), *std::max_element(errors.begin(), errors.end())};
 }
 
-double angle(const Vector& a, const reference::Vec3<double>& b) {
-  const double x = a[1] * b.z - a[2] * b.y, y = a[2] * b.x - a[0] * b.z, z = a[0] * b.y - a[1] * b.x;
-  return std::atan2(std::hypot(x, y, z), a[0] * b.x + a[1] * b.y + a[2] * b.z);
+double angle(const verify::Vector& a, const verify::Vector& b) {
+  return std::atan2(verify::norm(verify::cross(a, b)), verify::dot(a, b));
 }
 
 void print_line(verify::Session& session, const reference::StamEvaluator<double>& limit, int depth) {
   const auto faces = static_cast<std::int64_t>(session.mesh().triangles.size());
-  const std::int64_t n = std::int64_t{1} << depth, each = (n + 1) * (n + 2) / 2;
+  const std::int64_t each = verify::FaceDomain().point_count(std::int64_t{1} << depth);
   const std::int64_t sampled = std::clamp<std::int64_t>(kMostPoints / each, 1, faces);
   std::vector<std::int32_t> depths(faces, -1);
   for (std::int64_t s = 0; s < sampled; ++s) depths[s * faces / sampled] = depth;
@@ -65,10 +65,10 @@ void print_line(verify::Session& session, const reference::StamEvaluator<double>
     const lc_provenance& p = t.provenance()[v];
     const auto exact = limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
                                       static_cast<double>(p.j) / p.denominator, reference::Order::kFirst);
-    const Vector got = t.position(at);
-    position[v] =
-        std::hypot(got[0] - exact.position.x, got[1] - exact.position.y, got[2] - exact.position.z) / scale;
-    normal[v] = exact.normal_kind == reference::NormalKind::kRegular ? angle(t.normal(at), exact.normal) : -1;
+    position[v] = verify::norm(t.position(at) - verify::vector_of(exact.position)) / scale;
+    normal[v] = exact.normal_kind == reference::NormalKind::kRegular
+                    ? angle(t.normal(at), verify::vector_of(exact.normal))
+                    : -1;
   });
   std::erase_if(normal, [](double x) { return x < 0; });
   const Spread p = spread(std::move(position)), a = spread(std::move(normal));

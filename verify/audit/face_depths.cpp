@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/face_depths.h"
-#include "data/error.h"
-#include "data/io/whole_content.h"
 
 #include <fmt/core.h>
 
@@ -13,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "data/error.h"
 #include "data/io/whole_content.h"
 #include "data/splitmix64.h"
 #include "verify/audit/vector.h"
@@ -52,15 +51,6 @@ FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
   return depths;
 }
 
-FaceDepths random_depths(const Depths& depths, std::size_t faces, int deepest) {
-  data::SplitMix64 random(*depths.seed);
-  const int least = depths.visible ? 0 : -1;
-  FaceDepths out(faces);
-  for (std::int32_t& d : out)
-    d = least + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(deepest - least + 1));
-  return out;
-}
-
 FaceDepths read_depths(const std::string& file, std::size_t faces, int deepest) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
@@ -82,6 +72,14 @@ FaceDepths read_depths(const std::string& file, std::size_t faces, int deepest) 
 }
 
 }  // namespace
+
+std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, std::uint64_t seed) {
+  data::SplitMix64 random(seed);
+  FaceDepths out(faces);
+  for (std::int32_t& d : out)
+    d = least + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(most - least + 1));
+  return out;
+}
 
 std::string Depths::text() const {
   if (kind == "random") return fmt::format("random:{}{}", seed.value_or(1), visible ? ":visible" : "");
@@ -107,7 +105,7 @@ Depths parse_depths(const std::string& text) {
 std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {
   const std::size_t faces = mesh.triangles.size();
   if (depths.kind == "view") return view_depths(mesh, deepest);
-  if (depths.kind == "random") return random_depths(depths, faces, deepest);
+  if (depths.kind == "random") return random_depths(faces, depths.visible ? 0 : -1, deepest, *depths.seed);
   if (depths.kind == "file") return read_depths(depths.file, faces, deepest);
   if (depths.kind == "all-culled") return FaceDepths(faces, -1);
   if (depths.kind == "face0-culled") {

@@ -35,4 +35,7 @@ Depths parse_depths(const std::string& text);
 /// data::ArgumentError: a file cannot be read, or does not have one such number for each face.
 std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest);
 
+/// A depth for every face, each of least .. most as likely.
+std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, std::uint64_t seed);
+
 }  // namespace limitcheck::verify

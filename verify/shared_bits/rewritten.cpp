@@ -46,12 +46,4 @@ std::vector<fast::Grid> random_pairs(const fast::Adjacency& adjacency, int depth
   return pairs;
 }
 
-std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, std::uint64_t seed) {
-  data::SplitMix64 random(seed);
-  std::vector<std::int32_t> depth(faces);
-  for (std::int32_t& d : depth)
-    d = least + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(most - least + 1));
-  return depth;
-}
-
 }  // namespace limitcheck::verify

@@ -8,6 +8,7 @@
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/pairing.h"
+#include "verify/audit/face_depths.h"
 #include "verify/audit/rewriting.h"
 
 namespace limitcheck::verify {
@@ -22,8 +23,5 @@ Rewriting rewrite(const data::ControlMesh& mesh, std::uint64_t seed);
 /// without a partner though it has neighbours. All have one depth.
 std::vector<fast::Grid> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
                                      std::uint64_t singles = 5);
-
-/// A depth for each face, least .. most.
-std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, std::uint64_t seed);
 
 }  // namespace limitcheck::verify

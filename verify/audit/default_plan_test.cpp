@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The default plan asks for all it says, and tessellators that are right hold on it.
 #include "verify/audit/default_plan.h"
-#include "data/error.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
 #include "verify/audit/face_depths.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What a waiver covers, and what is said of one that is of no use. And what is printed about checks.
 #include "verify/audit/waivers.h"
-#include "data/error.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <stdexcept>
 
+#include "data/error.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/explain.h"
 #include "verify/audit/junit.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The host trusts nothing: every way of handing back bad memory or bad indices is a defect, none is a crash.
 #include "verify/subject/host.h"
-#include "data/error.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+#include "data/error.h"
 #include "data/shapes.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/registry.h"

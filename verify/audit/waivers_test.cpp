@@ -126,6 +126,17 @@ TEST(Waivers, ThatAreNotUnderstoodAreRefused) {
     EXPECT_THROW(parse_waivers(bad), data::ArgumentError) << bad;
 }
 
+TEST(Waivers, MayNameARowThatHasBecomePartOfAnother) {
+  const auto check = [](const std::string& named) {
+    return parse_waivers(R"({"waivers":[{"subject":"a","check":")" + named +
+                         R"(","reason":"c","expires":"2027-01-01"}]})")
+        .at(0)
+        .check;
+  };
+  EXPECT_EQ(check("extreme-scale"), "scaling");
+  EXPECT_EQ(check("state"), "state");
+}
+
 TEST(Explain, KnowsEveryRowOnce) {
   std::set<std::string_view> rows{"tessellates", "refined-positions"}, explained;
   for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());

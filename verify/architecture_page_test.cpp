@@ -83,7 +83,7 @@ TEST(Architecture, ThePictureIsTheIncludeGraph) {
         << "not in the picture: " << arrow.first << " --> " << arrow.second << " (" << example << ")";
   for (const auto& [arrow, example] : picture)
     EXPECT_TRUE(sources.contains(arrow))
-        << "in the picture, but nobody includes: " << arrow.first << " --> " << arrow.second;
+        << "in the picture, but no source includes: " << arrow.first << " --> " << arrow.second;
 }
 
 TEST(Architecture, HasNoCircle) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // How far the float engines are from the limit surface, by depth: median, 99.9 % and worst, as a table.
-//   accuracy [MESH [DEEPEST [SUBJECT...]]]     bumpy:4000 8 row-stream:output=indexed
-//   sliding-window:output=indexed
+//   accuracy [MESH [DEEPEST [SUBJECT...]]]
+// Defaults: bumpy:4000, 8, row-stream:output=indexed and sliding-window:output=indexed.
 // Every lattice point of all faces up to two million of them; beyond, of faces evenly spread over the mesh.
 // The reference is Stam's evaluator in double on the control mesh rounded to float.
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -17,15 +16,18 @@
 #include <vector>
 
 #include "data/bounding_box.h"
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "reference/loop/stam.h"
+#include "verify/audit/vector.h"
+#include "verify/subject/face_domain.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace {
 
 using namespace limitcheck;
-using Vector = std::array<double, 3>;
+using verify::operator-;
 
 constexpr std::int64_t kMostPoints = 2'000'000;
 
@@ -38,22 +40,21 @@ Spread spread(std::vector<double> errors) {
   const auto at = [&](double share) {
     const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(errors.size() - 1));
     std::nth_element(errors.begin(), errors.begin() + k, errors.end());
-    return errors[static_cast<std::size_t>(k)];
+    return errors[k];
   };
   return {at(.5), at(.999), *std::max_element(errors.begin(), errors.end())};
 }
 
-double angle(const Vector& a, const reference::Vec3<double>& b) {
-  const double x = a[1] * b.z - a[2] * b.y, y = a[2] * b.x - a[0] * b.z, z = a[0] * b.y - a[1] * b.x;
-  return std::atan2(std::hypot(x, y, z), a[0] * b.x + a[1] * b.y + a[2] * b.z);
+double angle(const verify::Vector& a, const verify::Vector& b) {
+  return std::atan2(verify::norm(verify::cross(a, b)), verify::dot(a, b));
 }
 
 void print_line(verify::Session& session, const reference::StamEvaluator<double>& limit, int depth) {
   const auto faces = static_cast<std::int64_t>(session.mesh().triangles.size());
-  const std::int64_t n = std::int64_t{1} << depth, each = (n + 1) * (n + 2) / 2;
+  const std::int64_t each = verify::FaceDomain().point_count(std::int64_t{1} << depth);
   const std::int64_t sampled = std::clamp<std::int64_t>(kMostPoints / each, 1, faces);
-  std::vector<std::int32_t> depths(static_cast<std::size_t>(faces), -1);
-  for (std::int64_t s = 0; s < sampled; ++s) depths[static_cast<std::size_t>(s * faces / sampled)] = depth;
+  std::vector<std::int32_t> depths(faces, -1);
+  for (std::int64_t s = 0; s < sampled; ++s) depths[s * faces / sampled] = depth;
 
   const verify::Tessellation t = session.tessellate(depths);
   const auto count = static_cast<std::size_t>(t.vertex_count());
@@ -64,10 +65,10 @@ void print_line(verify::Session& session, const reference::StamEvaluator<double>
     const lc_provenance& p = t.provenance()[v];
     const auto exact = limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
                                       static_cast<double>(p.j) / p.denominator, reference::Order::kFirst);
-    const Vector got = t.position(at);
-    position[v] =
-        std::hypot(got[0] - exact.position.x, got[1] - exact.position.y, got[2] - exact.position.z) / scale;
-    normal[v] = exact.normal_kind == reference::NormalKind::kRegular ? angle(t.normal(at), exact.normal) : -1;
+    position[v] = verify::norm(t.position(at) - verify::vector_of(exact.position)) / scale;
+    normal[v] = exact.normal_kind == reference::NormalKind::kRegular
+                    ? angle(t.normal(at), verify::vector_of(exact.normal))
+                    : -1;
   });
   std::erase_if(normal, [](double x) { return x < 0; });
   const Spread p = spread(std::move(position)), a = spread(std::move(normal));
@@ -90,7 +91,7 @@ int run(const std::vector<std::string>& arguments) {
   for (const std::string& text : subjects) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const lc_subject* subject = verify::find_subject(text.substr(0, colon));
-    if (subject == nullptr) throw std::invalid_argument("there is no subject " + text);
+    if (subject == nullptr) throw data::ArgumentError("there is no subject " + text);
     verify::Session session(*subject, mesh, text.substr(std::min(colon + 1, text.size())));
     const reference::StamEvaluator<double> limit(session.mesh());
     for (int depth = 1; depth <= std::min(deepest, session.capabilities().max_depth); ++depth)

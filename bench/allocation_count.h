@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a piece of work asks of the allocator, exactly: every operator new, malloc, calloc, realloc and
+// Counts exactly what a piece of work asks of the allocator: every operator new, malloc, calloc, realloc and
 // aligned allocation of the process passes here.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What tells builds apart whose figures may not be compared. Needs the definitions that bench/CMakeLists.txt
-// gives.
+// Identifies a build: figures of different builds are not to be compared. Needs the definitions of
+// bench/CMakeLists.txt.
 #pragma once
 
 #include <gnu/libc-version.h>

@@ -37,7 +37,7 @@ struct Thread {
   std::uint64_t checksum = 0;
 };
 
-// A sum of bits, so that neither threads nor lanes matter.
+// A sum of bits, which does not depend on threads or lanes.
 void add_row(void* context, const rs::RowView& view) {
   std::uint64_t& sum = *static_cast<std::uint64_t*>(context);
   for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {

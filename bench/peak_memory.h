@@ -5,9 +5,8 @@
 
 namespace limitcheck::bench {
 
-/// Bytes of memory by which the process grows at most while `work` runs: done in a child process, so that
-/// nothing of it stays. Call it while the process has one thread, and let `work` start none. 0 if it cannot
-/// be had.
+/// The most bytes by which the process grows while `work` runs, measured in a child process. Call it while
+/// the process has one thread; `work` must start none. 0 if it cannot be measured.
 double peak_memory(const std::function<void()>& work);
 
 }  // namespace limitcheck::bench

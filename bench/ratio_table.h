@@ -11,8 +11,8 @@ namespace limitcheck::bench {
 
 std::string full_name(const std::string& route, const std::string& use, int faces, int depth, int threads);
 
-/// Prints the runs as they come, keeps the best rate of each over the repetitions, then the ratios of those
-/// that ran, beside the least that was wanted of each on 4000 faces.
+/// Prints each run, keeps the best rate over its repetitions, and at the end prints the ratios of those that
+/// ran, each beside its target on 4000 faces.
 class RatioTable : public benchmark::ConsoleReporter {
  public:
   /// best: name of the row-streaming route of the best target.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How fast is the reference? It need not be, but an audit asks it millions of times.
+// How fast the reference is. It need not be fast, but an audit calls it millions of times.
 #include <benchmark/benchmark.h>
 
 #include "data/generators/named_mesh.h"

@@ -29,7 +29,7 @@ struct Scene {
   fast::DepthHeuristics heuristics;
 };
 
-// A hull of half a million points takes seconds: made once per size, when first asked for.
+// A hull of half a million points takes seconds, so each size is made once, when first needed.
 const Scene& scene(int faces) {
   static std::map<int, std::unique_ptr<Scene>> scenes;
   auto& entry = scenes[faces];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Row streaming against everybody else, in one run; the ratios of the last lines are what counts.
-// Names: route/steady|scratch/bumpy/faces:N/depth:M/threads:T. Counters: points/s distinct limit points,
-// written/s bytes of evaluated points, 24 each; peak: bytes by which the process grows in one run from
-// scratch, the control mesh not counted.
+// Row streaming and all other routes in one run; compare the ratios of the last lines. Names:
+// route/steady|scratch/bumpy/faces:N/depth:M/threads:T. Counters: points/s distinct limit points, written/s
+// bytes of evaluated points, 24 each; peak: bytes by which the process grows in one run from scratch, the
+// control mesh not counted.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&arguments_left, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(arguments_left, arguments.data())) return 2;
 
-  // What tells runs apart that may not be compared.
+  // Runs that differ in these must not be compared.
   std::string targets;
   for (const auto& kernel : fast::row_stream::kernels())
     targets += std::string(targets.empty() ? "" : " ") + kernel.name;

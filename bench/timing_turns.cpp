@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Times one case at a time, when told to: so that two builds, each in a process of its own, can take turns of
-// a few milliseconds and meet the same neighbours on a busy machine.
+// Times one case on request, so that two builds, each in a process of its own, can take turns of a few
+// milliseconds and share the same conditions on a busy machine.
 //   timing_turns          the build, then the names of the cases; they are names of throughput_bench
 //   timing_turns --serve  reads "REPETITIONS CASE" lines; answers each with the nanoseconds of processor
 //                         time per run, one number per repetition of about two milliseconds, or "? CASE"

@@ -5,7 +5,7 @@
 
 namespace limitcheck::bench {
 
-/// Memory to do nothing with but write: what any route that delivers as many bytes must take at least.
+/// A block of memory that is only written: the least time that a route needs to deliver so many bytes.
 class WriteOnly {
  public:
   explicit WriteOnly(std::size_t bytes);  // a multiple of 64

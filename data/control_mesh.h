@@ -8,10 +8,10 @@
 
 namespace limitcheck::data {
 
-/// An inert triangle mesh: what is to be subdivided, and nothing computed from it.
+/// A triangle mesh: the input of subdivision, and nothing computed from it.
 ///   positions   one (x, y, z) per vertex, finite
 ///   triangles   vertex indices 0..positions.size()-1, counter-clockwise seen from outside
-/// The container promises nothing; `validate` (data/validate.h) checks what the kernels rely on.
+/// The container does not check any of this; `validate` (data/validate.h) does.
 struct ControlMesh {
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<std::int32_t, 3>> triangles;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What this project throws. Besides these only what the standard library throws by itself (std::bad_alloc), and
-// std::logic_error where this project would contradict itself.
+// What this project throws. Besides these only what the standard library throws by itself (std::bad_alloc),
+// and std::logic_error where this project would contradict itself.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A call that cannot be answered: an argument out of range, or one that asks for more than there is room for.
+/// A call that cannot be answered: an argument out of range, or one that asks for more than there is room
+/// for.
 class ArgumentError : public Error {
  public:
   using Error::Error;

@@ -12,8 +12,8 @@
 
 namespace limitcheck::data {
 
-/// The faces of a mesh, counter-clockwise seen from outside: `faces[f][k]` is the vertex at corner k of face f.
-/// The corners of all faces are numbered through, one face after the other.
+/// The faces of a mesh, counter-clockwise seen from outside: `faces[f][k]` is the vertex at corner k of face
+/// f. The corners of all faces are numbered through, one face after the other.
 class Faces {
  public:
   Faces() = default;

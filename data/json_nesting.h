@@ -7,8 +7,8 @@
 
 namespace limitcheck::data {
 
-/// How deep brackets nest in a JSON text: to be asked before anything that recurses sees what a stranger
-/// wrote. Of a text that is no JSON, any number.
+/// How deep brackets nest in a JSON text, so that a caller can refuse a hostile text before a recursive
+/// parser sees it. For a text that is no JSON the number means nothing.
 inline std::size_t json_nesting(std::string_view json) {
   std::size_t depth = 0, deepest = 0;
   bool in_text = false;

@@ -70,8 +70,7 @@ ClosedMeshAnswer closed_mesh(const Json& json) {
   expected.at("step1_vertex_points").get_to(answer.step1_vertex_points);
   for (const auto& [edge, point] : expected.at("step1_edge_points").items()) {
     const std::size_t dash = edge.find('-');
-    if (dash == std::string::npos)
-      throw std::invalid_argument("edge \"" + edge + "\" is not of the form a-b");
+    if (dash == std::string::npos) throw ArgumentError("edge \"" + edge + "\" is not of the form a-b");
     answer.step1_edge_points.push_back(
         {std::stoi(edge.substr(0, dash)), std::stoi(edge.substr(dash + 1)), point.get<Numeral3>()});
   }
@@ -119,7 +118,7 @@ KnownAnswers load_known_answers(const std::filesystem::path& file) {
       } else if (kind == "basis_values") {
         answers.basis.push_back(basis(one));
       } else {
-        throw std::invalid_argument("unknown kind \"" + kind + "\"");
+        throw ArgumentError("unknown kind \"" + kind + "\"");
       }
     }
   } catch (const std::exception& error) {

@@ -14,8 +14,8 @@
 
 namespace limitcheck::data {
 
-/// An interior vertex and its ring v_1..v_n, counter-clockwise seen from the normal's side. [mueller2000 eq.
-/// 3-5; C14-C17]
+/// An interior vertex and its ring v_1..v_n, counter-clockwise seen from the normal's side.
+/// [mueller2000, eq. 3-5; C14-C17]
 struct InteriorRingAnswer {
   std::string id;
   int valence = 0;
@@ -28,7 +28,7 @@ struct InteriorRingAnswer {
 };
 
 /// A boundary vertex with K faces and its open ring r_0..r_K, counter-clockwise; r_0 and r_K lie on the
-/// boundary. [D1, D2]
+/// boundary.   [D1, D2]
 struct BoundaryRingAnswer {
   std::string id;
   int faces = 0;  ///< K
@@ -74,8 +74,8 @@ struct ClosedMeshAnswer {
   Numeral3 face0_center_limit;            ///< at (1/3, 1/3, 1/3) of face 0
 };
 
-/// The twelve basis functions of the regular patch at one parameter, gamma = 1 - alpha - beta. [Appendix A;
-/// C69, C70]
+/// The twelve basis functions of the regular patch at one parameter, gamma = 1 - alpha - beta.
+/// [Appendix A; C69, C70]
 struct BasisAnswer {
   std::string id;
   Numeral alpha, beta;

@@ -22,8 +22,8 @@ struct IntegerQuotient {
   std::string denominator;
 };
 
-/// Exact for every fraction and decimal.   throws InputError NUMERAL_MALFORMED: not a numeral, a zero
-/// denominator, or an exponent beyond +-9999.
+/// Exact for every fraction and decimal.
+///   throws   InputError NUMERAL_MALFORMED: not a numeral, a zero denominator, or an exponent beyond +-9999
 IntegerQuotient integer_quotient(std::string_view text);
 
 /// The numeral as an `N`.

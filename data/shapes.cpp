@@ -18,9 +18,9 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw InputError("NAME_BAD_PARAMETER", "", 0, message);
 }
 
-// The nearest float (ties to even). It also hides the last bits in which
-// the sines of two C libraries may differ. By integers, because g++ 12 at
-// -O2 drops a conversion to float and back where it vectorises the two.
+// The nearest float (ties to even). It also hides the last bits in which the sines of two C libraries may
+// differ. By integers, because g++ 12 at -O2 drops a conversion to float and back where it
+// vectorises the two.
 double rounded(double x) {
   auto bits = std::bit_cast<std::uint64_t>(x);
   bits += 0x0fffffff + (bits >> 29 & 1);

@@ -8,8 +8,8 @@
 
 namespace limitcheck::data {
 
-// All throw InputError (NAME_BAD_PARAMETER) for a parameter
-// outside the stated range or beyond 10 million faces.
+// All throw InputError (NAME_BAD_PARAMETER) for a parameter outside the stated range or beyond
+// 10 million faces.
 
 // Closed.
 

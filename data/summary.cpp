@@ -34,7 +34,7 @@ class Groups {
     std::int64_t groups = 0;
     for (std::size_t k = 0; k < parent_.size(); ++k) {
       if (!flagged[k]) continue;
-      const auto root = static_cast<std::size_t>(of(static_cast<std::int32_t>(k)));
+      const std::size_t root = of(static_cast<std::int32_t>(k));
       groups += !seen[root];
       seen[root] = true;
     }

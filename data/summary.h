@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A control mesh in figures: what it consists of, and what may surprise whoever tessellates it.
+// A control mesh in figures: its elements, and properties that cause trouble in tessellation.
 #pragma once
 
 #include <cstdint>

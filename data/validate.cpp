@@ -144,8 +144,8 @@ class Validator {
     }
   }
 
-  // Two faces back to back are all there is at an interior
-  // vertex of valence 2; elsewhere the later one is a duplicate.
+  // Two faces back to back are all there is at an interior vertex of valence 2; elsewhere the later one
+  // is a duplicate.
   void report_same_corners(std::int32_t first, std::int32_t later,
                            const std::vector<std::int32_t>& faces_at) {
     const auto& a = mesh_.triangles[first];

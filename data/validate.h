@@ -13,28 +13,20 @@
 
 namespace limitcheck::data {
 
-/// What can be wrong. The elements of a finding are vertices
-/// and faces counted from 0, in the order given here.
+/// What can be wrong with a mesh. In brackets the elements of a finding: vertices and faces counted from 0,
+/// in the order given here.
 enum class MeshFault {
-  kEmpty,     ///< no vertices or no faces.                                           elements: none
-  kTooLarge,  ///< more vertices or half-edges than 32-bit indices name.               elements: vertex and
-              ///< face count
-  kIndexOutOfRange,  ///< a face names a vertex that does not exist.                          elements: face,
-                     ///< index
-  kNotFinite,        ///< a coordinate is NaN or infinite.                                    elements: vertex
-  kDegenerateFace,   ///< a face names a vertex twice.                                        elements: face,
-                     ///< vertex
-  kDuplicateFace,    ///< two faces have the same three vertices.                             elements: first
-                     ///< face, later face
-  kNonmanifoldEdge,  ///< an edge has three faces or more.                                    elements: v0,
-                     ///< v1, faces...
-  kOrientationClash,  ///< both faces of an edge run along it in the same direction.           elements: v0,
-                      ///< v1, two faces
-  kBowtieVertex,  ///< the faces at a vertex form two fans or more.                        elements: vertex, a
-                  ///< face of each
-  kLowValence,  ///< an interior vertex with fewer than 3 neighbours (two faces, back to back). [D9] elements:
-                ///< vertex
-  kIsolatedVertex,  ///< a vertex that no face names.                                        elements: vertex
+  kEmpty,             ///< no vertices or no faces                                     [nothing]
+  kTooLarge,          ///< more vertices or half-edges than 32-bit indices name        [vertex and face count]
+  kIndexOutOfRange,   ///< a face names a vertex that does not exist                   [face, index]
+  kNotFinite,         ///< a coordinate is NaN or infinite                             [vertex]
+  kDegenerateFace,    ///< a face names a vertex twice                                 [face, vertex]
+  kDuplicateFace,     ///< two faces have the same three vertices                      [first face, later one]
+  kNonmanifoldEdge,   ///< an edge has three faces or more                             [v0, v1, faces...]
+  kOrientationClash,  ///< both faces of an edge run along it in the same direction    [v0, v1, two faces]
+  kBowtieVertex,      ///< the faces at a vertex form two fans or more                 [vertex, face of each]
+  kLowValence,        ///< an interior vertex with fewer than 3 neighbours, D9         [vertex]
+  kIsolatedVertex,    ///< a vertex that no face names                                 [vertex]
 };
 
 /// The stable name: "MESH_NONMANIFOLD_EDGE", ...
@@ -52,17 +44,18 @@ struct MeshFinding {
 /// How messages number vertices and faces; the elements of a finding always count from 0.
 struct Numbering {
   std::int64_t first = 0;  ///< of the first vertex and the first face: 1 in OBJ files
-  std::span<const std::int64_t>
-      face{};  ///< for each triangle the polygon, from 0, that it was cut from; empty: itself
+  /// For each triangle the polygon, from 0, that it was cut from. Empty where every triangle is a polygon.
+  std::span<const std::int64_t> face{};
 };
 
-/// Everything that is wrong with the mesh; empty if it is valid. One cause gives one finding: what is refused
-/// for one reason is left out when the later properties are examined. Ordered by fault, then by element. Time
-/// and memory O(vertices + faces), whatever the valences; 0.1 to 0.5 s for a million faces, by their order in
-/// memory.
+/// Everything that is wrong with the mesh; empty if it is valid. One cause gives one finding: an element that
+/// one property refuses is left out when the later properties are examined. Ordered by fault, then by
+/// element. Time and memory are O(vertices + faces), whatever the valences: 0.1 to 0.5 s for a million faces,
+/// depending on their order in memory.
 std::vector<MeshFinding> validate(const ControlMesh& mesh, const Numbering& numbering = {});
 
-/// Whether 32-bit indices name that many vertices and half-edges (3 per face). Empty if they do.
+/// The finding kTooLarge if 32-bit indices cannot name that many vertices or half-edges (3 per face); else
+/// nothing.
 std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces);
 
 }  // namespace limitcheck::data

@@ -178,8 +178,8 @@ TEST(Validate, EveryIndependentFaultIsReported) {
   EXPECT_EQ(findings[2].fault, MeshFault::kIsolatedVertex);
 }
 
-// The method that needs no cleverness: every property
-// straight from its definition, by comparing all with all.
+// The method that needs no cleverness: every property straight from its definition, by comparing
+// all with all.
 bool valid_by_definition(const ControlMesh& mesh) {
   const auto vertices = static_cast<std::int32_t>(mesh.positions.size());
   const auto& faces = mesh.triangles;

@@ -39,7 +39,7 @@ std::string top(const std::string& folder) {
 }
 
 // The arrow between two folders. The folders of fast and of reference are told apart among themselves only:
-// who comes from outside sees one house.
+// all other folders see them as one.
 std::pair<std::string, std::string> arrow_between(const std::string& from, const std::string& to) {
   const auto seen = [](const std::string& whose, const std::string& other) {
     return top(whose) == "verify" || top(whose) == top(other) ? whose : top(whose);
@@ -83,7 +83,7 @@ TEST(Architecture, ThePictureIsTheIncludeGraph) {
         << "not in the picture: " << arrow.first << " --> " << arrow.second << " (" << example << ")";
   for (const auto& [arrow, example] : picture)
     EXPECT_TRUE(sources.contains(arrow))
-        << "in the picture, but nobody includes: " << arrow.first << " --> " << arrow.second;
+        << "in the picture, but no source includes: " << arrow.first << " --> " << arrow.second;
 }
 
 TEST(Architecture, HasNoCircle) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The house rules: arrows point down only, the reference and the fast engine have nothing in common but the
-// control mesh, and no two types have one name. Read from the sources and from the symbols of the libraries.
+// The rules of the architecture: arrows point down only, the reference and the fast engine have nothing in
+// common but the control mesh, and no two types have one name. Read from the sources and from the symbols of
+// the libraries.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -79,7 +80,7 @@ std::string read(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(House, ArrowsPointDownOnly) {
+TEST(Architecture, ArrowsPointDownOnly) {
   const fs::path root = LIMITCHECK_SOURCE_DIR;
   std::map<std::string, int> looked_at;
   for (const auto& [folder, rules] : may_include()) {
@@ -96,7 +97,7 @@ TEST(House, ArrowsPointDownOnly) {
     EXPECT_GT(looked_at[folder], 1) << folder;
 }
 
-TEST(House, TheScannerSeesWhatItIsThereFor) {
+TEST(Architecture, TheScannerSeesWhatItIsThereFor) {
   EXPECT_EQ(violations("reference/a.h", "#include \"fast/rules/masks.h\"\n").size(), 1U);
   EXPECT_EQ(violations("reference/a.h", "  #  include <fast/rules/masks.h>\n").size(), 1U);
   EXPECT_EQ(violations("fast/a.cpp", "#include \"reference/loop/masks.h\"\n").size(), 1U);
@@ -143,7 +144,7 @@ Names types_of(const std::string& text) {
 
 // Two types of one name in two files of one program are undefined behaviour that no linker reports: the
 // functions of one run on objects of the other.
-TEST(House, NoTypeIsDefinedTwice) {
+TEST(Architecture, NoTypeIsDefinedTwice) {
   std::map<std::string, std::string> defined_in;
   for (const auto& [folder, rules] : may_include())
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(LIMITCHECK_SOURCE_DIR) / folder)) {
@@ -157,7 +158,7 @@ TEST(House, NoTypeIsDefinedTwice) {
   EXPECT_GT(defined_in.size(), 200U);
 }
 
-TEST(House, TheScannerOfTypesKnowsNamespacesAndDefinitions) {
+TEST(Architecture, TheScannerOfTypesKnowsNamespacesAndDefinitions) {
   EXPECT_EQ(
       types_of("namespace a::b {\nstruct S {\n};\nenum class E : int { kOne };\n}  // namespace a::b\n"),
       (Names{"a::b::S", "a::b::E"}));
@@ -197,7 +198,7 @@ bool is_own(const std::string& name) {
   return std::regex_search(name, own);
 }
 
-TEST(House, ReferenceAndFastHaveNoSymbolInCommon) {
+TEST(Architecture, ReferenceAndFastHaveNoSymbolInCommon) {
   const Names reference = symbols(LIMITCHECK_LIBREFERENCE, true), fast = symbols(LIMITCHECK_LIBFAST, true);
   int own_reference = 0, own_fast = 0;
   for (const std::string& name : reference) {
@@ -209,7 +210,7 @@ TEST(House, ReferenceAndFastHaveNoSymbolInCommon) {
   EXPECT_GT(own_fast, 10);
 }
 
-TEST(House, NeitherOfThemSoMuchAsMentionsTheOther) {
+TEST(Architecture, NeitherOfThemSoMuchAsMentionsTheOther) {
   for (const std::string& name : symbols(LIMITCHECK_LIBREFERENCE, false))
     EXPECT_EQ(name.find("limitcheck::fast"), std::string::npos) << name;
   for (const std::string& name : symbols(LIMITCHECK_LIBFAST, false))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv's Bfr: one surface object per face, in float, approximation level as it comes (2).
+// OpenSubdiv's Bfr: one surface object per face, in float, default approximation level (2).
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
 #include <opensubdiv/bfr/tessellation.h>

@@ -24,8 +24,8 @@ class Contender {
 
 struct Route {
   std::string name;
-  std::string what;  // one line for the reader
-  /// At depth 5, roughly: to leave out cases that would take minutes or more memory than there is.
+  std::string what;  // one line, for the list of routes
+  /// Rough figures at depth 5, to leave out cases that would take minutes or too much memory.
   double nanoseconds_per_point;
   double bytes_per_point;
   bool threads;  // can use more than one
@@ -36,7 +36,8 @@ struct Route {
 /// naive subdivider.
 std::vector<Route> our_routes();
 
-/// Each as fast as the library's own interface lets it be, in float where it can be: no door, no provenance.
+/// Each as fast as the library's own interface lets it be, in float where it can be: no plug-in interface, no
+/// provenance.
 Route bfr_streaming();
 Route bfr_cached_stencils();
 Route far_uniform();

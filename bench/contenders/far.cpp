@@ -19,14 +19,7 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 
-// What PrimvarRefiner interpolates.
-struct Vector {
-  std::array<float, 3> x;
-  void Clear(void* = nullptr) { x = {}; }
-  void AddWithWeight(const Vector& v, float weight) {
-    for (std::size_t c = 0; c < 3; ++c) x[c] += weight * v.x[c];
-  }
-};
+using Vector = verify::OpenSubdivVector<float>;
 
 /// Uniformly refined topology; run() interpolates level by level, then applies the limit masks.
 class Uniform : public Contender {
@@ -105,16 +98,14 @@ class LimitStencils : public Contender {
         for (int i = 0; i + j <= n; ++i) {
           const int corner = i == n ? 1 : j == n ? 2 : i + j == 0 ? 0 : -1;
           const int edge = j == 0 ? 0 : i + j == n ? 1 : i == 0 ? 2 : -1;
-          if (corner >= 0 ? vertex_done[static_cast<std::size_t>(corners[corner])]
-                          : edge >= 0 && edge_done[static_cast<std::size_t>(edges[edge])])
-            continue;
+          if (corner >= 0 ? vertex_done[corners[corner]] : edge >= 0 && edge_done[edges[edge]]) continue;
           s.push_back(static_cast<float>(i) / static_cast<float>(n));
           t.push_back(static_cast<float>(j) / static_cast<float>(n));
         }
       }
       for (int k = 0; k < 3; ++k) {
-        vertex_done[static_cast<std::size_t>(corners[k])] = 1;
-        edge_done[static_cast<std::size_t>(edges[k])] = 1;
+        vertex_done[corners[k]] = 1;
+        edge_done[edges[k]] = 1;
       }
       Far::LimitStencilTableFactory::LocationArray array;
       array.ptexIdx = f;

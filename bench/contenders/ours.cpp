@@ -60,8 +60,8 @@ class RowStreaming final : public Contender {
         adjacency_(mesh),
         pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids),
         stream_(mesh, adjacency_, kernel) {
-    if (form == Form::kWhole || form == Form::kStreamed) out_.resize(static_cast<std::size_t>(evaluated()));
-    if (form == Form::kCompact) compact_.resize(static_cast<std::size_t>(evaluated()));
+    if (form == Form::kWhole || form == Form::kStreamed) out_.resize(evaluated());
+    if (form == Form::kCompact) compact_.resize(evaluated());
   }
 
   void run() override {

@@ -15,7 +15,7 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// What stands beside every frame rate: renderer and version.
+  /// Renderer and version, which every frame rate is reported with.
   std::string renderer() const;
 
  private:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "data/error.h"
 #include "verify/mesh_output/atomic_file.h"
 
 namespace limitcheck::bench {
@@ -35,7 +36,7 @@ Image beside(const std::vector<Image>& images, int gap) {
   Image all;
   for (const Image& image : images) {
     if (image.height != images.front().height)
-      throw std::invalid_argument("images beside each other need one height");
+      throw data::ArgumentError("images beside each other need one height");
     all.width += image.width + (all.width > 0 ? gap : 0);
   }
   all.height = images.front().height;

@@ -212,7 +212,7 @@ Image Renderer::image() {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   Image image{width_, height_, {}};
   const auto row = static_cast<std::ptrdiff_t>(3 * width_);
-  image.rgb.resize(static_cast<std::size_t>(row * height_));
+  image.rgb.resize(row * height_);
   glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
   for (int y = 0; y < height_ / 2; ++y)  // OpenGL's first row is the lowest
     std::swap_ranges(image.rgb.begin() + row * y, image.rgb.begin() + row * (y + 1),

@@ -40,7 +40,7 @@ Image fan_centres() {
   const auto& faces = studio.mesh().triangles;
   const auto common = [&](std::int32_t face) {
     int corners = 0;
-    for (const std::int32_t v : faces[static_cast<std::size_t>(face)])
+    for (const std::int32_t v : faces[face])
       corners += static_cast<int>(std::count(faces[0].begin(), faces[0].end(), v));
     return corners;
   };
@@ -51,7 +51,7 @@ Image fan_centres() {
   one.custom = [other](std::int32_t face) { return face == 0 || face == other ? 1 : 3; };
   fast::Point3 middle{};
   for (const std::int32_t v : faces[0])
-    middle = middle + (1. / 3) * fast::to_point(studio.mesh().positions[static_cast<std::size_t>(v)]);
+    middle = middle + (1. / 3) * fast::to_point(studio.mesh().positions[v]);
   const fast::Point3 outward = (1 / length(middle)) * middle;
   const fast::Point3 side = [&] {
     const fast::Point3 s = cross(fast::Point3{0, 1, 0}, outward);

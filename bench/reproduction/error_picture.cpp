@@ -29,7 +29,7 @@ fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
   fast::DrawList<float> list;
   for (const auto& t : mesh.triangles) {
     std::array<fast::Point3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[static_cast<std::size_t>(t[k])]);
+    for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[t[k]]);
     fast::Point3 n = cross(p[1] - p[0], p[2] - p[0]);
     n = (1 / length(n)) * n;
     for (const auto& q : p)
@@ -58,7 +58,7 @@ Image error_beside_control_mesh() {
   each_triangle_error(studio.mesh(), frame, [&](const TriangleError& error) {
     const auto first = static_cast<std::int64_t>(painted.vertices.size());
     for (const std::int32_t v : error.draw->triangle(error.triangle))
-      painted.vertices.push_back(frame.vertices[static_cast<std::size_t>(error.draw->first + v)]);
+      painted.vertices.push_back(frame.vertices[error.draw->first + v]);
     painted.draws.push_back(
         {first, 3, 1, error.draw->face_of(error.triangle), -1, fast::DrawMode::kTriangles});
     colour[first] = heat(1 + std::log10(std::max(error.position, 1e-12) / most) / 2);

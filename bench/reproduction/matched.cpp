@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The comparison the paper leaves out: what each strategy costs for pictures that are equally good.   [C74,
-// T3]
+// The comparison the paper leaves out: what each strategy costs for pictures that are equally good.
+// [C74, T3]
 #include <fmt/core.h>
 
 #include <array>

@@ -26,7 +26,7 @@ nlohmann::ordered_json model() {
   float worst_position = 0, worst_normal = 0;
   each_triangle_error(mesh, frame, [&](const TriangleError& error) {
     for (const std::int32_t v : error.draw->triangle(error.triangle)) {
-      const auto& vertex = frame.vertices[static_cast<std::size_t>(error.draw->first + v)];
+      const auto& vertex = frame.vertices[error.draw->first + v];
       positions.insert(positions.end(), {vertex.position.x, vertex.position.y, vertex.position.z});
       normals.insert(normals.end(), {vertex.normal.x, vertex.normal.y, vertex.normal.z});
     }

@@ -7,6 +7,7 @@
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
 #include "bench/reproduction/studio.h"
+#include "data/error.h"
 #include "fast/plan/depth.h"
 #include "reference/loop/refine.h"
 
@@ -24,7 +25,7 @@ Image normal_cone(Studio& studio) {
   reference::RefinedMesh<double> refined(studio.mesh());
   const fast::Adjacency adjacency(studio.mesh());
   const fast::DepthHeuristics heuristics(studio.mesh(), adjacency);
-  // Of those that need just two steps the one that begins with its triangles widest, but not folded.
+  // Of the vertices that need just two steps, the one whose triangles are widest at first, but not folded.
   std::int32_t v = 0;
   double widest = 1;
   for (std::int32_t w = 0; w < adjacency.vertex_count(); ++w) {
@@ -42,7 +43,7 @@ Image normal_cone(Studio& studio) {
   std::vector<Image> images;
   for (int level = 0; level <= 2; ++level) {
     const auto& positions = refined.positions();
-    const auto at = [&](std::int32_t w) { return point(positions[static_cast<std::size_t>(w)]); };
+    const auto at = [&](std::int32_t w) { return point(positions[w]); };
     const fast::Point3 centre = at(v);
     const auto ring = refined.topology().ring(v);
     double reach = 0;
@@ -165,7 +166,7 @@ const std::vector<std::string>& picture_names() {
 void draw_picture(const std::string& name, const std::filesystem::path& folder) {
   for (const Picture& picture : kPictures)
     if (picture.name == name) return write_png(folder / (name + ".png"), picture.draw());
-  throw std::invalid_argument("no picture is called " + name);
+  throw data::ArgumentError("no picture is called " + name);
 }
 
 }  // namespace limitcheck::bench

@@ -44,7 +44,7 @@ nlohmann::ordered_json timings(const nlohmann::ordered_json& spheres, bool quick
 /// `spread`: what their disagreement leaves to be said. The words are those of timings().
 const char* outcome(double quantity, double bound, double spread);
 
-/// Programs that waited for a processor in the last minute, as the system says, with the time.
+/// The system's load average of the last minute, with the time.
 double load_average();
 
 }  // namespace limitcheck::bench

@@ -79,7 +79,7 @@ Turn turn(const Frame& frame, const fast::DepthOptions& depth, int frames, doubl
         least.push_back(end - start);
         add(result.sum, stats);
       } else {
-        least[static_cast<std::size_t>(k)] = std::min(least[static_cast<std::size_t>(k)], end - start);
+        least[k] = std::min(least[k], end - start);
       }
     }
     all += sum;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small control meshes that are valid and that tessellators trip over all the same. Every coordinate is exact
-// in float.
+// Small valid control meshes on which tessellators are known to fail. Every coordinate is exact in float.
 #pragma once
 
 #include "data/control_mesh.h"

@@ -82,8 +82,8 @@ TEST(Sec6_BumpySphere, IsTriangulatedByTheConvexHullOfItsDirections) {
   }
 }
 
-// The values were obtained with g++ 12 and with clang 14,
-// optimised and not; other compilers must give the same.
+// The values were obtained with g++ 12 and with clang 14, optimised and not; other compilers must
+// give the same.
 TEST(Sec6_BumpySphere, IsTheSameWithEveryCompiler) {
   EXPECT_EQ(hash(bumpy_sphere(200, 1)), 17125629784026909584u);
   EXPECT_EQ(hash(bumpy_sphere(4000, 7)), 5085880730706893398u);

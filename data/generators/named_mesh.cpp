@@ -129,8 +129,8 @@ ControlMesh named_mesh(const std::string& specification) {
 }
 
 ControlMesh open_mesh(const std::string& file_or_name) {
-  // What looks like a file is taken for one, so that a mistyped
-  // path is called a missing file, not an unknown name.
+  // What looks like a file is taken for one, so that a mistyped path is called a missing file, not
+  // an unknown name.
   std::error_code ignored;
   const std::filesystem::path file = file_or_name;
   if (std::filesystem::exists(file, ignored) || file.has_extension() || file.has_parent_path())

@@ -9,9 +9,9 @@
 
 namespace limitcheck::data {
 
-/// The mesh of a specification NAME[:PARAMETER...], parameters separated by
-/// colons, as `named_meshes` lists them. Throws InputError: NAME_UNKNOWN,
-/// or NAME_BAD_PARAMETER (too few, too many, not a number, out of range).
+/// The mesh of a specification NAME[:PARAMETER...], parameters separated by colons, as `named_meshes` lists
+/// them. Throws InputError: NAME_UNKNOWN, or NAME_BAD_PARAMETER (too few, too many, not a number,
+/// out of range).
 ControlMesh named_mesh(const std::string& specification);
 
 /// One line of the list: `name` is "wheel:N[:RINGS]".

@@ -88,8 +88,8 @@ TEST(RandomMesh, HasAboutTheFacesAskedFor) {
   }
 }
 
-// The value was obtained with g++ 12 and with clang 14,
-// optimised and not; other compilers must give the same.
+// The value was obtained with g++ 12 and with clang 14, optimised and not; other compilers must
+// give the same.
 TEST(RandomMesh, IsTheSameWithEveryCompiler) {
   std::uint64_t all = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) all = all * 31 + hash(random_mesh(seed));

@@ -137,7 +137,7 @@ class PlyReader {
         return p.name == std::string("n") + "xyz"[axis] && !p.is_list;
       });
       has_normals = has_normals && it != all.end();
-      normal_place[axis] = static_cast<std::size_t>(it - all.begin());
+      normal_place[axis] = it - all.begin();
     }
     for (std::int64_t i = 0; i < element.count; ++i) {
       body.begin(element, i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the readers hand on: vertices and polygons as the file has them, each with its line.
+// Vertices and polygons as a file has them, each with its line: the result of every reader.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ struct PolygonSoup {
   std::int64_t first = 0;  // the number that the format gives to its first vertex: 1 in OBJ
   // Normals as the file has them, for those who ask (PLY, OBJ); any length, unchecked.
   std::vector<std::array<double, 3>> normals;
-  std::vector<std::int64_t>
-      corner_normals;  // OBJ: of each corner, -1 none; otherwise normals[i] is that of position i
+  // OBJ: for each corner the index of its normal, -1 for none. Empty: normals[i] is that of position i.
+  std::vector<std::int64_t> corner_normals;
 
   void close_polygon(std::int64_t line = 0) {
     polygon_end.push_back(corners.size());
@@ -37,8 +37,8 @@ PolygonSoup read_off(std::string_view content, const std::string& name);
 PolygonSoup read_ply(std::string_view content, const std::string& name);
 PolygonSoup read_stl(std::string_view content, const std::string& name);
 
-/// A file as it is, nothing checked but its syntax; the format told by the extension. Throws InputError with
-/// a FILE_ code.
+/// A file as it is, with nothing checked but its syntax. The extension says the format. Throws InputError
+/// with a FILE_ code.
 PolygonSoup read_soup(const std::filesystem::path& file);
 
 /// Writes vertices and polygons as they are, whatever is wrong with them; otherwise as write_mesh (write.h).
@@ -58,8 +58,8 @@ struct Examination {
   std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
 };
 
-/// Looks at all of it. What a polygon left out entails at its vertices (fans that fall apart, vertices that
-/// no face names any more) is no fault of its own.
+/// Finds all faults. Where a polygon is left out, its vertices may fall into two fans or have no faces: that
+/// is no fault of its own.
 Examination examine(const PolygonSoup& soup, const ReadOptions& options);
 
 /// Checks, triangulates and validates. Throws InputError: the first fault that `examine` finds.

@@ -9,8 +9,8 @@
 //   FILE_SYNTAX           not of the form the format prescribes
 //   FILE_TRUNCATED        ends before what it announced
 //   MESH_POLYGON          a face with more than three corners, and ReadOptions refuses those
-// A file is taken whole and as it is, or refused: no repair, no partial result. What the formats add to
-// positions and faces (normals, texture, colours, groups) is read over.
+// A file is taken whole and as it is, or refused: there is no repair and no partial result. The readers skip
+// what the formats have beside positions and faces (normals, texture, colours, groups).
 #pragma once
 
 #include <filesystem>
@@ -28,18 +28,18 @@ enum class Triangulation {
   kNone               ///< refused: MESH_POLYGON
 };
 
-/// What is up to the reader.
+/// Choices for reading a file.
 struct ReadOptions {
   Triangulation polygons = Triangulation::kFan;
 };
 
-/// Of which format a content is.
+/// The format of a file.
 enum class FileFormat { kObj, kOff, kPly, kStl };
 
-/// Reads a file, its format told by its extension, and validates it.
-///   vertices   in file order; STL has none, there equal positions (-0 = 0) become one, in order of
-///   appearance faces      in file order; the triangles of a polygon follow one another precision  decimals
-///   correctly rounded to double, binary doubles bit for bit
+/// Reads and validates a file. Its extension says its format.
+///   vertices   in file order. STL has none: equal positions (-0 = 0) become one vertex, in the order seen
+///   faces      in file order; the triangles of a polygon follow one another
+///   precision  decimals are correctly rounded to double, binary doubles are taken bit for bit
 /// Throws InputError for the first fault, with the line where the format has lines (binary ones: line 0).
 ControlMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 

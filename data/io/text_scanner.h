@@ -12,7 +12,7 @@ namespace limitcheck::data::io {
 /// Walks through the lines of a text (ended by LF, CR LF or CR), and through the words of each.
 class TextScanner {
  public:
-  /// A byte-order mark at the beginning is read over. `comment` begins a comment up to the end of the line; 0
+  /// A byte-order mark at the beginning is skipped. `comment` begins a comment up to the end of the line; 0
   /// for none. `continuation` joins a line ending in \ with the next.
   TextScanner(std::string_view text, std::string name, char comment, bool continuation = false)
       : text_(text),

@@ -10,19 +10,20 @@
 
 namespace limitcheck::data {
 
-/// What is up to the writer.
+/// Choices for writing a file.
 struct WriteOptions {
   bool ascii_ply = false;  ///< PLY in text instead of binary little endian
 };
 
-/// Writes a mesh, its format told by its extension. read_mesh gives back the same mesh bit for bit: positions
-/// are binary doubles or the shortest decimals that are read as the same double. The file appears whole or
-/// not at all: it is written under a temporary name beside the final one and renamed. What is not a regular
-/// file (a pipe, /dev/stdout) is written to directly. Throws InputError: FILE_UNKNOWN_FORMAT,
-/// FILE_UNSUPPORTED (STL), FILE_CANNOT_WRITE (with the system's reason).
+/// Writes a mesh in the format that the extension says. read_mesh gives back the same mesh bit for bit:
+/// positions are binary doubles or the shortest decimals that are read as the same double. The file appears
+/// whole or not at all: it is written under a temporary name beside the final one and renamed. A file that is
+/// not regular (a pipe, /dev/stdout) is written to directly.
+///   throws   InputError: FILE_UNKNOWN_FORMAT, FILE_UNSUPPORTED (STL), FILE_CANNOT_WRITE (with the system's
+///            reason)
 void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options = {});
 
-/// The content of such a file.
+/// What write_mesh writes into the file.
 std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options = {});
 
 }  // namespace limitcheck::data

@@ -25,8 +25,8 @@ struct Basis {
   std::array<N, 12> value, da, db, daa, dab, dbb;
 };
 
-/// The twelve functions as Appendix A prints them (b1
-/// corrected), over any ring: numbers, or jets for derivatives.
+/// The twelve functions as Appendix A prints them (b1 corrected), over any ring: numbers, or
+/// jets for derivatives.
 template <class T>
 std::array<T, 12> appendix_a(const T& alpha, const T& beta, const T& gamma) {
   const T a2 = alpha * alpha, a3 = a2 * alpha, a4 = a2 * a2;
@@ -63,8 +63,8 @@ struct BasisTable {
 };
 const BasisTable& basis_table();
 
-/// All monomials alpha^i beta^j gamma^k of degree D, in
-/// the order of the table: i outer, j inner, both rising.
+/// All monomials alpha^i beta^j gamma^k of degree D, in the order of the table: i outer, j
+/// inner, both rising.
 template <int D, class N>
 auto monomials(const std::array<N, 5>& a, const std::array<N, 5>& b, const std::array<N, 5>& g) {
   std::array<N, (D + 1) * (D + 2) / 2> result;

@@ -21,8 +21,7 @@
 
 namespace limitcheck::reference {
 
-/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.
-/// [section 3.1; C11]
+/// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.  [section 3.1; C11]
 template <class N>
 N loop_a(int n) {
   if (n == 6) return N(3) / N(8);  // by far the most frequent
@@ -30,15 +29,14 @@ N loop_a(int n) {
   return N(5) / N(8) - s * s / N(64);
 }
 
-/// What the neighbours of an interior vertex weigh together, n >= 3: a(n), or Warren's 3/8 and 9/16.
+/// The weight of all neighbours of an interior vertex together, n >= 3: a(n), or Warren's 3/8 and 9/16.
 template <class N>
 N ring_weight(int n, Weights weights) {
   if (weights == Weights::kLoop) return loop_a<N>(n);
   return n == 3 ? N(9) / N(16) : N(3) / N(8);
 }
 
-/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i, with a = ring_weight(n).
-/// [equation 1; C10]
+/// Interior vertex after one step: (1 - a) v + (a / n) sum v_i, with a = ring_weight(n).   [equation 1; C10]
 ///
 ///         a/n
 ///    a/n   |  a/n
@@ -56,8 +54,7 @@ Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring,
   return v + sum * (ring_weight<N>(n, weights) / N(n));
 }
 
-/// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).
-/// [equation 2; C12]
+/// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).   [equation 2; C12]
 ///
 ///        1/8
 ///       /   \        .
@@ -69,7 +66,7 @@ Vec3<N> interior_edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c
   return (a + b) * (N(1) / N(2)) + ((c - a) + (d - b)) * (N(1) / N(8));
 }
 
-/// Boundary vertex: 1/8 --- 3/4 --- 1/8, the cubic B-spline; whatever lies inside has no say. [D1]
+/// Boundary vertex: 1/8 --- 3/4 --- 1/8, the cubic B-spline; it does not depend on interior vertices.   [D1]
 template <class N>
 Vec3<N> boundary_vertex_point(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& last) {
   return v + ((first - v) + (last - v)) * (N(1) / N(8));
@@ -87,9 +84,8 @@ Vec3<N> ghost_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c) {
   return a + b - c;
 }
 
-/// Limit of an interior vertex: weights (3n / 8a) : 1 .. 1, that is
-/// (3 v + (8a / n) sum v_i) / (3 + 8a), with a = ring_weight(n).
-/// [equation 3; C14]
+/// Limit of an interior vertex: (3 v + (8a / n) sum v_i) / (3 + 8a), with a = ring_weight(n); the weights are
+/// in the ratio (3n / 8a) : 1 : .. : 1.   [equation 3; C14]
 template <class N>
 Vec3<N> interior_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring, Weights weights = Weights::kLoop) {
   const auto n = static_cast<int>(ring.size());
@@ -106,8 +102,9 @@ Vec3<N> boundary_limit(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& la
 }
 
 /// C = sum cos(2 pi i / n) v_i and S = sum sin(2 pi i / n) v_i, i = 0..n-1 along `ring`, taken from v_i - v.
-/// The paper's (4), (5) divide by sums that are zero: errata 1.      [C16, C17, D12] The known answers start
-/// the ring at i = 1; that turns (C, S) within the plane and leaves C x S alone.
+/// The paper's (4), (5) divide by sums that are zero: errata 1. The known answers start the ring at i = 1;
+/// that
+/// turns (C, S) within the plane and leaves C x S alone.   [C16, C17, D12]
 template <class N>
 Tangents<N> interior_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   const CircleTable<N>& table = circle_table<N>(static_cast<long>(ring.size()));
@@ -119,8 +116,8 @@ Tangents<N> interior_tangents(const Vec3<N>& v, std::span<const Vec3<N>> ring) {
   return t;
 }
 
-/// Along the boundary r_0 - r_K, and across it into the surface.                                    [D1, D2;
-/// D5] Across weights with theta = pi / K, c = cos theta, s = sin theta (the left eigenvector of 3/8 + c/4):
+/// Along the boundary r_0 - r_K, and across it into the surface.   [D1, D2, D5]
+/// Across weights with theta = pi / K, c = cos theta, s = sin theta (the left eigenvector of 3/8 + c/4):
 ///
 ///        sin theta   sin 2 theta            K = 1: centre -2, ends 1, 1
 ///             \       /                     K = 2: centre -1, ends 0, inner 1

@@ -12,7 +12,8 @@
 namespace limitcheck::reference {
 
 /// The gradients of a sub-triangle's parameters with respect to those of its face: its first and second
-/// barycentric coordinate (a, b) as functions of (l1, l2) have the gradients 2^level (a1, a2), 2^level (b1, b2).
+/// barycentric coordinate (a, b) as functions of (l1, l2) have the gradients 2^level (a1, a2), 2^level (b1,
+/// b2).
 struct ParameterGradients {
   int a1 = 1, a2 = 0, b1 = 0, b2 = 1;
   long level = 0;
@@ -85,7 +86,7 @@ void set_derivatives(SurfacePoint<N>& result, const LocalPoint<N>& s, const Para
   result.second_exist = true;
 }
 
-/// The normal of a point whose tangents are set, from these or from others in their place.
+/// Sets the normal of a point from two tangents: its own, or others that span the same plane.
 template <class N>
 void set_normal(SurfacePoint<N>& point, const Tangents<N>& tangents, const Vec3<N>& fallback) {
   const Normal<N> normal = unit_normal(tangents, fallback);
@@ -109,7 +110,7 @@ Tangents<N> tangents_of(const SurfacePoint<N>& point) {
 ///                         the next is 1/4, a multiple of (a + b)^2: second derivatives exist. For K = 2 it
 ///                         is 3/8: they do not. For K >= 4 one is above 1/2.
 ///   ring_index   of the face in the corner's ring (Topology), which is that of the control mesh
-///   at           (a, b) towards the corner's next and previous neighbour in the face; its level has no say
+///   at           (a, b) towards the corner's next and previous neighbour in the face; level is not used
 template <class N>
 SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
                                      int ring_index, const ParameterGradients& at, Weights weights,
@@ -139,12 +140,12 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
     second = n == 2;  // one
     const Vec3<N> along = c * half;
     if (ring_index == 0) local.a = along;
-    if (static_cast<std::size_t>(ring_index) + 2 == n) local.b = Vec3<N>{} - along;
+    if (ring_index + 2 == entries) local.b = Vec3<N>{} - along;
     local.aa = local.ab = local.bb = s;
   } else {
     const auto& circle = circle_table<N>(static_cast<long>(n));
     const auto towards = [&](int i) {
-      const auto k = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
+      const std::size_t k = 2 * i % circle.cosine.size();
       return c * circle.cosine[k] + s * circle.sine[k];
     };
     const Vec3<N> a = towards(ring_index), b = towards(ring_index + 1);

@@ -13,8 +13,8 @@
 
 namespace limitcheck::reference {
 
-/// One step: the new vertex points, in the order of the
-/// vertices, then the edge points, in the order of the edges.
+/// One step: the new vertex points, in the order of the vertices, then the edge points, in the order
+/// of the edges.
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
                                  Weights weights = Weights::kLoop);
@@ -65,8 +65,8 @@ class RefinedMesh {
   }
   /// Index of (i, j) among the face's lattice points, rows of equal j.
   std::size_t point(int i, int j) const {
-    const auto k = std::size_t{1} << depth_, row = static_cast<std::size_t>(j);
-    return row * (k + 1) - row * (row - 1) / 2 + static_cast<std::size_t>(i);
+    const std::size_t k = std::size_t{1} << depth_, row = j;
+    return row * (k + 1) - row * (row - 1) / 2 + i;
   }
   void triangulate();
 

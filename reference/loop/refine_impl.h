@@ -104,7 +104,7 @@ template <class N>
 void RefinedMesh<N>::triangulate() {
   const int k = 1 << depth_;
   triangles_.clear();
-  triangles_.reserve(face_count_ * static_cast<std::size_t>(k) * static_cast<std::size_t>(k));
+  triangles_.reserve(face_count_ << (2 * depth_));
   for (std::size_t f = 0; f < face_count_; ++f) {
     for (int j = 0; j < k; ++j)
       for (int i = 0; i + j < k; ++i)

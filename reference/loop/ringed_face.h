@@ -92,7 +92,7 @@ class SubdividedFace {
       for (std::size_t k = 0; k < 3; ++k) result.corner[k] = edge_corner(k, 1);
       return result;  // its edges are inside
     }
-    const auto k = static_cast<std::size_t>(which), before = (k + 2) % 3;
+    const std::size_t k = which, before = (k + 2) % 3;
     result.corner[0] = vertex_[k];
     result.corner[1] = edge_corner(k, 2);
     result.corner[2] = edge_corner(before, 0);
@@ -104,9 +104,9 @@ class SubdividedFace {
   /// Ring of e_k from c_{k+1} on: c_{k+1}, e_{k+1}, e_{k-1}, c_k, then beyond the edge the edge points next
   /// to c_k and to c_{k+1}; on the boundary the first four are all.
   ///
-  ///            .                  sectors  0: sub-face k+1   (e_k, c_{k+1}, e_{k+1})
-  ///       e_{k-1} -- e_{k+1}               1: the middle     (e_k, e_{k+1}, e_{k-1})
-  ///       /   \     /   \                  2: sub-face k     (e_k, e_{k-1}, c_k)
+  ///            .                  ring index  0: sub-face k+1   (e_k, c_{k+1}, e_{k+1})
+  ///       e_{k-1} -- e_{k+1}                  1: the middle     (e_k, e_{k+1}, e_{k-1})
+  ///       /   \     /   \                     2: sub-face k     (e_k, e_{k-1}, c_k)
   ///     c_k --- e_k --- c_{k+1}
   void make_edge_corner(std::size_t k) {
     const std::size_t after = (k + 1) % 3;

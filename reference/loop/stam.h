@@ -3,9 +3,9 @@
 //
 //   J. Stam, Evaluation of Loop Subdivision Surfaces, 1998. One subdivision step leaves at most one
 //   extraordinary vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one,
-//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues (two_ring.h),
-//   so that the cost does not depend on how near the point is; one more step then gives the twelve control
-//   points of a regular piece.
+//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues
+//   (two_ring_modes.h), so that the cost does not depend on how near the point is; one more step then gives
+//   the twelve control points of a regular piece.
 #pragma once
 
 #include <memory>
@@ -24,16 +24,22 @@ template <class N>
 class StamData;
 }
 
+/// Largest errors of StamEvaluator<double>, measured against 50 and 100 digits on the known answers and on the
+/// stock shapes. Its tests hold these numbers.
+struct StamError {
+  static constexpr double kPosition = 2;  ///< in ulp of the largest control coordinate
+  /// d1, d2: the same, beside 2^-52 |d1| log2(1 / distance to the nearest extraordinary corner).
+  static constexpr double kFirst = 8;
+  static constexpr double kNearCorner = 1e-13;  ///< position, d1, d2: relative, down to 1e-300 from a corner
+  static constexpr double kNormal = 2e-15;  ///< unit normal, beside what the errors of d1 and d2 make of it
+};
+
 /// Limit surface of a control mesh, Loop's or Warren's weights, B-spline boundary with the ordinary interior
 /// rule next to it. Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
 ///
 ///   construction  O(n + sum of squared valences)
 ///   threads       any number may evaluate at once
-///   error         in double, measured against 50 and 100 digits on the known answers and the stock shapes:
-///                 position <= 2 ulp of the largest control coordinate;
-///                 d1, d2 <= 8 such ulp + 2^-52 |d1| log2(1 / distance to the nearest extraordinary corner),
-///                 1e-13 relative at 1e-300; unit normal <= 2e-15 beside that of d1, d2.
-///                 Second derivatives beyond 1e308 come out infinite
+///   error         in double StamError; second derivatives beyond 1e308 come out infinite
 ///   parameters    l1, l2 >= 0, l1 + l2 <= 1.
 ///                 Corners, edges and every dyadic point are ordinary points.
 ///                 Two doubles whose rounded sum is 1 lie on the far edge.

@@ -25,16 +25,15 @@ class StamData {
     make_two_rings();
   }
 
-  std::size_t face_count() const { return topology_.faces().size(); }
+  int face_count() const { return static_cast<int>(topology_.faces().size()); }
 
   template <class P>
   SurfacePoint<N> evaluate(int face, const P& l1, const P& l2, Order order) const {
-    if (face < 0 || static_cast<std::size_t>(face) >= face_count())
-      throw data::ArgumentError("no face " + std::to_string(face));
-    const auto f = static_cast<std::size_t>(face);
+    if (face < 0 || face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
+    const std::size_t f = face;
     const SubFaceLocation<P> location = locate<P>(l1, l2);
     SurfacePoint<N> result;
-    const auto corner = static_cast<std::size_t>(location.subface);
+    const std::size_t corner = location.subface;
     const std::int32_t two_ring = location.subface == 3 ? -1 : two_ring_of_[topology_.faces()[f][corner]];
     if (two_ring < 0)
       evaluate_regular(f, location, order, result);
@@ -231,7 +230,7 @@ StamEvaluator<N>& StamEvaluator<N>::operator=(StamEvaluator&&) noexcept = defaul
 
 template <class N>
 int StamEvaluator<N>::face_count() const {
-  return static_cast<int>(data_->face_count());
+  return data_->face_count();
 }
 
 template <class N>

@@ -37,9 +37,7 @@ class RefinedPatches {
   }
 
   /// Sub-face 0..2 at a corner, 3 the middle; unset at extraordinary corners.
-  const Patch& patch(std::size_t f, int subface) const {
-    return patches_[4 * f + static_cast<std::size_t>(subface)];
-  }
+  const Patch& patch(std::size_t f, int subface) const { return patches_[4 * f + subface]; }
 
  private:
   /// Points after one step: vertex points, edge points, then two ghosts per boundary edge, over its halves at
@@ -124,8 +122,7 @@ class RefinedPatches {
                                                              edge_ring(f, 2)};
       for (int k = 0; k < 3; ++k)
         if (is_regular(topology_.sector(topology_.faces()[f][k])))
-          patches_[4 * f + static_cast<std::size_t>(k)] =
-              assemble(vertex_ring(f, k), edges[k], 2, edges[(k + 2) % 3], 0);
+          patches_[4 * f + k] = assemble(vertex_ring(f, k), edges[k], 2, edges[(k + 2) % 3], 0);
       std::array<std::int32_t, 6> first = edges[0];
       std::rotate(first.begin(), first.begin() + 1, first.end());
       patches_[4 * f + 3] = assemble(first, edges[1], 1, edges[2], 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The same surface points by repeated subdivision: no eigenvalues, nothing shared with stam.h but masks and
-// basis.
+// The points of stam.h by repeated subdivision. This evaluator needs no eigenvalues and shares only the masks
+// and the basis with stam.h.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ namespace limitcheck::reference {
 
 /// Subdivides the face and its ring, always into the sub-face that holds the point, until that is regular (a
 /// box spline patch, Appendix A) or the point is its corner (limit masks). The number of steps grows with
-/// -log2 of the distance to the extraordinary vertex, and so does the rounding error of its derivatives.
+/// -log2 of the distance to the extraordinary vertex, and so does the rounding error of the derivatives.
 /// Built for double, Decimal50, Decimal100.
 ///   threads   any number may evaluate at once
 template <class N>

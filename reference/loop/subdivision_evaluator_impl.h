@@ -14,8 +14,8 @@
 namespace limitcheck::reference {
 namespace detail {
 
-/// The twelve points of a regular face in the order of Appendix A; two linear ghosts complete a boundary
-/// vertex.   [D10]
+/// The twelve points of a regular face in the order of Appendix A. Two linear ghosts complete the ring of a
+/// boundary vertex.   [D10]
 template <class N>
 std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
   std::array<std::array<Vec3<N>, 6>, 3> rings;
@@ -57,7 +57,7 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   std::array<Rational, 3> w{1 - first - second, first, second};  // barycentric in the current sub-face
   std::array<std::array<int, 2>, 3> gradient{{{-1, -1}, {1, 0}, {0, 1}}};  // of w, in units of 2^level
   long level = 0;
-  RingedFace<N> f = RingedFace<N>::gather(topology_, positions_, static_cast<std::size_t>(face), weights_);
+  RingedFace<N> f = RingedFace<N>::gather(topology_, positions_, face, weights_);
   while (!f.is_regular()) {
     for (std::size_t k = 0; k < 3; ++k)
       if (w[k] == 1 && !f.corner[k].is_regular()) {

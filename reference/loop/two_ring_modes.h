@@ -17,11 +17,11 @@
 //   p' = (5/8 + cos(theta)/8) r + 1/8 cos(theta/2) q + 1/16 p
 //
 // c couples with the mean of r: eigenvalues 1 and 5/8 - a, a = ring_weight(n). At a boundary vertex the three
-// points c, r_0, r_K of the curve have 1, 1/2, 1/4. So all eigenvalues are known in closed form. The powers of
-// a triangular block are divided differences of x^J at its eigenvalues (Opitz), for example
-// (lambda^J - 8^-J) / (lambda - 1/8), or J lambda^(J-1) where two coincide. That happens in the Jordan blocks:
-// at n = 3 (1/16 twice, D8) and in the curve's mode of 1/2 at K = 6, 12, .. (1/2 twice). `BlockPower` computes
-// all of them without cancellation.
+// points c, r_0, r_K of the curve have 1, 1/2, 1/4. So all eigenvalues are known in closed form. The powers
+// of a triangular block are divided differences of x^J at its eigenvalues (Opitz), for example
+// (lambda^J - 8^-J) / (lambda - 1/8), or J lambda^(J-1) where two coincide. That happens in the Jordan
+// blocks: at n = 3 (1/16 twice, D8) and in the curve's mode of 1/2 at K = 6, 12, .. (1/2 twice). `BlockPower`
+// computes all of them without cancellation.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,8 @@ struct TwoRingPower {
   N half;            ///< 2^-J, for the Jordan block of K = 6, 12, ..
 };
 
-/// The modes of all two-rings of one kind. `count` is the valence n, or the number of faces K on the boundary.
+/// The modes of all two-rings of one kind. `count` is the valence n, or the number of faces K on the
+/// boundary.
 template <class N>
 class TwoRingModes {
  public:
@@ -93,8 +94,7 @@ class TwoRingModes {
   int count_;
   bool on_boundary_;
   bool jordan_;           ///< boundary, K = 6, 12, ..
-  int linear_frequency_;  ///< boundary, K = 3, 6, 9, ..: the sine mode of eigenvalue 1/2, which is linear on
-                          ///< every face; or 0
+  int linear_frequency_;  ///< boundary, K = 3, 6, ..: of the sine mode that is linear on every face; else 0
   CircleTable<N> circle_;
   std::vector<int> frequency_;
   std::vector<N> eigenvalue_, cosine_, half_cosine_;

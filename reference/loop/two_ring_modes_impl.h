@@ -39,8 +39,8 @@ TwoRingModes<N>::TwoRingModes(int count, bool on_boundary, Weights weights)
   for (long e = 0; e < kTable; ++e) table_.push_back(power(e));
 }
 
-/// The curve's mode of 1/2: c = 0, r_0 = 1, r_K = -1, and r_i = r_{i-1} + r_{i+1}, linear on every face. Where
-/// sin(K pi / 6) = 0 this has no solution, and (1 - 2i/K) cos(i pi / 3) is a generalised eigenvector.
+/// The curve's mode of 1/2: c = 0, r_0 = 1, r_K = -1, and r_i = r_{i-1} + r_{i+1}, linear on every face.
+/// Where sin(K pi / 6) = 0 this has no solution, and (1 - 2i/K) cos(i pi / 3) is a generalised eigenvector.
 template <class N>
 typename TwoRingModes<N>::Values TwoRingModes<N>::along_mode() const {
   const auto sin_third = [](long i) { return sin_pi<N>(i, 3); };

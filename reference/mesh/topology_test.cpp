@@ -94,6 +94,15 @@ TEST(Topology, OfPolygonsHasClosedSectorsInsideAndOpenOnesOnTheBoundary) {
   EXPECT_EQ(list(open.sector(4).neighbours), (std::vector{0, 3}));
 }
 
+TEST(Topology, NamesTheFaceThatRepeatsAVertex) {
+  try {
+    Topology(9, polygons({{0, 1, 2}, {3, 4, 5, 4}}));
+    ADD_FAILURE() << "vertex 4 is named twice";
+  } catch (const data::ArgumentError& error) {
+    EXPECT_STREQ(error.what(), "control mesh: face 1 repeats a vertex");
+  }
+}
+
 TEST(Topology, OfPolygonsRefusesFacesThatAreNone) {
   const auto refused = [](data::Faces faces) {
     EXPECT_THROW(Topology(9, std::move(faces)), data::ArgumentError);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cosines and sines of the whole parts of a half turn, kept.
+// Tables of the cosines and sines of pi i / m.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace limitcheck::reference {
 
-/// The cosines and sines of the masks are computed once per thread and n. A number type whose precision can
-/// change between uses tells by `precision()`.
+/// The cosines and sines of the masks, computed once per thread and m; again when the number type's
+/// `precision()` has changed.
 template <class N>
 struct CircleTable {
   std::vector<N> cosine, sine;  ///< of pi i / m, i = 0..2m-1
@@ -25,7 +25,7 @@ const CircleTable<N>& circle_table(long m) {
     tables.clear();
     precision = NumberTraits<N>::precision();
   }
-  const auto index = static_cast<std::size_t>(m);
+  const std::size_t index = m;
   if (tables.size() <= index) tables.resize(index + 1);
   if (!tables[index]) {
     auto table = std::make_unique<CircleTable<N>>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a number type must offer besides + - * /: construction from int and double, and these.
+// The functions that a number type must have, besides + - * / and construction from int and double.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace limitcheck::reference {
 /// The exponent of zero: below that of every other number.
 inline constexpr long kZeroExponent = -(1L << 40);
 
-/// Specialised per number type (double here; the others in number_mp.h and ball.h).
+/// Specialised per number type (double here; the others in number_exact.h and ball.h).
 template <class N>
 struct NumberTraits;
 
@@ -32,7 +32,7 @@ struct NumberTraits<double> {
   static double sqrt(double a) { return std::sqrt(a); }
   /// Binary exponent of a, so that scale(a, -exponent(a)) is in [1, 2); very negative for zero.
   static long exponent(double a) { return a == 0 ? kZeroExponent : std::ilogb(a); }
-  /// Below this sine of the angle between two tangents their cross product is not trusted. [D12]
+  /// The cross product of two tangents is not trusted where the sine of their angle is below this. [D12]
   static constexpr double kNormalThreshold = 1e-12;
   /// The relative error of one operation; 0 for numbers that are exact or know their own error.
   static constexpr double kRounding = 0x1p-53;
@@ -43,7 +43,7 @@ struct NumberTraits<double> {
   static double approximate(double a) { return a; }
 };
 
-/// Whether operations lose digits that the number itself does not account for.
+/// Whether the number type rounds and does not say by how much.
 template <class N>
 inline constexpr bool kRounds = NumberTraits<N>::kRounding != 0;
 

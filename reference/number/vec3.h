@@ -38,7 +38,6 @@ struct Vec3 {
 };
 
 /// a . b
-/// a . b
 template <class N>
 N dot(const Vec3<N>& a, const Vec3<N>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

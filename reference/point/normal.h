@@ -51,14 +51,14 @@ Vec3<N> unit(const Vec3<N>& a) {
   return b * (N(1) / NumberTraits<N>::sqrt(dot(b, b)));
 }
 
-/// How many relative errors of one operation a sum of rounded points, with rounded weights, is off by at
-/// most: two for each point, two for its weight, and the product, differences and additions (as these err
-/// either way, their number hardly counts).
+/// The error of a tangent, a sum of rounded points with rounded weights, in relative errors of one operation:
+/// two for each point, two for its weight, and the rest for the product, the differences and the additions
+/// (these err either way, so that their number hardly counts).
 inline constexpr int kRoundingsOfATangent = 16;
 
-/// Whether t1 x t2 can be trusted: |t1 x t2| > threshold |t1| |t2|, and more than rounding can make it:
-/// |t1| e2 + |t2| e1 + e1 e2, e the error of a tangent. So a tangent that vanished but for rounding has no
-/// normal. [D12]
+/// Whether t1 x t2 can be trusted: it is larger than threshold |t1| |t2| and than what rounding can make of
+/// it, |t1| e2 + |t2| e1 + e1 e2, where e is the error of a tangent. So a tangent that vanishes but for
+/// rounding gives no normal.   [D12]
 ///   cross_product  receives t1 x t2 up to a positive factor
 ///   condition      receives (|t1| s2 + |t2| s1) / |t1 x t2|, s the terms
 template <class N>
@@ -91,8 +91,8 @@ bool nearly_parallel(const Vec3<N>& t1, const Vec3<N>& t2) {
   return N(10000) * dot(c, c) < dot(a, a) * dot(b, b);
 }
 
-/// The normal of two tangents; where they fail, that of `fallback`, a vector that may be zero; else (0, 0,
-/// 1). [D12]
+/// The normal of two tangents. Where they fail it is `fallback`, made a unit vector, and where that is zero
+/// (0, 0, 1).   [D12]
 template <class N>
 Normal<N> unit_normal(const Tangents<N>& tangents, const Vec3<N>& fallback) {
   Vec3<N> n;

@@ -8,15 +8,19 @@
 
 namespace limitcheck::reference {
 
-/// Where a normal comes from. Everything but kRegular is to be counted by whoever audits: there the surface
-/// has no normal, or none that this number type can tell from rounding.                     [D5, D12]
+/// Where a normal comes from. For all but kRegular the surface has no normal, or none that this number type
+/// can tell from rounding; an audit counts these points.   [D5, D12]
 enum class NormalKind : std::uint8_t {
-  kRegular,         ///< d1 x d2, or the tangent masks at a vertex
-  kNoTangentPlane,  ///< boundary vertex of 6 or more faces: deep normals do not converge; the mask's
-                    ///< direction is given
-  kFallback,        ///< tangents parallel or zero, but for rounding: area-weighted normal of the control
-                    ///< faces around
-  kArbitrary        ///< those vanish too: (0, 0, 1)
+  /// d1 x d2, or the tangent masks at a vertex.
+  kRegular,
+  /// A boundary vertex of 6 or more faces, where normals of ever finer levels do not converge. The normal is
+  /// that of the tangent masks.
+  kNoTangentPlane,
+  /// The tangents are parallel or zero, but for rounding. The normal is the area-weighted normal of the
+  /// control faces around.
+  kFallback,
+  /// That vanishes too. The normal is (0, 0, 1).
+  kArbitrary
 };
 
 /// How much to compute.
@@ -26,28 +30,27 @@ enum class Order : std::uint8_t { kPosition, kFirst, kSecond };
 ///   position       the limit point
 ///   d1, d2         partial derivatives with respect to l1 and l2, if `first_exist`; otherwise t1, t2
 ///   d11, d12, d22  second partial derivatives, zero if not `second_exist`: not asked for, or not there
-///   t1, t2         two directions in the tangent plane, t1 x t2 outwards. They are d1, d2 but at an
-///                  extraordinary corner itself, where the tangent masks give them, as long as the control
-///                  edges:
-///                  interior vertex, towards the face's own edges, and those edges themselves where the ring
-///                  is a regular polygon;
-///                  boundary vertex, along x across, both 1 for half a unit disc
-///   t1_terms, t2_terms   sum of |weight| magnitude(point) that t1, t2 were summed from, in their units: a
-///                  relative error u of the points moves t1 by some u * t1_terms, however small t1 is
-///   normal_condition     a relative error u of the points turns the normal by some u * normal_condition
-///                  radians, to first order: (t1_terms / |t1| + t2_terms / |t2|) / sin(t1, t2), with the
-///                  tangents that the normal was computed from, which near a boundary corner are better
-///                  separated than t1, t2. All three are 0 in number types without rounding, and
-///                  normal_condition where the normal is not regular
-///   normal         unit length, t1 x t2 direction, never NaN
-///   at_corner      an extraordinary corner itself
+///   t1, t2         two directions in the tangent plane, t1 x t2 outwards. They are d1, d2 except at an
+///                  extraordinary corner, where the tangent masks give them, about as long as control edges.
+///                  Interior vertex: towards the face's own edges; equal to them where the ring is a regular
+///                  polygon. Boundary vertex: along and across; both 1 for half a unit disc
+///   normal         unit length, in the direction of t1 x t2, never NaN
+///   at_corner      whether the point is an extraordinary corner
+///   t1_terms, t2_terms
+///                  sum of |weight| magnitude(point) that t1, t2 were summed from, in their units: a relative
+///                  error u of the points moves t1 by some u * t1_terms, however small t1 is
+///   normal_condition
+///                  a relative error u of the points turns the normal by some u * normal_condition radians,
+///                  to first order: (t1_terms / |t1| + t2_terms / |t2|) / sin(t1, t2), with the tangents that
+///                  the normal was computed from, which near a boundary corner are better separated than t1,
+///                  t2. 0 where the normal is not regular. In number types without rounding these three are 0
 /// At an extraordinary corner the derivatives are those of the face, from within (`extraordinary_corner` in
 /// patch.h derives which there are):
 ///   interior, valence 3, 4, 5      d1 = d2 = 0; second derivatives at valence 3
 ///   interior, valence 7 and more   none
 ///   boundary, 1 or 2 faces         d1, d2; second derivatives at 1 face
 ///   boundary, 4 faces and more     none but the one along the boundary, which is not given
-/// "None" is said of the rule: where the tangents vanish some may exist all the same.
+/// This holds in general; where the tangents vanish more derivatives may exist.
 template <class N>
 struct SurfacePoint {
   Vec3<N> position, d1, d2, d11, d12, d22, t1, t2, normal;

@@ -18,8 +18,8 @@ double distance(const Vec3<double>& a, const Vec3<double>& b) {
   return std::sqrt(dot(a - b, a - b));
 }
 
-/// At every lattice point of every face: naive against
-/// refined mesh against evaluator. Returns the leaves seen.
+/// At every lattice point of every face: naive against refined mesh against evaluator. Returns
+/// the leaves seen.
 void compare(const std::string& name, int depth) {
   const data::ControlMesh mesh = data::named_mesh(name);
   const double box = data::box_diagonal(mesh), size = 1 << depth;
@@ -33,7 +33,7 @@ void compare(const std::string& name, int depth) {
     naive.tessellate(f, depth, [&](const LeafTriangle<double>& leaf) {
       ++leaves;
       for (const auto& c : leaf) {
-        const auto at = static_cast<std::size_t>(refined.vertex(f, c.i, c.j));
+        const std::size_t at = refined.vertex(f, c.i, c.j);
         const auto s = stam.evaluate(static_cast<int>(f), c.i / size, c.j / size, Order::kFirst);
         position = std::max(
             {position, distance(c.position, limits.positions[at]), distance(c.position, s.position)});
@@ -45,8 +45,8 @@ void compare(const std::string& name, int depth) {
     });
   }
   EXPECT_EQ(leaves, naive.face_count() << (2 * depth));
-  EXPECT_LE(position, 1e-14 * box) << name;
-  EXPECT_LE(normal, 1e-11) << name;
+  EXPECT_LE(position, NaiveError::kPosition * box) << name;
+  EXPECT_LE(normal, NaiveError::kNormal) << name;
   testing::Test::RecordProperty(name + " position / box", std::to_string(position / box));
   std::printf("%-16s depth %d: position %.2g of the box, normal %.2g\n", name.c_str(), depth, position / box,
               normal);
@@ -189,7 +189,7 @@ TEST(DegenerateSurfaces, FallBackToTheControlFacesNormal) {
     const auto s = StamEvaluator<double>(bump).evaluate(face, 0.25, 0.375);
     return std::array{s.d1.y, s.d2.y};
   };
-  const auto corner = [&](std::size_t k) { return static_cast<std::size_t>(t[k]); };
+  const auto corner = [&](std::size_t k) -> std::size_t { return t[k]; };
   std::vector<std::size_t> others;
   for (std::size_t v = 0; v < 6; ++v)
     if (v != corner(0) && v != corner(1) && v != corner(2)) others.push_back(v);

@@ -107,16 +107,15 @@ Enclosure print(const Ball& a, long decimals) {
   } else if (decimals == 0) {
     result.value = digits;
   } else {
-    if (exponent < 0) digits = std::string(static_cast<std::size_t>(-exponent), '0') + digits;
-    result.value = digits.substr(0, digits.size() - static_cast<std::size_t>(decimals)) + "." +
-                   digits.substr(digits.size() - static_cast<std::size_t>(decimals));
+    if (exponent < 0) digits = std::string(-exponent, '0') + digits;
+    result.value = digits.substr(0, digits.size() - decimals) + "." + digits.substr(digits.size() - decimals);
   }
   if (negative) result.value = std::string(1, '-').append(result.value);
   return result;
 }
 
-/// Prints a group of numbers to `digits` significant digits
-/// of the largest of them, or says that it cannot yet.
+/// Prints a group of numbers to `digits` significant digits of the largest of them, or says that
+/// it cannot yet.
 class Printer {
  public:
   Printer(int digits, bool last_chance) : digits_(digits), last_chance_(last_chance) {}

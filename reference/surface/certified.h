@@ -33,10 +33,9 @@ struct CertifiedPoint {
   std::optional<Enclosure> gaussian_curvature, mean_curvature;
   NormalKind normal_kind;
   bool first_exist;
-  bool boundary_corner;  ///< an extraordinary corner on the boundary: the derivative along that may exist
-                         ///< alone
-  double radius;   ///< the largest of the radii, the curvatures' aside (they have their own and may be huge)
-  long precision;  ///< bits that were needed
+  bool boundary_corner;  ///< an extraordinary corner on the boundary: d along it may exist alone
+  double radius;         ///< the largest radius of all but the curvatures, whose own may be huge
+  long precision;        ///< bits that were needed
 };
 
 /// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are,
@@ -51,11 +50,11 @@ class CertifiedEvaluator {
                      const std::vector<Triangle>& triangles, Weights weights = Weights::kLoop);
   ~CertifiedEvaluator();
 
-  /// Only the faces that touch the face are evaluated, cut out of the mesh: quick on large meshes.
+  /// Evaluates a mesh of only the faces that touch the face, so that it is quick on large meshes.
   ///   digits   1..10000 significant digits of the largest coordinate of each vector; each printed value is
-  ///            within one unit of its last decimal. Precision rises until that is certain; a vector that
-  ///            cannot be told from zero at eight times the digits, and what nearness to a corner costs, is
-  ///            printed as 0 with its radius
+  ///            within one unit of its last decimal. Precision rises until that is certain. A vector that
+  ///            cannot be told from zero at eight times the digits (and more near a corner, where digits are
+  ///            lost) is printed as 0 with its radius
   ///   throws   data::ArgumentError: digits or parameters out of range, no such face
   CertifiedPoint evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const;
 

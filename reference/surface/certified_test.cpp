@@ -155,8 +155,8 @@ TEST(Certified, CurvaturesAreThoseOfTheFundamentalForms) {
 }
 
 TEST(Certified, PrecisionRisesUntilTheNormalIsKnown) {
-  // Points all but on the line x = y: t1 x t2 cancels 80
-  // or 130 bits, more than the first attempt has to spare.
+  // Points all but on the line x = y: t1 x t2 cancels 80 or 130 bits, more than the first attempt
+  // has to spare.
   for (const std::string offset : {"1e-24", "1e-40"}) {
     std::vector<std::array<std::string, 3>> positions;
     const data::ControlMesh mesh = data::octahedron();

@@ -23,19 +23,15 @@
 namespace limitcheck::verify {
 namespace {
 
-std::string label(const AuditSubject& s) {
-  return s.options.empty() ? s.subject->name : fmt::format("{}:{}", s.subject->name, s.options);
-}
-
 bool has_boundary(const data::ControlMesh& mesh) {
   const Lattice lattice(mesh, 0);
   return std::any_of(lattice.edges().begin(), lattice.edges().end(),
-                     [](const Lattice::Edge& edge) { return edge.face[1] < 0; });
+                     [](const Lattice::Edge& edge) { return edge.on_boundary(); });
 }
 
-// Why a subject that says "not supported" offers what it was asked for, by what it declares; empty if it
-// does not, or if nobody declares such a thing: sizes beyond 2^-40 and 2^40, where a float's squares end, and
-// more triangles than 32-bit indices name.
+// A subject answered "not supported": why its capabilities say that it does support this request. Empty if
+// they do not, or cannot say so: of sizes beyond 2^-40 and 2^40, where the squares of floats overflow or
+// vanish, and of more triangles than 32-bit indices name.
 std::string contradicts_capabilities(const std::exception& error, const AuditSubject& audited,
                                      const AuditMesh& mesh, std::span<const std::int32_t> asked) {
   const auto* refusal = dynamic_cast<const SubjectError*>(&error);
@@ -56,7 +52,58 @@ std::string contradicts_capabilities(const std::exception& error, const AuditSub
   return {};
 }
 
+// The truth at every point that the subject names. Returns why there is none, or nothing.
+std::string prepare(ReferenceSurface& truth, std::span<const Lattice::Id> points) {
+  try {
+    truth.prepare(points);
+  } catch (const std::bad_alloc&) {
+    throw;  // no memory of this program's
+  } catch (const std::exception& error) {
+    return fmt::format("the reference failed: {}", error.what());
+  }
+  return {};
+}
+
+// The subject is done, and may still break down while it cleans up.
+void close(Session& session, Result& tessellates) {
+  try {
+    session.close();
+  } catch (const std::bad_alloc&) {
+    throw;  // no memory of this program's
+  } catch (const std::exception& error) {
+    tessellates.status = status_of(error);
+    tessellates.bad = 1;
+    tessellates.message = fmt::format("at the end: {}", error.what());
+  }
+}
+
 }  // namespace
+
+// Collects the rows of one subject on one mesh.
+struct Auditor::Rows {
+  std::string subject, mesh;
+  std::vector<Result>& results;
+
+  void add(std::string_view check, Status status, const std::string& message) const {
+    Result r;
+    r.subject = subject;
+    r.mesh = mesh;
+    r.check = check;
+    r.status = status;
+    r.message = message;
+    results.push_back(std::move(r));
+  }
+  void add(const Check& check, Status status, const std::string& message) const {
+    for (const std::string_view row : check.rows) add(row, status, message);
+  }
+  // The row `tessellates` of a subject that does not.
+  void add_failure(const std::exception& error, const std::string& contradiction) const {
+    add("tessellates", contradiction.empty() ? status_of(error) : Status::kFinding,
+        contradiction.empty() ? error.what() : fmt::format("{}; {}", error.what(), contradiction));
+    results.back().of = 1;
+    results.back().bad = is_bad(results.back());
+  }
+};
 
 Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step, Level level)
     : depth_(depth), threads_(threads), on_step_(std::move(on_step)), level_(level) {}
@@ -99,7 +146,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     cache_.clear();
     out_of_memory_ = true;
   }
-  // Of a sample, however far it came: faces as the whole numbers them.
+  // Witnesses on a sample name the faces of the whole mesh, also in rows of an audit that was interrupted.
   if (mesh.sample)
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
@@ -123,36 +170,17 @@ void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bo
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
   });
   if (!no_memory && !missing.empty()) gave_up_ = true;
-  for (const std::string_view check : missing) {
-    Result r;
-    r.subject = label(audited);
-    r.mesh = mesh.name;
-    r.check = check;
-    r.status = Status::kNotRun;
-    r.message = no_memory ? "this program ran out of memory" : "interrupted";
-    results.push_back(std::move(r));
-  }
+  const Rows rows{audited.label(), mesh.name, results};
+  for (const std::string_view check : missing)
+    rows.add(check, Status::kNotRun, no_memory ? "this program ran out of memory" : "interrupted");
 }
 
 void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vector<Result>& results) {
   if (cached_mesh_ != mesh.name) cache_.clear();
   cached_mesh_ = mesh.name;
+  const Rows rows{audited.label(), mesh.name, results};
 
-  const std::string name = label(audited);
-  const auto row = [&](std::string_view check, Status status, const std::string& message) {
-    Result r;
-    r.subject = name;
-    r.mesh = mesh.name;
-    r.check = check;
-    r.status = status;
-    r.message = message;
-    results.push_back(std::move(r));
-  };
-  const auto rows = [&](const Check& check, Status status, const std::string& message) {
-    for (const std::string_view r : check.rows) row(r, status, message);
-  };
-
-  // Tessellate: the whole mesh, of which all but a sample is culled.
+  // The whole mesh is tessellated, and all of it but a sample is culled.
   const MeshSample* sample = mesh.sample.get();
   std::vector<std::int32_t> asked = mesh.face_depth;
   if (asked.empty()) asked.assign(mesh.mesh.triangles.size(), depth_of(mesh));
@@ -160,22 +188,19 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
   try {
-    step(name, mesh.name, "tessellates");
+    step(rows.subject, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options);
     tessellation.emplace(session->tessellate(asked, threads_));
-    row("tessellates", Status::kHeld, "");
+    rows.add("tessellates", Status::kHeld, "");
     results.back().of = 1;
   } catch (const std::bad_alloc&) {
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
-    const std::string contradiction = contradicts_capabilities(error, audited, mesh, asked);
-    row("tessellates", contradiction.empty() ? status_of(error) : Status::kFinding,
-        contradiction.empty() ? error.what() : fmt::format("{}; {}", error.what(), contradiction));
-    results.back().of = 1;
-    results.back().bad = is_bad(results.back());
-    for (const Check& check : checks()) rows(check, Status::kNotRun, "there is no tessellation");
+    rows.add_failure(error, contradicts_capabilities(error, audited, mesh, asked));
+    for (const Check& check : checks()) rows.add(check, Status::kNotRun, "there is no tessellation");
     if (level_ != Level::kQuick && mesh.relations)
-      for (const std::string_view r : relation_rows()) row(r, Status::kNotRun, "there is no tessellation");
+      for (const std::string_view r : relation_rows())
+        rows.add(r, Status::kNotRun, "there is no tessellation");
     return;
   }
 
@@ -188,71 +213,54 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   }
   const data::ControlMesh& judged = part ? *part : session->mesh();
 
-  // The truth at every point the subject names.
   const lc_capabilities& capabilities = session->capabilities();
-  step(name, mesh.name, "reference");
+  step(rows.subject, mesh.name, "reference");
   ReferenceSurface& truth = reference(judged, depth_of(mesh), capabilities);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
-  std::string no_reference;
-  try {
-    truth.prepare(points);
-  } catch (const std::bad_alloc&) {
-    throw;  // no memory of this program's
-  } catch (const std::exception& error) {
-    no_reference = fmt::format("the reference failed: {}", error.what());
-  }
-
-  // The checks.
+  const std::string no_reference = prepare(truth, points);
   double magnitude = 0;  // of the whole
   for (const Vector& p : session->mesh().positions) magnitude = std::max(magnitude, largest(p));
   const double diagonal = data::box_diagonal(session->mesh());
-  const Evidence evidence{
-      name,  mesh.name,         capabilities, judged,   asked, *tessellation, truth.lattice(),
-      truth, std::move(points), diagonal,     magnitude};
-  // The subject is done, and may still break down while it cleans up.
-  try {
-    session->close();
-  } catch (const std::bad_alloc&) {
-    throw;  // no memory of this program's
-  } catch (const std::exception& error) {
-    Result& tessellates = results.front();
-    tessellates.status = status_of(error);
-    tessellates.bad = 1;
-    tessellates.message = fmt::format("at the end: {}", error.what());
-  }
+  const Evidence evidence{rows.subject,    mesh.name, capabilities,      judged,   asked,    *tessellation,
+                          truth.lattice(), truth,     std::move(points), diagonal, magnitude};
+  close(*session, results.front());
 
+  run_checks(evidence, rows, no_reference);
+  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
+  if (interrupted() == 0 && related(mesh, judged.triangles.size())) {
+    const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
+    for (Result& r : check_relations(audited, evidence, threads_, refusals_[rows.subject], told))
+      results.push_back(std::move(r));
+  }
+}
+
+void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference) {
   for (const Check& check : checks()) {
     if (interrupted() != 0) break;
-    step(name, mesh.name, check.name);
+    step(rows.subject, rows.mesh, check.name);
     if (check.needs_reference && !no_reference.empty()) {
-      rows(check, Status::kError, no_reference);
+      rows.add(check, Status::kError, no_reference);
       continue;
     }
     try {
-      for (Result& r : check.run(evidence)) results.push_back(std::move(r));
+      for (Result& r : check.run(evidence)) rows.results.push_back(std::move(r));
     } catch (const std::bad_alloc&) {
       throw;  // no memory of this program's
     } catch (const std::exception& error) {
-      rows(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
+      rows.add(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
     }
-  }
-  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
-  if (interrupted() == 0 && related(mesh, judged.triangles.size())) {
-    const auto told = [&](std::string_view relation) { step(name, mesh.name, relation); };
-    for (Result& r : check_relations(audited, evidence, threads_, refusals_[name], told))
-      results.push_back(std::move(r));
   }
 }
 
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
                                  const std::vector<AuditMesh>& meshes, Journal* journal) {
-  // Mesh by mesh, so that subjects share the reference; told subject by subject.
+  // Audited mesh by mesh, so that subjects share the reference; returned subject by subject.
   done_ = 0;
   total_ = subjects.size() * meshes.size();
   std::vector<std::vector<Result>> of_subject(subjects.size());
   for (std::size_t m = 0; m < meshes.size(); ++m)
     for (std::size_t s = 0; s < subjects.size(); ++s, ++done_) {
-      const std::string name = label(subjects[s]);
+      const std::string name = subjects[s].label();
       auto known = journal != nullptr ? journal->recall(name, m) : std::nullopt;
       std::vector<Result> results = known ? std::move(*known) : run(subjects[s], meshes[m]);
       if (journal != nullptr && !known && !gave_up_ && !out_of_memory_) journal->keep(name, m, results);

@@ -10,6 +10,7 @@
 
 #include "data/control_mesh.h"
 #include "verify/audit/audit_case.h"
+#include "verify/audit/evidence.h"
 #include "verify/audit/journal.h"
 #include "verify/audit/reference_surface.h"
 #include "verify/audit/refusal.h"
@@ -34,15 +35,15 @@ inline constexpr std::size_t kRelationFaces = 200;
 /// Audits subjects on control meshes; keeps the reference of the last mesh for the next subject.
 class Auditor {
  public:
-  /// depth >= 0, of the meshes that have none of their own; threads >= 1 are handed to the subjects (the
-  /// checks use oneTBB's arena).
+  /// `depth` >= 0 is that of meshes that have none of their own. `threads` >= 1 are handed to the subjects;
+  /// the checks run in oneTBB's arena.
   Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step = {},
           Level level = Level::kQuick);
   ~Auditor();
 
   /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`.
-  /// A subject that refuses or fails gives rows, never an exception; nor does an interrupt (interrupt.h) or a
-  /// lack of memory: what could not be looked at has rows that say so. `mesh` is valid (data/validate.h).
+  /// A subject that refuses or fails makes no exception, nor does an interrupt (interrupt.h) or a lack of
+  /// memory: what could not be looked at has rows that say so. `mesh` is valid (data/validate.h).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
 
   /// Whether an interrupt left something out.
@@ -50,18 +51,21 @@ class Auditor {
   /// Whether a lack of memory, of this program and not of a subject, left something out.
   bool out_of_memory() const { return out_of_memory_; }
 
-  /// All of them, results ordered by subject, then mesh. What the journal knows is not looked at again; what
-  /// is looked at, as a whole, is kept there.
+  /// Every subject on every mesh; results are ordered by subject, then by mesh. Pairs that the journal knows
+  /// are taken from it; every other pair is audited and, if that was not interrupted, added to it.
   std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes,
                           Journal* journal = nullptr);
 
  private:
-  // Adds rows to `results` as they come, so that an end in between leaves what there is.
+  struct Rows;
+
+  // Adds rows to `results` as they come, so that an interrupt keeps those that are there.
   void judge(const AuditSubject& subject, const AuditMesh& mesh, std::vector<Result>& results);
-  // A row for all that there is no row of: out of memory, or interrupted.
+  void run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference);
+  // Adds each row that is still missing, and why: out of memory, or interrupted.
   void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool no_memory,
                    std::vector<Result>& results);
-  // Whether the relations are looked at, too, where so many faces are judged.
+  // Whether the relations belong to an audit of so many faces.
   bool related(const AuditMesh& mesh, std::size_t faces) const;
   int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
   ReferenceSurface& reference(const data::ControlMesh& rounded, int depth,
@@ -73,7 +77,7 @@ class Auditor {
   Level level_;
   std::size_t done_ = 0, total_ = 1;
   bool gave_up_ = false, out_of_memory_ = false;
-  std::map<std::string, std::vector<Refusal>> refusals_;  // by each subject, asked for once
+  std::map<std::string, std::vector<Refusal>> refusals_;  // of each subject, found once
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>>
       cache_;  // of one mesh: by precision, kind of points and weights

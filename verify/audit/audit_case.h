@@ -13,22 +13,29 @@
 
 namespace limitcheck::verify {
 
-/// A control mesh and how deep it is asked for. The same mesh may be asked for more than once.
+/// A control mesh and the depths at which it is tessellated. One mesh may be audited at several depths.
 struct AuditMesh {
   std::string name;  // as `limitcheck eval` understands it
   data::ControlMesh mesh;
   std::vector<std::int32_t> face_depth = {};           // 0 .. depth or -1 (culled); empty: `depth` for all
   std::shared_ptr<const MeshSample> sample = nullptr;  // if given, only this part of the mesh is looked at
   int depth = -1;                                      // of the deepest face; -1: the auditor's
-  std::string depths{};   // how the faces got theirs, as --depths takes it (face_depths.h); may be empty
-  bool relations = true;  // looked at, too, if the auditor's level says so
+  std::string depths{};   // how the depths were chosen, as --depths takes it (face_depths.h); may be empty
+  bool relations = true;  // whether the relations are checked, if the auditor's level includes them
 };
 
+/// A subject under options, which are part of its name in tables and reports.
 struct AuditSubject {
   const lc_subject* subject;
   std::string options;  // "key=value,key=value" or empty
-  /// The same behind verify/subject/in_turns.h, where that has to be in a process of the subject's own.
+  /// The same subject wrapped by verify/subject/in_turns.h, if the wrapper has to run in the subject's own
+  /// process.
   const lc_subject* in_turns = nullptr;
+
+  /// "name" or "name:options".
+  std::string label() const {
+    return options.empty() ? subject->name : std::string(subject->name) + ":" + options;
+  }
 };
 
 }  // namespace limitcheck::verify

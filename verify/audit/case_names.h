@@ -13,7 +13,7 @@ namespace limitcheck::verify {
 /// "bumpy:60 (random:1)", "crowd:18000 (depth 2, sample 100:1)".
 std::string case_name(const Report& report, const Result& result);
 
-/// How deep these results look, those left out that looked at nothing: "0-5 7"; with a * behind it if some
+/// The depths of these results, without those that looked at nothing: "0-5 7"; with a * behind it if some
 /// looked at unequal depths or culled faces.
 std::string depths_in_short(std::span<const Result* const> results);
 

@@ -16,7 +16,7 @@ namespace limitcheck::verify {
 struct ExactPoint {
   Vector position, normal;
   std::vector<std::string> position_digits, normal_digits;  // x, y, z
-  bool has_normal;  // false: the tangents are not told from parallel, or there is no tangent plane (D5, D12)
+  bool has_normal;  // false: the tangents may be parallel, or there is no tangent plane (D5, D12)
 };
 
 /// The limit surface of the lattice's control mesh (reference/surface/certified.h).
@@ -26,8 +26,8 @@ class CertifiedSurface {
   CertifiedSurface(const Lattice& lattice, reference::Weights weights);
   ~CertifiedSurface();
 
-  /// The point, kept for whoever asks again; nullptr where the evaluator cannot say. Some milliseconds each.
-  /// Any number of threads may ask.
+  /// The point; nullptr where the evaluator cannot certify it. It takes some milliseconds and is kept. Any
+  /// number of threads may ask.
   const ExactPoint* at(Lattice::Id id) const;
 
  private:

@@ -23,7 +23,7 @@ std::vector<Result> check_continuity(const Evidence& e) {
   const auto jump_in_position = [&](std::int64_t v) {
     return norm(t.position(v) - t.position(first.at(e.point[v]))) / e.diagonal / position;
   };
-  std::vector<double> jump(static_cast<std::size_t>(t.vertex_count()), -1);
+  std::vector<double> jump(t.vertex_count(), -1);
   std::int64_t not_finite = 0;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
     const Lattice::Id id = e.point[v];

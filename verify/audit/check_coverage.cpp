@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exact: everything happens on lattice coordinates.
+// All arithmetic is on lattice coordinates, and so exact.
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
@@ -33,25 +33,23 @@ struct Verdict {
   }
 };
 
-std::int64_t area(const Corners& c) {
-  return (c[1].i - c[0].i) * (c[2].j - c[0].j) - (c[2].i - c[0].i) * (c[1].j - c[0].j);
-}
-
 // Take every triangle counter-clockwise and add up the boundaries: how often a point is covered is the
 // winding number of the sum. So every point is covered exactly once if and only if the sum is the outline of
 // the face, whichever diagonals the tiling has. Sides are cut into primitive steps, so that a side may meet
-// two shorter ones (a T-vertex is not the business of this check).
-void judge_tiling(std::span<const Corners> triangles, std::int64_t scale, Verdict& v) {
+// two shorter ones (`t-vertices` reports T-vertices).
+void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::int64_t scale, Verdict& v) {
   struct Step {
     std::int64_t i, j, di, dj;  // canonical direction
     std::int32_t times;
     auto key() const { return std::tie(i, j, di, dj); }
   };
-  // Without the centre everything is a multiple of three.
-  const bool thirds = std::all_of(triangles.begin(), triangles.end(), [](const Corners& c) {
-    return std::all_of(c.begin(), c.end(), [](const auto& p) { return p.i % 3 == 0 && p.j % 3 == 0; });
+  // The scale is fine enough for the centre; without it everything is a multiple of a larger unit.
+  const std::int64_t large = domain.centre_denominator();
+  const bool plain = std::all_of(triangles.begin(), triangles.end(), [&](const Corners& c) {
+    return std::all_of(c.begin(), c.end(),
+                       [&](const auto& p) { return p.i % large == 0 && p.j % large == 0; });
   });
-  const std::int64_t unit = thirds ? 3 : 1;
+  const std::int64_t unit = plain ? large : 1;
   std::vector<Step> steps;
   steps.reserve(3 * triangles.size());
   const auto add = [&](Lattice::Coordinates p, Lattice::Coordinates q, std::int32_t times) {
@@ -65,9 +63,8 @@ void judge_tiling(std::span<const Corners> triangles, std::int64_t scale, Verdic
     if (area(c) < 0) std::swap(c[1], c[2]);
     for (int k = 0; k < 3; ++k) add(c[k], c[(k + 1) % 3], 1);
   }
-  add({0, 0}, {scale, 0}, -1);
-  add({scale, 0}, {0, scale}, -1);
-  add({0, scale}, {0, 0}, -1);
+  for (int k = 0; k < domain.corners(); ++k)
+    add(domain.corner_point(k, scale), domain.corner_point(domain.next(k), scale), -1);
 
   std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.key() < b.key(); });
   for (std::size_t k = 0; k < steps.size();) {
@@ -77,45 +74,45 @@ void judge_tiling(std::span<const Corners> triangles, std::int64_t scale, Verdic
     if (sum != 0) v.note(v.holes, {steps[k].i, steps[k].j});
     k = end;
   }
-  // The sum of the areas tells which of the two it is, if only one is.
+  // The sum of the areas tells whether it is a hole, an overlap or both.
   if (!v.holes) return;
   std::int64_t covered = 0;
   for (const Corners& c : triangles) covered += std::abs(area(c));
-  v.overlaps = covered >= scale * scale;
-  v.holes = covered <= scale * scale;
+  v.overlaps = covered >= domain.area(scale);
+  v.holes = covered <= domain.area(scale);
 }
 
 // Every lattice point of the face's depth is a corner.
-void judge_points(std::span<const Corners> triangles, std::int64_t scale, int depth, bool plain, Verdict& v) {
+void judge_points(std::span<const Corners> triangles, FaceDomain domain, std::int64_t scale, int depth,
+                  bool plain, Verdict& v) {
   const std::int64_t n = std::int64_t{1} << depth, step = scale / n;
-  std::vector<bool> met(static_cast<std::size_t>((n + 1) * (n + 1)), false);
-  const auto index = [&](std::int64_t i, std::int64_t j) {
-    return static_cast<std::size_t>(j * (n + 1) + i);
-  };
+  std::vector<bool> met(domain.point_count(n), false);
   bool fan = true;
   for (const Corners& c : triangles) {
     if (area(c) == 0) continue;
     bool at_centre = false;
     for (const auto& p : c) {
-      at_centre = at_centre || (3 * p.i == scale && 3 * p.j == scale);
+      at_centre = at_centre || domain.is_centre(p, scale);
       if (p.i % step == 0 && p.j % step == 0)
-        met[index(p.i / step, p.j / step)] = true;
+        met[domain.number({p.i / step, p.j / step}, n)] = true;
       else if (plain)
         v.note(v.finer, p);
     }
     fan = fan && at_centre;
   }
-  for (std::int64_t j = 0; j <= n; ++j)
-    for (std::int64_t i = 0; i + j <= n; ++i)
-      if (!met[index(i, j)]) v.note(v.coarser, {i * step, j * step});
+  domain.for_each_point(n, [&](FaceDomain::Point p) {
+    if (!met[domain.number(p, n)]) v.note(v.coarser, {p.i * step, p.j * step});
+  });
   v.fan = v.coarser && fan && !triangles.empty();
 }
 
-// Nothing finer in sight, also not beyond a neighbour, which may be displayed as deep as that.
+// Neither the face nor a neighbour is deeper, nor the faces beyond a neighbour, which may be displayed as
+// deep as they are.
 bool is_plain(const Evidence& e, std::int32_t face) {
-  for (int k = 0; k < 3; ++k)
-    for (const std::int32_t g : e.lattice.edges()[e.lattice.edge_of(face, k)].face)
-      if (g >= 0 && deepest_near(e, g) > e.face_depth[face]) return false;
+  const auto finer = [&](std::int32_t f) { return f >= 0 && deepest_near(e, f) > e.face_depth[face]; };
+  if (finer(face)) return false;
+  for (int k = 0; k < e.lattice.domain(face).corners(); ++k)
+    if (finer(e.lattice.across(face, k))) return false;
   return true;
 }
 
@@ -123,14 +120,14 @@ bool is_plain(const Evidence& e, std::int32_t face) {
 struct OfFaces {
   explicit OfFaces(const Evidence& e) : start(e.mesh.triangles.size() + 1, 0) {
     const Tessellation& t = e.tessellation;
-    placed.resize(static_cast<std::size_t>(t.triangle_count()));
+    placed.resize(t.triangle_count());
     std::vector<Corners> corners(placed.size());
     tbb::parallel_for(std::int64_t{0}, t.triangle_count(),
                       [&](std::int64_t k) { placed[k] = e.place(k, corners[k]); });
     for (std::int64_t k = 0; k < t.triangle_count(); ++k)
       if (placed[k]) ++start[t.triangle_face()[k] + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
-    sorted.resize(static_cast<std::size_t>(start.back()));
+    sorted.resize(start.back());
     std::vector<std::int64_t> fill(start.begin(), start.end() - 1);
     for (std::int64_t k = 0; k < t.triangle_count(); ++k)
       if (placed[k]) sorted[fill[t.triangle_face()[k]]++] = corners[k];
@@ -154,19 +151,19 @@ std::vector<Result> check_coverage(const Evidence& e) {
   const auto faces = static_cast<std::int32_t>(e.mesh.triangles.size());
   const OfFaces triangles(e);
 
-  std::vector<Verdict> verdicts(static_cast<std::size_t>(faces));
+  std::vector<Verdict> verdicts(faces);
   tbb::parallel_for(std::int32_t{0}, faces, [&](std::int32_t f) {
     const std::span<const Corners> own = triangles[f];
     Verdict& v = verdicts[f];
     if (e.face_depth[f] >= 0) {
-      judge_tiling(own, e.lattice.scale(), v);
-      judge_points(own, e.lattice.scale(), e.face_depth[f], is_plain(e, f), v);
+      judge_tiling(own, e.lattice.domain(f), e.lattice.scale(), v);
+      judge_points(own, e.lattice.domain(f), e.lattice.scale(), e.face_depth[f], is_plain(e, f), v);
     } else if (!own.empty()) {
       v.note(v.shown, own[0][0]);
     }
   });
 
-  // What has no place is held against the face that it names.
+  // What has no place counts as a fault of the face that it names.
   std::int64_t misplaced = 0, off_lattice = 0;
   Verdict nowhere;  // no face of the mesh at all
   const auto blame = [&](std::int32_t face, std::int64_t triangle) {

@@ -59,7 +59,7 @@ std::vector<Result> check_normals(const Evidence& e) {
     angle.witness->expected = {expected.begin(), expected.end()};
     angle.witness->got = {got.begin(), got.end()};
   }
-  // Where the surface has no normal any unit vector will do; say how many such points there are.
+  // Where the surface has no normal any unit vector is accepted; the row says at how many points.
   const Statistics without = summarise(undefined, std::numeric_limits<double>::infinity());
   if (without.of > 0)
     say(angle,

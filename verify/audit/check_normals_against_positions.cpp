@@ -19,7 +19,7 @@ struct Facets {
 // At each lattice point, of the triangles whose corners were all delivered as finite points.
 template <class Position>
 std::vector<Facets> facets(const Evidence& e, Position position) {
-  std::vector<Facets> at(static_cast<std::size_t>(e.lattice.size()));
+  std::vector<Facets> at(e.lattice.size());
   const Tessellation& t = e.tessellation;
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     if (!t.triangle_ok(k)) continue;
@@ -72,7 +72,7 @@ std::vector<Result> check_normals_against_positions(const Evidence& e) {
     return std::isfinite(got) ? std::max(0.0, std::abs(got - expected) - turn(id) * kDegrees) : got;
   };
 
-  std::vector<double> error(static_cast<std::size_t>(t.vertex_count()), -1);
+  std::vector<double> error(t.vertex_count(), -1);
   std::int64_t not_finite = 0;
   for (std::size_t v = 0; v < error.size(); ++v) {
     const auto k = static_cast<std::int64_t>(v);

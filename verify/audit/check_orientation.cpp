@@ -20,12 +20,12 @@ Verdict judge(const Evidence& e, std::int64_t triangle, double slack) {
   std::array<Lattice::Coordinates, 3> c;
   if (!e.place(triangle, c)) return Verdict::kNotPlaced;
 
-  // On the lattice: exact, and all that counts where the facet is nearly degenerate in space.
-  const std::int64_t area = (c[1].i - c[0].i) * (c[2].j - c[0].j) - (c[2].i - c[0].i) * (c[1].j - c[0].j);
-  if (area < 0) return Verdict::kClockwise;
-  if (area == 0) return Verdict::kGood;  // no orientation; `watertight` counts it
+  // On the lattice this is exact; where the facet is nearly degenerate in space, nothing else is judged.
+  const std::int64_t on_lattice = area(c);
+  if (on_lattice < 0) return Verdict::kClockwise;
+  if (on_lattice == 0) return Verdict::kGood;  // no orientation; `watertight` counts it
 
-  // In space: as the facet of the exact surface over the same three lattice points faces.
+  // In space the facet must face as that of the exact surface over the same three lattice points.
   const auto& v = e.tessellation.triangles()[triangle];
   std::array<Vector, 3> got, exact;
   for (int k = 0; k < 3; ++k) {
@@ -49,7 +49,7 @@ std::vector<Result> check_orientation(const Evidence& e) {
   const std::int64_t count = e.tessellation.triangle_count();
   const double slack =
       position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal) * e.diagonal;
-  std::vector<Verdict> verdict(static_cast<std::size_t>(count));
+  std::vector<Verdict> verdict(count);
   tbb::parallel_for(std::int64_t{0}, count, [&](std::int64_t k) { verdict[k] = judge(e, k, slack); });
 
   const auto number = [&](Verdict v) { return std::count(verdict.begin(), verdict.end(), v); };

@@ -19,7 +19,7 @@ std::vector<Result> check_positions(const Evidence& e) {
   Result& r = results.back();
 
   const Tessellation& t = e.tessellation;
-  std::vector<double> error(static_cast<std::size_t>(t.vertex_count()), -1);
+  std::vector<double> error(t.vertex_count(), -1);
   const auto off = [&](std::size_t v, const Vector& exact) {
     return norm(t.position(static_cast<std::int64_t>(v)) - exact) / e.diagonal;
   };
@@ -29,7 +29,7 @@ std::vector<Result> check_positions(const Evidence& e) {
   });
   r.bound = position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal);
   r.unit = "diagonal";
-  // Refined points are means of control points, as good in double as anywhere.
+  // Refined points are means of control points, for which double is as good as any arithmetic.
   const Confirmation confirmation =
       limit ? confirm(
                   e, error, [&](std::size_t) { return *r.bound; },

@@ -36,7 +36,7 @@ Groups group(const Evidence& e, Value value) {
   for (std::size_t v = 0; v < e.point.size(); ++v)
     if (counts(v)) ++count[e.point[v] + 1];
   std::partial_sum(count.begin(), count.end(), count.begin());
-  std::vector<std::int64_t> sorted(static_cast<std::size_t>(count.back()));
+  std::vector<std::int64_t> sorted(count.back());
   std::vector<std::int64_t> fill(count.begin(), count.end() - 1);
   for (std::size_t v = 0; v < e.point.size(); ++v)
     if (counts(v)) sorted[fill[e.point[v]]++] = static_cast<std::int64_t>(v);

@@ -36,7 +36,7 @@ Lattice::Id point_inside(const Evidence& e, const OpenEdge& edge, Lattice::Id fr
   return Lattice::kNone;
 }
 
-// What the welded surface looks like, to us and to CGAL.
+// What our own count and CGAL find on the welded surface.
 struct Looked {
   Welded welded;
   std::vector<std::int32_t> vertex_of;  // one vertex of each point, as welded, and ...
@@ -54,21 +54,17 @@ Looked look(const Evidence& e, const Outline& outline) {
   l.whole_of.resize(l.vertex_of.size());
   std::iota(l.whole_of.begin(), l.whole_of.end(), 0);
 
-  // The fan of the triangle's face at the control vertex that a corner is, 0 everywhere else.
+  // At a corner that is a control vertex, the fan of the triangle's face there; 0 at all others.
   const auto fan_at = [&](std::int64_t triangle, std::uint32_t vertex) {
     const Lattice::Id id = e.point[vertex];
     const std::int32_t face = t.triangle_face()[triangle];
-    if (id == Lattice::kNone || !e.lattice.is_vertex(id) || face < 0 ||
-        static_cast<std::size_t>(face) >= e.mesh.triangles.size())
+    if (id == Lattice::kNone || !e.lattice.is_vertex(id) || face < 0 || face >= e.lattice.face_count())
       return 0;
-    const auto& corner = e.mesh.triangles[face];
-    for (int k = 0; k < 3; ++k)
-      if (corner[k] == id) return outline.fan(face, k);
-    return 0;
+    const auto k = e.lattice.corner_of(face, id);
+    return k ? outline.fan(face, *k) : 0;
   };
   std::map<std::pair<std::int32_t, int>, std::int32_t> further;  // welded point, fan -> point of its own
-  std::vector<std::array<std::int32_t, 3>> triangles(static_cast<std::size_t>(t.triangle_count()),
-                                                     {-1, -1, -1});
+  std::vector<std::array<std::int32_t, 3>> triangles(t.triangle_count(), {-1, -1, -1});
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     if (!t.triangle_ok(k)) continue;
     for (int c = 0; c < 3; ++c) {
@@ -92,7 +88,7 @@ Looked look(const Evidence& e, const Outline& outline) {
   return l;
 }
 
-// The open edges that are no boundary, and the boundary that is not there.
+// The open edges that are no boundary, and the steps of the boundary that are missing.
 struct Cracks {
   std::vector<OpenEdge> edges;
   std::int64_t missed = 0;         // steps of the boundary
@@ -113,7 +109,7 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
     w.triangle = triangle;
     return w;
   };
-  std::vector<bool> named(static_cast<std::size_t>(e.lattice.size()), false);
+  std::vector<bool> named(e.lattice.size(), false);
   for (const Lattice::Id id : e.point)
     if (id != Lattice::kNone) named[id] = true;
 
@@ -128,7 +124,7 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
     });
     return step != steps.end() && std::pair(step->from, step->to) == at ? step - steps.begin() : -1;
   };
-  // A side is shown at that one of its depths of which most is there.
+  // Of the depths that a side may have, it has the one of which most steps were found.
   std::vector<std::vector<double>> share(outline.sides().size());
   for (std::size_t s = 0; s < share.size(); ++s)
     share[s].resize(static_cast<std::size_t>(outline.sides()[s].most - outline.sides()[s].least) + 1);
@@ -162,7 +158,7 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
     if (!c.split_witness) c.split_witness = with_triangle(e.at_point(inside), edge.triangle);
   }
 
-  // In space, exactly, where provenance does not tell.
+  // Where provenance cannot tell: in space, by exact arithmetic.
   if (!placed) {
     std::vector<double> places;
     for (std::int64_t v = 0; v < t.vertex_count(); ++v)
@@ -244,7 +240,7 @@ std::vector<Result> check_watertight(const Evidence& e) {
   surface.witness = cracks.witness ? cracks.witness : not_manifold(e, looked);
   tell(ours, cracks, outline, surface);
 
-  // Two methods, one answer.
+  // The two methods must agree.
   const bool agree = ours.manifold() == cgal.manifold() &&
                      (!ours.manifold() ||
                       (ours.open_edges.empty() == cgal.closed && ours.open_loops == cgal.boundary_cycles));
@@ -252,8 +248,7 @@ std::vector<Result> check_watertight(const Evidence& e) {
     surface.status = Status::kError;
     surface.message = fmt::format(
         "our own count (manifold {}, {} open edges, {} loops) and CGAL's (manifold {}, closed {}, {} cycles) "
-        "disagree; "
-        "ours: {}",
+        "disagree; ours: {}",
         ours.manifold(), ours.open_edges.size(), ours.open_loops, cgal.manifold(), cgal.closed,
         cgal.boundary_cycles, surface.message);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checks. Each is one function in one file: evidence in, rows out. None trusts another to have held.
+// The checks. Each is one function in one file: evidence in, rows out. No check relies on another one having
+// held.
 #pragma once
 
 #include <span>
@@ -10,8 +11,8 @@
 
 namespace limitcheck::verify {
 
-/// `written`: array defects and overruns the host found, and entries still holding the bytes they were handed
-/// out with.
+/// `written`: array defects and overruns that the host found, and entries that still hold the bytes with
+/// which the memory was handed out.
 std::vector<Result> check_written(const Evidence&);
 /// `finite`: positions and normals that were written and are NaN or infinite.
 std::vector<Result> check_finite(const Evidence&);

@@ -57,7 +57,8 @@ std::int64_t judge_angles(const Evidence& e, std::vector<double>& angle,
   const auto bound = [&](std::size_t v) { return e.normal_bound_at(e.point[v]); };
   const Confirmation confirmation = confirm(e, angle, bound, measure);
 
-  // Apart: what is judged by another bound than the row's would spoil its worst and its percentile.
+  // Kept apart, because errors with another bound than the row's would distort its worst value and its
+  // percentile.
   std::vector<double> ordinary = angle;
   IllConditioned ill;
   std::int64_t ill_bad = 0, ill_worst = -1;

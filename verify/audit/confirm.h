@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No finding without certified arithmetic: what lies beyond its bound by the reference in double is looked at
-// again.
+// Findings are confirmed in certified arithmetic: what is beyond its bound by the reference in double is
+// evaluated again.
 #pragma once
 
 #include <functional>
@@ -11,19 +11,19 @@
 
 namespace limitcheck::verify {
 
-/// What became of the vertices that the reference in double has beyond their bounds.
+/// What certified arithmetic says of the vertices that are beyond their bounds by the reference in double.
 struct Confirmation {
-  std::int64_t looked = 0;     // put before the certified evaluator
+  std::int64_t looked = 0;     // evaluated again
   std::int64_t acquitted = 0;  // of these: within the bound after all, or at a point where nothing is judged
   std::int64_t left = 0;       // beyond the bound in double and not looked at, though some were acquitted
   std::int64_t worst = -1;     // the first vertex that was confirmed
   std::string message;         // empty unless some were acquitted
 };
 
-/// Puts the vertices beyond their bounds before the certified evaluator, the one worst in its bounds first,
-/// until one is confirmed. If it is the very first, double and certified numbers agree, and all the others
-/// count as they are. If any was acquitted, double is not to be trusted on this mesh: then the row goes on to
-/// kMostCertified vertices, and those beyond are not judged.
+/// Evaluates the vertices that are beyond their bounds in certified arithmetic, in the order of error over
+/// bound, until one is confirmed. If that is the very first, double and certified numbers agree, and the
+/// errors of all others count as they are. If any was acquitted, double cannot be trusted on this mesh: then
+/// up to kMostCertified vertices are evaluated, and the others are not judged.
 ///   error    of each vertex, negative where there is none; corrected where it was looked at
 ///   bound    of a vertex
 ///   measure  the error of a vertex against the exact point, negative if nothing can be judged there
@@ -46,8 +46,8 @@ std::int64_t judge_angles(const Evidence& e, std::vector<double>& angle,
 /// Adds a sentence to what a row says.
 void say(Result& row, const std::string& sentence);
 
-/// Says how many of something were left out of a row because they are NaN or infinite: that is the business
-/// of `finite` (or of `written`) alone.
+/// Says how many of something a row leaves out because they are NaN or infinite: only `finite` (or `written`)
+/// reports those.
 void say_left_out(Result& row, std::int64_t count, const char* what);
 
 }  // namespace limitcheck::verify

@@ -121,7 +121,7 @@ TEST(Condition, IsFiniteAndScalesAtEveryPointOfEveryStockShape) {
       for (auto& p : mesh.positions)
         for (double& x : p) x *= size;
       ReferenceSurface surface(mesh, 2, LC_POINTS_LIMIT);
-      std::vector<Lattice::Id> all(static_cast<std::size_t>(surface.lattice().size()));
+      std::vector<Lattice::Id> all(surface.lattice().size());
       for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Lattice::Id>(k);
       surface.prepare(all);
       for (const Lattice::Id id : all)

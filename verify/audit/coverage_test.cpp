@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tilings that are not the regular one: what a repaired crack looks like, and what an unrepaired mistake
-// looks like.
+// Tilings that are not the regular one: those of repaired cracks, and those of mistakes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -30,7 +29,7 @@ int shared_edge() {
   const data::ControlMesh mesh = data::triangle_pair();
   const Lattice lattice(mesh, 2);
   for (int k = 0; k < 3; ++k)
-    if (lattice.edges()[lattice.edge_of(0, k)].face[1] >= 0) return k;
+    if (lattice.across(0, k) >= 0) return k;
   return -1;
 }
 

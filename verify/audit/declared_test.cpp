@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a subject declares, it is held to; what nobody looked at is said.
+// A subject is held to what it declares, and a report says what was not judged.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -78,7 +78,7 @@ TEST(Declared, ARefusalOfWhatIsNotDeclaredIsNone) {
   declared.max_depth = 4;
   declared.per_face_depth = 0;
   EXPECT_EQ(tessellates(subject, mesh("tetrahedron", {0, 1, 1, 2})).status, Status::kNotSupported);
-  refuses = "all";  // sizes are declared by nobody
+  refuses = "all";  // capabilities do not declare sizes
   EXPECT_EQ(tessellates(subject, mesh("tiny-box")).status, Status::kNotSupported);
   EXPECT_EQ(tessellates(subject, mesh("cube")).status, Status::kFinding);
 }

@@ -18,7 +18,7 @@ struct Case {
   bool relations = false;
 };
 
-// Each row is here because faults of its kind were seen to pass without it.
+// Each case is here because faults of its kind passed the audit without it.
 const std::vector<Case>& small_cases() {
   static const std::vector<Case> all{
       // Faults at odd depths, and those that begin at depth 5 or 7.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `limitcheck audit SUBJECT` asks for when it is told no meshes and no depths.
+// The meshes and depths of `limitcheck audit SUBJECT` when the command line names neither.
 #pragma once
 
 #include <vector>

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
 #include "verify/audit/face_depths.h"
@@ -73,7 +74,7 @@ TEST(DefaultPlan, ItsSampleLooksAtFacesWhoseIndicesNeedMoreThanSixteenBits) {
   ASSERT_NE(large, plan.end());
   const auto faces = large->sample->faces();
   const auto beyond = std::count_if(faces.begin(), faces.end(), [&](std::int32_t f) {
-    const auto& t = large->mesh.triangles[static_cast<std::size_t>(f)];
+    const auto& t = large->mesh.triangles[f];
     return *std::max_element(t.begin(), t.end()) > 0xFFFF;
   });
   EXPECT_GE(beyond, 4);
@@ -91,7 +92,7 @@ TEST(Depths, AreReadAsTheyAreWritten) {
     EXPECT_EQ(parse_depths(text).text(), text);
   EXPECT_EQ(parse_depths("random").text(), "random:1");
   for (const char* text : {"", "random:", "random:x", "random:1:", "random:1:seen", "random:-1", "culled"})
-    EXPECT_THROW(parse_depths(text), std::invalid_argument) << text;
+    EXPECT_THROW(parse_depths(text), data::ArgumentError) << text;
 }
 
 TEST(Depths, OfRandomFacesSomeAreCulledUnlessVisible) {

@@ -63,9 +63,8 @@ bool Evidence::place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>&
 std::int32_t deepest_near(const Evidence& e, std::int32_t face) {
   std::int32_t depth = e.face_depth[face];
   if (depth < 0) return depth;
-  for (int k = 0; k < 3; ++k)
-    for (const std::int32_t g : e.lattice.edges()[e.lattice.edge_of(face, k)].face)
-      if (g >= 0) depth = std::max(depth, e.face_depth[g]);
+  for (int k = 0; k < e.lattice.domain(face).corners(); ++k)
+    if (const std::int32_t g = e.lattice.across(face, k); g >= 0) depth = std::max(depth, e.face_depth[g]);
   return depth;
 }
 
@@ -80,7 +79,7 @@ std::int64_t not_finite(const Tessellation& t) {
 }
 
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice) {
-  std::vector<Lattice::Id> ids(static_cast<std::size_t>(tessellation.vertex_count()));
+  std::vector<Lattice::Id> ids(tessellation.vertex_count());
   const auto provenance = tessellation.provenance();
   tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t v) { ids[v] = lattice.id(provenance[v]); });
   return ids;

@@ -36,8 +36,8 @@ struct Evidence {
   double normal_bound_at(Lattice::Id id) const;
   /// The witness for a lattice point.
   Witness at_point(Lattice::Id id) const;
-  /// The lattice coordinates of the corners of a triangle in the face it claims to be part of; false if an
-  /// index, the face or a corner's provenance does not allow to say.
+  /// The lattice coordinates of the corners of a triangle in the face that it names; false if an index or the
+  /// face is out of range, or a corner does not lie in that face.
   bool place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>& corners) const;
 };
 

@@ -27,8 +27,7 @@ const std::vector<Explanation>& explanations() {
       {"positions", "Distance of each vertex from the exact limit point that its provenance names.",
        "sqrt(3) 8 (depth + 2) u M, in bounding-box diagonals; at least 1e-14 in double.",
        "each of depth + 2 steps is a convex combination that adds a few roundings (verify/audit/bounds.h); "
-       "truth: "
-       "Stam's evaluator in double, itself held against 50 digits"},
+       "truth: Stam's evaluator in double, itself held against 50 digits"},
       {"refined-positions",
        "For subjects that deliver no limit points: distance from the vertex of the refined control mesh.",
        "As for positions.", "verify/audit/bounds.h; truth: the textbook refinement in double"},
@@ -36,9 +35,8 @@ const std::vector<Explanation>& explanations() {
        "Angle between each normal and the exact one, where the surface has one. A finding is confirmed in "
        "certified arithmetic.",
        "1e-3 rad in float, 1e-9 rad in double; doubling with each level beyond 5. More where the tangents "
-       "t1, t2 "
-       "are so short or so nearly parallel that rounding alone turns the normal farther, by "
-       "4 * 2^depth u M (|t1| + |t2|) / |t1 x t2|: the row says at how many points.",
+       "t1, t2 are so short or so nearly parallel that rounding alone turns the normal farther, by "
+       "asin(5 u M (|t1| + |t2|) / |t1 x t2|): the row says at how many points.",
        "differences of points 2^-depth apart lose a bit with each level; measured on float engines "
        "(verify/audit/bounds.h)"},
       {"normal-length", "Distance of the normals' length from 1.", "8 unit roundoffs.",
@@ -47,16 +45,14 @@ const std::vector<Explanation>& explanations() {
        "Whether each normal fits the delivered facets round it as well as the exact normal fits the exact "
        "facets.",
        "That of normals, and the turn that the bound s of the positions can give the facets: 4 s times the "
-       "sum "
-       "of their sides over the length of the sum of their area vectors.",
+       "sum of their sides over the length of the sum of their area vectors.",
        "differences of the delivered positions against the same differences of the exact ones"},
       {"orientation",
        "Triangles run counter-clockwise on their control face and face as the exact facet does.", kNone,
        "signed areas in exact lattice coordinates; exact facets"},
       {"coverage",
        "Each control face is tiled exactly once, by any triangles whose corners are lattice points, and "
-       "every "
-       "lattice point of its depth is a corner. Culled faces are not there.",
+       "every lattice point of its depth is a corner. Culled faces are not there.",
        kNone, "integer arithmetic on the lattice of the control face"},
       {"shared-positions",
        "A point on a control edge or vertex that is delivered more than once has the same bits each time.",
@@ -68,10 +64,9 @@ const std::vector<Explanation>& explanations() {
        kTwice, "the surface is continuous, and so is its tangent plane"},
       {"watertight",
        "Merging vertices of one lattice point whose positions are equal, and nothing else, the triangles "
-       "form "
-       "a manifold whose boundary is that of the control mesh, with as many loops. What is apart in the "
-       "control "
-       "mesh stays apart, also where it lies in one place: seams, parts that touch, triangles without area.",
+       "form a manifold whose boundary is that of the control mesh, with as many loops. What is apart in the "
+       "control mesh stays apart, also where it lies in one place: seams, parts that touch, triangles "
+       "without area.",
        kNone, "counted twice, by our own code and by CGAL"},
       {"t-vertices", "No vertex lies inside an edge of another triangle.", kNone,
        "exact predicates on the delivered coordinates"},
@@ -82,11 +77,12 @@ const std::vector<Explanation>& explanations() {
       {"corner-rotation", "Faces that begin at another corner.", kTwice, kRelation},
       {"mirror", "The mirror image gives the mirror image.", kTwice, kRelation},
       {"rotation", "Axes exchanged with signs, an exact rotation.", kTwice, kRelation},
-      {"scaling", "Sizes times 2^10 and 2^-10, which rounds nothing.", kTwice, kRelation},
+      {"scaling",
+       "Sizes times 2^10, 2^-10, 2^40 and 2^-40, which rounds nothing; at the last two squares overflow or "
+       "vanish in float.",
+       kTwice, kRelation},
       {"translation", "The mesh moved by a few diagonals. Positions only: rounding the input turns normals.",
        "As for the others, with the larger coordinates.", kRelation},
-      {"extreme-scale", "Sizes times 2^40 and 2^-40: squares overflow or vanish in float.", kTwice,
-       kRelation},
       {"state",
        "Asked eight times, between other meshes and other depths, made again, beside another mesh of as many "
        "vertices, with 8 threads: the bits of a process that was asked for nothing else.",
@@ -124,8 +120,7 @@ const std::vector<Explanation>& explanations() {
        "Triangles without area that the control mesh does not cause. Triangles that name a vertex twice, as "
        "joints of strips do, are a warning.",
        "No area: lower than four roundings of the coordinates in double. The control mesh causes it where "
-       "the "
-       "exact surface, at the file's resolution, is thinner than the tolerance.",
+       "the exact surface, at the file's resolution, is thinner than the tolerance.",
        "the positions in the file; Stam's evaluator"},
       {"file-watertight",
        "Merging equal positions, every edge inside has two triangles, and the boundary is that of the "
@@ -139,10 +134,8 @@ const std::vector<Explanation>& explanations() {
   return all;
 }
 
-const Explanation* explain(std::string_view check) {
-  for (const Explanation& e : explanations())
-    if (e.check == check) return &e;
-  return nullptr;
+std::string_view current_name(std::string_view check) {
+  return check == "extreme-scale" ? "scaling" : check;
 }
 
 }  // namespace limitcheck::verify

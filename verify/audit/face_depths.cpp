@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/face_depths.h"
-#include "data/io/whole_content.h"
 
 #include <fmt/core.h>
 
@@ -12,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "data/error.h"
 #include "data/io/whole_content.h"
 #include "data/splitmix64.h"
 #include "verify/audit/vector.h"
@@ -37,7 +37,7 @@ FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
   FaceDepths depths;
   for (const auto& t : mesh.triangles) {
     std::array<Vector, 3> p{};
-    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.positions.at(static_cast<std::size_t>(t[k]));
+    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.positions.at(t[k]);
     const Vector to_eye = eye - (1. / 3) * (p[0] + p[1] + p[2]);
     if (dot(cross(p[1] - p[0], p[2] - p[0]), to_eye) <= 0) {
       depths.push_back(-1);
@@ -51,36 +51,35 @@ FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
   return depths;
 }
 
-FaceDepths random_depths(const Depths& depths, std::size_t faces, int deepest) {
-  data::SplitMix64 random(*depths.seed);
-  const int least = depths.visible ? 0 : -1;
-  FaceDepths out(faces);
-  for (std::int32_t& d : out)
-    d = least + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(deepest - least + 1));
-  return out;
-}
-
 FaceDepths read_depths(const std::string& file, std::size_t faces, int deepest) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
-    throw std::invalid_argument(fmt::format("--depths: cannot read {}", file));
+    throw data::ArgumentError(fmt::format("--depths: cannot read {}", file));
   std::istringstream in(data::io::whole_content(file));
   FaceDepths depths;
   for (std::string word; in >> word;) {
     std::int32_t depth = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), depth);
     if (error != std::errc{} || end != word.data() + word.size() || depth < -1 || depth > deepest)
-      throw std::invalid_argument(
+      throw data::ArgumentError(
           fmt::format("--depths: {}: '{}' is no depth from -1 to {} (--depth)", file, word, deepest));
     depths.push_back(depth);
   }
   if (depths.size() != faces)
-    throw std::invalid_argument(
+    throw data::ArgumentError(
         fmt::format("--depths: {}: {} depths for {} faces", file, depths.size(), faces));
   return depths;
 }
 
 }  // namespace
+
+std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, std::uint64_t seed) {
+  data::SplitMix64 random(seed);
+  FaceDepths out(faces);
+  for (std::int32_t& d : out)
+    d = least + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(most - least + 1));
+  return out;
+}
 
 std::string Depths::text() const {
   if (kind == "random") return fmt::format("random:{}{}", seed.value_or(1), visible ? ":visible" : "");
@@ -99,14 +98,14 @@ Depths parse_depths(const std::string& text) {
     const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), *depths.seed);
     if (error == std::errc() && end == seed.data() + seed.size()) return depths;
   }
-  throw std::invalid_argument(fmt::format(
+  throw data::ArgumentError(fmt::format(
       "--depths {}: uniform, random[:SEED[:visible]], view, face0-culled, all-culled or file:FILE", text));
 }
 
 std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {
   const std::size_t faces = mesh.triangles.size();
   if (depths.kind == "view") return view_depths(mesh, deepest);
-  if (depths.kind == "random") return random_depths(depths, faces, deepest);
+  if (depths.kind == "random") return random_depths(faces, depths.visible ? 0 : -1, deepest, *depths.seed);
   if (depths.kind == "file") return read_depths(depths.file, faces, deepest);
   if (depths.kind == "all-culled") return FaceDepths(faces, -1);
   if (depths.kind == "face0-culled") {

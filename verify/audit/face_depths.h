@@ -28,11 +28,14 @@ struct Depths {
   std::string text() const;
 };
 
-/// Throws std::invalid_argument for anything else.
+/// Throws data::ArgumentError for anything else.
 Depths parse_depths(const std::string& text);
 
 /// A depth for every face, -1 to `deepest`, or none at all if it is `deepest` for each. Throws
-/// std::invalid_argument: a file cannot be read, or does not have one such number for each face.
+/// data::ArgumentError: a file cannot be read, or does not have one such number for each face.
 std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest);
+
+/// A depth for every face, each of least .. most as likely.
+std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, std::uint64_t seed);
 
 }  // namespace limitcheck::verify

@@ -3,55 +3,49 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
+
+#include "data/error.h"
+#include "verify/audit/explain.h"
+#include "verify/audit/json.h"
 
 namespace limitcheck::verify {
 namespace {
 
 using Json = nlohmann::json;
 
-// JSON has no NaN and no infinity.
-Json to_json(double x) {
-  return std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x);
-}
-double number(const Json& json) {
+double number_of(const Json& json) {
   return json.is_string() ? std::strtod(json.get_ref<const std::string&>().c_str(), nullptr)
                           : json.get<double>();
 }
 Json to_json(const std::optional<double>& x) {
-  return x ? to_json(*x) : Json(nullptr);
+  return x ? Json(number(*x)) : Json(nullptr);
 }
 std::optional<double> maybe(const Json& json) {
-  return json.is_null() ? std::nullopt : std::optional(number(json));
-}
-Json to_json(const std::vector<double>& list) {
-  Json out = Json::array();
-  for (const double x : list) out.push_back(to_json(x));
-  return out;
+  return json.is_null() ? std::nullopt : std::optional(number_of(json));
 }
 std::vector<double> numbers_of(const Json& json) {
   std::vector<double> list;
-  for (const Json& x : json) list.push_back(number(x));
+  for (const Json& x : json) list.push_back(number_of(x));
   return list;
 }
 
-// The members are taken apart by their number: one more, and this does not compile until it is kept, too.
+// The structured binding names all members: with a new one this does not compile until it is written, too.
 Json to_json(const Witness& w) {
   const auto& [face, l1, l2, vertex, triangle, expected, got, digits] = w;
-  return Json::array({face, l1, l2, vertex, triangle, to_json(expected), to_json(got), digits});
+  return Json::array({face, l1, l2, vertex, triangle, Json(numbers(expected)), Json(numbers(got)), digits});
 }
 Witness witness(const Json& j) {
   return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), numbers_of(j.at(5)), numbers_of(j.at(6)), j.at(7)};
 }
 Json to_json(const IllConditioned& c) {
   const auto& [count, bound, worst] = c;
-  return Json::array({count, to_json(bound), to_json(worst)});
+  return Json::array({count, Json(number(bound)), Json(number(worst))});
 }
 IllConditioned ill_conditioned(const Json& j) {
-  return {j.at(0), number(j.at(1)), number(j.at(2))};
+  return {j.at(0), number_of(j.at(1)), number_of(j.at(2))};
 }
 Json to_json(const Result& r) {
   const auto& [subject, mesh, check, depth, depths, sample, in_float, weights, status, bad, of, worst, bound,
@@ -81,7 +75,7 @@ Json to_json(const Result& r) {
 Result result(const Json& j) {
   return {j.at(0),
           j.at(1),
-          j.at(2),
+          std::string(current_name(j.at(2).get<std::string>())),
           j.at(3),
           j.at(4),
           j.at(5),
@@ -110,9 +104,9 @@ Journal::Journal(std::filesystem::path file, const std::string& what, bool resum
     std::ifstream in(file_, std::ios::binary);
     std::string line;
     if (!std::getline(in, line))
-      throw std::invalid_argument(fmt::format("--resume: there is no {}", file_.string()));
+      throw data::ArgumentError(fmt::format("--resume: there is no {}", file_.string()));
     if (line != what)
-      throw std::invalid_argument(fmt::format(
+      throw data::ArgumentError(fmt::format(
           "--resume: {} is of another audit: of other subjects, meshes or options", file_.string()));
     while (std::getline(in, line) && !in.eof()) {
       const Json json = Json::parse(line, nullptr, false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an audit has found so far, on the disk before the next mesh begins: whatever ends the program, the
-// audit can go on where it was.
+// The results of an audit so far, on the disk before the next mesh begins: whatever ends the program, the
+// audit can be resumed.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +16,20 @@
 
 namespace limitcheck::verify {
 
-/// A file of JSON lines. The first says what is audited, each other one what was found of one subject in one
-/// case (a mesh at its depths): {"subject", "case", "rows"}, whole and flushed. Cases count from 0 in the
-/// order of the audit. What cannot be written is not kept, and costs the audit nothing.
+/// A file of JSON lines. The first line says what is audited; each other line holds the rows of one subject
+/// in one case (a mesh at its depths): {"subject", "case", "rows"}. A line is written whole and flushed.
+/// Cases count from 0 in the order of the audit. If the file cannot be written, the audit goes on without it.
 class Journal {
  public:
-  /// Begins a new file. With `resume`, reads what there is first, and goes on behind it; what the last line
-  /// lacks of being whole is given up. Throws std::invalid_argument: with `resume`, there is no such file, or
-  /// it is about another audit than `what` (a JSON text on one line).
+  /// Begins a new file. With `resume`, reads the lines of an existing file and appends to them; an incomplete
+  /// last line is dropped. Throws data::ArgumentError: with `resume`, there is no such file, or it is of
+  /// another audit than `what` (a JSON text on one line).
   Journal(std::filesystem::path file, const std::string& what, bool resume);
 
-  /// What it knows of this subject in this case.
+  /// The rows of this subject in this case, if the file has them.
   std::optional<std::vector<Result>> recall(const std::string& subject, std::size_t number) const;
   void keep(const std::string& subject, std::size_t number, const std::vector<Result>& results);
-  /// It is no longer needed.
+  /// Deletes the file.
   void remove();
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& x) {
+Json finite(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? Json(*x) : Json(nullptr);
 }
 Json index(std::int64_t k) {
@@ -28,8 +28,8 @@ Json text(const std::string& s) {
 Json ill_conditioned(const Result& r) {
   if (!r.ill_conditioned) return nullptr;
   return {{"count", r.ill_conditioned->count},
-          {"bound", number(r.ill_conditioned->bound)},
-          {"worst", number(r.ill_conditioned->worst)}};
+          {"bound", finite(r.ill_conditioned->bound)},
+          {"worst", finite(r.ill_conditioned->worst)}};
 }
 
 Json witness(const Result& r, const std::string& level) {
@@ -49,11 +49,14 @@ Json witness(const Result& r, const std::string& level) {
 
 }  // namespace
 
+Json number(double x) {
+  return std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x);
+}
+
 Json numbers(const std::vector<double>& list) {
   if (list.empty()) return nullptr;
   Json out = Json::array();
-  for (const double x : list)
-    out.push_back(std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x));
+  for (const double x : list) out.push_back(number(x));
   return out;
 }
 
@@ -88,13 +91,13 @@ std::string to_json(const Report& report, const std::string& level) {
                               {"status", word(r.status)},
                               {"count", r.bad},
                               {"of", r.of},
-                              {"worst", number(r.worst)},
-                              {"bound", number(r.bound)},
+                              {"worst", finite(r.worst)},
+                              {"bound", finite(r.bound)},
                               {"unit", text(r.unit)},
-                              {"rms", number(r.rms)},
-                              {"p99", number(r.p99)},
-                              {"worst_absolute", number(r.worst_absolute)},
-                              {"worst_ulps", number(r.worst_ulps)},
+                              {"rms", finite(r.rms)},
+                              {"p99", finite(r.p99)},
+                              {"worst_absolute", finite(r.worst_absolute)},
+                              {"worst_ulps", finite(r.worst_ulps)},
                               {"ill_conditioned", ill_conditioned(r)},
                               {"message", text(r.message)},
                               {"witness", witness(r, level)}});

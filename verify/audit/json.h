@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The report of an audit as JSON.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,9 @@ namespace limitcheck::verify {
 ///   level   of the audit, for the commands that repeat it
 std::string to_json(const Report& report, const std::string& level = "standard");
 
-/// An array, null for an empty list. JSON has no NaN: a witness for one says "nan", "inf", "-inf" in words.
+/// JSON has no NaN and no infinity: these are the words "nan", "inf", "-inf".
+nlohmann::ordered_json number(double x);
+/// An array, null for an empty list.
 nlohmann::ordered_json numbers(const std::vector<double>& list);
 
 /// Writes a text whole or not at all (mesh_output/atomic_file.h); makes the folder. Throws

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an audit has not looked at, though all that it looked at may have held.
+// Checks that looked at nothing, so that an audit without findings confirms nothing about them.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ struct NeverJudged {
 /// For each subject those of `checks` that looked at nothing on any mesh.
 std::vector<NeverJudged> never_judged(const Report& report, const std::vector<std::string>& checks);
 
-/// The same of what a tessellator is for: points, of the limit surface or of the refined mesh, and normals.
-/// Only of subjects that have a row of that name: finished files have others.
+/// The same for positions (of the limit surface or of the refined mesh) and normals, of subjects that have
+/// rows of these names; rows of tessellation files have other names.
 std::vector<NeverJudged> never_judged(const Report& report);
 
 }  // namespace limitcheck::verify

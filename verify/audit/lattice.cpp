@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
+
+#include "data/error.h"
 
 namespace limitcheck::verify {
 
@@ -13,27 +14,22 @@ Lattice::Lattice(const data::ControlMesh& mesh, int depth)
     : mesh_(mesh),
       depth_(depth),
       n_(std::int64_t{1} << depth),
-      first_edge_(static_cast<Id>(mesh.positions.size())),
-      face_points_((n_ - 1) * (n_ - 2) / 2 + 1) {
-  if (depth < 0 || depth > 15) throw std::invalid_argument("Lattice: depth must be 0..15");
+      first_edge_(static_cast<Id>(mesh.positions.size())) {
+  if (depth < 0 || depth > 15) throw data::ArgumentError("Lattice: depth must be 0..15");
 
   // Edges: sort the sides of all faces by their vertices; the two sides of an edge come together.
   struct Side {
     std::int32_t a, b, face;
-    std::int8_t corner;
+    int corner;
   };
   std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
+  sides.reserve(corner_count());
   vertex_face_.assign(mesh.positions.size(), -1);
-  vertex_corner_.assign(mesh.positions.size(), 0);
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-    for (std::int8_t k = 0; k < 3; ++k) {
-      const std::int32_t from = mesh.triangles[f][k], to = mesh.triangles[f][(k + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f), k});
-      if (vertex_face_[from] < 0) {
-        vertex_face_[from] = static_cast<std::int32_t>(f);
-        vertex_corner_[from] = k;
-      }
+  for (std::int32_t f = 0; f < face_count(); ++f)
+    for (int k = 0; k < domain_.corners(); ++k) {
+      const std::int32_t from = vertex(f, k), to = vertex(f, domain_.next(k));
+      sides.push_back({std::min(from, to), std::max(from, to), f, k});
+      if (vertex_face_[from] < 0) vertex_face_[from] = f;
     }
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
     return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
@@ -45,69 +41,61 @@ Lattice::Lattice(const data::ControlMesh& mesh, int depth)
     Edge& edge = edges_.back();
     const int slot = edge.face[0] < 0 ? 0 : 1;
     edge.face[slot] = s.face;
-    edge.corner[slot] = s.corner;
+    edge.corner[slot] = static_cast<std::int8_t>(s.corner);
     face_edges_[s.face][s.corner] = static_cast<std::int32_t>(edges_.size() - 1);
   }
   first_interior_ = first_edge_ + (n_ - 1) * static_cast<Id>(edges_.size());
 
   row_start_.assign(static_cast<std::size_t>(n_) + 1, 0);
-  for (std::int64_t j = 1; j + 1 < n_; ++j) row_start_[j + 1] = row_start_[j] + (n_ - 1 - j);
-}
-
-Lattice::Id Lattice::interior(std::int64_t i, std::int64_t j) const {
-  return row_start_[j] + i - 1;
+  for (std::int64_t j = 1; j < n_; ++j)
+    row_start_[j + 1] = row_start_[j] + domain_.inner_points_in_row(j, n_);
+  face_points_ = row_start_[n_] + 1;  // and the centre
 }
 
 Lattice::Id Lattice::id(const lc_provenance& p) const {
-  if (p.face < 0 || static_cast<std::size_t>(p.face) >= mesh_.triangles.size() || p.denominator == 0)
-    return kNone;
+  if (p.face < 0 || p.face >= face_count() || p.denominator == 0) return kNone;
   const std::int64_t denominator = p.denominator;
-  if (std::int64_t{p.i} + p.j > denominator) return kNone;
+  if (!domain_.contains(point_of(p), denominator)) return kNone;
   const Id first = first_interior_ + face_points_ * p.face;
   if ((p.i * n_) % denominator != 0 || (p.j * n_) % denominator != 0)
-    return std::int64_t{3} * p.i == denominator && p.i == p.j ? first + face_points_ - 1 : kNone;
-  const std::int64_t i = p.i * n_ / denominator, j = p.j * n_ / denominator, h = n_ - i - j;
-  if (i > 0 && j > 0 && h > 0) return first + interior(i, j);
+    return domain_.is_centre(point_of(p), denominator) ? first + face_points_ - 1 : kNone;
+  const Coordinates at{p.i * n_ / denominator, p.j * n_ / denominator};
+  const auto place = domain_.side_of(at, n_);
+  if (!place) return first + row_start_[at.j] + at.i - 1;
+  const auto [side, along] = *place;
+  const std::int32_t from = vertex(p.face, side), to = vertex(p.face, domain_.next(side));
+  if (along == 0) return from;
+  const std::int64_t from_smaller = from < to ? along : n_ - along;
+  return first_edge_ + (n_ - 1) * face_edges_[p.face][side] + from_smaller - 1;
+}
 
-  // On the border of the face: a corner, or `along` steps from corner k to corner k+1.
-  const auto& corner = mesh_.triangles[p.face];
-  if (h == n_) return corner[0];
-  if (i == n_) return corner[1];
-  if (j == n_) return corner[2];
-  const int k = j == 0 ? 0 : h == 0 ? 1 : 2;
-  const std::int64_t along = k == 0 ? i : k == 1 ? j : h;
-  const std::int64_t from_smaller = corner[k] < corner[(k + 1) % 3] ? along : n_ - along;
-  return first_edge_ + (n_ - 1) * face_edges_[p.face][k] + from_smaller - 1;
+std::optional<int> Lattice::corner_of(std::int32_t face, Id id) const {
+  for (int k = 0; k < domain_.corners(); ++k)
+    if (vertex(face, k) == id) return k;
+  return std::nullopt;
 }
 
 std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) const {
-  const auto& corner = mesh_.triangles[face];
-  // Barycentric steps at corners k and k+1 to (l1, l2).
-  const auto on_side = [&](int k, std::int64_t along) -> Coordinates {
-    const std::int64_t at_next = 3 * along, at_k = 3 * (n_ - along);
-    if (k == 0) return {at_next, 0};
-    if (k == 1) return {at_k, at_next};
-    return {0, at_k};
-  };
+  const std::int64_t thirds = domain_.centre_denominator();
+  const auto on_side = [&](int k, std::int64_t along) { return domain_.on_side(k, thirds * along, scale()); };
   if (is_vertex(id)) {
-    for (int k = 0; k < 3; ++k)
-      if (corner[k] == id) return on_side(k, 0);
-    return std::nullopt;
+    const auto k = corner_of(face, id);
+    return k ? std::optional(on_side(*k, 0)) : std::nullopt;
   }
   if (is_shared(id)) {
     const auto edge = static_cast<std::int32_t>((id - first_edge_) / (n_ - 1));
     const std::int64_t from_smaller = (id - first_edge_) % (n_ - 1) + 1;
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < domain_.corners(); ++k)
       if (face_edges_[face][k] == edge)
-        return on_side(k, corner[k] == edges_[edge].a ? from_smaller : n_ - from_smaller);
+        return on_side(k, vertex(face, k) == edges_[edge].a ? from_smaller : n_ - from_smaller);
     return std::nullopt;
   }
   if ((id - first_interior_) / face_points_ != face) return std::nullopt;
+  if (is_centre(id)) return Coordinates{n_, n_};
   const Id within = (id - first_interior_) % face_points_;
-  if (within == face_points_ - 1) return Coordinates{n_, n_};  // (1/3, 1/3)
-  const auto row = std::upper_bound(row_start_.begin() + 1, row_start_.begin() + n_ - 1, within) - 1;
+  const auto row = std::upper_bound(row_start_.begin() + 1, row_start_.begin() + n_, within) - 1;
   const std::int64_t j = row - row_start_.begin();
-  return Coordinates{3 * (within - *row + 1), 3 * j};
+  return Coordinates{thirds * (within - *row + 1), thirds * j};
 }
 
 lc_provenance Lattice::provenance(Id id) const {

@@ -17,7 +17,7 @@ Vector unit(const Vector& a) {
   return length > 0 ? 1 / length * a : Vector{};
 }
 
-// Of the facets at each vertex, point or whatever numbers the corners of the triangles.
+// Averages of the facets at each vertex or point, by the number that each corner of a triangle is given.
 struct FacetMeans {
   std::vector<Vector> by_area, alike, by_angle;
 

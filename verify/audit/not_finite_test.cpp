@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A point that is NaN or infinite is one finding, of one check, and everybody else leaves it out.
+// A point that is NaN or infinite is one finding of one check, and all other checks leave it out.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -38,7 +38,7 @@ TEST(NotFinite, AConstantNaNOrInfinityIsTheFindingOfOneRow) {
     for (const char* fault : {"nan_position", "infinite_position", "nan_normal"}) {
       const auto results = with(fault);
       EXPECT_EQ(red(results), expected) << base << " " << fault;
-      // Whoever would have looked at it says so.
+      // Checks that leave it out say so.
       const bool normal = std::string(fault) == "nan_normal";
       EXPECT_NE(row(results, normal ? "normals" : "positions")
                     .message.find(normal ? "1 normals that are not finite are left out"

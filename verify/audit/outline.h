@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The border that the visible faces of a control mesh must show, and no other.
+// The boundary that the visible faces of a control mesh must have.
 #pragma once
 
 #include <array>
@@ -15,10 +15,11 @@ namespace limitcheck::verify {
 /// them are culled, are no fault: such a vertex counts once for each fan of visible faces.
 class Outline {
  public:
+  /// The evidence's lattice outlives this.
   explicit Outline(const Evidence& e);
 
-  /// The border of one visible face along one control edge, in the direction in which the face runs along it.
-  /// Its depth is at least that of the face; it may be as large as that of a visible neighbour.
+  /// One visible face along one control edge, in the direction in which the face runs along it. The depth of
+  /// the side is at least that of the face and at most that of the deepest visible neighbour.
   struct Side {
     std::int32_t face;
     int corner;  // the side begins here
@@ -38,16 +39,17 @@ class Outline {
   std::int64_t loops() const { return loops_; }
 
   /// Which fan round its corner k a visible face belongs to: 0, or 1, 2 .. if culled faces part them.
-  int fan(std::int32_t face, int k) const { return fan_[3 * static_cast<std::size_t>(face) + k]; }
+  int fan(std::int32_t face, int k) const { return fan_[lattice_.corner_number(face, k)]; }
 
  private:
   void find_fans(const Evidence& e);
-  void count_loops(const Evidence& e);
+  void count_loops();
 
+  const Lattice& lattice_;
   std::vector<Side> sides_;
   std::vector<Step> steps_;
   std::int64_t loops_ = 0;
-  std::vector<std::int32_t> fan_;  // three for each face
+  std::vector<std::int32_t> fan_;  // of each corner of a face
 };
 
 }  // namespace limitcheck::verify

@@ -23,7 +23,7 @@ struct Apart {
 };
 
 Apart apart(const Evidence& e, const SchemePoints& guess) {
-  std::vector<std::int64_t> at(static_cast<std::size_t>(e.lattice.size()), -1);
+  std::vector<std::int64_t> at(e.lattice.size(), -1);
   for (std::size_t k = 0; k < guess.place.size(); ++k) {
     if (guess.place[k].denominator == 0) continue;
     const Lattice::Id id = e.lattice.id(guess.place[k]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a subject delivered, if it is not what it should have.
+// Recognises what a subject delivered in place of the surface that it should have delivered.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,10 @@ namespace limitcheck::verify {
 
 /// Adds a sentence to the findings among `results`, the rows of this evidence, that it can explain:
 ///   positions, refined-positions   the points are those of another scheme at the same lattice points, or of
-///                                  Loop's without or with the limit mask (schemes.h); ten times nearer to
-///                                  them than to what was expected. One depth for all faces that are not
-///                                  culled
+///                                  Loop's without or with the limit mask (schemes.h), ten times nearer to
+///                                  them than to what was expected; all visible faces have one depth
 ///   normals                        origin_of_normals()
-/// Nothing is done without such a finding, and for more than kRecognised lattice points.
+/// Does nothing without such a finding, or if there are more than kRecognised lattice points.
 void recognise(const Evidence& e, std::vector<Result>& results);
 
 inline constexpr Lattice::Id kRecognised = 300000;

@@ -14,18 +14,21 @@
 namespace limitcheck::verify {
 namespace {
 
-Vector vector(const reference::Vec3<double>& v) {
-  return {v.x, v.y, v.z};
-}
-
 // See normal_condition(). In units of the larger tangent, so that nothing overflows or vanishes.
 double condition(const reference::SurfacePoint<double>& p) {
-  const Vector t1 = vector(p.d1), t2 = vector(p.d2);
+  const Vector t1 = vector_of(p.d1), t2 = vector_of(p.d2);
   const double unit = std::max(largest(t1), largest(t2));
   if (!(unit > 0)) return std::numeric_limits<double>::infinity();
   const auto scaled = [&](const Vector& t) { return Vector{t[0] / unit, t[1] / unit, t[2] / unit}; };
   const double area = norm(cross(scaled(t1), scaled(t2)));
   return (norm(scaled(t1)) + norm(scaled(t2))) / area / unit;
+}
+
+// The middle of the side opposite a corner of the face, in the lattice's triangle there.
+std::array<double, 2> beside_corner(FaceDomain domain, int k, std::int64_t n) {
+  const FaceDomain::Point p = domain.on_side(k, 1, n), q = domain.on_side(domain.previous(k), n - 1, n);
+  const double half = 0.5 / static_cast<double>(n);
+  return {static_cast<double>(p.i + q.i) * half, static_cast<double>(p.j + q.j) * half};
 }
 
 }  // namespace
@@ -75,18 +78,18 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
       // Dyadic fractions are exact doubles; thirds are not.
       const auto& limit = *evaluator_->limit;
       const auto point =
-          p.denominator % 3 != 0
+          !lattice_.is_centre(id)
               ? limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
                                static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
               : limit.evaluate(p.face, reference::Parameter::fraction(p.i, p.denominator),
                                reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
-      position_[id] = vector(point.position);
-      normal_[id] = vector(point.normal);
+      position_[id] = vector_of(point.position);
+      normal_[id] = vector_of(point.normal);
       state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
       condition_[id] = condition(point);
-      if (lattice_.is_vertex(id)) {  // of which i and j are 0 or the denominator, which is 1
-        const double step = 0.5 / static_cast<double>(lattice_.n());
-        const double l1 = p.i == 1 ? 1 - 2 * step : step, l2 = p.j == 1 ? 1 - 2 * step : step;
+      if (lattice_.is_vertex(id)) {
+        const auto [l1, l2] =
+            beside_corner(lattice_.domain(p.face), *lattice_.corner_of(p.face, id), lattice_.n());
         const double near = condition(limit.evaluate(p.face, l1, l2, reference::Order::kFirst));
         condition_[id] = std::isfinite(condition_[id]) ? std::max(condition_[id], near) : near;
       }
@@ -99,12 +102,11 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
         reference::refine<double>(mesh_, lattice_.depth(), weights_));
   for (const Lattice::Id id : wanted) {
     const lc_provenance p = lattice_.provenance(id);
-    const auto scale =
-        lattice_.n() / p.denominator;  // 0 for a face centre, which is no vertex of a refined mesh
+    const auto scale = lattice_.n() / p.denominator;
     state_[id] = State::kNoNormal;
-    position_[id] = scale == 0 || p.denominator % 3 == 0
+    position_[id] = lattice_.is_centre(id)  // which is no vertex of a refined mesh
                         ? Vector{}
-                        : vector(evaluator_->refined->positions()[evaluator_->refined->vertex(
+                        : vector_of(evaluator_->refined->positions()[evaluator_->refined->vertex(
                               p.face, static_cast<int>(p.i * scale), static_cast<int>(p.j * scale))]);
   }
 }

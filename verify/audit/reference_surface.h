@@ -18,8 +18,8 @@ namespace limitcheck::verify {
 /// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that
 /// several subjects share it.
 ///
-/// Doubles lie within rounding of the exact values, which is not enough where a normal is ill-conditioned: a
-/// finding is put before certified() first.
+/// Doubles lie within rounding of the exact values, which is not enough where a normal is ill-conditioned:
+/// findings are confirmed by certified().
 class ReferenceSurface {
  public:
   /// `mesh` is copied. `depth` is that of the lattice.
@@ -36,7 +36,8 @@ class ReferenceSurface {
   /// same time as anything else.
   void prepare(std::span<const Lattice::Id> ids);
 
-  /// The rest only for points that were prepared. Position: double, error see reference/loop/stam.h.
+  /// All functions below are for prepared points only. The position is a double; reference/loop/stam.h states
+  /// its error.
   const Vector& position(Lattice::Id id) const { return position_[id]; }
   /// Unit normal; limit points only.
   const Vector& normal(Lattice::Id id) const { return normal_[id]; }

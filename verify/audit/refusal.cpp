@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/refusal.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "data/error.h"
+#include "data/io/polygon_soup.h"
+#include "data/validate.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/vector.h"
 #include "verify/subject/host.h"
@@ -51,6 +57,50 @@ Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& me
   } catch (const std::exception& error) {
     return {Status::kError, error.what()};
   }
+}
+
+data::ControlMesh read_broken_mesh(const std::string& file) {
+  const data::io::PolygonSoup soup = data::io::read_soup(file);
+  data::ControlMesh mesh;
+  mesh.positions = soup.positions;
+  std::size_t begin = 0;
+  for (const std::size_t end : soup.polygon_end) {
+    const auto corner = [&](std::size_t k) {
+      if (!std::in_range<std::int32_t>(soup.corners[k]))
+        throw data::InputError(
+            "MESH_INDEX_OUT_OF_RANGE", file, 0,
+            fmt::format("a face names vertex {}: 32 bits do not name it", soup.corners[k]));
+      return static_cast<std::int32_t>(soup.corners[k]);
+    };
+    for (std::size_t k = begin + 1; k + 1 < end; ++k)
+      mesh.triangles.push_back({corner(begin), corner(k), corner(k + 1)});
+    begin = end;
+  }
+  if (data::validate(mesh).empty())
+    throw data::ArgumentError(
+        fmt::format("--must-refuse: nothing is wrong with {}, so no subject must refuse it", file));
+  return mesh;
+}
+
+std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
+                                const std::vector<AuditMesh>& meshes, int threads) {
+  std::vector<Result> results;
+  for (const AuditSubject& s : subjects)
+    for (const AuditMesh& m : meshes) {
+      Refusal refusal = ask_for_refusal(s, m.mesh, threads);
+      Result r;
+      r.subject = s.label();
+      r.mesh = m.name;
+      r.check = "rejected-inputs";
+      r.status = refusal.status;
+      r.unit = "meshes";
+      r.of = 1;
+      r.bad = is_bad(r);
+      r.bound = 0;
+      r.message = std::move(refusal.message);
+      results.push_back(std::move(r));
+    }
+  return results;
 }
 
 }  // namespace limitcheck::verify

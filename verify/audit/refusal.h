@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes on which Loop subdivision is not defined: a subject must refuse them.
+// Meshes on which the scheme is not defined: a subject must refuse them.
 #pragma once
 
 #include <string>
@@ -15,11 +15,12 @@ struct BrokenMesh {
   data::ControlMesh mesh;
 };
 
-/// One for each way of being no oriented manifold, one without faces, one without vertices, one with an index
-/// out of range and one with a coordinate that is no number.
+/// One mesh for each way in which faces fail to form an oriented manifold, one without faces, one without
+/// vertices, one with an index out of range and one with a coordinate that is no number.
 const std::vector<BrokenMesh>& broken_meshes();
 
-/// Held: refused, in whatever words, or nothing made of no faces. A finding: accepted. Crash or timeout.
+/// Held: the subject refused the mesh, with any message, or delivered nothing for a mesh without faces.
+/// Finding: it accepted the mesh. Crash, timeout: its process broke down.
 struct Refusal {
   Status status = Status::kHeld;
   std::string message;
@@ -30,5 +31,13 @@ std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, int threads);
 
 /// Hands `mesh` to the subject as it is. Never throws for what the subject does.
 Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, int threads);
+
+/// A broken mesh from a file, as it is; polygons are cut into fans. Throws data::InputError: the file cannot
+/// be read, or an index has more than 32 bits; data::ArgumentError: nothing is wrong with the mesh.
+data::ControlMesh read_broken_mesh(const std::string& file);
+
+/// One row `rejected-inputs` for each subject and mesh: whether the subject refuses the mesh.
+std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
+                                const std::vector<AuditMesh>& meshes, int threads);
 
 }  // namespace limitcheck::verify

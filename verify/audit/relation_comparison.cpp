@@ -20,13 +20,10 @@ struct Placed {
 
 // Where a vertex lies on the original mesh: its point, and that point together with the face that names it.
 Placed place(const Evidence& e, const Variant& v, const lc_provenance& p) {
-  if (p.face < 0 || static_cast<std::size_t>(p.face) >= v.face.size() || p.denominator == 0 ||
-      std::int64_t{p.i} + p.j > p.denominator)
+  if (p.face < 0 || p.face >= e.lattice.face_count() || p.denominator == 0 ||
+      !e.lattice.domain(p.face).contains(point_of(p), p.denominator))
     return {};
-  const std::array<std::uint32_t, 3> there{p.denominator - p.i - p.j, p.i, p.j};
-  std::array<std::uint32_t, 3> here{};
-  for (std::size_t k = 0; k < 3; ++k) here[v.corner[p.face][k]] = there[k];
-  const lc_provenance q{v.face[p.face], here[1], here[2], p.denominator};
+  const lc_provenance q = v.original(p);
   const Lattice::Id id = e.lattice.id(q);
   if (id == Lattice::kNone) return {};
   return {id * static_cast<Key>(v.face.size()) + q.face, id};
@@ -60,7 +57,7 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
   const double position_limit = slack * position_bound(e_.capabilities.precision, e_.lattice.depth(),
                                                        v.magnitude, std::max(e_.diagonal, 1e-300));
   const bool normals = v.normals && t.has_normals() && e_.tessellation.has_normals();
-  std::vector<bool> seen(static_cast<std::size_t>(e_.lattice.size()), false);
+  std::vector<bool> seen(e_.lattice.size(), false);
   std::unordered_set<Lattice::Id> not_finite;
   const auto note = [&](double excess, std::int64_t mine, const Vector& expected, const Vector& got) {
     if (c.witness && excess <= c.worst) return;
@@ -105,8 +102,8 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.bad += wrong;
     c.other_bits += !bits;
   }
-  // Which points are not finite may depend on the order of things: the business of `finite`. That there are
-  // more of them than in the original is nobody else's.
+  // Which points are not finite may depend on the order of the input, and `finite` reports them. Only here it
+  // shows that there are more of them than in the original.
   if (not_finite.size() > not_finite_.size()) {
     c.bad += static_cast<std::int64_t>(not_finite.size() - not_finite_.size());
     c.of += static_cast<std::int64_t>(not_finite.size());
@@ -114,7 +111,8 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.message =
         fmt::format("{} points are not finite, {} in the original", not_finite.size(), not_finite_.size());
   }
-  // A face may be displayed deeper than asked for where its neighbours are: which, may depend on the order.
+  // Next to deeper neighbours a face may be displayed deeper than asked for; which face is may depend on the
+  // order.
   for (const auto& [id, vertex] : by_point_)
     if (uniform_ && !seen[id]) {
       ++c.of;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One row of the relations while it is being found: what a subject made of one request after another.
+// One row of the relations while the requests for it are made.
 #pragma once
 
 #include <functional>
@@ -8,49 +8,50 @@
 #include <string>
 #include <string_view>
 
-#include "verify/audit/audit.h"
+#include "verify/audit/audit_case.h"
 #include "verify/audit/relation_comparison.h"
 
 namespace limitcheck::verify {
 
-/// What a failure of the subject's makes of its row. LC_NOT_SUPPORTED: no fault. LC_INVALID_INPUT: the
-/// subject refuses what is valid, or (SubjectDied) declares what means nothing. A process that broke down:
-/// crash or timeout, or a finding if it merely answered nonsense.
+/// The status of a row in which a request ended with this error: kNotSupported for LC_NOT_SUPPORTED, kFinding
+/// for LC_INVALID_INPUT (the mesh was valid) and for an answer that breaks the protocol, kCrash or kTimeout
+/// for a process that ended or hung, otherwise kError.
 Status status_of(const std::exception& error);
 
-/// Every request is looked at, whatever became of the one before: the row has the worst status of all, and
-/// says of each what went wrong.
+/// All requests are made, also after one has failed. The row has the worst status of them all, and its
+/// message says what went wrong in each.
 class RelationRow {
  public:
   RelationRow(const AuditSubject& subject, const Evidence& e, std::string_view name, const char* unit,
               double bound);
 
-  /// A session of its own for one mesh. `work` tessellates as often as it likes; whatever it or the end of
-  /// the session throws is noted, with `what` as it is by then.
+  /// Opens a session for one mesh and calls `work` with it, which may tessellate any number of times.
+  /// Whatever `work` or the end of the session throws is noted together with `what`, which `work` may have
+  /// changed.
   void ask(const std::string& what, const data::ControlMesh& mesh, const std::function<void(Session&)>& work);
 
-  /// The same of another subject in its place.
+  /// The same with another subject.
   void ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
            const std::function<void(Session&)>& work);
 
-  /// Notes what is wrong with the arrays themselves, unless the evidence has been told the like already.
+  /// Notes defects of the arrays, unless the tessellation of the evidence has some too.
   void inspect(const std::string& what, const Tessellation& t);
 
   /// `bits_matter`: points that differ beneath the bound are worth a warning.
   void judge(const std::string& what, const Comparison& c, bool bits_matter);
 
-  /// So many elements were looked at, and so many of them are wrong.
+  /// Adds `of` elements that were compared, `bad` of them wrong.
   void count(std::int64_t bad, std::int64_t of) {
     r_.bad += bad;
     r_.of += of;
   }
   void note(Status status, const std::string& message);
-  /// Where to look, unless something said so before.
+  /// Sets the witness if there is none yet.
   void witness(const Witness& w) {
     if (!r_.witness) r_.witness = w;
   }
 
-  /// The row. Nothing looked at and nothing wrong: not run, never held.
+  /// The row. If nothing was compared it is not run, never held.
   Result take();
 
  private:

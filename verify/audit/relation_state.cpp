@@ -18,7 +18,8 @@ bool same(std::span<const T> a, std::span<const T> b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-// All arrays, byte by byte. A subject may have put its points in another order: that is no other answer.
+// All arrays, byte by byte. Points in another order are still the same answer: then they are compared one by
+// one.
 bool same_arrays(const Tessellation& a, const Tessellation& b) {
   return same(a.positions_f32(), b.positions_f32()) && same(a.positions_f64(), b.positions_f64()) &&
          same(a.normals_f32(), b.normals_f32()) && same(a.normals_f64(), b.normals_f64()) &&

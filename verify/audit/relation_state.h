@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether what a subject has been asked before changes what it answers.
+// Whether earlier requests change the answers of a subject.
 #pragma once
 
 #include "verify/audit/relation_row.h"
@@ -8,7 +8,7 @@ namespace limitcheck::verify {
 
 /// Asks for the tessellation of the evidence eight times in one session, each time after something else
 /// (verify/subject/in_turns.h), and the fourth time with 8 threads: each must have the bits that it had in a
-/// process that was asked for nothing else. NaN has the bits that it has.
+/// process that was asked for nothing else. NaNs are compared by their bits, too.
 void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence& e, const Compared& compared);
 
 }  // namespace limitcheck::verify

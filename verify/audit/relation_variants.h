@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The same surface, asked for otherwise, and the way back to the original.
+// Variants of a request for one surface, and the maps back to the original.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -10,18 +9,16 @@
 #include <vector>
 
 #include "verify/audit/evidence.h"
+#include "verify/audit/rewriting.h"
 #include "verify/audit/vector.h"
 
 namespace limitcheck::verify {
 
-/// A control mesh that describes the surface of the evidence in other words, and how its points and faces
-/// belong to the original's.
-struct Variant {
+/// A control mesh that describes the surface of the evidence, written differently or moved, and how its
+/// points and faces belong to those of the original.
+struct Variant : Rewriting {
   std::string name;  // "mirrored", "times 2^10", ...
-  data::ControlMesh mesh;
   std::vector<std::int32_t> face_depth;
-  std::vector<std::int32_t> face;                         // of the original, for each face
-  std::vector<std::array<std::uint8_t, 3>> corner;        // of that face, for each corner
   std::function<Vector(const Vector&)> position, normal;  // back to the original
   double magnitude = 0;                                   // largest coordinate
   bool normals = true;                                    // to be compared
@@ -37,7 +34,7 @@ struct Relation {
   std::vector<Variant> (*variants)(const Evidence&);
 };
 
-/// From face-order to extreme-scale, in the order of the table (relations.h says what each is).
+/// From face-order to translation, in the order of the table (relations.h says what each is).
 const std::vector<Relation>& variant_relations();
 
 }  // namespace limitcheck::verify

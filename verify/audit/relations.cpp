@@ -15,7 +15,7 @@
 namespace limitcheck::verify {
 namespace {
 
-// What the rows are made of. Nothing in here may end the others: a subject may break down in any request.
+// Finds each row. A subject may break down in any request, which must not affect the other rows.
 class Relations {
  public:
   Relations(const AuditSubject& subject, const Evidence& e, int threads)
@@ -55,7 +55,10 @@ class Relations {
         row.inspect(v.name, t);
         row.judge(v.name, compared_.with(t, v, 2), v.same_numbers);
       });
-    return row.take();
+    Result r = row.take();
+    // A size that the subject does not take is no fault, nor does it undo what was compared at others.
+    if (r.status == Status::kNotSupported && r.of > 0) r.status = Status::kHeld;
+    return r;
   }
 
   Result degenerate_geometry() const {
@@ -114,7 +117,8 @@ class Relations {
            (!t.has_normals() || std::abs(norm(t.normal(v)) - 1) <= length_bound(e_.capabilities.precision));
   }
 
-  // By place in the list: on degenerate geometry nothing else tells vertices apart.
+  // Vertices are matched by their place in the list, because on degenerate geometry nothing else tells them
+  // apart.
   Witness witness(const Tessellation& t, std::int64_t v) const {
     Witness w;
     if (v < e_.tessellation.vertex_count()) w = e_.at_vertex(v);

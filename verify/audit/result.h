@@ -14,8 +14,8 @@
 namespace limitcheck::verify {
 
 enum class Status {
-  kHeld,            // looked at, nothing wrong
-  kFinding,         // looked at, something wrong: `bad` > 0
+  kHeld,            // looked at, and nothing is wrong
+  kFinding,         // looked at, and something is wrong: `bad` > 0
   kQualityWarning,  // within its bound, but not as good as it could be: worth a look, no fault
   kWaived,          // a finding that a waiver covers, within the waiver's own bound
   kUnexpectedPass,  // a waiver covers it, but there is nothing to waive: time to remove the waiver
@@ -52,7 +52,7 @@ struct IllConditioned {
 struct Result {
   std::string subject, mesh, check;
   int depth = 0;               // of the deepest face
-  std::string depths, sample;  // how the faces got theirs, and "FACES:SEED": as --depths, --sample take it
+  std::string depths, sample;  // how the depths were chosen, and "FACES:SEED": as --depths, --sample take it
   bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
   reference::Weights weights = reference::Weights::kLoop;  // the family that the subject declares
   Status status = Status::kNotRun;
@@ -80,7 +80,7 @@ struct Report {
   };
   std::string version;
   int depth = 0;                      // the largest
-  std::string depths = "uniform";     // how the faces got theirs (face_depths.h); "plan": one way after the
+  std::string depths = "uniform";     // how they were chosen (face_depths.h); "plan": one way after the
                                       // other (default_plan.h); "file": unknown
   std::optional<std::uint64_t> seed;  // of random
   std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at

@@ -4,43 +4,21 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "data/cut_out.h"
 #include "data/splitmix64.h"
+#include "verify/audit/faces_around.h"
 
 namespace limitcheck::verify {
-namespace {
 
 using data::ControlMesh;
-
-// The faces around each vertex, in one array.
-struct FacesAround {
-  explicit FacesAround(const ControlMesh& mesh) : begin(mesh.positions.size() + 1) {
-    for (const auto& t : mesh.triangles)
-      for (const std::int32_t v : t) ++begin[v + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    face.resize(begin.back());
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-      for (const std::int32_t v : mesh.triangles[f]) face[next[v]++] = static_cast<std::int32_t>(f);
-  }
-  std::span<const std::int32_t> of(std::int32_t v) const {
-    return {face.data() + begin[v], begin[v + 1] - begin[v]};
-  }
-
-  std::vector<std::size_t> begin;
-  std::vector<std::int32_t> face;
-};
-
-}  // namespace
 
 MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_t seed)
     : text_(fmt::format("{}:{}", faces, seed)),
       part_of_(whole.triangles.size(), -1),
       in_patch_(whole.triangles.size(), false) {
-  const FacesAround around(whole);
+  const FacesAround around(whole.triangles, whole.positions.size());
   data::SplitMix64 random(seed);
   faces = std::min(faces, whole.triangles.size());
   for (std::size_t chosen = 0; chosen < faces;) {

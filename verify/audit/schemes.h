@@ -19,11 +19,9 @@ enum class Scheme {
   kCatmullClark,  // quads after the first step
 };
 
-/// Vertices after `steps` steps, `limit`: moved to the limit surface of that scheme. Boundaries by the cubic
-/// B-spline (Linear: midpoints). The mesh is valid (data/validate.h). Simple and slow.
-///   limit masks  Loop, Warren: (3 v + (8a / n) sum v_i) / (3 + 8a), eq. 3 with their a(n);
-///                Catmull-Clark: (n^2 v + 4 sum e_i + sum f_i) / (n (n + 5)), e_i and f_i the neighbours in
-///                the n quads (Halstead, Kass, DeRose 1993); not for zero steps, where faces are no quads
+/// Vertices after `steps` steps, `limit`: moved to the limit surface of that scheme, but for Catmull-Clark
+/// after zero steps. Boundaries by the cubic B-spline (Linear: midpoints). The mesh is valid
+/// (data/validate.h). Computed by the reference.
 std::vector<Vector> scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit);
 
 /// The same points with their places on the control mesh: the lattice of depth `steps` has them. A vertex

@@ -35,8 +35,8 @@ TEST(Schemes, LoopIsTheReference) {
     const auto mesh = data::named_mesh(name);
     const auto refined = reference::refine<double>(mesh, 2);
     std::vector<Vector> points, limits;
-    for (const auto& p : refined.positions()) points.push_back({p.x, p.y, p.z});
-    for (const auto& p : refined.limits().positions) limits.push_back({p.x, p.y, p.z});
+    for (const auto& p : refined.positions()) points.push_back(vector_of(p));
+    for (const auto& p : refined.limits().positions) limits.push_back(vector_of(p));
     expect_same_points(scheme_points(mesh, Scheme::kLoop, 2, false), points, name);
     expect_same_points(scheme_points(mesh, Scheme::kLoop, 2, true), limits, name);
   }

@@ -7,6 +7,7 @@
 
 #include "data/cut_out.h"
 #include "data/validate.h"
+#include "verify/audit/audit.h"
 #include "verify/audit/relations.h"
 
 namespace limitcheck::verify {
@@ -19,12 +20,11 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   data::CutOut cut = data::cut_out(whole.mesh.triangles, faces);
   AuditMesh out{whole.name, {cut.of(whole.mesh.positions), std::move(cut.triangles)}};
   if (!whole.face_depth.empty())
-    for (const std::int32_t f : faces)
-      out.face_depth.push_back(whole.face_depth[static_cast<std::size_t>(f)]);
+    for (const std::int32_t f : faces) out.face_depth.push_back(whole.face_depth[f]);
   return out;
 }
 
-// b goes into a; the faces that have both vanish. Validity is the caller's to see.
+// Vertex b is merged into a, and faces with both vanish. The result may be invalid; the caller checks.
 AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
   AuditMesh out = whole;
   Faces left;
@@ -80,16 +80,16 @@ class Shrinker {
     const auto& triangles = best_.mesh.mesh.triangles;
     std::vector<int> ring(triangles.size(), -1), of_vertex(best_.mesh.mesh.positions.size(), -1);
     if (face < 0 || face >= static_cast<std::int64_t>(triangles.size())) return ring;
-    ring[static_cast<std::size_t>(face)] = 0;
+    ring[face] = 0;
     for (int r = 0, found = 1; found > 0; ++r) {
       found = 0;
       for (std::size_t f = 0; f < triangles.size(); ++f)
         if (ring[f] == r)
-          for (const auto v : triangles[f]) of_vertex[static_cast<std::size_t>(v)] = r;
+          for (const auto v : triangles[f]) of_vertex[v] = r;
       for (std::size_t f = 0; f < triangles.size(); ++f) {
         if (ring[f] >= 0) continue;
         if (std::any_of(triangles[f].begin(), triangles[f].end(),
-                        [&](auto v) { return of_vertex[static_cast<std::size_t>(v)] >= 0; })) {
+                        [&](auto v) { return of_vertex[v] >= 0; })) {
           ring[f] = r + 1;
           ++found;
         }

@@ -4,7 +4,8 @@
 
 #include <functional>
 
-#include "verify/audit/audit.h"
+#include "verify/audit/audit_case.h"
+#include "verify/audit/result.h"
 
 namespace limitcheck::verify {
 

@@ -13,6 +13,7 @@
 #include "data/io/read.h"
 #include "data/validate.h"
 #include "reference/mesh/topology.h"
+#include "verify/audit/audit.h"
 #include "verify/audit/witness_files.h"
 #include "verify/subject/registry.h"
 
@@ -95,9 +96,9 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
   const auto json = nlohmann::json::parse(std::ifstream(place / "witness.json"));
   EXPECT_EQ(json["check"], "positions");
   for (int axis = 0; axis < 3; ++axis) {
-    const auto digits = json["limit_position"][static_cast<std::size_t>(axis)].get<std::string>();
+    const auto digits = json["limit_position"][axis].get<std::string>();
     EXPECT_GE(digits.size(), 38U);
-    EXPECT_NEAR(std::stod(digits), json["expected"][static_cast<std::size_t>(axis)].get<double>(), 1e-14);
+    EXPECT_NEAR(std::stod(digits), json["expected"][axis].get<double>(), 1e-14);
   }
   EXPECT_NE(json["audit"].get<std::string>().find("control.obj --depth " + std::to_string(small.depth) +
                                                   " --level quick"),

@@ -11,7 +11,7 @@ namespace limitcheck::verify {
 
 /// Of a list of errors >= 0. An infinite entry is something that could not be measured (a NaN where a number
 /// should be): it is bad and it is the worst, but rms and p99 run over the finite entries. Negative entries
-/// are left out altogether: not looked at.
+/// were not looked at and are left out altogether.
 struct Statistics {
   std::int64_t of = 0, bad = 0;  // looked at; not within the bound
   std::int64_t worst_at = -1;    // index of the first largest entry, -1 if nothing was looked at

@@ -25,8 +25,8 @@ struct Line {
   std::int64_t bad_meshes = 0, looked_at = 0;
 };
 
-// A finding before whatever held; then the larger worst value in units of its bound; where nothing but
-// equality will do (bound 0), and where that is the same, the larger share of bad ones.
+// Whether x is worse than y: findings before rows that held, then by the worst value in units of its bound;
+// for bound 0, and for equal values, by the share of bad elements.
 bool worse(const Result& a, const Result& b) {
   const auto rank = [](const Result& r) {
     switch (r.status) {
@@ -153,7 +153,7 @@ void add_line(std::string& out, const Report& report, const Result& r, const std
                      has_worst ? amount(r.p99) : "-", r.unit, depths, where(report, r));
 }
 
-// What a process that broke down leaves behind, each command on a line of its own, to be copied.
+// The commands that a message of a process that broke down contains, each on a line of its own, to be copied.
 std::string in_lines(std::string message) {
   for (const std::string_view mark : {"; again with: ", " / "})
     for (std::size_t k = 0; (k = message.find(mark, k)) != std::string::npos; k += 6)

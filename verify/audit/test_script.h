@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Evidence about whatever a test puts down: a subject that delivers a script.
+// Evidence about a tessellation that a test writes down as a script: a subject delivers it.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the tangents of the surface vanish but for rounding nobody is blamed, and row streaming takes the
-// same side as the sliding window.
+// Where the tangents of the surface vanish but for rounding no subject has a finding, and row streaming takes
+// the same side as the sliding window.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -104,7 +104,7 @@ TEST(VanishingNormals, FaceTheSameWayInBothEngines) {
     const Tessellation t = session.tessellate(1);
     std::int64_t hubs = 0;
     for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-      const lc_provenance& p = t.provenance()[static_cast<std::size_t>(v)];
+      const lc_provenance& p = t.provenance()[v];
       if (p.i != 0 || p.j != 0) continue;
       ++hubs;
       EXPECT_EQ(t.normal(v), (Vector{0, 0, 1})) << subject;

@@ -11,6 +11,12 @@ namespace limitcheck::verify {
 
 using Vector = std::array<double, 3>;
 
+/// Of the engines' and the reference's vectors.
+template <class V>
+Vector vector_of(const V& v) {
+  return {v.x, v.y, v.z};
+}
+
 inline Vector operator-(const Vector& a, const Vector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }

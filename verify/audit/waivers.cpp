@@ -11,7 +11,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "data/error.h"
 #include "data/json_nesting.h"
+#include "verify/audit/explain.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -49,10 +51,10 @@ bool is_a_day(const std::string& date) {
       .ok();
 }
 
-// Of a key that occurs twice the parser would keep one, and nobody knows which.
+// If a key occurs twice, the parser would silently keep one of the two values.
 nlohmann::json parse_without_duplicates(const std::string& text) {
   using Json = nlohmann::json;
-  if (data::json_nesting(text) > 32) throw std::invalid_argument("waivers: brackets nest more than 32 deep");
+  if (data::json_nesting(text) > 32) throw data::ArgumentError("waivers: brackets nest more than 32 deep");
   std::vector<std::set<std::string>> keys;
   return Json::parse(
       text,
@@ -60,7 +62,7 @@ nlohmann::json parse_without_duplicates(const std::string& text) {
         if (event == Json::parse_event_t::object_start) keys.emplace_back();
         if (event == Json::parse_event_t::object_end) keys.pop_back();
         if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-          throw std::invalid_argument(
+          throw data::ArgumentError(
               fmt::format("waivers: \"{}\" stands twice in one object", value.get<std::string>()));
         return true;
       },
@@ -72,14 +74,14 @@ nlohmann::json parse_without_duplicates(const std::string& text) {
 std::vector<Waiver> parse_waivers(const std::string& text) {
   const auto json = parse_without_duplicates(text);
   if (json.is_discarded() || !json.is_object() || !json.contains("waivers") || !json["waivers"].is_array())
-    throw std::invalid_argument("waivers: not a JSON object with an array \"waivers\"");
+    throw data::ArgumentError("waivers: not a JSON object with an array \"waivers\"");
   static const std::set<std::string> known{"subject", "versions", "check", "shape",
                                            "bound",   "reason",   "link",  "expires"};
   static const std::regex date("[0-9]{4}-[0-9]{2}-[0-9]{2}");
   std::vector<Waiver> list;
   for (const auto& row : json["waivers"]) {
     const auto refuse = [&](const std::string& what) {
-      throw std::invalid_argument(fmt::format("waiver {}: {}", list.size() + 1, what));
+      throw data::ArgumentError(fmt::format("waiver {}: {}", list.size() + 1, what));
     };
     if (!row.is_object()) refuse("not an object");
     for (const auto& [key, value] : row.items())
@@ -94,7 +96,7 @@ std::vector<Waiver> parse_waivers(const std::string& text) {
     };
     Waiver w;
     w.subject = field(row, "subject", nullptr);
-    w.check = field(row, "check", nullptr);
+    w.check = current_name(field(row, "check", nullptr));
     w.shape = field(row, "shape", "*");
     w.reason = field(row, "reason", nullptr);
     w.link = field(row, "link", "");

@@ -21,7 +21,7 @@ struct Waiver {
 };
 
 /// {"waivers": [{"subject", "versions": {"from", "before"}, "check", "shape", "bound", "reason", "link",
-/// "expires"}]}; subject, check, reason and expires are required. Throws std::invalid_argument and says which
+/// "expires"}]}; subject, check, reason and expires are required. Throws data::ArgumentError and says which
 /// waiver and what.
 std::vector<Waiver> parse_waivers(const std::string& json);
 

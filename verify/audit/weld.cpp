@@ -15,8 +15,8 @@ Welded weld(const Evidence& e) {
       t.precision() == LC_FLOAT32 ? merge_identical(t.positions_f32()) : merge_identical(t.positions_f64());
   Welded welded;
   welded.point_of.assign(e.point.size(), -1);
-  // The points of each lattice point and of each place, of which there is nearly always one.
-  std::vector<std::int32_t> of_lattice_point(static_cast<std::size_t>(e.lattice.size()), -1), next, place;
+  // The points at each lattice point and at each place, of which there is nearly always one.
+  std::vector<std::int32_t> of_lattice_point(e.lattice.size(), -1), next, place;
   std::vector<std::int32_t> of_place(places.vertex_of.size(), -1);
   const auto add = [&](std::size_t v) {
     const auto point = static_cast<std::int32_t>(welded.vertex_of.size());
@@ -46,7 +46,7 @@ Welded weld(const Evidence& e) {
 std::int64_t coincident_boundary_edges(const Evidence& e) {
   std::vector<std::pair<Vector, Vector>> ends;
   for (const Lattice::Edge& edge : e.lattice.edges())
-    if (edge.face[1] < 0) ends.push_back(std::minmax({e.mesh.positions[edge.a], e.mesh.positions[edge.b]}));
+    if (edge.on_boundary()) ends.push_back(std::minmax({e.mesh.positions[edge.a], e.mesh.positions[edge.b]}));
   std::sort(ends.begin(), ends.end());
   std::int64_t count = 0;
   for (auto first = ends.begin(); first != ends.end();) {

@@ -10,12 +10,13 @@
 namespace limitcheck::verify {
 
 /// Vertices are one point if they name the same lattice point and have equal positions, so that one ulp
-/// between them is a crack. Equal positions alone do not do: two boundaries of a control mesh may lie in one
-/// place (the seam of a texture), a vertex of one part may lie on another part, a control triangle may have
-/// no area; what is apart in the control mesh stays apart.
+/// between them is a crack. Equal positions alone are not enough: two boundaries of a control mesh may lie in
+/// one place (the seam of a texture), a vertex of one part may lie on another part, a control triangle may
+/// have no area; what is apart in the control mesh stays apart.
 ///   point_of   for each vertex the number of its point; -1: neither its position nor its provenance can be
-///   used vertex_of  for each point its first vertex
-/// A vertex that is not finite goes with the others of its lattice point: it belongs to the check `finite`.
+///              used
+///   vertex_of  for each point its first vertex
+/// A vertex that is not finite goes with the others of its lattice point: only the check `finite` reports it.
 /// One that names no lattice point goes with those in its place.
 struct Welded {
   std::vector<std::int32_t> point_of, vertex_of;

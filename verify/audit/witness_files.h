@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "verify/audit/audit.h"
+#include "verify/audit/audit_case.h"
+#include "verify/audit/result.h"
 
 namespace limitcheck::verify {
 
@@ -14,8 +15,7 @@ namespace limitcheck::verify {
 ///   depths.txt     the depth of each face, if they had depths of their own
 ///   witness.json   subject, check, face and parameter; expected and got as in the report;
 ///                  `limit_position` and `limit_normal` there to 40 digits, for the mesh rounded to the
-///                  subject's precision; and two commands: `eval` prints the expected value again, `audit`
-///                  the finding
+///                  subject's precision; and two commands that repeat the expected value and the finding
 /// The commands name control.obj as `folder` does, so they run where the audit ran. Each file appears whole
 /// or not at all. `report` is the one the result is of, `level` how much was looked at. Returns the folder
 /// made. Throws std::runtime_error, data::InputError: a file cannot be written.

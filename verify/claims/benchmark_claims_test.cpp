@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sections 6 and 7: what the heuristics do on bumpy spheres of growing size, counted and measured.
-//                                                                              [C72, C75, C77, C78]
+// [C72, C75, C77, C78]
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

@@ -48,9 +48,7 @@ struct Surface {
     for (const Draw& draw : list.draws) {
       for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
         const auto v = draw.triangle(t);
-        const auto at = [&](int k) {
-          return merged.point_of[static_cast<std::size_t>(draw.first + v[static_cast<std::size_t>(k)])];
-        };
+        const auto at = [&](int k) { return merged.point_of[draw.first + v[k]]; };
         triangles.push_back({at(0), at(1), at(2)});
       }
     }
@@ -62,8 +60,7 @@ std::int64_t mismatched_edges(const Adjacency& adjacency, const CrackPlan& plan)
   for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h) {
     const std::int32_t twin = adjacency.twin(h);
     if (twin < h) continue;
-    const int a = plan.edge_depth[static_cast<std::size_t>(h)],
-              b = plan.edge_depth[static_cast<std::size_t>(twin)];
+    const int a = plan.edge_depth[h], b = plan.edge_depth[twin];
     mismatched += a >= 0 && b >= 0 && a != b ? 1 : 0;
   }
   return mismatched;
@@ -365,8 +362,7 @@ TEST(Sec43_Singletons, ShowTheirOwnFaceAndNothingElse) {
       tessellator.frame(depths, list);
       std::vector<int> triangles(mesh.triangles.size());
       for (const Draw& draw : list.draws)
-        for (std::int32_t t = 0; t < draw.triangle_count(); ++t)
-          ++triangles[static_cast<std::size_t>(draw.face_of(t))];
+        for (std::int32_t t = 0; t < draw.triangle_count(); ++t) ++triangles[draw.face_of(t)];
       for (std::size_t f = 0; f < triangles.size(); ++f)
         EXPECT_EQ(triangles[f], depths[f] < 0 ? 0 : 1 << (2 * depth));
       expect_on_surface(mesh, list);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Section 4.1 held against the limit surface itself: what the heuristics can and cannot promise.
-//                                                                                         [C23-C25, C31-C34]
+// [C23-C25, C31-C34]
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ Lattice sample(const Evaluator& truth, int face, int depth) {
 
 double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+  return values[q * static_cast<double>(values.size() - 1)];
 }
 
 struct Sphere {
@@ -124,7 +124,7 @@ TEST(Sec41_ConvexHull, OfTheNeighbourhoodBoundsTheLimitPatchBecauseNoWeightIsNeg
     const fast::Adjacency adjacency(mesh);
     const auto vertices = static_cast<std::int32_t>(mesh.positions.size());
     const int faces = adjacency.face_count();
-    std::vector<std::set<std::int32_t>> near(static_cast<std::size_t>(faces));
+    std::vector<std::set<std::int32_t>> near(faces);
     for (std::int32_t f = 0; f < faces; ++f) {
       for (int k = 0; k < 3; ++k) {
         for (std::int32_t h = adjacency.outgoing(adjacency.corner(f, k)), first = h; h >= 0;) {
@@ -322,8 +322,8 @@ TEST(Sec41_LoopSurface, IsOfDegreeFourInsideAndCubicOnlyAlongTheBoundary) {
     std::vector<Point3> border;
     for (int i = 0; i <= 8; ++i) {
       std::array<double, 3> l{0, 0, 0};
-      l[static_cast<std::size_t>(h % 3)] = 1 - i / 8.;
-      l[static_cast<std::size_t>(fast::Adjacency::next(h) % 3)] = i / 8.;
+      l[h % 3] = 1 - i / 8.;
+      l[fast::Adjacency::next(h) % 3] = i / 8.;
       border.push_back(point(open.truth.evaluate(h / 3, l[1], l[2], Order::kPosition).position));
     }
     EXPECT_LE(difference(border, 4), 3e-14);

@@ -188,8 +188,8 @@ TEST(Sec42_Step3, AFaceBesideBothMembersGoesFromS3ToS0) {
 }
 
 // Shares over ten seeds per size. What is asserted is far from what is seen:
-// the standard error of a mean is about a tenth of it at 4000 faces; at 200
-// one pair of singletons more or less is a whole percent of one mesh.
+// the standard error of a mean is about a tenth of it at 4000 faces; at 200 one pair of singletons more or
+// less is a whole percent of one mesh.
 TEST(Sec42_Singletons, AreUnderOnePercentWithTheCorrectedRuleAndTwiceAsManyAndMoreWithThePrintedOne) {
   RecordProperty("claim", "C39, C41");
   for (const int faces : kSizes) {

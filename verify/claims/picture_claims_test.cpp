@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What sections 4.1, 6 and 7 say of how tessellations look, measured pixel by pixel against deep uniform
 // depth.
-//                                                                              [C31, C74, C76, C79]
+// [C31, C74, C76, C79]
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -114,7 +114,7 @@ TEST(Sec41_Culling, TakesVisiblePiecesOutOfTheSilhouette) {
     RecordProperty(fmt::format("views_of_12_with_a_gap_of_10_pixels_{}", faces), views_with_gaps);
     RecordProperty(fmt::format("percent_of_pixels_wrong_at_most_{}", faces), text(100 * most.share));
   }
-  // A hole of twenty by twenty pixels is seen by anybody; of the smallest sphere none is missing.
+  // A hole of twenty by twenty pixels is obvious; of the smallest sphere none is missing.
   EXPECT_GT(worst[800].largest_gap, 400);
   EXPECT_GT(worst[800].contour, 10);
 }

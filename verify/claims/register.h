@@ -27,8 +27,8 @@ enum class ClaimOutcome {
   kNotCheckable  // no test could decide it
 };
 
-/// "held", "not held", "not run", "not checkable": stable. Of our tests, not of the paper: a misprint that is
-/// held is a misprint.
+/// "held", "not held", "not run", "not checkable": stable. They are verdicts of our tests: a claim that says
+/// that something is a misprint holds if it is one.
 std::string_view word(ClaimOutcome outcome);
 
 struct ClaimResult {

@@ -68,7 +68,7 @@ TEST_F(RunClaims, TellsTheFindingWithTheFiguresOfToday) {
   EXPECT_EQ(judge(claim, {}).finding, "") << "what was not run has found nothing";
   const auto one = program("one", "Suite.\\n  Name\\n", reports("Suite", "Name", R"(,"most":"3.2")"));
   const ClaimResult r = judge(claim, {one});
-  EXPECT_EQ(r.outcome, ClaimOutcome::kNotHeld) << "a figure that nobody records";
+  EXPECT_EQ(r.outcome, ClaimOutcome::kNotHeld) << "a figure that no test records";
   EXPECT_NE(r.message.find("'least'"), std::string::npos) << r.message;
 }
 

@@ -126,7 +126,7 @@ TEST(Sec3_LimitSurface, DependsOnTheDiagonalsThatTriangulateTheQuads) {
   const auto corner = [](const data::ControlMesh& mesh, const auto& limit, std::int32_t v) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
       for (int k = 0; k < 3; ++k)
-        if (mesh.triangles[f][static_cast<std::size_t>(k)] == v)
+        if (mesh.triangles[f][k] == v)
           return limit.evaluate(static_cast<int>(f), k == 1, k == 2, reference::Order::kFirst).position;
     return V{};
   };
@@ -146,7 +146,7 @@ TEST(Sec31_Indices, ModuloNWouldMapTheLastNeighbourToTheCentre) {
     const auto finer = reference::refine<double>(mesh, 1);
     std::vector<V> v{{mesh.positions[0][0], mesh.positions[0][1], mesh.positions[0][2]}};  // v_0, v_1 .. v_n
     for (const std::int32_t r : topology.ring(0)) {
-      const auto& p = mesh.positions[static_cast<std::size_t>(r)];
+      const auto& p = mesh.positions[r];
       v.push_back({p[0], p[1], p[2]});
     }
     const auto edge_point = [&](int i, auto wrap) {  // equation (2) for the edge v_0 v_i

@@ -57,7 +57,7 @@ TEST(Sec5_Centre, NeedsNoPointOfItsStepThatTheLimitPointsOfTheFirstBorderStepDoN
         double nearest = 1e300;
         std::int32_t which = -1;
         for (const std::int32_t v : needed) {
-          const auto& q = finer.positions()[static_cast<std::size_t>(v)];
+          const auto& q = finer.positions()[v];
           const double distance = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
           if (distance < nearest) nearest = distance, which = v;
         }

@@ -106,10 +106,8 @@ void compare_all(const std::vector<double>& position_bound, const std::vector<do
                                     fmt::format("{:.2g}", worst.normal));
     fmt::print("depth {}: position {:.3g}, normal {:.3g} at {}\n", depth, worst.position, worst.normal,
                worst.where);
-    EXPECT_LE(worst.position, position_bound[static_cast<std::size_t>(depth)])
-        << "depth " << depth << " on " << worst.position_where;
-    EXPECT_LE(worst.normal, normal_bound[static_cast<std::size_t>(depth)])
-        << "depth " << depth << " at " << worst.where;
+    EXPECT_LE(worst.position, position_bound[depth]) << "depth " << depth << " on " << worst.position_where;
+    EXPECT_LE(worst.normal, normal_bound[depth]) << "depth " << depth << " at " << worst.where;
   }
 }
 

@@ -13,21 +13,22 @@
 #include <system_error>
 #include <utility>
 
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/worst_cases.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
 #include "verify/audit/face_depths.h"
 #include "verify/audit/json.h"
+#include "verify/audit/refusal.h"
 #include "verify/audit/table.h"
 #include "verify/cli/audit_depths.h"
 #include "verify/cli/audit_files.h"
 #include "verify/cli/audit_output.h"
 #include "verify/cli/audit_resume.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/doors.h"
-#include "verify/cli/must_refuse.h"
 #include "verify/cli/progress.h"
+#include "verify/cli/subject_loader.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/coordinate_range.h"
 #include "verify/subject/host.h"
@@ -49,19 +50,19 @@ struct Arguments {
   std::string json;
   bool each_mesh = false, must_refuse = false, resume = false;
   OutputArguments output;
-  DoorArguments door;
+  SubjectArguments from;
 };
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
 // levels of isolation (Bfr's default), and isolated as deep as they are sampled.
-std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
+std::vector<verify::AuditSubject> subjects(const Arguments& a, SubjectLoader& loader) {
   std::string options;
   for (const std::string& o : a.options) options += (options.empty() ? "" : ",") + o;
   std::vector<verify::AuditSubject> list;
   if (a.subject == "all") {
-    if (!options.empty()) throw std::invalid_argument("--option needs one subject, not all");
+    if (!options.empty()) throw data::ArgumentError("--option needs one subject, not all");
     for (const lc_subject* s : verify::built_in_subjects()) {
-      const verify::AuditSubject plain = doors.built_in(*s);
+      const verify::AuditSubject plain = loader.built_in(*s);
       list.push_back(plain);
       const auto with = [&](std::string given) {
         list.push_back({plain.subject, std::move(given), plain.in_turns});
@@ -75,7 +76,7 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
       fmt::print(stderr, "limitcheck: left out: {}\n", m.why);
     return list;
   }
-  verify::AuditSubject opened = doors.open(a.subject);
+  verify::AuditSubject opened = loader.open(a.subject);
   opened.options += (opened.options.empty() || options.empty() ? "" : ",") + options;
   const lc_subject* subject = opened.subject;
   try {
@@ -83,8 +84,8 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, Doors& doors) {
   } catch (const verify::SubjectDied&) {  // the audit reports it
   } catch (
       const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
-    throw std::invalid_argument(fmt::format("{}{}{}", error.what(), subject->options ? "; options: " : "",
-                                            subject->options ? subject->options : ""));
+    throw data::ArgumentError(fmt::format("{}{}{}", error.what(), subject->options ? "; options: " : "",
+                                          subject->options ? subject->options : ""));
   }
   return {opened};
 }
@@ -112,19 +113,19 @@ std::optional<Sampling> parse_sample(const std::string& text) {
   if (read.ec == std::errc() && read.ptr != last && *read.ptr == ':')
     read = std::from_chars(read.ptr + 1, last, sampling.seed);
   if (read.ec != std::errc() || read.ptr != last || sampling.faces == 0)
-    throw std::invalid_argument(fmt::format("--sample {}: FACES or FACES:SEED", text));
+    throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
   return sampling;
 }
 
 void check_json(const std::string& json) {
   if (!json.empty() && json != "-" && !json.ends_with(".json"))
-    throw std::invalid_argument(
-        fmt::format("--json {0}: the file must end in .json, or be - for standard output (--json alone goes "
-                    "last: {0} --json)",
-                    json));
+    throw data::ArgumentError(fmt::format(
+        "--json {0}: the file must end in .json, or be - for standard output (--json without a file "
+        "goes last: {0} --json)",
+        json));
 }
 
-// The meshes of the command line, or those that are tried first, each as it says.
+// The meshes of the command line, or the default ones, at the depths that it says.
 std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify::Depths& depths,
                                                 const std::optional<Sampling>& sampling, Progress& progress) {
   std::vector<std::string> names = a.meshes;
@@ -136,7 +137,7 @@ std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify
   std::vector<verify::AuditMesh> meshes;
   for (const std::string& name : names) {
     progress.show(0, 1, "mesh " + name);
-    verify::AuditMesh m{name, a.must_refuse ? open_broken_mesh(name) : data::open_mesh(name)};
+    verify::AuditMesh m{name, a.must_refuse ? verify::read_broken_mesh(name) : data::open_mesh(name)};
     m.depth = a.depth;
     m.depths = depths.text();
     if (!a.must_refuse) {
@@ -160,9 +161,7 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
   report.depths = a.plan ? "plan" : depths.kind == "file" ? depths.text() : depths.kind;
   report.seed = depths.seed;
   if (sampling) report.sample = fmt::format("{}:{}", sampling->faces, sampling->seed);
-  for (const auto& s : subjects)
-    report.subjects.push_back(s.options.empty() ? s.subject->name
-                                                : fmt::format("{}:{}", s.subject->name, s.options));
+  for (const auto& s : subjects) report.subjects.push_back(s.label());
   for (const verify::AuditMesh& m : meshes) {
     report.depth = std::max(report.depth, m.depth);
     if (std::none_of(report.meshes.begin(), report.meshes.end(),
@@ -173,28 +172,86 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
   return report;
 }
 
-int audit(Arguments a) {
-  if (explained(a.output)) return kHeld;
+// The arguments as checked and completed before the first subject is called.
+struct Job {
+  Arguments arguments;  // with SUBJECT and --threads filled in
+  verify::Depths depths;
+  std::optional<Sampling> sampling;
+  bool whole = false;  // no subject was named: all of them, and the report in kReportFile
+};
+
+Job settle(Arguments a) {
   refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.output.junit}});
-  const verify::Depths depths = verify::parse_depths(a.depths);
-  const std::optional<Sampling> sampling = parse_sample(a.sample);
-  take_program(a.door, a.subject, a.meshes);
-  const bool main_job = a.subject.empty();
-  if (main_job) a.subject = "all";
-  if (a.must_refuse && (main_job || a.meshes.empty()))
-    throw std::invalid_argument("--must-refuse needs a subject and the files of broken meshes");
+  Job job;
+  job.depths = verify::parse_depths(a.depths);
+  job.sampling = parse_sample(a.sample);
+  take_program(a.from, a.subject, a.meshes);
+  job.whole = a.subject.empty();
+  if (job.whole) a.subject = "all";
+  if (a.must_refuse && (job.whole || a.meshes.empty()))
+    throw data::ArgumentError("--must-refuse needs a subject and the files of broken meshes");
   if (a.threads <= 0) a.threads = tbb::info::default_concurrency();
+  a.plan = a.plan && a.meshes.empty();
+  job.arguments = std::move(a);
+  return job;
+}
+
+// Why not all was looked at; empty: all was.
+std::string incomplete(const verify::Auditor& auditor, const verify::Report& report, int signal) {
+  if (signal != 0) return fmt::format("interrupted by {}", verify::signal_name(signal));
+  if (auditor.out_of_memory()) return "this program ran out of memory";
+  if (!report.looked()) return "nothing was looked at: nothing that was asked for is supported";
+  return "";
+}
+
+void print(const Arguments& a, const verify::Report& report) {
+  const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+  fmt::print("{}", a.json == "-" ? verify::to_json(report, a.output.level)
+                                 : verify::to_table(report, colour, a.each_mesh));
+}
+
+int exit_code_of(const verify::Auditor& auditor, const verify::Report& report, int signal, bool judged) {
+  if (signal != 0) return kSignalled + signal;
+  if (!report.looked() || auditor.out_of_memory()) return kBadInput;
+  if (!judged && std::none_of(report.results.begin(), report.results.end(), verify::is_bad)) return kBadInput;
+  return report.held() ? kHeld : kFindings;
+}
+
+// Everything that goes into files; `finished` is a journal that the report makes superfluous. They are
+// written before the table, because a reader of the table may close the pipe. The table is printed even if a
+// file cannot be written: the error is returned.
+std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSubject>& audited,
+                               const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
+                               verify::Journal* finished) {
+  const Arguments& a = job.arguments;
+  try {
+    write_junit(a.output, report);
+    if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report, a.output.level));
+    if (job.whole) {
+      verify::write_text(kReportFile, verify::to_json(report, a.output.level));
+      fmt::print(stderr, "report: {}\n", kReportFile);
+    }
+    write_witnesses(a.output, audited, meshes, report, a.threads);
+    if (finished != nullptr) finished->remove();
+  } catch (const std::exception&) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
+int audit(const Job& job) {
+  const Arguments& a = job.arguments;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(a.threads));
-
-  Doors doors(a.door);
-  const std::vector<verify::AuditSubject> audited = subjects(a, doors);
+  SubjectLoader loader(a.from);
+  const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  a.plan = a.plan && a.meshes.empty();
-  const std::vector<verify::AuditMesh> meshes =
-      a.plan ? verify::default_plan(level(a.output)) : meshes_asked_for(a, depths, sampling, progress);
-  verify::Report report = begin_report(a, depths, sampling, audited, meshes);
+  const std::vector<verify::AuditMesh> meshes = a.plan
+                                                    ? verify::default_plan(level(a.output))
+                                                    : meshes_asked_for(a, job.depths, job.sampling, progress);
+  verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
 
+  // Look.
   const verify::InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
   verify::Auditor auditor(
@@ -204,48 +261,23 @@ int audit(Arguments a) {
       },
       level(a.output));
   const auto journal = a.must_refuse ? nullptr
-                                     : open_journal(a.json.empty() && main_job ? kReportFile : a.json,
+                                     : open_journal(a.json.empty() && job.whole ? kReportFile : a.json,
                                                     a.resume, audited, meshes, report, a.output.level);
-  report.results =
-      a.must_refuse ? must_refuse(audited, meshes, a.threads) : auditor.run(audited, meshes, journal.get());
-  report.containment = doors.containment();
+  report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
+                                 : auditor.run(audited, meshes, journal.get());
+  report.containment = loader.containment();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
   const int signal = auditor.gave_up() ? verify::interrupted() : 0;
-  if (signal != 0)
-    report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
-  else if (auditor.out_of_memory())
-    report.incomplete = "this program ran out of memory";
-  else if (!report.looked())
-    report.incomplete = "nothing was looked at: nothing that was asked for is supported";
+  report.incomplete = incomplete(auditor, report, signal);
   const bool judged = judged_as_required(a.output, report);
   waive(a.output, audited, report);
 
-  // Files first: who reads the table may go away. And a file that cannot be written does not cost the table.
-  std::exception_ptr not_written;
-  try {
-    write_junit(a.output, report);
-    if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report, a.output.level));
-    if (main_job) {
-      verify::write_text(kReportFile, verify::to_json(report, a.output.level));
-      fmt::print(stderr, "report: {}\n", kReportFile);
-    }
-    write_witnesses(a.output, audited, meshes, report, a.threads);
-    if (journal && signal == 0 && !auditor.out_of_memory()) journal->remove();  // the report has it all
-  } catch (const std::exception&) {
-    not_written = std::current_exception();
-  }
-  if (a.json == "-") {
-    fmt::print("{}", verify::to_json(report, a.output.level));
-  } else {
-    const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
-    fmt::print("{}", verify::to_table(report, colour, a.each_mesh));
-  }
+  const bool done = signal == 0 && !auditor.out_of_memory();
+  const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
+  print(a, report);
   if (not_written) std::rethrow_exception(not_written);
-  if (signal != 0) return kSignalled + signal;
-  if (!report.looked() || auditor.out_of_memory()) return kBadInput;
-  if (!judged && std::none_of(report.results.begin(), report.results.end(), verify::is_bad)) return kBadInput;
-  return report.held() ? kHeld : kFindings;
+  return exit_code_of(auditor, report, signal, judged);
 }
 
 }  // namespace
@@ -267,27 +299,30 @@ void add_audit(CLI::App& app, int& exit_code) {
   CLI::Option* depth =
       command
           ->add_option("--depth", a->depth,
-                       "Subdivision depth of every face; otherwise than with uniform depths, the largest")
+                       "Subdivision depth of every face, or of the deepest one if --depths is not uniform")
           ->check(CLI::Range(0, 12))
           ->capture_default_str();
   CLI::Option* depths =
       command
-          ->add_option("--depths", a->depths,
-                       "uniform, random[:SEED[:visible]] (-1, which is culled, to depth; none is culled with "
-                       "visible), view (by size on the screen, back faces culled), face0-culled, all-culled "
-                       "or file:FILE (one per face, -1 is culled)")
+          ->add_option(
+              "--depths", a->depths,
+              "How the depths of the faces are chosen: uniform; random[:SEED[:visible]], from -1 (culled) "
+              "or, "
+              "with visible, 0 to --depth; view, by size on the screen, back faces culled; face0-culled; "
+              "all-culled; or file:FILE, one depth for each face, -1 is culled")
           ->capture_default_str();
   CLI::Option* sample =
       command
           ->add_option(
               "--sample", a->sample,
-              "Look at about so many faces of each mesh only, in patches around random vertices, and have "
-              "the others culled: for meshes of millions of faces")
+              "Judge only about so many faces of each mesh, in patches around random vertices, and cull the "
+              "others: for meshes of millions of faces")
           ->type_name("FACES[:SEED]");
   command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
       ->take_all()
       ->expected(1);
-  command->add_option("--threads", a->threads, "At most so many (default: all)")->check(CLI::Range(1, 4096));
+  command->add_option("--threads", a->threads, "The largest number of threads (default: all)")
+      ->check(CLI::Range(1, 4096));
   command
       ->add_option("--json", a->json,
                    "Write the results as JSON to FILE.json; '-' or nothing: standard output, and no table")
@@ -296,26 +331,30 @@ void add_audit(CLI::App& app, int& exit_code) {
       ->default_str("-");
   command->add_flag(
       "--resume", a->resume,
-      "Go on with an audit that was ended before its report was whole: the same command again. What "
-      "it had found stands in the report's name with an l behind it (FILE.jsonl)");
+      "Resume an audit that ended before its report was complete; give the same command again. Its rows "
+      "so far are in FILE.jsonl beside the report FILE.json");
   command->add_flag("--each-mesh", a->each_mesh,
-                    "A line for every mesh in the table, not only for the worst");
+                    "Print a line for every mesh in the table, not only for the worst one");
   command->add_flag(
       "--must-refuse", a->must_refuse,
-      "The MESHes (files) are broken, and handed over as they are: the subject must refuse them");
+      "The MESHes are files of broken meshes, which are handed over as they are: the subject must refuse "
+      "them");
   add_output_options(*command, a->output);
-  add_door_options(*command, a->door);
+  add_subject_options(*command, a->from);
   auto files = std::make_shared<FilesArguments>();
   add_files_options(*command, *files);
   command->footer(
-      "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or what was asked for or required "
-      "is not supported. Ctrl-C "
-      "ends with the report of what was looked at so far, marked as incomplete, and exit code 130 (SIGTERM "
-      "143, SIGHUP 129); a second one at once.");
+      "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or nothing that was asked for or required "
+      "is "
+      "supported. Ctrl-C ends the audit with a report of the results so far, marked as incomplete, and exit "
+      "code 130 (SIGTERM 143, SIGHUP 129); a second Ctrl-C ends it at once.");
   command->callback([=, &exit_code] {
     check_json(a->json);
     a->plan = depth->count() + depths->count() + sample->count() == 0;
-    exit_code = files->given() ? audit_files(*files, a->json, a->threads) : audit(*a);
+    if (files->given())
+      exit_code = audit_files(*files, a->json, a->threads);
+    else
+      exit_code = explained(a->output) ? kHeld : audit(settle(*a));
   });
 }
 

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "data/error.h"
+
 namespace limitcheck::cli {
 namespace {
 
@@ -29,7 +31,7 @@ void refuse_too_many_points(const verify::AuditMesh& mesh) {
   const double there =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (needed > there)
-    throw std::invalid_argument(
+    throw data::ArgumentError(
         fmt::format("{}: the audit of {:.3g} points needs some {:.0f} GB, and this machine has {:.0f}: take "
                     "a smaller --depth, or look at a part with --sample FACES",
                     mesh.name, points, needed / 1e9, there / 1e9));

@@ -27,17 +27,17 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
   const char* group = "A finished tessellation (instead of SUBJECT)";
   auto* control = audit.add_option("--control", files.control, "Control mesh: a file or a generator's name")
                       ->group(group);
-  auto* tessellation =
-      audit
-          .add_option(
-              "--tessellation", files.tessellation,
-              "What some program made of it: PLY, OBJ, OFF, STL, glTF or GLB; triangles or larger polygons")
-          ->group(group);
+  auto* tessellation = audit
+                           .add_option("--tessellation", files.tessellation,
+                                       "A tessellation of it by any program: PLY, OBJ, OFF, STL, glTF or "
+                                       "GLB; triangles or larger polygons")
+                           ->group(group);
   control->needs(tessellation);
   tessellation->needs(control);
   const auto option = [&](CLI::Option* o) { return o->group(group)->needs(tessellation); };
-  option(audit.add_flag("--normals", files.normals,
-                        "The file must have normals (if it has, they are judged anyway)"));
+  option(
+      audit.add_flag("--normals", files.normals,
+                     "Report a file without normals as a finding (normals that it has are always judged)"));
   option(
       audit.add_option("--provenance", files.provenance,
                        "CSV that says where each vertex lies: vertex,face,l1,l2 or "
@@ -102,7 +102,8 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
   report.results = audit.results;
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  // Files first: who reads the table may go away. And a file that cannot be written does not cost the table.
+  // Files are written first, because a reader of the table may close the pipe; and the table is printed even
+  // if a file cannot be written.
   std::exception_ptr not_written;
   try {
     if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, audit.per_vertex);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "data/error.h"
 #include "data/io/whole_content.h"
 #include "verify/audit/explain.h"
 #include "verify/audit/json.h"
@@ -26,8 +27,8 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
   command
       .add_option(
           "--level", a.level,
-          "quick: one tessellation of each mesh; standard: also in other order, place and size, on meshes "
-          "of at most 200 faces; thorough: on all")
+          "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in another "
+          "order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes")
       ->check(CLI::IsMember({"quick", "standard", "thorough"}))
       ->capture_default_str();
   std::vector<std::string> checks;
@@ -35,26 +36,29 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
     if (!e.check.starts_with("file-")) checks.emplace_back(e.check);
   command
       .add_option("--require", a.required,
-                  "Checks, separated by commas, that must have looked at something, for each subject: else "
-                  "nothing is confirmed (exit code 2)")
+                  "Checks, separated by commas, that must have judged something of each subject; otherwise "
+                  "nothing is "
+                  "confirmed (exit code 2)")
       ->delimiter(',')
       ->check(CLI::IsMember(checks))
+      ->transform([](const std::string& check) { return std::string(verify::current_name(check)); })
       ->type_name("CHECK,...");
   command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
-  command.add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted for a while")
+  command
+      .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   command
       .add_option(
           "--witnesses", a.witnesses,
           "Write each finding to a folder of its own in DIR: the control mesh, and a JSON file with the "
-          "place, the exact value to 40 digits, what was got, and the commands that show both again")
+          "place, the exact value to 40 digits, the value delivered, and the commands that reproduce both")
       ->type_name("DIR");
   command
       .add_option(
           "--shrink", a.shrink_seconds,
-          "Look for a small mesh with the same finding, SECONDS (20) for each subject and check, and write "
-          "that as --witnesses does (default folder: limitcheck-witness)")
+          "Search for a small mesh with the same finding, SECONDS (20) for each subject and check, and write "
+          "it as --witnesses does (default folder: limitcheck-witness)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.01, 86400.0))
       ->check(kFinite)
@@ -62,7 +66,7 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->default_str("20");
   command
       .add_option("--explain", a.explain,
-                  "Say what a check means, its bound, and where that comes from; or all")
+                  "Explain a check, or all of them: its meaning, its bound and where the bound comes from")
       ->type_name("CHECK");
 }
 
@@ -78,13 +82,13 @@ bool explained(const OutputArguments& a) {
   std::string known = "all";
   for (const auto& e : verify::explanations()) {
     known += fmt::format(", {}", e.check);
-    if (a.explain != "all" && a.explain != e.check) continue;
+    if (a.explain != "all" && verify::current_name(a.explain) != e.check) continue;
     fmt::print("{}{}\n  meaning  {}\n  bound    {}\n  from     {}\n", found ? "\n" : "", e.check, e.meaning,
                e.bound, e.source);
     found = true;
   }
   if (!found)
-    throw std::invalid_argument(fmt::format("there is no check '{}'; there are: {}", a.explain, known));
+    throw data::ArgumentError(fmt::format("there is no check '{}'; there are: {}", a.explain, known));
   return true;
 }
 
@@ -100,14 +104,14 @@ void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& su
   try {
     verify::apply_waivers(report, verify::parse_waivers(text), versions,
                           fmt::format("{:%Y-%m-%d}", fmt::gmtime(today)));
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", a.waivers, error.what()));
+  } catch (const data::ArgumentError& error) {
+    throw data::ArgumentError(fmt::format("{}: {}", a.waivers, error.what()));
   }
 }
 
 namespace {
 
-// What a result is about; nullptr if it is none of these.
+// The mesh that a result is about; nullptr if it is none of these.
 const verify::AuditMesh* case_of(const verify::Result& r, const std::vector<verify::AuditMesh>& meshes) {
   for (const verify::AuditMesh& m : meshes)
     if (m.name == r.mesh && m.depth == r.depth && m.depths == r.depths &&
@@ -159,7 +163,7 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       verify::write_witness(folder, report, *finding, *mesh, a.level);
       continue;
     }
-    const auto& audited = subjects[static_cast<std::size_t>(subject - report.subjects.begin())];
+    const auto& audited = subjects[subject - report.subjects.begin()];
     const verify::Shrunk small =
         verify::shrink(audited, *mesh, finding->depth, threads, *finding, a.shrink_seconds);
     const auto& relations = verify::relation_rows();
@@ -196,7 +200,7 @@ void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::strin
       if (std::filesystem::weakly_canonical(file, ignored) ==
               std::filesystem::weakly_canonical(other_file, ignored) ||
           std::filesystem::equivalent(file, other_file, ignored))
-        throw std::invalid_argument(fmt::format("{} and {} name the same file: {}", other, option, file));
+        throw data::ArgumentError(fmt::format("{} and {} name the same file: {}", other, option, file));
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `limitcheck audit`: how much is looked at, what is waived, and where the results go besides the table.
+// `limitcheck audit`: the options for how much is checked, what is waived, and where the results go besides
+// the table.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,17 +15,17 @@ namespace limitcheck::cli {
 struct OutputArguments {
   std::string level = "standard", junit, waivers, explain, witnesses;
   std::vector<std::string> required;
-  double shrink_seconds = 0;  // 0: not
+  double shrink_seconds = 0;  // 0: no shrinking
 };
 
 void add_output_options(CLI::App& command, OutputArguments& arguments);
 verify::Level level(const OutputArguments& arguments);
 
 /// Prints what --explain asks for; false if it does not.
-/// Throws std::invalid_argument: there is no such check.
+/// Throws data::ArgumentError: there is no such check.
 bool explained(const OutputArguments& arguments);
 
-/// Applies --waivers to the report. Throws std::invalid_argument: the file cannot be read or understood.
+/// Applies --waivers to the report. Throws data::ArgumentError: the file cannot be read or understood.
 void waive(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
            verify::Report& report);
 
@@ -34,10 +35,10 @@ void waive(const OutputArguments& arguments, const std::vector<verify::AuditSubj
 void write_witnesses(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
                      const std::vector<verify::AuditMesh>& meshes, const verify::Report& report, int threads);
 
-/// Whether each subject was judged by all that --require names; says in report.incomplete by what it was not.
+/// Whether each subject was judged by all checks that --require names; report.incomplete names the others.
 bool judged_as_required(const OutputArguments& arguments, verify::Report& report);
 
-/// Outputs as pairs of option and file name, "-" or "" for none. Throws std::invalid_argument: two of them
+/// Outputs as pairs of option and file name, "-" or "" for none. Throws data::ArgumentError: two of them
 /// are one and the same file.
 void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs);
 

@@ -98,6 +98,7 @@ TEST_F(AuditOutput, EveryCheckIsExplained) {
   EXPECT_EQ(o.code, 0);
   EXPECT_NE(o.out.find("bound"), std::string::npos);
   EXPECT_EQ(run("audit --explain nonsense").code, 2);
+  EXPECT_EQ(run("audit --explain extreme-scale").out, run("audit --explain scaling").out) << "its new name";
   const Outcome all = run("audit --explain all");
   for (const char* check : {"tessellates", "rejected-inputs", "t-vertices"})
     EXPECT_NE(all.out.find(check), std::string::npos);

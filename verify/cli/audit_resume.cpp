@@ -9,6 +9,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "data/error.h"
+
 namespace limitcheck::cli {
 namespace {
 
@@ -24,7 +26,7 @@ std::string_view bytes(const std::vector<T>& list) {
   return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
 }
 
-// Another mesh of the same name has another one.
+// A hash, which differs for another mesh of the same name.
 std::string content(const verify::AuditMesh& m) {
   std::uint64_t hash = fnv1a(bytes(m.mesh.positions), 0xcbf29ce484222325ULL);
   hash = fnv1a(bytes(m.face_depth), fnv1a(bytes(m.mesh.triangles), hash));
@@ -48,8 +50,7 @@ std::unique_ptr<verify::Journal> open_journal(const std::string& json, bool resu
   std::error_code ignored;
   const auto type = fs::status(json, ignored).type();
   if (json.empty() || json == "-" || (type != fs::file_type::not_found && type != fs::file_type::regular)) {
-    if (resume)
-      throw std::invalid_argument("--resume needs --json FILE.json: the rows are kept in FILE.jsonl");
+    if (resume) throw data::ArgumentError("--resume needs --json FILE.json: the rows are kept in FILE.jsonl");
     return nullptr;
   }
   nlohmann::json what{{"program", "limitcheck audit"},

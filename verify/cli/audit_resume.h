@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "verify/audit/audit.h"
+#include "verify/audit/audit_case.h"
+#include "verify/audit/journal.h"
+#include "verify/audit/result.h"
 
 namespace limitcheck::cli {
 
 /// The journal of an audit whose report is `json`: the same name with an l behind it. None if the report is
-/// no file. Throws std::invalid_argument: `resume`, but there is nothing to resume, or it is of another
+/// no file. Throws data::ArgumentError: `resume`, but there is nothing to resume, or it is of another
 /// audit.
 std::unique_ptr<verify::Journal> open_journal(const std::string& json, bool resume,
                                               const std::vector<verify::AuditSubject>& subjects,

@@ -154,7 +154,7 @@ void add_check(CLI::App& app, int& exit_code) {
   command->add_flag("--json", a->json, "One JSON document on standard output in place of the text");
   command->footer(
       "Exit codes: 0 nothing is wrong, 1 the mesh has faults, 2 bad usage, or a file that cannot be read.\n"
-      "What the faults mean: an audit refuses such a mesh; limitcheck repair mends most of them.");
+      "An audit refuses a mesh with faults; limitcheck repair mends most of them.");
   command->callback([a, &exit_code] { exit_code = check(*a); });
 }
 

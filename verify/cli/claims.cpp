@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "data/error.h"
 #include "verify/claims/register.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
@@ -31,7 +32,7 @@ std::vector<const Claim*> chosen(const std::vector<std::string>& ids) {
   for (const std::string& id : ids) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Claim& c) { return c.id == id; });
     if (found == all.end())
-      throw std::invalid_argument(
+      throw data::ArgumentError(
           fmt::format("there is no claim '{}'; there are {} to {}", id, all.front().id, all.back().id));
     list.push_back(&*found);
   }
@@ -160,7 +161,7 @@ int claims(const Arguments& a) {
 void add_claims(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "claims", "What we conclude about each claim of the paper, and whether our tests agree today");
+      "claims", "Print our verdict on each claim of the paper, and whether its tests pass in this build");
   command->add_option("ID", a->ids, "Claims, as C14 (default: all)");
   command->add_flag("--json", a->json, "One JSON document instead of the table");
   command->add_flag("--errata", a->errata, "Write the errata of the paper as Markdown instead; runs nothing");
@@ -170,11 +171,12 @@ void add_claims(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingDirectory)
       ->type_name("FOLDER");
   command->footer(
-      "Two columns: what we conclude about the paper's sentence, with figures, and whether the tests behind "
-      "that are green. A claim whose tests are not here is reported as not run, never as green.\n"
-      "Exit codes: 0 all green, 1 a test is red or was not run, 2 bad usage; ended by SIGINT 130, SIGTERM "
-      "143, "
-      "SIGHUP 129.");
+      "Two columns: our verdict on the paper's sentence, with figures, and whether the tests behind it pass. "
+      "A "
+      "claim whose tests are not built is reported as not run, never as passed.\n"
+      "Exit codes: 0 all tests pass, 1 a test fails or was not run, 2 bad usage; ended by SIGINT 130, "
+      "SIGTERM "
+      "143, SIGHUP 129.");
   command->callback([a, &exit_code] { exit_code = claims(*a); });
 }
 

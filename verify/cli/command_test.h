@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the program as a user would, in a folder of its own that goes away afterwards.
+// Runs the program as a user would, in a folder of its own that is deleted afterwards.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@ namespace limitcheck::cli {
 enum ExitCode : int {
   kHeld = 0,
   kFindings = 1,
-  kBadInput = 2,    // and whatever keeps the program from doing its work: no memory, no room on the disk
+  kBadInput = 2,    // and anything else that stops the program: no memory, no room on the disk
   kSignalled = 128  // plus the signal's number: an audit ended early, with a partial report
 };
 

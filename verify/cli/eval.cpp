@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// limitcheck eval: the oracle as a calculator.
+// limitcheck eval: the exact surface at one point.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "reference/surface/certified.h"
 #include "verify/cli/commands.h"
@@ -156,7 +157,7 @@ void round_to_float(data::ControlMesh& mesh) {
     for (double& x : mesh.positions[v]) {
       const auto rounded = static_cast<double>(static_cast<float>(x));
       if (!std::isfinite(rounded))
-        throw std::out_of_range(fmt::format("vertex {}: {} is beyond the largest float", v, x));
+        throw data::ArgumentError(fmt::format("vertex {}: {} is beyond the largest float", v, x));
       x = rounded;
     }
 }
@@ -165,8 +166,9 @@ void run(const Request& request) {
   data::ControlMesh mesh = data::open_mesh(request.mesh);
   if (request.precision == "float") round_to_float(mesh);
   if (request.face < 0 || static_cast<std::size_t>(request.face) >= mesh.triangles.size())
-    throw std::out_of_range(fmt::format("{} has faces 0 to {}, not {}", request.mesh,
-                                        static_cast<std::int64_t>(mesh.triangles.size()) - 1, request.face));
+    throw data::ArgumentError(fmt::format("{} has faces 0 to {}, not {}", request.mesh,
+                                          static_cast<std::int64_t>(mesh.triangles.size()) - 1,
+                                          request.face));
   const Parameter l1 = Parameter::parse(request.l1), l2 = Parameter::parse(request.l2);
   const Weights weights = request.weights == "warren" ? Weights::kWarren : Weights::kLoop;
   const CertifiedPoint point = reference::CertifiedEvaluator(mesh, weights)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Commands that are programs of their own, because they are built on this one or need what it does without.
+// Commands that are separate programs: they need libraries that limitcheck does without, or run limitcheck
+// itself.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -60,7 +61,7 @@ void add(CLI::App& app, int& exit_code, const std::string& name, const std::stri
 
 void add_external(CLI::App& app, int& exit_code) {
   add(app, exit_code, "reproduce",
-      "The paper reproduced: claims, tables, figures and one page that shows them");
+      "Reproduce the paper: claims, tables, figures, and one page that shows them");
   add(app, exit_code, "bench", "Performance tracking: measure, compare, hold exact costs, draw the trend");
 }
 

@@ -55,7 +55,7 @@ void add_generate(CLI::App& app, int& exit_code) {
       "generate", "Write a control mesh by name: limitcheck generate bumpy:800 -o bumpy.obj");
   auto options = std::make_shared<Options>();
   command->add_option("NAME", options->name,
-                      "What to write, parameters behind colons: wheel:7, bumpy:800 (see --list)");
+                      "The mesh, with parameters behind colons: wheel:7, bumpy:800 (see --list)");
   command->add_option("-o,--output", options->file, "The file: .obj, .off or .ply");
   command->add_option("--seed", options->seed, "Seed of a random mesh, as a last parameter of NAME would be");
   command->add_flag("--ascii", options->ascii, "PLY as text");

@@ -22,7 +22,7 @@ void occupy_standard_streams() {
     if (fcntl(fd, F_GETFD) < 0) (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-// Where there is no standard error either, nothing is left to be done.
+// If there is no standard error either, nothing can be reported.
 void complain(const std::string& text) {
   std::fputs(fmt::format("limitcheck: {}\n", text).c_str(), stderr);
 }

@@ -37,7 +37,7 @@ TEST_F(Misfortune, AFullDiskBehindStandardOutputIsAnError) {
   }
 }
 
-// Beyond the range of the numbers nobody is right: such meshes are refused before a subject is blamed.
+// Beyond the range of the numbers no subject can be right: such meshes are refused before any is called.
 TEST_F(Misfortune, AMeshOfAbsurdSizeIsRefusedOrNotJudged) {
   const auto tetrahedron = [&](const std::string& e) {
     write(e + ".obj", "v 1" + e + " 1" + e + " 1" + e + "\nv -1" + e + " -1" + e + " 1" + e + "\nv -1" + e +

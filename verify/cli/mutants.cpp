@@ -66,8 +66,8 @@ void add_mutants(CLI::App& app, int& exit_code) {
       app.add_subcommand("mutants", "Let the audit loose on faulty tessellators: what each check catches");
   command->add_flag("--json", *json, "One JSON document instead of the table");
   command->footer(
-      "Exit codes: 0 every mutant is killed by the check meant for it, every check kills one, and subjects "
-      "that are right are found so; 1 otherwise.");
+      "Exit codes: 0 every mutant is killed by the check meant for it, every check kills one, and correct "
+      "subjects have no finding; 1 otherwise.");
   command->callback([json, &exit_code] {
     Progress progress;
     const KillTable table = verify::run_mutants([&](const std::string& what, std::size_t done,

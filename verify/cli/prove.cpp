@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/error.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
 #include "verify/interrupt/interrupt.h"
@@ -35,7 +36,7 @@ int number(const std::string& text) {
     end = 0;
   }
   if (end == 0 || end != text.size() || value < 3 || value > 20)
-    throw std::invalid_argument(fmt::format("--valences: '{}' is not a valence from 3 to 20", text));
+    throw data::ArgumentError(fmt::format("--valences: '{}' is not a valence from 3 to 20", text));
   return value;
 }
 
@@ -44,7 +45,7 @@ std::vector<int> valences(const std::string& text) {
   std::vector<int> result;
   if (const auto colon = text.find(':'); colon != std::string::npos) {
     for (int n = number(text.substr(0, colon)); n <= number(text.substr(colon + 1)); ++n) result.push_back(n);
-    if (result.empty()) throw std::invalid_argument("--valences: " + text + " holds none");
+    if (result.empty()) throw data::ArgumentError("--valences: " + text + " holds none");
     return result;
   }
   for (std::size_t from = 0; from <= text.size();) {
@@ -130,7 +131,7 @@ void add_prove(CLI::App& app, int& exit_code) {
       "  alone      the face without neighbours                     m 4, b 4 | m 6, b 6\n"
       "  spheres    all pairs of bumpy:200 | 200 800 2000 4000      m 3, b 3 | m 6, b 4\n"
       "Maps again to 45 digits, depth 1-2 | 3, and exactly for valences 3, 4, 6, depth 2 | 5.\n"
-      "Ctrl-C ends with the table of what was proved so far: exit code 130, or 1 if something in it failed.");
+      "Ctrl-C ends with the table of the proofs so far: exit code 130, or 1 if one of them failed.");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

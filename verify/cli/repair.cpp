@@ -37,15 +37,14 @@ int repair(const Arguments& a) {
 void add_repair(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "repair", "Make a mesh that can be audited of one that cannot: limitcheck repair scan.obj -o cage.obj");
+      "repair", "Turn a mesh into one that can be audited: limitcheck repair scan.obj -o cage.obj");
   command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
   command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")->required();
   command->add_flag("--weld", a->options.weld,
-                    "Make vertices that lie at exactly the same place one: seams close");
+                    "Merge vertices at exactly the same place, which closes seams");
   command->footer(
-      "Drops faces without area by their corners, faces given twice, vertices that no face names; turns "
-      "faces "
-      "against their neighbours; cuts the mesh apart where it is no manifold. No vertex is moved, no hole "
+      "Drops faces with a repeated corner, faces given twice and vertices that no face names; orients "
+      "neighbouring faces alike; cuts the mesh apart where it is no manifold. No vertex is moved, no hole "
       "filled.\nExit codes: 0 the result can be audited, 1 faults are left (they are listed), 2 bad usage, "
       "or a "
       "file that cannot be read or written.");

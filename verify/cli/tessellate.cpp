@@ -137,8 +137,7 @@ std::string summary(const Arguments& a, const fast::FrameStats& s, const Timings
   text += "\n";
   text += fmt::format(
       "milliseconds: read {:.1f}, prepare {:.1f}, heuristics {:.1f}, pairing {:.1f}, planning {:.1f}, "
-      "evaluation {:.1f}, "
-      "write {:.1f}\n",
+      "evaluation {:.1f}, write {:.1f}\n",
       1e3 * t.read, 1e3 * t.prepare, 1e3 * s.seconds_heuristics, 1e3 * s.seconds_pairing,
       1e3 * s.seconds_planning, 1e3 * s.seconds_evaluation, 1e3 * t.write);
   return text;
@@ -254,7 +253,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
   command
       ->add_option("--engine", a->engine,
-                   "row-stream, or the paper's own form, one pair after the other: sliding-window")
+                   "row-stream, or sliding-window: the paper's engine, one pair after the other")
       ->check(CLI::IsMember({"row-stream", "sliding-window"}))
       ->capture_default_str();
   auto* eye =
@@ -278,7 +277,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, fast::kDeepest));
   auto* cull = command->add_flag(
       "--cull,!--no-cull", a->cull,
-      "Leave out faces whose corners all face away; default: where the strategy depends on the view");
+      "Leave out faces whose corners all face away; default: if the strategy depends on the view");
   command->add_option("--centre", a->centre, "Centre of a fan: on the limit surface, or the flat triangle's")
       ->check(CLI::IsMember({"limit", "flat"}))
       ->capture_default_str();

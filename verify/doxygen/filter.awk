@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The house's comments as Doxygen reads them: "///   name   meaning" is a list item, a comment behind a declaration is that
+# The comments of this project as Doxygen reads them: "///   name   meaning" is a list item, a comment behind a declaration is that
 # declaration's, and so is the one above it in C.
 FILENAME ~ /\.md$/ { print; next }
 /^ *\/\/\/ / {

@@ -60,7 +60,7 @@ Result& row(FilesAudit& audit, std::string_view check) {
 
 using Step = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
 
-// Adds to `audit` as it goes, so that an end in between leaves what there is.
+// Adds to `audit` row by row, so that an interrupt keeps the rows that are there.
 void judge(FilesAudit& audit, const std::string& control_name, const data::ControlMesh& control,
            FileTessellation tessellation, const std::vector<ProvenanceRow>& provenance,
            const FilesOptions& options, const Step& step) {

@@ -197,7 +197,7 @@ TEST(AuditFiles, NoCheckIsWithoutAFileThatItRefusesAndAnExplanation) {
     EXPECT_TRUE(seen) << check << " did not; red: " << findings(a);
     if (seen) killers.insert(check);
     if (check == "file-normal-length" || check == "file-degenerate" || check == "file-unused") {
-      EXPECT_EQ(findings(a), check == "file-unused" ? "" : check) << "nobody else sees it";
+      EXPECT_EQ(findings(a), check == "file-unused" ? "" : check) << "no other row reports it";
     }
   }
   // Every vertex on the surface, one of them not where its row says.

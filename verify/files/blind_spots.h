@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a tessellation is too coarse to tell.
+// Which faults a tessellation is too coarse to show.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@
 namespace limitcheck::verify {
 namespace {
 
-// Lower than a few roundings of the coordinates in double.
+// The triangle is lower than a few roundings of the coordinates in double.
 bool has_no_area(const std::array<Vector, 3>& p) {
   const Vector a = p[1] - p[0], b = p[2] - p[0];
   const double longest = std::max({norm(a), norm(b), norm(b - a)});

@@ -44,85 +44,127 @@ double vertices_after(const data::ControlMesh& mesh, Scheme scheme, int steps) {
   return scheme == Scheme::kCatmullClark ? .75 * growth : .5 * growth;
 }
 
-}  // namespace
+// The stride with which about kSample elements of a list are taken.
+std::size_t stride(std::size_t count) {
+  return std::max<std::size_t>(1, count / kSample);
+}
 
-std::vector<std::string> diagnose(const FileEvidence& e) {
+// A sample of the points that have a place, and how far these are from the surface.
+struct Sampled {
+  std::size_t placed = 0;
   std::vector<Vector> points;
-  double from_surface = 0, worst_from_surface = 0;
-  std::vector<std::size_t> used;
+  double rms = 0;    // of the sample
+  double worst = 0;  // of all
+};
+
+Sampled sample(const FileEvidence& e) {
+  Sampled s;
+  std::vector<std::size_t> placed;
   for (std::size_t k = 0; k < e.place.size(); ++k) {
     if (e.place[k].face < 0) continue;
-    used.push_back(k);
-    worst_from_surface = std::max(worst_from_surface, e.foot[k].distance);
+    placed.push_back(k);
+    s.worst = std::max(s.worst, e.foot[k].distance);
   }
-  for (std::size_t k = 0; k < used.size(); k += std::max<std::size_t>(1, used.size() / kSample)) {
-    points.push_back(e.position(static_cast<std::int32_t>(used[k])));
-    const double d = norm(points.back() - e.foot[used[k]].position);
-    from_surface += d * d;
+  s.placed = placed.size();
+  for (std::size_t k = 0; k < placed.size(); k += stride(placed.size())) {
+    s.points.push_back(e.position(static_cast<std::int32_t>(placed[k])));
+    const double d = norm(s.points.back() - e.foot[placed[k]].position);
+    s.rms += d * d;
   }
-  if (points.empty()) return {};
-  const double size = e.surface.diagonal();
-  from_surface = std::sqrt(from_surface / static_cast<double>(points.size()));
-  std::vector<std::string> told;
+  s.rms = std::sqrt(s.rms / static_cast<double>(s.points.size()));
+  return s;
+}
 
-  struct Guess {
-    Scheme scheme;
-    int steps;
-    bool limit;
-    Apart apart;
+struct Guess {
+  Scheme scheme;
+  int steps;
+  bool limit;
+  Apart apart;
+};
+
+// Loop's refined control points: their largest distance from the surface.
+struct RefinedLoop {
+  double worst = -1;
+  int steps = 0;
+};
+
+// What the schemes make of the control mesh with about as many vertices, and how far that is from the sample.
+struct Guesses {
+  std::vector<Guess> all;
+  RefinedLoop loop;  // after the number of steps that comes nearest
+};
+
+double worst_of(const ClosestPoint& surface, const std::vector<Vector>& cloud) {
+  double worst = 0;
+  for (std::size_t k = 0; k < cloud.size(); k += stride(cloud.size()))
+    worst = std::max(worst, surface.closest(cloud[k]).distance);
+  return worst;
+}
+
+Guesses guess(const FileEvidence& e, const Sampled& sampled) {
+  Guesses guesses;
+  const auto have = static_cast<double>(sampled.placed);
+  const auto unlike = [&](int steps) {
+    return std::abs(std::log(vertices_after(e.control, Scheme::kLoop, steps) / have));
   };
-  std::vector<Guess> guesses;
-  double loop_worst = -1;  // of Loop's refined control points from the surface, at about as many vertices
-  int loop_steps = 0;
   for (const Scheme scheme : {Scheme::kLoop, Scheme::kWarren, Scheme::kLinear, Scheme::kCatmullClark})
     for (int steps = 0; steps <= 7; ++steps) {
       const double count = vertices_after(e.control, scheme, steps);
-      const auto have = static_cast<double>(used.size());
       if (count > 3 * have + 100 || count < have / 8 || count > 2e6) continue;
       for (const bool limit : {false, true}) {
         if (limit && (scheme == Scheme::kLoop || scheme == Scheme::kLinear || steps == 0)) continue;
         const auto cloud = scheme_points(e.control, scheme, steps, limit);
-        guesses.push_back({scheme, steps, limit, apart(points, cloud)});
-        if (scheme != Scheme::kLoop) continue;
-        double worst = 0;
-        for (std::size_t k = 0; k < cloud.size(); k += std::max<std::size_t>(1, cloud.size() / kSample))
-          worst = std::max(worst, e.surface.closest(cloud[k]).distance);
-        if (loop_worst < 0 || std::abs(std::log(count / have)) <
-                                  std::abs(std::log(vertices_after(e.control, scheme, loop_steps) / have))) {
-          loop_worst = worst;
-          loop_steps = steps;
-        }
+        guesses.all.push_back({scheme, steps, limit, apart(sampled.points, cloud)});
+        if (scheme == Scheme::kLoop && (guesses.loop.worst < 0 || unlike(steps) < unlike(guesses.loop.steps)))
+          guesses.loop = {worst_of(e.surface, cloud), steps};
       }
     }
+  return guesses;
+}
+
+const char* remark(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::kLoop:
+      return "; what is missing is the last step, the limit mask";
+    case Scheme::kWarren:
+      return "; Warren's is another surface";
+    case Scheme::kCatmullClark:
+      return "; this is not Loop subdivision at all: more steps bring it no nearer";
+    case Scheme::kLinear:
+      break;
+  }
+  return "; nothing was subdivided";
+}
+
+}  // namespace
+
+std::vector<std::string> diagnose(const FileEvidence& e) {
+  const Sampled sampled = sample(e);
+  if (sampled.points.empty()) return {};
+  const double size = e.surface.diagonal();
+  const auto [guesses, loop] = guess(e, sampled);
   const auto best = std::min_element(guesses.begin(), guesses.end(), [](const Guess& a, const Guess& b) {
     return a.apart.rms < b.apart.rms;
   });
-  if (best != guesses.end() && best->apart.rms < from_surface / 10) {
-    told.push_back(fmt::format(
-        "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off Loop's "
-        "limit surface{}",
-        describe(best->scheme, best->steps, best->limit), best->apart.worst / size, worst_from_surface / size,
-        best->scheme == Scheme::kLoop     ? "; what is missing is the last step, the limit mask"
-        : best->scheme == Scheme::kWarren ? "; Warren's is another surface"
-        : best->scheme == Scheme::kCatmullClark
-            ? "; this is not Loop subdivision at all: more steps bring it no nearer"
-            : "; nothing was subdivided"));
-    return told;
-  }
+  if (best != guesses.end() && best->apart.rms < sampled.rms / 10)
+    return {fmt::format(
+        "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off Loop's limit "
+        "surface{}",
+        describe(best->scheme, best->steps, best->limit), best->apart.worst / size, sampled.worst / size,
+        remark(best->scheme))};
+  std::vector<std::string> told;
   const auto& t = e.tessellation;
   if (2 * t.quads > t.polygons)
     told.push_back(
         fmt::format("{} of {} faces are quads, which Loop's rule does not make: another scheme, such as "
                     "Catmull and Clark's",
                     t.quads, t.polygons));
-  if (loop_worst > 0 && worst_from_surface > 3 * loop_worst)
-    told.push_back(
-        fmt::format("not Loop subdivision of this control mesh: the control mesh refined {} times by Loop's "
-                    "rule, not even moved to the "
-                    "limit, is within {:.2g} diagonals of the surface, these vertices are off by up to "
-                    "{:.2g}. If a scale, an offset or "
-                    "a rotation is in between, --fit takes it out",
-                    loop_steps, loop_worst / size, worst_from_surface / size));
+  if (loop.worst > 0 && sampled.worst > 3 * loop.worst)
+    told.push_back(fmt::format(
+        "not Loop subdivision of this control mesh: the control mesh refined {} times by Loop's rule, not "
+        "even moved to the limit, is within {:.2g} diagonals of the surface, these vertices are off by up to "
+        "{:.2g}. If a scale, an offset or a rotation is in between, --fit takes it out",
+        loop.steps, loop.worst / size, sampled.worst / size));
   return told;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a tessellation is, if it is not one of Loop's limit surface.
+// Recognises a tessellation that is not one of Loop's limit surface.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace limitcheck::verify {
 
-/// Sentences with figures, none if nothing is recognised. Compares a sample of the points with what other
-/// schemes, and Loop's without its last step to the limit, make of the same control mesh, at every number of
-/// steps with about as many vertices; and the distance with that of Loop's refined control points.
+/// Returns sentences with figures, none if nothing is recognised. Compares a sample of the points with what
+/// other schemes, and Loop's without its last step to the limit, make of the same control mesh, at every
+/// number of steps with about as many vertices; and the distance with that of Loop's refined control points.
 std::vector<std::string> diagnose(const FileEvidence& evidence);
 
 }  // namespace limitcheck::verify

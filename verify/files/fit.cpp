@@ -160,7 +160,7 @@ Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, F
     }
   }
 
-  // Each round is kept if it is better; the normals' steps are, near the end, by far.
+  // Each round is kept if it is better; near the end the steps along the normals are better by far.
   least = feet(surface, some, best, foot);
   for (int round = 0; round < 40; ++round) {
     Similarity next = normal_step(some, foot, best, kind, to.middle, to.size);

@@ -34,12 +34,10 @@ struct Similarity {
 
 /// The map that brings the points nearest to the surface in the sense of least squares.
 ///   start    the bounding boxes of points and surface, in each of the 24 orientations along the axes (y up,
-///            z up ...; one for kScale);
-///            the best of them by closest points
-///   rounds   closest points, then Umeyama's similarity between pairs;
-///            at the end Gauss and Newton's steps on the distances along the normals, which converge
-///            quadratically
-///   at most 4096 of the points, evenly chosen, are used. `points`: finite, three or more.
+///            z up ...; one for kScale); the best of them by closest points
+///   rounds   closest points, then Umeyama's similarity between pairs; at the end Gauss and Newton's steps on
+///            the distances along the normals, which converge quadratically
+///   points   three or more, finite; at most 4096 of them, evenly chosen, are used
 Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, Fit kind);
 
 /// "scale 2.5, turned by 90 degrees about (1, 0, 0), offset (1, 2, 3)"

@@ -45,14 +45,14 @@ std::string_view json_of(std::string_view content, bool binary) {
   return content.substr(20, length);
 }
 
-// What is required to see the model as it is meant, and changes nothing of its shape.
+// Extensions that a viewer needs but that do not change the shape.
 bool is_about_looks(const std::string& extension) {
   static constexpr std::array kLooks{"KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_"};
   return std::any_of(kLooks.begin(), kLooks.end(),
                      [&](const char* begin) { return extension.starts_with(begin); });
 }
 
-// Opens nothing: a pipe would be waited for.
+// Does not open the file, because opening a pipe would block.
 bool is_beside(const std::string& file, void*) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored);
@@ -127,7 +127,7 @@ class Reader {
   const T& element(const std::vector<T>& list, int index, const char* what) const {
     if (index < 0 || static_cast<std::size_t>(index) >= list.size())
       refuse("FILE_SYNTAX", fmt::format("it names {} {}, which is not there", what, index));
-    return list[static_cast<std::size_t>(index)];
+    return list[index];
   }
 
   Matrix local(const tinygltf::Node& node, int index) const {
@@ -174,9 +174,9 @@ class Reader {
     const tinygltf::Node& node = element(model_.nodes, index, "node");
     if (depth > kDeepest)
       refuse("FILE_UNSUPPORTED", fmt::format("more than {} nodes above each other", kDeepest));
-    if (visited_[static_cast<std::size_t>(index)])
+    if (visited_[index])
       refuse("FILE_SYNTAX", fmt::format("node {} occurs twice: the nodes of a scene must be trees", index));
-    visited_[static_cast<std::size_t>(index)] = true;
+    visited_[index] = true;
     const Matrix m = above * local(node, index);
     if (node.mesh >= 0) add(element(model_.meshes, node.mesh, "mesh"), m, index);
     for (const int child : node.children) visit(child, m, depth + 1);

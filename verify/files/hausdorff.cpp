@@ -95,8 +95,7 @@ class Measurer {
         }
         tick_();
         const Piece piece = lattice.piece(k);
-        const double most = refine(piece, near(piece, over_[static_cast<std::size_t>(piece.face)]), forwards,
-                                   tightness, bracket, 0);
+        const double most = refine(piece, near(piece, over_[piece.face]), forwards, tightness, bracket, 0);
         bracket.at_most = std::max(bracket.at_most, most);
       }
       if (forwards)
@@ -344,8 +343,7 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
   const double most = std::max(h.from_triangles.at_most, h.from_surface.at_most) / size;
   r.message = fmt::format(
       "Hausdorff distance between {:.3e} and {:.3e} diagonals (triangles to surface {:.3e} to {:.3e}, "
-      "surface to "
-      "triangles {:.3e} to {:.3e})",
+      "surface to triangles {:.3e} to {:.3e})",
       *r.worst, most, h.from_triangles.at_least / size, h.from_triangles.at_most / size,
       h.from_surface.at_least / size, h.from_surface.at_most / size);
   if (bound < 0) r.message += "; the bound is that of one triangle per control face";

@@ -41,7 +41,7 @@ enum Column { kVertex, kFace, kL1, kL2, kI, kJ, kDenominator };
 std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
                                             std::int64_t vertices, std::int64_t faces) {
   std::vector<ProvenanceRow> rows;
-  std::vector<bool> named(static_cast<std::size_t>(vertices), false);
+  std::vector<bool> named(vertices, false);
   std::array<int, 7> place{};
   place.fill(-1);
   std::size_t width = 0;

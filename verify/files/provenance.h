@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the vertices of a tessellation claim to lie: a table that goes with it.
+// A table of where the vertices of a tessellation file are meant to lie.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A finished tessellation as some program wrote it: read leniently, since what is wrong with it is to be
-// told.
+// A finished tessellation as some program wrote it: it is read leniently, because the audit is to report what
+// is wrong with it.
 #pragma once
 
 #include <array>

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "data/error.h"
 #include "verify/audit/waivers.h"
 
 using namespace limitcheck::verify;
@@ -24,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const auto waivers = parse_waivers(std::string(reinterpret_cast<const char*>(data), size));
     apply_waivers(report, waivers, {{report.subjects[1], "3.5"}}, "2026-11-21");
-  } catch (const std::invalid_argument&) {
+  } catch (const data::ArgumentError&) {
   }
   return 0;
 }

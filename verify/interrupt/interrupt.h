@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ending early on request, with what has been done so far.
+// Ending early on a signal, with the results so far.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ int interrupted() noexcept;
 /// "SIGINT", "SIGTERM", "SIGHUP".
 std::string signal_name(int signal);
 
-/// Thrown where long work cannot end in another way. Not a std::exception: whoever turns those into a fault
-/// of the subject must not take this for one.
+/// Thrown where long work cannot end in another way. It is not a std::exception, because code that turns
+/// those into faults of the subject must not catch it.
 struct Interrupted {};
 
 inline void end_if_interrupted() {

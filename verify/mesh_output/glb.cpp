@@ -86,8 +86,8 @@ void write_glb(const std::filesystem::path& file, const fast::IndexedMesh<float>
       low = {std::min(low.x, v.position.x), std::min(low.y, v.position.y), std::min(low.z, v.position.z)};
       high = {std::max(high.x, v.position.x), std::max(high.y, v.position.y), std::max(high.z, v.position.z)};
     }
-    model.accessors[static_cast<std::size_t>(positions)].minValues = {low.x, low.y, low.z};
-    model.accessors[static_cast<std::size_t>(positions)].maxValues = {high.x, high.y, high.z};
+    model.accessors[positions].minValues = {low.x, low.y, low.z};
+    model.accessors[positions].maxValues = {high.x, high.y, high.z};
 
     tinygltf::Mesh glmesh;
     std::size_t offset = 0;

@@ -37,7 +37,7 @@ Colouring colour_by_depth(const fast::IndexedMesh<float>& mesh, std::span<const 
   }
   colouring.of_triangle.reserve(mesh.triangles.size());
   for (const std::int32_t face : mesh.triangle_face) {
-    colouring.of_triangle.push_back(static_cast<std::uint8_t>(depth[static_cast<std::size_t>(face)]));
+    colouring.of_triangle.push_back(static_cast<std::uint8_t>(depth[face]));
   }
   return colouring;
 }

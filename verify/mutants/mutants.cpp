@@ -143,7 +143,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
     if (on_step) on_step(fmt::format("{} on {}", subject, label(m)), done, total);
   };
 
-  // Right subjects: the plan as it is.
+  // Correct subjects are audited in all cases of the plan.
   Auditor auditor(0, kThreads, {}, Level::kStandard);
   for (const AuditMesh& m : plan)
     for (const AuditSubject& s : correct) {
@@ -156,7 +156,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
               fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
     }
 
-  // Mutants: cheap cases first, each until its own check has found it.
+  // Mutants are audited in the cheap cases first, each until its own check has found it.
   std::stable_sort(plan.begin(), plan.end(),
                    [](const AuditMesh& a, const AuditMesh& b) { return cost(a) < cost(b); });
   for (AuditMesh& m : plan) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who checks the checks: faulty tessellators behind the door, each meant for one check, and the table of what
-// found them.
+// Mutation tests of the checks: faulty tessellators behind the plug-in interface, each meant for one check,
+// and the table of the checks that found them.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct Mutant {
   std::string claim;             // of the paper, where the mutant is the paper taken literally; else empty
 };
 
-/// All of them: faults planted in what a right subject delivers, and a right subject with one rule changed.
+/// Faults planted in what a correct subject delivers, and a correct subject with one rule changed.
 const std::vector<Mutant>& mutants();
 
 struct Kill {
@@ -29,7 +29,7 @@ struct Kill {
 
 struct KillTable {
   std::vector<Kill> kills;
-  std::vector<std::string> idle;  // rows of the audit that are the right ones for no mutant they kill
+  std::vector<std::string> idle;            // rows of the audit that kill no mutant that is meant for them
   std::vector<std::string> red_on_correct;  // "subject / mesh / row": findings on subjects that are right
   bool held() const;
 };

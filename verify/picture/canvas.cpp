@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "data/error.h"
+
 namespace limitcheck::verify {
 
 namespace {
@@ -18,8 +20,8 @@ Point3 unit(const Point3& v) {
 }
 
 /// Twice the area of the triangle o, a, b; positive if it is clockwise on a screen whose y points downwards.
-template <class Corner>
-std::int64_t area(const Corner& o, const Corner& a, const Corner& b) {
+template <class ScreenVertex>
+std::int64_t area(const ScreenVertex& o, const ScreenVertex& a, const ScreenVertex& b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
@@ -36,23 +38,23 @@ Canvas::Canvas(const fast::Camera& camera) : camera_(camera), focal_(camera.foca
   inverse_.assign(pixels, 0);
 }
 
-Canvas::Corner Canvas::project(const fast::SurfaceVertex<float>& vertex) const {
+Canvas::ScreenVertex Canvas::project(const fast::SurfaceVertex<float>& vertex) const {
   const auto& p = vertex.position;
   const Point3 from_eye = Point3{p.x, p.y, p.z} - camera_.eye;
   const double distance = -dot(from_eye, back_);
   if (!(distance >= camera_.near))
-    throw std::invalid_argument("picture: a vertex is not before the near plane");
+    throw data::ArgumentError("picture: a vertex is not before the near plane");
   const double x = camera_.width / 2. + focal_ * dot(from_eye, right_) / distance;
   const double y = camera_.height / 2. - focal_ * dot(from_eye, up_) / distance;
   constexpr double kFarthest = 1 << 17;  // pixels: differences fit in 31 bits, products of two of them in 62
   if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest))
-    throw std::invalid_argument("picture: a vertex is too far to the side of the view");
+    throw data::ArgumentError("picture: a vertex is too far to the side of the view");
   const auto& n = vertex.normal;
   return {std::llround(x * kUnit), std::llround(y * kUnit), 1 / distance,
           (1 / distance) * Point3{n.x, n.y, n.z}};
 }
 
-void Canvas::fill(const std::array<Corner, 3>& corner) {
+void Canvas::fill(const std::array<ScreenVertex, 3>& corner) {
   // Counter-clockwise from outside is, with y downwards, a negative area.
   const std::int64_t whole = -area(corner[0], corner[1], corner[2]);
   if (whole <= 0) return;
@@ -66,11 +68,11 @@ void Canvas::fill(const std::array<Corner, 3>& corner) {
                      y_to = std::min<std::int64_t>(camera_.height, after(bottom));
   for (std::int64_t y = y_from; y < y_to; ++y) {
     for (std::int64_t x = x_from; x < x_to; ++x) {
-      const Corner middle{x * kUnit + kUnit / 2, y * kUnit + kUnit / 2, 0, {}};
+      const ScreenVertex middle{x * kUnit + kUnit / 2, y * kUnit + kUnit / 2, 0, {}};
       std::array<double, 3> weight{};
       bool inside = true;
       for (std::size_t k = 0; k < 3 && inside; ++k) {
-        const Corner &a = corner[(k + 1) % 3], &b = corner[(k + 2) % 3];
+        const ScreenVertex &a = corner[(k + 1) % 3], &b = corner[(k + 2) % 3];
         const std::int64_t side = -area(a, b, middle);
         // Of a middle on an edge: it belongs to the triangle to the right of it or below it.
         const bool owned = b.y > a.y || (b.y == a.y && b.x < a.x);
@@ -102,8 +104,7 @@ void Canvas::draw(const fast::Draw& draw, std::span<const fast::SurfaceVertex<fl
   for (const auto& vertex : vertices) corners_.push_back(project(vertex));
   for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
     const auto v = draw.triangle(t);
-    fill({corners_[static_cast<std::size_t>(v[0])], corners_[static_cast<std::size_t>(v[1])],
-          corners_[static_cast<std::size_t>(v[2])]});
+    fill({corners_[v[0]], corners_[v[1]], corners_[v[2]]});
   }
 }
 

@@ -18,12 +18,10 @@ namespace limitcheck::verify {
 /// between the corners. Triangles seen from behind are left out, as graphics libraries do with closed
 /// surfaces.
 ///   corners    rounded to 1/4096 pixel; a pixel whose middle lies on an edge that two triangles share
-///   belongs
-///              to one of them (top-left rule), so that a mesh without cracks leaves no pixel out
+///              belongs to one of them (top-left rule), so that a mesh without cracks leaves no pixel out
 ///   order      of two surfaces at equal distance the one drawn first is seen
-///   throws     std::invalid_argument: a camera that makes no view; a vertex that is not before its near
-///   plane
-///              or so far to the side that its rounded coordinates leave 32 bits
+///   throws     data::ArgumentError: a camera that makes no view; a vertex that is not before its near
+///              plane, or so far to the side that its rounded coordinates leave 32 bits
 class Canvas : public fast::DrawSink<float> {
  public:
   explicit Canvas(const fast::Camera& camera);
@@ -38,20 +36,20 @@ class Canvas : public fast::DrawSink<float> {
  private:
   /// A vertex on the screen: x to the right and y downwards in 1/4096 pixel; 1 / distance along the view;
   /// normal times that.
-  struct Corner {
+  struct ScreenVertex {
     std::int64_t x = 0, y = 0;
     double inverse = 0;
     fast::Point3 normal;
   };
-  Corner project(const fast::SurfaceVertex<float>& vertex) const;
-  void fill(const std::array<Corner, 3>& corners);
+  ScreenVertex project(const fast::SurfaceVertex<float>& vertex) const;
+  void fill(const std::array<ScreenVertex, 3>& corners);
 
   fast::Camera camera_;
   fast::Point3 right_, up_, back_, light_;
   double focal_;
   Picture picture_;
-  std::vector<double> inverse_;  // of the distance of what each pixel shows; 0: nothing
-  std::vector<Corner> corners_;  // of the draw in work
+  std::vector<double> inverse_;        // of the distance of what each pixel shows; 0: nothing
+  std::vector<ScreenVertex> corners_;  // of the draw in work
 };
 
 }  // namespace limitcheck::verify

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "data/error.h"
 #include "verify/picture/canvas.h"
 
 namespace limitcheck::verify {
@@ -100,11 +101,11 @@ TEST(Canvas, ShadesWithTheInterpolatedNormalInPerspective) {
 
 TEST(Canvas, RefusesWhatItCannotShow) {
   Canvas canvas(small_camera());
-  EXPECT_THROW(canvas.triangle(at(2, 2), at(2, 10), {{0, 0, 2}, {0, 0, 1}}), std::invalid_argument);
-  EXPECT_THROW(canvas.triangle(at(2, 2), at(2, 10), {{1e6f, 0, 0}, {0, 0, 1}}), std::invalid_argument);
+  EXPECT_THROW(canvas.triangle(at(2, 2), at(2, 10), {{0, 0, 2}, {0, 0, 1}}), data::ArgumentError);
+  EXPECT_THROW(canvas.triangle(at(2, 2), at(2, 10), {{1e6f, 0, 0}, {0, 0, 1}}), data::ArgumentError);
   fast::Camera nowhere = small_camera();
   nowhere.target = nowhere.eye;
-  EXPECT_THROW(Canvas{nowhere}, std::invalid_argument);
+  EXPECT_THROW(Canvas{nowhere}, data::ArgumentError);
 }
 
 }  // namespace

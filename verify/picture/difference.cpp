@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "data/error.h"
+
 namespace limitcheck::verify {
 
 namespace {
@@ -68,7 +70,7 @@ double quantile(std::vector<float>& values, double share) {
 
 void DifferenceMeter::add(const Picture& truth, const Picture& seen) {
   if (truth.width != seen.width || truth.height != seen.height)
-    throw std::invalid_argument("picture: the two to compare are not of one size");
+    throw data::ArgumentError("picture: the two to compare are not of one size");
   std::vector<bool> missing(truth.shade.size());
   for (int y = 0; y < truth.height; ++y) {
     for (int x = 0; x < truth.width; ++x) {
@@ -77,8 +79,7 @@ void DifferenceMeter::add(const Picture& truth, const Picture& seen) {
       const bool both = shows(is) && shows(looks);
       errors_.push_back(both ? std::abs(is - looks) : 255);
       if (both) continue;
-      // What is missing lies that far outside the contour that is drawn; what is too much, outside the true
-      // one.
+      // Missing pixels are that far outside the contour drawn, extra pixels outside the true contour.
       sum_.contour = std::max(sum_.contour, distance_to_surface(shows(is) ? seen : truth, x, y));
       ++(shows(is) ? sum_.missing : sum_.extra);
       if (shows(is))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much what a viewer sees of a tessellation differs from what there is to see.
+// How much the picture of a tessellation differs from the picture of the surface.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Difference {
 /// Over any number of pairs of pictures.
 class DifferenceMeter {
  public:
-  /// Throws std::invalid_argument if the pictures are not of one size.
+  /// Throws data::ArgumentError if the pictures are not of one size.
   void add(const Picture& truth, const Picture& seen);
   Difference result() const;
 

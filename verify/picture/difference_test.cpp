@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "data/error.h"
 #include "verify/picture/difference.h"
 
 namespace limitcheck::verify {
@@ -14,7 +15,7 @@ constexpr int kWidth = 20, kHeight = 10;
 Picture rectangle(int x0, int y0, int x1, int y1, float shade = 100) {
   Picture p{kWidth, kHeight, std::vector<float>(kWidth * kHeight, Picture::kNothing)};
   for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) p.shade[static_cast<std::size_t>(y * kWidth + x)] = shade;
+    for (int x = x0; x < x1; ++x) p.shade[y * kWidth + x] = shade;
   return p;
 }
 
@@ -36,8 +37,8 @@ TEST(Difference, AHoleIsMissingAndCountsAsAFullError) {
   const Picture truth = rectangle(2, 2, 12, 8);
   Picture seen = truth;
   for (const int x : {5, 6, 7})
-    for (const int y : {4, 5}) seen.shade[static_cast<std::size_t>(y * kWidth + x)] = Picture::kNothing;
-  seen.shade[static_cast<std::size_t>(2 * kWidth + 11)] = Picture::kNothing;  // and a pixel apart from it
+    for (const int y : {4, 5}) seen.shade[y * kWidth + x] = Picture::kNothing;
+  seen.shade[2 * kWidth + 11] = Picture::kNothing;  // and a pixel apart from it
   const Difference d = difference(truth, seen);
   EXPECT_EQ(d.missing, 7);
   EXPECT_EQ(d.extra, 0);
@@ -84,7 +85,7 @@ TEST(Difference, WantsPicturesOfOneSize) {
   Picture other = rectangle(2, 2, 12, 8);
   other.width = kHeight, other.height = kWidth;
   DifferenceMeter meter;
-  EXPECT_THROW(meter.add(rectangle(2, 2, 12, 8), other), std::invalid_argument);
+  EXPECT_THROW(meter.add(rectangle(2, 2, 12, 8), other), data::ArgumentError);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What sections 6 and 7 say of strategies, measured by what a viewer sees.          [mueller2000, 6, 7; C31,
-// C74, C76, C79]
+// What sections 6 and 7 say of strategies, measured on pictures.
+// [mueller2000, 6, 7; C31, C74, C76, C79]
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct Seen {
 class Judge {
  public:
   /// truth_depth: the uniform depth, 0 .. 10, whose pictures count as the surface. Each level quarters its
-  /// own error. Throws std::invalid_argument as the engine does for the mesh.
+  /// own error. Throws data::ArgumentError as the engine does for the mesh.
   Judge(data::ControlMesh mesh, int truth_depth);
 
   Seen see(const fast::DepthOptions& strategy, const fast::CrackOptions& cracks = {}) const;

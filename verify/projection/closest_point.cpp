@@ -39,7 +39,7 @@ bool may_be_nearer(const SurfaceLattice& lattice, const reference::StamEvaluator
 }  // namespace
 
 ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces)
-    : domain_(mesh.triangles),
+    : domain_(mesh),
       lattice_(mesh, SurfaceLattice::depth_for(mesh.triangles.size(), pieces)),
       surface_(std::make_unique<const reference::StamEvaluator<double>>(mesh)),
       tree_(boxes(lattice_)),
@@ -53,8 +53,8 @@ Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
   const auto s = surface_->evaluate(where.face, l1, l2, reference::Order::kFirst);
   Foot foot;
   foot.at = where;
-  foot.position = {s.position.x, s.position.y, s.position.z};
-  foot.normal = {s.normal.x, s.normal.y, s.normal.z};
+  foot.position = vector_of(s.position);
+  foot.normal = vector_of(s.normal);
   foot.has_normal = s.normal_kind == reference::NormalKind::kRegular;
   foot.distance = norm(p - foot.position);
   return foot;

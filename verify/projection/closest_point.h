@@ -27,19 +27,18 @@ struct Foot {
 /// The limit surface of a control mesh with a search structure. Any number of threads may ask at once.
 class ClosestPoint {
  public:
-  /// `pieces`: the search structure has about so many flat triangles (and at least 16 per face).
+  /// `mesh` is valid and outlives this. `pieces`: the search structure has about so many flat triangles (and
+  /// at least 16 for each face).
   explicit ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces = std::size_t{1} << 18);
   ~ClosestPoint();
 
   /// The closest point of the surface to p, which must be finite.
-  ///   method   all pieces whose proved bound lets them hold a nearer point, by rising distance;
-  ///            from each, Newton's iteration on the exact evaluator over the whole domain (across face
-  ///            borders, along boundaries), line searches making it descend, and a pattern search where it
-  ///            cannot
-  ///   error    foot and distance as the evaluator's, that is about 2e-16 of the mesh,
-  ///            for points nearer than the smallest radius of curvature;
-  ///            see the test for measurements.
-  ///            Where several points are nearest, one
+  ///   method   all pieces whose proved bound lets them hold a nearer point, by rising distance; from each,
+  ///            Newton's iteration on the exact evaluator over the whole domain (across face borders, along
+  ///            boundaries) with line searches, and a pattern search where that does not descend
+  ///   error    foot and distance as the evaluator's, that is about 2e-16 of the mesh, for points nearer than
+  ///            the smallest radius of curvature; the test has measurements
+  /// Where several points are nearest, it is one of them.
   Foot closest(const Vector& p) const;
 
   /// The surface at a point of the domain: `distance` and the rest as if p projected there.

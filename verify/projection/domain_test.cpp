@@ -8,7 +8,7 @@ namespace limitcheck::verify {
 namespace {
 
 // Two triangles (0 1 2), (1 3 2): the edge 1-2 inside, the rest boundary.
-const std::vector<std::array<std::int32_t, 3>> kTwo{{0, 1, 2}, {1, 3, 2}};
+const data::ControlMesh kTwo{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
 
 TEST(Domain, KnowsTheFaceAcrossAnEdgeAndTheBoundary) {
   const Domain d(kTwo);
@@ -19,8 +19,8 @@ TEST(Domain, KnowsTheFaceAcrossAnEdgeAndTheBoundary) {
   EXPECT_EQ(d.faces_at(3).size(), 1U);
 }
 
-// In the plane with 0 = (0, 0), 1 = (1, 0), 2 = (0, 1), 3
-// = (1, 1): (x, y) = l1 (1, 0) + l2 (0, 1) + l3 (1, 1).
+// In the plane with 0 = (0, 0), 1 = (1, 0), 2 = (0, 1), 3 = (1, 1): (x, y) = l1 (1, 0) + l2 (0, 1) + l3 (1,
+// 1).
 TEST(Domain, AStraightWalkIsStraightInTheUnfoldedPlane) {
   const Domain d(kTwo);
   const FacePoint end = d.walk({0, {.5, .25, .25}}, {-.7, .5, .2});  // to (.75, .45)

@@ -7,10 +7,6 @@
 namespace limitcheck::verify {
 namespace {
 
-Vector vector(const reference::Vec3<double>& v) {
-  return {v.x, v.y, v.z};
-}
-
 class Descent {
  public:
   Descent(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
@@ -36,12 +32,12 @@ class Descent {
     return surface_.evaluate(at.face, l1, l2, order);
   }
   double distance_at(const FacePoint& at) const {
-    return norm(vector(point(at, reference::Order::kPosition).position) - p_);
+    return norm(vector_of(point(at, reference::Order::kPosition).position) - p_);
   }
   void evaluate(const FacePoint& at) {
     at_ = at;
     s_ = point(at, reference::Order::kSecond);
-    position_ = vector(s_.position);
+    position_ = vector_of(s_.position);
     distance_ = norm(position_ - p_);
   }
 
@@ -64,15 +60,15 @@ class Descent {
   // boundary where it would leave the surface.
   bool step(Step& out) const {
     if (s_.at_corner) return false;
-    const Vector r = position_ - p_, d1 = vector(s_.d1), d2 = vector(s_.d2);
+    const Vector r = position_ - p_, d1 = vector_of(s_.d1), d2 = vector_of(s_.d2);
     const double g1 = dot(r, d1), g2 = dot(r, d2);
     const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);
     if (!(a + c > 0)) return false;
     double ha = a, hb = b, hc = c;
     if (s_.second_exist) {
-      ha += dot(r, vector(s_.d11));
-      hb += dot(r, vector(s_.d12));
-      hc += dot(r, vector(s_.d22));
+      ha += dot(r, vector_of(s_.d11));
+      hb += dot(r, vector_of(s_.d12));
+      hc += dot(r, vector_of(s_.d22));
     }
     const auto solve = [&](double A, double B, double C) -> std::array<double, 3> {
       const double det = A * C - B * B;
@@ -120,7 +116,8 @@ class Descent {
         if (halving == 40) return way.length <= 1e-14 * scale_;
         next = domain_.walk(at_, {t * way.l[0], t * way.l[1], t * way.l[2]});
         there = distance_at(next);
-        // Near the minimum the distance itself no longer tells: as good as equal will do for a whole step.
+        // Near the minimum the distance cannot decide any more: a whole step is taken if the distances are
+        // nearly equal.
         if (there * there <= distance_ * distance_ + 2e-4 * t * std::min(way.slope, 0.0)) break;
         if (t == 1 && there <= distance_ * (1 + 4e-16) + tiny && way.length < 1e-7 * scale_) break;
       }

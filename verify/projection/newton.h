@@ -16,7 +16,7 @@ struct Minimum {
 };
 
 /// Descends from `start` to a local minimum of |s - p|.
-/// `scale`: the size of the mesh, for what counts as rounding.
+/// `scale`: the size of the mesh, which says what counts as rounding.
 Minimum descend(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
                 const FacePoint& start, double scale);
 

@@ -27,7 +27,7 @@ struct Ring {
   std::array<std::int32_t, 6> id;  // -1: ghost
 
   int find(std::int32_t v) const { return static_cast<int>(std::find(id.begin(), id.end(), v) - id.begin()); }
-  const Point& operator[](int k) const { return point[static_cast<std::size_t>((k + 12) % 6)]; }
+  const Point& operator[](int k) const { return point[(k + 12) % 6]; }
 };
 
 bool ring_of(const Topology& topology, std::span<const Point> positions, std::int32_t v, Ring& ring) {

@@ -34,8 +34,7 @@ SurfaceLattice::SurfaceLattice(const data::ControlMesh& mesh, int depth) : depth
   const auto refined = reference::refine<double>(mesh, depth);
   triangles_ = refined.triangles();
   const auto limits = refined.limits().positions;
-  limits_.resize(limits.size());
-  for (std::size_t v = 0; v < limits.size(); ++v) limits_[v] = {limits[v].x, limits[v].y, limits[v].z};
+  for (const auto& p : limits) limits_.push_back(vector_of(p));
 
   const auto& topology = refined.topology();
   const auto vertices = mesh.positions.size();
@@ -95,8 +94,8 @@ std::array<Piece, 4> SurfaceLattice::split(const Piece& piece,
   std::array<Vector, 3> point;
   for (int k = 0; k < 3; ++k) {
     at[k] = middle(piece.at[k], piece.at[(k + 1) % 3]);
-    const auto p = surface.evaluate(piece.face, at[k][1], at[k][2], reference::Order::kPosition).position;
-    point[k] = {p.x, p.y, p.z};
+    point[k] =
+        vector_of(surface.evaluate(piece.face, at[k][1], at[k][2], reference::Order::kPosition).position);
   }
   std::array<Piece, 4> child;
   for (int k = 0; k < 3; ++k) {

@@ -34,8 +34,7 @@ double cross_error(const PointBound& b) {
 std::vector<double> control_weights(const BoundForm& form, std::size_t n) {
   std::vector<double> weights(n);
   for (const BoundForm::Term& t : form.terms)
-    if (t.column >= 1 && static_cast<std::size_t>(t.column) <= n)
-      weights[static_cast<std::size_t>(t.column) - 1] = t.weight;
+    if (t.column >= 1 && static_cast<std::size_t>(t.column) <= n) weights[t.column - 1] = t.weight;
   return weights;
 }
 

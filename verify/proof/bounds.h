@@ -24,8 +24,8 @@ const char* name_of(BoundedKernel kernel);
 /// Half the side of the unit box: control coordinates are floats in [-1/2, 1/2].
 inline constexpr double kUnitBox = .5;
 
-/// A tangent du or dv of the kernel's own: see regular_limit
-/// and NumberStream for which multiple of a derivative.
+/// A tangent du or dv of the kernel's own: see regular_limit and NumberStream for which multiple
+/// of a derivative.
 struct TangentBound {
   double error = 0;             ///< of a coordinate
   double size = 0;              ///< the largest coordinate that a mesh in the box can give it
@@ -56,7 +56,7 @@ struct KernelBounds {
 /// Runs the shipped kernel on BoundNumber (error_bound_number.h, where the model is stated). Covered: every
 /// operation from the control points to positions and tangents, the prepass in double and its narrowing, the
 /// rounding of constants, and the local origins of row streaming, whose choice counts as an operation with an
-/// error of 2^-13 that leaves again. Not covered: placing a mesh (recentring rounds every coordinate once
+/// error of 2^-13 that cancels later. Not covered: placing a mesh (recentring rounds every coordinate once
 /// more; scaling by a power of two is exact), the rule for vanishing tangents [D12], and what follows from
 /// the tangents, for which see normal_angle_bound.
 ///   reach   of the box; bounds of the sliding window are proportional to it, those of row streaming nearly
@@ -87,7 +87,8 @@ struct WorstObserved {
   /// Largest share of its own point's bound: at most 1, or the proof is wrong.
   double position_share = 0, tangent_share = 0;
   std::int64_t meshes = 0;
-  bool alike = true;  ///< a mesh with x = y = z in all points comes out so, bit for bit
+  bool alike =
+      true;  ///< a mesh with x = y = z in all control points has x = y = z in all points, bit for bit
 };
 
 /// The real float kernel against the exact limit. Positions come from the reference (Stam's evaluator in

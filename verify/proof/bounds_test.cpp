@@ -100,8 +100,8 @@ TEST(Proof_Bounds, OfTheWindowAreProportionalToTheBoxDownToUnderflow) {
   EXPECT_LE(search_worst(n, tiny, 200, 3, 0x1p-130).position_share, 1);
 }
 
-// A mesh of another size is scaled by a power of two before
-// row streaming; local origins lie on a grid of 2^-12.
+// A mesh of another size is scaled by a power of two before row streaming; local origins lie on a
+// grid of 2^-12.
 TEST(Proof_Bounds, OfRowStreamingAreNearlyProportionalToTheBox) {
   const Neighbourhood n = *interior_pair({5, 7, 9, 12});
   for (const int depth : {3, 4}) {

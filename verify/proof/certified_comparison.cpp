@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
@@ -41,7 +42,7 @@ double diagonal(const data::ControlMesh& mesh) {
     double low = mesh.positions.at(0)[c], high = low;
     for (const auto& p : mesh.positions) {
       if (static_cast<double>(static_cast<float>(p[c])) != p[c])
-        throw std::invalid_argument("certified comparison: a coordinate is not a float");
+        throw data::ArgumentError("certified comparison: a coordinate is not a float");
       low = std::min(low, p[c]), high = std::max(high, p[c]);
     }
     square += (high - low) * (high - low);
@@ -56,7 +57,7 @@ Read read(const reference::Enclosure& e) {
   double value = 0;
   const auto [end, error] = std::from_chars(e.value.data(), e.value.data() + e.value.size(), value);
   if (error != std::errc() || end != e.value.data() + e.value.size())
-    throw std::runtime_error("certified comparison: not a number: " + e.value);
+    throw std::logic_error("certified comparison: not a number: " + e.value);
   return {value, (e.radius + 0x1p-53 * std::abs(value)) * kUpward};
 }
 

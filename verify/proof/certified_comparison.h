@@ -28,7 +28,7 @@ enum class FloatKernel : std::uint8_t { kSlidingWindow, kRowStream };
 /// control points taken as the floats they are. Upper bounds: float to double is exact, a decimal is read to
 /// 2^-53 of itself, and radius and reading are added. Points whose normal is no limit of tangents count for
 /// positions alone.
-///   throws   std::invalid_argument: a coordinate that is no float
+///   throws   data::ArgumentError: a coordinate that is no float
 CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& mesh, int depth, int points,
                                   int digits = 20);
 

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "data/error.h"
 #include "data/generators/named_mesh.h"
 
 namespace limitcheck::verify {
@@ -41,7 +42,7 @@ TEST(Certified, SeesAMovedControlPoint) {
   // The kernel's own mesh is not the one asked about: one coordinate two float steps off.
   auto mesh = data::named_mesh("icosahedron");
   mesh.positions[0][0] += 1e-9;
-  EXPECT_THROW(compare_certified(FloatKernel::kRowStream, mesh, 2, 10), std::invalid_argument);
+  EXPECT_THROW(compare_certified(FloatKernel::kRowStream, mesh, 2, 10), data::ArgumentError);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers that weights are computed in, and what both the kernels and the reference ask of them. For .cpp
-// files.
+// The number types of weights, with the functions that kernels and reference need of them. For .cpp files.
 #pragma once
 
 #include "reference/number/number_exact.h"
@@ -9,7 +8,7 @@
 
 namespace limitcheck::verify {
 
-/// One more view on a number type: construction from what the rules are made of, and comparison.
+/// Constructs weights from ratios, cosines and sines, and compares them.
 template <class C>
 struct Coefficient {
   static C ratio(int p, int q) { return C(p) / C(q); }
@@ -38,7 +37,8 @@ struct Coefficient<reference::Decimal50> {
 
 namespace limitcheck::reference {
 
-/// The reference compares sizes only where it makes unit normals, which a linear map has no use for.
+/// The reference compares sizes only where it makes unit normals, and a linear map has no normals: the
+/// functions for them return anything.
 template <class C>
 struct ProofNumberTraits {
   static C cos_pi(long p, long q) { return C::cosine(p, 2 * q); }

@@ -29,10 +29,10 @@ struct Table {
 thread_local Table table;
 
 double range(std::int32_t column) {
-  return table.columns[static_cast<std::size_t>(column)].range;
+  return table.columns[column].range;
 }
 bool is_error(std::int32_t column) {
-  return table.columns[static_cast<std::size_t>(column)].error;
+  return table.columns[column].error;
 }
 std::int32_t add_column(double size, bool error) {
   table.columns.push_back({size, error});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One wrong operation in the run of a kernel: the proof has to notice.
+// Plants one wrong operation in the run of a kernel, which the proof must find.
 #pragma once
 
 #include <cstdint>

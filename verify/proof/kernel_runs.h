@@ -73,7 +73,7 @@ class WindowRuns {
     std::vector<Vertex> out(static_cast<std::size_t>(k) + 1);
     strip.evaluate(prepared_, h, depth, out.data());
     const fast::Half half{h / 3, h % 3, fast::Half::Display::kFan};
-    for (int t = 0; t <= k; ++t) visit(half.lattice(k, k - t, t), out[static_cast<std::size_t>(t)]);
+    for (int t = 0; t <= k; ++t) visit(half.lattice(k, k - t, t), out[t]);
   }
 
   /// The centre of a fan, the limit point at (1/3, 1/3, 1/3).

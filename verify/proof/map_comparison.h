@@ -67,7 +67,7 @@ class MapComparison {
  private:
   static Row dense(const Stencil<C>& s, std::size_t n) {
     Row row(n);
-    for (const auto& entry : s.entries()) row[static_cast<std::size_t>(entry.point)] = entry.weight;
+    for (const auto& entry : s.entries()) row[entry.point] = entry.weight;
     return row;
   }
   bool fail(const char* quantity, std::size_t point, const C& found, const C& expected) {
@@ -101,7 +101,7 @@ class MapComparison {
     if (probes_.size() != n) probes_ = probes<C>(n);
     C y(0), z(0);
     for (const auto& entry : found.x.entries()) {
-      const auto& probe = probes_[static_cast<std::size_t>(entry.point)];
+      const auto& probe = probes_[entry.point];
       y += entry.weight * probe[0];
       z += entry.weight * probe[1];
     }
@@ -150,8 +150,8 @@ class MapComparison {
            check_sum("sum of a tangent's weights", second, 0);
   }
 
-  // The tangents differ: of all pairs of control points to
-  // solve with, the one that leaves the fewest others wrong.
+  // The tangents differ: of all pairs of control points to solve with, the one that leaves the
+  // fewest others wrong.
   bool blame(const Row& du, const Row& dv, const MapRow<C>& e) {
     const std::size_t n = du.size();
     fail("tangents", 0, du[0], e.d1[0]);

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: MIT
 // The shipped kernels are the reference's linear maps: samples of what `limitcheck prove` proves.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "data/error.h"
 #include "verify/proof/proof_set.h"
 
 namespace limitcheck::verify {
 namespace {
 
-/// Digits of the worst weight.
+/// Digits of the worst weight. Every kernel must have a row with points.
 double expect_equal(const Neighbourhood& pair, const MapOptions& options) {
   double digits = 1e9;
-  for (const ProofRow& row : prove_map(pair, options)) {
+  const std::vector<ProofRow> rows = prove_map(pair, options);
+  EXPECT_EQ(rows.size(), 5U) << pair.name;
+  for (const ProofRow& row : rows) {
     digits = std::min(digits, row.map.digits);
     EXPECT_TRUE(row.map.equal) << row.topology << ' ' << row.kernel;
     EXPECT_GT(row.points, 0);
@@ -46,21 +50,29 @@ TEST(Proof_Map, EqualsTheRecursionAndStamToFortyFiveDigits) {
 }
 
 TEST(Proof_Map, OfSmallAndLargeValencesIsEqual) {
-  for (const auto& valences : {std::array{3, 3, 3, 3}, std::array{3, 4, 12, 4}, std::array{4, 3, 5, 3},
-                               std::array{50, 3, 6, 20}, std::array{6, 100, 4, 6}})
-    if (const auto pair = interior_pair(valences)) expect_equal(*pair, {Arithmetic::kResidues, 0, 3});
+  for (const auto& valences : {std::array{3, 3, 3, 3}, std::array{3, 4, 12, 5}, std::array{4, 3, 4, 3},
+                               std::array{50, 3, 6, 20}, std::array{6, 100, 4, 6}}) {
+    const auto pair = interior_pair(valences);
+    ASSERT_TRUE(pair) << fmt::format("no mesh has the valences {}", fmt::join(valences, " "));
+    expect_equal(*pair, {Arithmetic::kResidues, 0, 3});
+  }
 }
 
 TEST(Proof_Map, AtBoundariesIsEqual) {
   const auto pairs = boundary_pairs({6, 6, 6, 6});
   EXPECT_GT(pairs.size(), 100U);
   for (const Neighbourhood& pair : pairs) expect_equal(pair, {Arithmetic::kResidues, 0, 2});
-  for (const Neighbourhood& pair : pairs)
-    if (pair.name.find_first_of("45") == std::string::npos) expect_equal(pair, {Arithmetic::kDigits, 1, 1});
+  std::size_t to_digits = 0;
+  for (const Neighbourhood& pair : pairs) {
+    if (pair.name.find_first_of("45") != std::string::npos) continue;
+    expect_equal(pair, {Arithmetic::kDigits, 1, 1});
+    ++to_digits;
+  }
+  EXPECT_GT(to_digits, 10U);
 }
 
 TEST(Proof_Map, OfAValenceThatResiduesDoNotHaveIsRefused) {
-  EXPECT_THROW(prove_map(*interior_pair({23, 6, 6, 6}), {}), std::domain_error);
+  EXPECT_THROW(prove_map(*interior_pair({23, 6, 6, 6}), {}), data::ArgumentError);
 }
 
 TEST(Proof_Set, HoldsEveryTripleOfItsValencesOrSaysThatThereIsNone) {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <stdexcept>
 
 #include "data/cut_out.h"
+#include "data/error.h"
 #include "data/splitmix64.h"
 #include "fast/mesh/adjacency.h"
 
@@ -41,7 +41,7 @@ struct CornerStart {
 };
 std::array<CornerStart, 4> corner_starts(const Adjacency& adjacency, std::int32_t ac) {
   const std::int32_t ca = adjacency.twin(ac);
-  if (ca < 0) throw std::invalid_argument("a pair needs a second face");
+  if (ca < 0) throw data::ArgumentError("a pair needs a second face");
   return {{{Adjacency::next(ca), 2},
            {Adjacency::prev(ca), 1},
            {Adjacency::next(ac), 2},
@@ -66,7 +66,7 @@ bool close_corners(const std::array<int, 4>& valence, const std::array<int, 4>& 
     });
   };
   for (const int v : order) {
-    int missing = valence[static_cast<std::size_t>(v)];
+    int missing = valence[v];
     for (const auto& face : faces) missing -= std::ranges::find(face, v) != face.end() ? 1 : 0;
     const auto at = std::ranges::find(loop, v);
     if (at == loop.end()) {  // closed along with another
@@ -106,7 +106,7 @@ std::vector<std::size_t> surrounding(const data::ControlMesh& mesh) {
     // Clockwise around the corner, from the pair's first face there on.
     std::int32_t h = corner.half_edge;
     for (h = adjacency.twin(h); h >= 0; h = adjacency.twin(Adjacency::next(h))) {
-      const auto face = static_cast<std::size_t>(Adjacency::face(h));
+      const std::size_t face = Adjacency::face(h);
       if (face < 2) break;
       if (std::ranges::find(ring, face) == ring.end()) ring.push_back(face);
     }
@@ -141,7 +141,7 @@ Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge) {
   Faces faces{{0, 2, 3}, {0, 1, 2}};
   const std::int32_t face0 = Adjacency::face(half_edge), face1 = Adjacency::face(adjacency.twin(half_edge));
   for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
-    const auto& corners = mesh.triangles[static_cast<std::size_t>(f)];
+    const auto& corners = mesh.triangles[f];
     const bool touches = std::ranges::any_of(corners, [&](std::int32_t v) {
       const auto known = number.find(v);
       return known != number.end() && known->second < kCorners;
@@ -198,7 +198,7 @@ std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence) {
   for (unsigned chosen = 1; chosen < 16; ++chosen) {
     std::set<std::size_t> removed;
     for (unsigned k = 0; k < 4; ++k)
-      if ((chosen >> k & 1U) != 0) removed.insert(static_cast<std::size_t>(adjacency.twin(sides[k]) / 3));
+      if ((chosen >> k & 1U) != 0) removed.insert(adjacency.twin(sides[k]) / 3);
     without(removed);
   }
   without({ring.begin(), ring.end()});

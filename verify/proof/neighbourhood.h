@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a proof ranges over: the situations that a pair of faces, or a face without neighbours, can be in.
+// The topologies that proofs cover: a pair of faces, or a face without neighbours, with the faces around it.
 #pragma once
 
 #include <array>
@@ -14,9 +14,10 @@ namespace limitcheck::verify {
 
 /// A pair of faces with every face that touches it: all that its limit points depend on.
 ///
-///        D ---- C        Vertices 0 1 2 3 are A B C D, the others lie around them. Face 0 is (A, C, D), face
-///        |    / |        1 is (A, B, C); half-edge 0 runs from A to C. A pair A B C D and the pair C D A B
-///        are |  /   |        the same two faces, but not the same run of a kernel. A ---- B
+///        D ---- C        Vertices 0 1 2 3 are A B C D; the others lie around them.
+///        |    / |        Face 0 is (A, C, D), face 1 is (A, B, C); half-edge 0 runs from A to C.
+///        |  /   |        The pairs A B C D and C D A B are the same two faces, but a kernel runs
+///        A ---- B        differently on them.
 struct Neighbourhood {
   std::string name;        ///< signature()
   data::ControlMesh mesh;  ///< positions mean nothing here; they are distinct floats in [-1, 1]
@@ -29,7 +30,7 @@ struct Neighbourhood {
 std::string signature(const data::ControlMesh& mesh, std::int32_t half_edge);
 
 /// The pair of a half-edge and the faces that touch it, renumbered; vertices that only far faces hold
-/// together are split. Throws std::invalid_argument: no twin, or not a manifold mesh.
+/// together are split. Throws data::ArgumentError: no twin, or not a manifold mesh.
 Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge);
 
 /// The pair whose corners A B C D are interior vertices of these valences, each at least 3; nothing if there
@@ -41,9 +42,9 @@ std::optional<Neighbourhood> interior_pair(const std::array<int, 4>& valence);
 /// boundary vertices of every kind, the pair alone last.
 std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence);
 
-/// A face without neighbours, "alone": face 0 is all there is. A mesh has
-/// no other such face, since a vertex has its faces in one fan. A singleton
-/// of the pairing with a neighbour is a pair of which half is displayed.
+/// A face without neighbours, "alone": face 0 is all there is. A mesh has no other such face, since a vertex
+/// has its faces in one fan. A singleton of the pairing with a neighbour is a pair of which
+/// half is displayed.
 Neighbourhood face_alone();
 
 /// One pair of every signature that the mesh has, in both directions.

@@ -126,7 +126,7 @@ KernelCost count_stream(const data::ControlMesh& mesh, int depth) {
   const std::int32_t twin = adjacency.twin(0);
   const fast::Grid pair{0, twin / 3, 0, twin % 3, depth};
   const std::int64_t side = (std::int64_t{1} << depth) + 1;
-  std::vector<Number> out(static_cast<std::size_t>(6 * side * side));
+  std::vector<Number> out(6 * side * side);
   stored_numbers = 0;
   cost.operations = count([&] { stream->whole({&pair, 1}, depth, out.data()); });
   cost.stored_vectors = stored_numbers / 3;

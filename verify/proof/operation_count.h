@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a kernel costs, counted by running it: operations by kind, and vectors stored.
+// The cost of a kernel, counted by running it: operations by kind, and vectors stored.
 #pragma once
 
 #include <cstdint>
@@ -32,11 +32,12 @@ struct OperationCounts {
 /// per control vertex (the prepass) is apart.
 struct KernelCost {
   OperationCounts operations;
-  OperationCounts prepass;          ///< of all control vertices of the mesh
-  std::int64_t points = 0;          ///< distinct limit points of the pair
-  std::int64_t limits = 0;          ///< limit points evaluated
-  std::int64_t stored_vectors = 0;  ///< triples written on the way: points, copies in rings, and of row
-                                    ///< streaming the kept points and normals
+  OperationCounts prepass;  ///< of all control vertices of the mesh
+  std::int64_t points = 0;  ///< distinct limit points of the pair
+  std::int64_t limits = 0;  ///< limit points evaluated
+  /// Triples written on the way: points, copies in rings, and the points and normals that row streaming
+  /// keeps.
+  std::int64_t stored_vectors = 0;
 
   double flops_per_point() const {
     return static_cast<double>(operations.flops()) / static_cast<double>(points);

@@ -131,8 +131,8 @@ TEST(Cost_SlidingWindow, IsItsRulesTimesItsPoints) {
   }
 }
 
-// Erratum 9: level l is filled by 2^(l-1) calls, so rows
-// (10/3) 4^m + 5 2^m - 25/3 vectors; corners 4 N in time.
+// Erratum 9: level l is filled by 2^(l-1) calls, so rows (10/3) 4^m + 5 2^m - 25/3 vectors; corners 4
+// N in time.
 TEST(Cost_SlidingWindow, StoresTheVectorsOfTheCorrectedClosedForm) {
   RecordProperty("claim", "C53");
   for (int m = 0; m <= 6; ++m) {

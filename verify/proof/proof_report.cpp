@@ -135,18 +135,17 @@ std::string ProofReport::table(bool each) const {
                       held() ? "Every map is the reference's" : "Some proofs FAILED", points, seconds);
   if (held())
     text +=
-        "In x weight by weight; y and z of random numbers are what the weights of x make of them, which "
-        "would "
-        "miss a difference by a chance of 2^-60.\n";
+        "The weights of x are equal one by one. y and z, of random numbers, agree with the weights of x; a "
+        "difference would go unnoticed with a chance of 2^-60.\n";
   if (const auto left = std::ranges::count_if(rows_, [](const auto& r) { return r.empty(); }); left > 0)
-    text += fmt::format("STOPPED: {} of {} proofs were not done and nothing is said of them.\n", left,
+    text += fmt::format("STOPPED: {} of {} proofs were not done; the table says nothing of them.\n", left,
                         rows_.size());
   if (overall.bound)
     text += fmt::format(
-        "For no control mesh of these topologies in the unit box, at the depths beside its bound, is a float "
-        "x coordinate off by more than {:.2e}; worst found {:.2e}. Given the values of x, y and z come out "
-        "with "
-        "the bits of x.\n",
+        "For every control mesh of these topologies in the unit box, at the depths beside the bound, float x "
+        "coordinates are right to {:.2e}; the worst error found is {:.2e}. Where y and z have the values of "
+        "x "
+        "they get the bits of x.\n",
         overall.bound->position_bound, overall.bound->position_worst);
   for (const char* kernel : {"sliding-window", "row-stream"}) {
     const CertifiedLine* worst = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was proved about a kernel for one topology: a line of the table.
+// The result of the proofs about one kernel and one topology: a line of the table.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct BoundProof {
   /// A unit normal is right to asin(normal_bound / q) + 2^-23, q the share that |du x dv| has of its largest.
   double normal_bound = 0;
   double share = 0;   ///< largest share of its own point's bound that an error had: at most 1
-  bool alike = true;  ///< equal x, y and z come out with equal bits: the bound of x is that of y and z
+  bool alike = true;  ///< equal x, y and z give equal bits, so that the bound of x holds for y and z
 };
 
 /// Counted at the last depth, per distinct limit point of the pair (operation_count.h).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `limitcheck prove` proves: which topologies, in which arithmetic, to which depth.
+// The tasks of `limitcheck prove`: which topologies, in which arithmetic, to which depth.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ struct ProofRequest {
   ProofSize size = ProofSize::kStandard;
 };
 
-/// Bounds of the rounding errors, for each of the depths; and
-/// the control meshes tried against them, see prove_bound.
+/// Bounds of the rounding errors, for each of the depths; and the control meshes tried against
+/// them, see prove_bound.
 struct BoundOptions {
   int first_depth = 0, last_depth = 4;
   int meshes = 40;

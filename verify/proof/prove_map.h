@@ -25,7 +25,7 @@ struct MapOptions {
 
 /// Runs the kernels on stencils and compares every limit point of the depths. One row per kernel; a row that
 /// is not equal names the first weight that is wrong.
-///   throws   std::domain_error: kResidues, a valence that they do not have
+///   throws   data::ArgumentError: kResidues, a valence that they do not have
 std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options = {});
 
 }  // namespace limitcheck::verify

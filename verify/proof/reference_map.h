@@ -44,11 +44,11 @@ inline fast::LatticePoint lowest_terms(fast::LatticePoint p) {
 
 /// The vertices that a face's limit points depend on: the rings of its corners.
 inline std::vector<std::size_t> points_near(const data::ControlMesh& mesh, std::int32_t face) {
-  const auto& corners = mesh.triangles[static_cast<std::size_t>(face)];
+  const auto& corners = mesh.triangles[face];
   std::vector<bool> near(mesh.positions.size());
   for (const auto& other : mesh.triangles) {
     if (std::ranges::find_first_of(other, corners) == other.end()) continue;
-    for (const std::int32_t v : other) near[static_cast<std::size_t>(v)] = true;
+    for (const std::int32_t v : other) near[v] = true;
   }
   std::vector<std::size_t> points;
   for (std::size_t v = 0; v < near.size(); ++v)

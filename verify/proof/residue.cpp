@@ -7,9 +7,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "data/error.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -48,7 +49,7 @@ struct ResidueTables {
       }
     }
     for (int k = 1; k < kSmall; ++k) {
-      Residue& r = inverse[static_cast<std::size_t>(k)];
+      Residue& r = inverse[k];
       r.first_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[0].n);
       r.second_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[1].n);
       r.approximation_ = 1. / k;
@@ -61,7 +62,7 @@ struct ResidueTables {
   /// The root of unity e^(2 pi i p / q).
   Residue turn(std::int64_t p, std::int64_t q) const {
     if (q <= 0 || Residue::kOrder % q != 0)
-      throw std::domain_error("the proof's residues hold no root of unity of order " + std::to_string(q));
+      throw data::ArgumentError("the proof's residues hold no root of unity of order " + std::to_string(q));
     const std::int64_t e = ((p % q) + q) % q * (Residue::kOrder / q);
     Residue r;
     r.first_ = nmod_pow_ui(root[0], static_cast<std::uint64_t>(e), Residue::moduli_[0]);
@@ -102,7 +103,7 @@ Residue Residue::power_of_two(long exponent) {
 }
 
 Residue Residue::inverse() const {
-  if (first_ == 0 || second_ == 0) throw std::domain_error("division by a residue of zero");
+  if (first_ == 0 || second_ == 0) throw data::ArgumentError("division by a residue of zero");
   if (first_ < ResidueTables::kSmall && first_ == second_) return ResidueTables::get().inverse[first_];
   Residue r;
   r.first_ = n_invmod(first_, moduli_[0].n);

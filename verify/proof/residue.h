@@ -17,7 +17,7 @@ class Residue {
  public:
   Residue() = default;
   Residue(int value);  // NOLINT: integers are residues
-  /// cos, sin (2 pi p / q); throws std::domain_error unless q, for the sine 4 q, divides kOrder.
+  /// cos, sin (2 pi p / q); throws data::ArgumentError unless q, for the sine 4 q, divides kOrder.
   static Residue cosine(std::int64_t p, std::int64_t q);
   static Residue sine(std::int64_t p, std::int64_t q);
   static Residue power_of_two(long exponent);
@@ -46,7 +46,7 @@ class Residue {
     approximation_ *= b.approximation_;
     return *this;
   }
-  /// Throws std::domain_error: by zero.
+  /// Throws data::ArgumentError: by zero.
   Residue& operator/=(const Residue& b) { return *this *= b.inverse(); }
 
   friend Residue operator+(Residue a, const Residue& b) { return a += b; }

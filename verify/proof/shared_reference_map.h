@@ -65,8 +65,7 @@ class SharedReferenceMap {
     result.points = points_near(mesh_, face);
     std::vector<Ringed> rings;
     for (std::size_t k = 0; k < result.points.size(); k += 3)
-      rings.push_back(Ringed::gather(topology_, unit_vectors<C>(mesh_, result.points, k),
-                                     static_cast<std::size_t>(face)));
+      rings.push_back(Ringed::gather(topology_, unit_vectors<C>(mesh_, result.points, k), face));
     result.face = std::make_unique<SubFace>(std::move(rings));
     return result;
   }

@@ -37,13 +37,13 @@ class StreamRuns {
     const fast::Grid pair =
         alone ? fast::Grid{.face0 = 0, .depth = depth} : fast::Grid{0, twin / 3, 0, twin % 3, depth};
     const int size = 1 << depth, side = size + 1;
-    std::vector<T> first(static_cast<std::size_t>(6 * side * side)), second(first.size());
+    std::vector<T> first(6 * side * side), second(first.size());
     first_.whole({&pair, 1}, depth, first.data());
     second_.whole({&pair, 1}, depth, second.data());
     for (int row = 0; row <= size; ++row) {
       for (int column = 0; column <= (alone ? row : size); ++column) {
         const auto at = fast::row_stream::face_point(pair, size, column, row, row >= column);
-        const auto k = static_cast<std::size_t>(6 * (row * side + column));
+        const std::size_t k = 6 * (row * side + column);
         visit(fast::LatticePoint{at.face, static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j),
                                  static_cast<std::uint32_t>(size)},
               frame(&first[k], &second[k]));
@@ -55,13 +55,12 @@ class StreamRuns {
   template <class Visit>
   void edge(std::int32_t h, int depth, Visit&& visit) const {
     const int size = 1 << depth;
-    std::vector<T> first(static_cast<std::size_t>(6 * (size + 1))), second(first.size());
+    std::vector<T> first(6 * (size + 1)), second(first.size());
     first_.edges({&h, 1}, depth, first.data());
     second_.edges({&h, 1}, depth, second.data());
     const fast::Half half{h / 3, h % 3, fast::Half::Display::kFan};
     for (int t = 0; t <= size; ++t)
-      visit(half.lattice(size, size - t, t),
-            frame(&first[static_cast<std::size_t>(6 * t)], &second[static_cast<std::size_t>(6 * t)]));
+      visit(half.lattice(size, size - t, t), frame(&first[6 * t], &second[6 * t]));
   }
 
  private:

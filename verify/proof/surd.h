@@ -3,6 +3,7 @@
 // files.
 #pragma once
 
+#include "data/error.h"
 #include "reference/number/number_exact.h"
 
 namespace limitcheck::verify {
@@ -66,7 +67,7 @@ struct Surd {
     known = known && o.known;
     if (norm == 0) {
       if (!known) return *this;
-      throw std::domain_error("division by zero");
+      throw data::ArgumentError("division by zero");
     }
     return *this *= Surd(o.a / norm, -o.b / norm);
   }

@@ -55,7 +55,7 @@ class Repair {
   }
 
   void weld() {
-    // Only finite points have an order, so what no face names goes first.
+    // Only finite points have an order, so unused vertices are dropped first.
     drop_unused();
     const std::size_t merged = pmp::merge_duplicate_points_in_polygon_soup(points_, polygons_);
     note("welded", static_cast<std::int64_t>(merged), "vertex", "that lay exactly where another one does");

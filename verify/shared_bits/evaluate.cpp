@@ -14,11 +14,12 @@ namespace rs = fast::row_stream;
 namespace {
 
 struct Sink {
-  const Rewritten& mesh;
+  const Rewriting& mesh;
   SharedBits& bits;
 
-  void add(int depth, std::int32_t face, const std::array<int, 3>& at, const rs::Vertex& v) {
-    bits.add(depth, mesh.face[static_cast<std::size_t>(face)], mesh.original(face, at), v.position);
+  void add(int size, const rs::FacePoint& at, const rs::Vertex& v) {
+    const auto number = [](int k) { return static_cast<std::uint32_t>(k); };
+    bits.add(mesh.original({at.face, number(at.i), number(at.j), number(size)}), v.position);
   }
 
   // Row j of a pair: its ends and its point on the diagonal, or all of the outer rows.
@@ -27,14 +28,14 @@ struct Sink {
     const bool outer = j == 0 || j == size;
     for (int i = 0; i <= size; i = outer || i + 1 > size ? i + 1 : i < j ? j : std::max(i + 1, size)) {
       const rs::FacePoint at = rs::face_point(pair, size, i, j, j >= i);
-      if (at.face >= 0) add(depth, at.face, {size - at.i - at.j, at.i, at.j}, vertices[i]);
+      if (at.face >= 0) add(size, at, vertices[i]);
     }
   }
 };
 
 }  // namespace
 
-void add_pairs(const Rewritten& mesh, int depth, const rs::Kernel& kernel, Form form, std::uint64_t seed,
+void add_pairs(const Rewriting& mesh, int depth, const rs::Kernel& kernel, Form form, std::uint64_t seed,
                SharedBits& bits) {
   const fast::Adjacency adjacency(mesh.mesh);
   const rs::RowStream stream(mesh.mesh, adjacency, kernel);
@@ -64,16 +65,12 @@ void add_pairs(const Rewritten& mesh, int depth, const rs::Kernel& kernel, Form 
   }
 }
 
-void add_edges(const Rewritten& mesh, int depth, const rs::Kernel& kernel, std::uint64_t seed,
+void add_edges(const Rewriting& mesh, int depth, const rs::Kernel& kernel, std::uint64_t seed,
                SharedBits& bits) {
   const fast::Adjacency adjacency(mesh.mesh);
   const rs::RowStream stream(mesh.mesh, adjacency, kernel);
   data::SplitMix64 random(seed);
-  std::vector<std::int32_t> half_edges(3 * mesh.mesh.triangles.size());
-  for (std::size_t h = 0; h < half_edges.size(); ++h) half_edges[h] = static_cast<std::int32_t>(h);
-  for (std::size_t h = half_edges.size(); h > 1; --h)
-    std::swap(half_edges[h - 1], half_edges[random.next() % h]);
-
+  const auto half_edges = shuffled(3 * mesh.mesh.triangles.size(), random);
   const auto side = static_cast<std::size_t>(rs::side(depth));
   const int size = 1 << depth;
   constexpr std::size_t kTogether = 1000;
@@ -85,10 +82,8 @@ void add_edges(const Rewritten& mesh, int depth, const rs::Kernel& kernel, std::
     stream.edges(some, depth, workspace, out.data());
     for (std::size_t e = 0; e < some.size(); ++e) {
       for (int t = 0; t <= size; ++t) {
-        std::array<int, 3> at{};
-        at[static_cast<std::size_t>(some[e] % 3)] = size - t;
-        at[static_cast<std::size_t>((some[e] + 1) % 3)] = t;
-        sink.add(depth, some[e] / 3, at, out[e * side + static_cast<std::size_t>(t)]);
+        const FaceDomain::Point at = FaceDomain().on_side(some[e] % 3, t, size);
+        sink.add(size, {some[e] / 3, static_cast<int>(at.i), static_cast<int>(at.j)}, out[e * side + t]);
       }
     }
   }

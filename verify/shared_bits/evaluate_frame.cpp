@@ -10,10 +10,10 @@
 
 namespace limitcheck::verify {
 
-void add_frame(const Rewritten& mesh, std::span<const std::int32_t> depth, const std::string& options,
+void add_frame(const Rewriting& mesh, std::span<const std::int32_t> depth, const std::string& options,
                int threads, SharedBits& bits) {
   std::vector<std::int32_t> face_depth;
-  for (const std::int32_t f : mesh.face) face_depth.push_back(depth[static_cast<std::size_t>(f)]);
+  for (const std::int32_t f : mesh.face) face_depth.push_back(depth[f]);
   Session session(*lc_subject_row_stream(), mesh.mesh, options);
   const Tessellation t = session.tessellate(face_depth, threads);
   const auto positions = t.positions_f32(), normals = t.normals_f32();
@@ -23,10 +23,7 @@ void add_frame(const Rewritten& mesh, std::span<const std::int32_t> depth, const
     fast::row_stream::Vertex vertex;
     std::copy_n(positions.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, vertex.position);
     std::copy_n(normals.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, vertex.normal);
-    const auto size = static_cast<int>(at.denominator), i = static_cast<int>(at.i),
-               j = static_cast<int>(at.j);
-    bits.add(std::countr_zero(at.denominator), mesh.face[static_cast<std::size_t>(at.face)],
-             mesh.original(at.face, {size - i - j, i, j}), vertex.position);
+    bits.add(mesh.original(at), vertex.position);
   }
 }
 

@@ -87,7 +87,7 @@ TEST(SharedBitsFuzz, RandomMeshesDepthsAndPairingsGiveEqualBits) {
     for (int round = 0; round < 4; ++round) {
       const auto& kernel = kernels()[random.next() % kernels().size()];
       const int depth = static_cast<int>(random.next() % (kernel.fused ? 7 : 5));
-      const Rewritten other = rewrite(mesh, random.next());
+      const Rewriting other = rewrite(mesh, random.next());
       const Form form = random.next() % 2 == 0 ? Form::kRows : Form::kWhole;
       add_pairs(other, depth, kernel, form, random.next(), bits);
       add_edges(other, depth, kernel, random.next(), bits);
@@ -120,7 +120,7 @@ TEST(SharedBitsFuzz, EveryVectorIsFiniteAndEveryNormalHasLengthOne) {
       const auto p = t.position(v), n = t.normal(v);
       ASSERT_TRUE(std::isfinite(p[0] + p[1] + p[2])) << "seed " << seed << " vertex " << v;
       const double error = std::abs(std::hypot(n[0], n[1], n[2]) - 1);
-      const lc_provenance& at = t.provenance()[static_cast<std::size_t>(v)];
+      const lc_provenance& at = t.provenance()[v];
       ASSERT_LE(error, 1e-6) << fmt::format("seed {}, face {} at ({}, {}) / {}: normal {} {} {}", seed,
                                             at.face, at.i, at.j, at.denominator, n[0], n[1], n[2]);
       worst = std::max(worst, error);

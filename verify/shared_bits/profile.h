@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which functions of this program run while something is done: found by interrupting it, so that nothing has
-// to be believed of what a function says about itself.
+// Which functions of this program run while something is done: found by sampling, so that no function needs
+// to report itself.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ namespace {
 using fast::row_stream::kernels;
 
 // The same bits from every compiler: g++ 12 (-O3) and clang 14 (-O1) gave these. Positions, normals,
-// boundaries, all depths. Whoever changes the rules on purpose puts the new number here once both agree.
+// boundaries, all depths. After a change of the rules on purpose the new number goes here, once both agree.
 TEST(SharedBits, AreTheSameWithEveryCompiler) {
   std::uint64_t all = 0;
   std::int64_t points = 0;

@@ -20,32 +20,28 @@ SharedBits::SharedBits(const data::ControlMesh& mesh, int deepest)
     : mesh_(mesh), levels_(static_cast<std::size_t>(deepest) + 1) {}
 
 SharedBits::Level& SharedBits::level(int depth) {
-  auto& level = levels_.at(static_cast<std::size_t>(depth));
+  auto& level = levels_.at(depth);
   if (!level) {
     level = std::make_unique<Level>(mesh_, depth);
     const auto edges = static_cast<std::int64_t>(level->lattice.edges().size());
     const auto shared = static_cast<std::int64_t>(mesh_.positions.size()) + edges * (level->lattice.n() - 1);
     Bits nothing;
     nothing.fill(kNothing);
-    level->first.assign(static_cast<std::size_t>(shared), nothing);
+    level->first.assign(shared, nothing);
   }
   return *level;
 }
 
-void SharedBits::add(int depth, std::int32_t face, const std::array<int, 3>& at, const float* vertex) {
+void SharedBits::add(const lc_provenance& at, const float* vertex) {
+  const auto place = FaceDomain().side_of(point_of(at), at.denominator);
+  if (!place) return;
   // A control vertex has the same bits at every depth: all of them go into the first table.
-  const bool corner = std::max({at[0], at[1], at[2]}) == 1 << depth;
-  if (!corner && at[0] != 0 && at[1] != 0 && at[2] != 0) return;
-  Level& here = level(corner ? 0 : depth);
-  const int shift = corner ? depth : 0;
-  const lc_provenance place{face, static_cast<std::uint32_t>(at[1] >> shift),
-                            static_cast<std::uint32_t>(at[2] >> shift),
-                            static_cast<std::uint32_t>(here.lattice.n())};
-  const Lattice::Id id = here.lattice.id(place);
+  Level& here = level(place->along == 0 ? 0 : std::countr_zero(at.denominator));
+  const Lattice::Id id = here.lattice.id(at);
 
   Bits bits;
   std::memcpy(bits.data(), vertex, sizeof bits);
-  Bits& first = here.first[static_cast<std::size_t>(id)];
+  Bits& first = here.first[id];
   if (first[0] == kNothing) {
     first = bits;
     ++points_;
@@ -57,7 +53,7 @@ void SharedBits::add(int depth, std::int32_t face, const std::array<int, 3>& at,
   for (std::size_t k = 0; k < 6; ++k) different_bits_ += std::popcount(first[k] ^ bits[k]);
   if (witness_.empty()) {
     witness_ =
-        fmt::format("face {} at {}, {}, {} of {}, x y z and normal:", face, at[0], at[1], at[2], 1 << depth);
+        fmt::format("face {} at ({}, {}) / {}, x y z and normal:", at.face, at.i, at.j, at.denominator);
     for (std::size_t k = 0; k < 6; ++k)
       witness_ += fmt::format(" {}/{}", std::bit_cast<float>(first[k]), std::bit_cast<float>(bits[k]));
   }

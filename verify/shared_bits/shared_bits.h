@@ -44,9 +44,9 @@ class SharedBits {
   /// `mesh` must outlive this.
   SharedBits(const data::ControlMesh& mesh, int deepest);
 
-  /// A point on the border of a face: barycentric coordinates in units of 2^-depth, corner by corner.
-  /// Points inside a face are passed over.
-  void add(int depth, std::int32_t face, const std::array<int, 3>& at, const float* vertex);
+  /// A point on the border of a face, at depth d if its denominator is 2^d. Points inside a face are passed
+  /// over.
+  void add(const lc_provenance& at, const float* vertex);
 
   std::int64_t points() const { return points_; }                  // shared points seen
   std::int64_t compared() const { return compared_; }              // evaluations after the first of each

@@ -83,7 +83,7 @@ TEST(SharedBits, AreEqualAtTenMillionPoints) {
     const Kernel& first = *quick[turn++ % quick.size()];
     const Kernel& second = *quick[turn % quick.size()];
     add_pairs(rewrite(mesh, 0), c.depth, first, Form::kRows, turn, bits);
-    const Rewritten other = rewrite(mesh, turn);
+    const Rewriting other = rewrite(mesh, turn);
     add_pairs(other, c.depth, second, Form::kRows, turn + 100, bits);
     add_edges(other, c.depth, first, turn, bits);
     tally.add(bits, fmt::format("{} depth {}", c.mesh, c.depth));
@@ -101,7 +101,7 @@ void expect_equal_bits(const std::vector<std::pair<std::string, data::ControlMes
     for (int depth = 0; depth <= deepest; ++depth) {
       for (const Kernel& kernel : kernels()) {
         if (!kernel.fused && depth > 4 && mesh.triangles.size() > 200) continue;
-        const Rewritten other = rewrite(mesh, seed);
+        const Rewriting other = rewrite(mesh, seed);
         add_pairs(other, depth, kernel, Form::kRows, ++seed, bits);
         if (depth <= 4) add_pairs(other, depth, kernel, Form::kWhole, ++seed, bits);
         add_edges(other, depth, kernel, ++seed, bits);
@@ -132,7 +132,7 @@ TEST(SharedBits, AreEqualOnFlatMeshesInEveryPlane) {
   expect_equal_bits(meshes, 5);
 }
 
-// Frames through the door: unequal depths, culled faces, fans, stitched rings, indexed meshes, threads and
+// Frames of the subject: unequal depths, culled faces, fans, stitched rings, indexed meshes, threads and
 // targets. The points of an edge must be those that the edge has by itself at its own depth.
 TEST(SharedBits, AreEqualAcrossEdgesOfUnequalDepthsForAnyNumberOfThreads) {
   Tally tally;
@@ -157,22 +157,23 @@ TEST(SharedBits, AreEqualAcrossEdgesOfUnequalDepthsForAnyNumberOfThreads) {
   }
 }
 
-// Planted faults: the table sees one bit in any of the six
-// numbers, at any place and depth, and the sign of a zero.
+// Planted faults: the table sees one bit in any of the six numbers, at any place and depth, and the sign of a
+// zero.
 TEST(SharedBits, OneBitIsSeenWhereverItIs) {
   const auto mesh = data::named_mesh("ragged-disc");
   std::int64_t planted = 0;
   for (const std::uint32_t flip : {1u, 1u << 31}) {
     for (int number = 0; number < 6; ++number) {
-      for (const auto& at : {std::array<int, 3>{8, 0, 0}, {0, 8, 0}, {3, 5, 0}, {0, 1, 7}, {4, 0, 4}}) {
+      for (const auto& at :
+           {lc_provenance{4, 0, 0, 8}, {4, 8, 0, 8}, {4, 5, 0, 8}, {4, 1, 7, 8}, {4, 0, 4, 8}}) {
         SharedBits bits(mesh, 3);
         std::array<float, 6> vertex{};
-        bits.add(3, 4, at, vertex.data());
-        bits.add(3, 4, at, vertex.data());
+        bits.add(at, vertex.data());
+        bits.add(at, vertex.data());
         EXPECT_EQ(bits.different(), 0);
-        std::uint32_t word = std::bit_cast<std::uint32_t>(vertex[static_cast<std::size_t>(number)]) ^ flip;
-        vertex[static_cast<std::size_t>(number)] = std::bit_cast<float>(word);
-        bits.add(3, 4, at, vertex.data());
+        std::uint32_t word = std::bit_cast<std::uint32_t>(vertex[number]) ^ flip;
+        vertex[number] = std::bit_cast<float>(word);
+        bits.add(at, vertex.data());
         EXPECT_EQ(bits.different(), 1);
         EXPECT_EQ(bits.different_bits(), 1);
         EXPECT_EQ(bits.points(), 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The subject's side of the door for adapters written in C++: a class becomes an lc_subject, its exceptions
-// become statuses with messages.
+// The subject's side of the plug-in interface, for adapters written in C++: a class becomes an lc_subject,
+// its exceptions become statuses with messages.
 #pragma once
 
 #include <cmath>
@@ -32,8 +32,8 @@ inline void refuse_too_many_triangles(const lc_mesh& mesh, int depth) {
   }
 }
 
-/// Refuses a mesh that would be read beyond its arrays, or computed with what is no number. Whether it is a
-/// manifold is for the tessellator behind the door to see.
+/// Refuses a mesh that would be read beyond its arrays, or computed with coordinates that are no numbers.
+/// Whether it is a manifold the tessellator itself has to check.
 inline void refuse_unusable(const lc_mesh& mesh) {
   for (std::int64_t k = 0; k < 3 * mesh.vertex_count; ++k)
     if (!std::isfinite(mesh.positions[k])) throw SubjectError(LC_INVALID_INPUT, "a coordinate is not finite");

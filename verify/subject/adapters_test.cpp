@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "data/generators/named_mesh.h"
+#include "reference/loop/refine.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
-#include "verify/subject/test_limit.h"
 
 namespace {
 
@@ -43,18 +42,18 @@ void expect_full_lattice(const data::ControlMesh& mesh, const Tessellation& t,
   std::vector<std::set<std::array<std::int64_t, 3>>> cells(mesh.triangles.size());
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     ASSERT_TRUE(t.triangle_ok(k));
-    const auto face = t.triangle_face()[static_cast<std::size_t>(k)];
+    const auto face = t.triangle_face()[k];
     std::array<std::array<std::int64_t, 3>, 3> l{};
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto& p = t.provenance()[t.triangles()[static_cast<std::size_t>(k)][c]];
+      const auto& p = t.provenance()[t.triangles()[k][c]];
       const auto at = on_face(mesh, p, face);
       ASSERT_TRUE(at.has_value()) << "triangle " << k << " is not on face " << face;
-      EXPECT_EQ(p.denominator, std::uint32_t{1} << depth[static_cast<std::size_t>(face)]);
+      EXPECT_EQ(p.denominator, std::uint32_t{1} << depth[face]);
       l[c] = *at;
     }
     const auto turn = (l[1][1] - l[0][1]) * (l[2][2] - l[0][2]) - (l[2][1] - l[0][1]) * (l[1][2] - l[0][2]);
     EXPECT_EQ(turn, 1) << "triangle " << k;
-    cells[static_cast<std::size_t>(face)].insert(
+    cells[face].insert(
         {l[0][1] + l[1][1] + l[2][1], l[0][2] + l[1][2] + l[2][2], 0});  // its centre: no two cells share it
   }
   std::int64_t sum = 0;
@@ -131,58 +130,21 @@ TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
   }
 }
 
-// One step by hand, the rules written out: C10, C11, C12, D1. It decides that both libraries use Loop's
-// weights (with Warren's the vertex of valence 4 would move by 0.375 instead of 0.484 of the way) and the
-// B-spline boundary.
-std::map<Place, std::array<double, 3>> refined_once(const data::ControlMesh& mesh) {
-  std::map<std::pair<int, int>, std::vector<int>> opposite;
-  std::vector<std::set<int>> ring(mesh.positions.size()), rim(mesh.positions.size());
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      opposite[std::minmax(a, b)].push_back(t[(k + 2) % 3]);
-      ring[static_cast<std::size_t>(a)].insert(b);
-      ring[static_cast<std::size_t>(b)].insert(a);
-    }
-  }
-  const auto at = [&](int v) { return mesh.positions[static_cast<std::size_t>(v)]; };
-  std::map<Place, std::array<double, 3>> result;
-  for (const auto& [edge, apexes] : opposite) {
-    const auto [a, b] = edge;
-    auto& point = result[{1, a, b, 1, 2}];
-    for (std::size_t c = 0; c < 3; ++c) {
-      point[c] = apexes.size() == 2 ? (3 * (at(a)[c] + at(b)[c]) + at(apexes[0])[c] + at(apexes[1])[c]) / 8
-                                    : (at(a)[c] + at(b)[c]) / 2;
-    }
-    if (apexes.size() == 1) {
-      rim[static_cast<std::size_t>(a)].insert(b);
-      rim[static_cast<std::size_t>(b)].insert(a);
-    }
-  }
-  for (std::size_t v = 0; v < ring.size(); ++v) {
-    const auto& neighbours = rim[v].empty() ? ring[v] : rim[v];
-    const double n = static_cast<double>(neighbours.size());
-    const double a =
-        rim[v].empty() ? 0.625 - std::pow(3 + 2 * std::cos(2 * std::numbers::pi / n), 2) / 64 : 0.25;
-    auto& point = result[{0, static_cast<int>(v), 0, 0, 0}];
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0;
-      for (const int w : neighbours) sum += at(w)[c];
-      point[c] = (1 - a) * mesh.positions[v][c] + a / n * sum;
-    }
-  }
-  return result;
-}
-
+// Decides that both libraries use Loop's weights (with Warren's the vertex of valence 4 would move by
+// 0.375 instead of 0.484 of the way) and the B-spline boundary.
 TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
   double worst = 0;
   for (const char* subject : {"cgal", "openmesh"}) {
     for (const auto& [name, mesh] : shapes()) {
       Session session(*find_subject(subject), mesh);
       const Tessellation t = session.tessellate(1);
-      const auto expected = refined_once(mesh);
-      for (const auto& [place, vertices] : places(mesh, t)) {
-        const double error = distance(t.position(vertices[0]), expected.at(place));
+      const auto expected = reference::refine<double>(mesh, 1);
+      for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+        const lc_provenance& p = t.provenance()[v];
+        const auto step = 2 / p.denominator;
+        const auto& at = expected.positions()[expected.vertex(
+            static_cast<std::size_t>(p.face), static_cast<int>(p.i * step), static_cast<int>(p.j * step))];
+        const double error = distance(t.position(v), vector_of(at));
         EXPECT_LE(error, 1e-15) << subject << " on " << name;  // a dozen roundings of numbers near 1
         worst = std::max(worst, error);
       }

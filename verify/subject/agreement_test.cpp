@@ -16,7 +16,6 @@
 #include "reference/loop/stam.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
-#include "verify/subject/test_limit.h"
 
 namespace {
 
@@ -31,7 +30,7 @@ std::set<std::int64_t> boundary_vertices_of_four_faces_or_more(const data::Contr
   std::set<std::pair<int, int>> directed;
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      ++faces[static_cast<std::size_t>(t[k])];
+      ++faces[t[k]];
       directed.emplace(t[k], t[(k + 1) % 3]);
     }
   }
@@ -39,7 +38,7 @@ std::set<std::int64_t> boundary_vertices_of_four_faces_or_more(const data::Contr
   for (const auto& [a, b] : directed) {
     if (directed.contains({b, a})) continue;
     for (const int v : {a, b}) {
-      if (faces[static_cast<std::size_t>(v)] >= 4) result.insert(v);
+      if (faces[v] >= 4) result.insert(v);
     }
   }
   return result;
@@ -59,17 +58,15 @@ Worst against_stam(const char* subject, const char* options, const std::string& 
   const double unit = data::box_diagonal(mesh);
   Worst worst;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    const lc_provenance& p = t.provenance()[static_cast<std::size_t>(v)];
+    const lc_provenance& p = t.provenance()[v];
     const auto exact = stam.evaluate(p.face, double(p.i) / p.denominator, double(p.j) / p.denominator,
                                      reference::Order::kFirst);
-    worst.position =
-        std::max(worst.position,
-                 distance(t.position(v), {exact.position.x, exact.position.y, exact.position.z}) / unit);
+    worst.position = std::max(worst.position, distance(t.position(v), vector_of(exact.position)) / unit);
     const Place at = place(mesh, p);
     const bool spare =
         std::get<0>(at) == 0 && spared.contains(std::get<1>(at)) && std::string(subject) != "naive";
-    const double a = angle(t.normal(v), {exact.normal.x, exact.normal.y, exact.normal.z});
-    if (!spare) worst.normal = std::max(worst.normal, std::isnan(a) ? 180 : a);
+    const double a = angle_degrees(t.normal(v), vector_of(exact.normal));
+    if (!spare) worst.normal = std::max(worst.normal, std::isfinite(a) ? a : 180);
   }
   record("position_" + name, worst.position);
   record("normal_" + name, worst.normal);
@@ -110,25 +107,24 @@ TEST(Naive, DeliversWhatTheRecursionSays) {
   Session session(*lc_subject_naive(), data::named_mesh("bumpy:200"));
   const Tessellation t = session.tessellate(3);
   const reference::NaiveSubdivider<double> subdivider(session.mesh());
-  std::set<Point> positions, normals;
+  std::set<Vector> positions, normals;
   const auto each_corner = [&](const auto& body) {
     std::int64_t triangle = 0;
     for (std::size_t face = 0; face < subdivider.face_count(); ++face)
       subdivider.tessellate(face, 3, [&](const reference::LeafTriangle<double>& leaf) {
         for (std::size_t k = 0; k < 3; ++k) {
           const auto& [p, n] = std::tie(leaf[k].position, leaf[k].normal);
-          body(t.triangles()[static_cast<std::size_t>(triangle)][k], Point{p.x, p.y, p.z},
-               Point{n.x, n.y, n.z});
+          body(t.triangles()[triangle][k], vector_of(p), vector_of(n));
         }
         ++triangle;
       });
     EXPECT_EQ(triangle, t.triangle_count());
   };
-  each_corner([&](std::int64_t, const Point& p, const Point& n) {
+  each_corner([&](std::int64_t, const Vector& p, const Vector& n) {
     positions.insert(p);
     normals.insert(n);
   });
-  each_corner([&](std::int64_t v, const Point& p, const Point& n) {
+  each_corner([&](std::int64_t v, const Vector& p, const Vector& n) {
     EXPECT_TRUE(positions.contains(t.position(v))) << v;
     EXPECT_TRUE(normals.contains(t.normal(v))) << v;
     for (std::size_t c = 0; c < 3; ++c) {

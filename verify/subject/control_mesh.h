@@ -6,7 +6,7 @@
 
 namespace limitcheck::verify {
 
-/// The mesh that came through the door, for subjects that are ours.
+/// The mesh that the host handed over, for subjects of our own.
 inline data::ControlMesh control_mesh(const lc_mesh& mesh) {
   data::ControlMesh result;
   for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {

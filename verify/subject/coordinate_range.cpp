@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "data/error.h"
+
 namespace limitcheck::verify {
 
 std::string out_of_range(const data::ControlMesh& mesh, bool double_precision) {
@@ -22,7 +24,7 @@ std::string out_of_range(const data::ControlMesh& mesh, bool double_precision) {
 
 void require_range(const std::string& name, const data::ControlMesh& mesh, bool double_precision) {
   const std::string reason = out_of_range(mesh, double_precision);
-  if (!reason.empty()) throw std::invalid_argument(name + ": " + reason);
+  if (!reason.empty()) throw data::ArgumentError(name + ": " + reason);
 }
 
 }  // namespace limitcheck::verify

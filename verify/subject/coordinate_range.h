@@ -10,11 +10,11 @@ namespace limitcheck::verify {
 
 /// Empty if the largest coordinate is 0 or within 2^-100 and 2^100, 2^-240 and 2^240 with double_precision;
 /// else a sentence that says so. Beyond, fourth powers of lengths (the square of a cross product of tangents)
-/// overflow or vanish even where the tangents were scaled to their range first: nobody is at fault.
+/// overflow or vanish even if the tangents are scaled to their range first, which is no fault of a subject.
 ///   mesh  finite positions
 std::string out_of_range(const data::ControlMesh& mesh, bool double_precision);
 
-/// Throws std::invalid_argument with that sentence, after the mesh's name.
+/// Throws data::ArgumentError with that sentence, after the mesh's name.
 void require_range(const std::string& name, const data::ControlMesh& mesh, bool double_precision);
 
 }  // namespace limitcheck::verify

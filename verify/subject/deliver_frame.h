@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame of one of our engines, handed through the door.
+// A frame of one of our engines, delivered as a subject delivers it.
 #pragma once
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "data/error.h"
 #include "verify/subject/coordinate_range.h"
 #include "verify/subject/host_memory.h"
 #include "verify/subject/subject_call.h"
@@ -19,7 +20,8 @@ const char* text(const std::string& options) {
   return options.empty() ? nullptr : options.c_str();
 }
 
-// What is wrong with them, or nothing. As numbers: an enumeration from outside may hold any.
+// What is wrong with the capabilities, or nothing. Enumerations are compared as numbers, because those of a
+// foreign library may hold any.
 std::string impossible(const lc_capabilities& c) {
   const auto number = [](const auto& value) {
     std::int32_t n = 0;
@@ -116,7 +118,7 @@ Tessellation Session::tessellate(int depth, int threads) {
 Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int threads) {
   if (face_depth.size() != mesh_.triangles.size() || threads < 1 ||
       std::any_of(face_depth.begin(), face_depth.end(), [](std::int32_t d) { return d < -1; })) {
-    throw std::invalid_argument("tessellate: one depth >= -1 for each face, and one thread or more");
+    throw data::ArgumentError("tessellate: one depth >= -1 for each face, and one thread or more");
   }
   if (!face_depth.empty()) {
     const auto [least, most] = std::minmax_element(face_depth.begin(), face_depth.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The host's side of the door (verify/subject/subject.h): hands a control mesh to a subject and takes back
-// what it delivers, trusting nothing.
+// The host's side of the plug-in interface (verify/subject/subject.h): hands a control mesh to a subject and
+// takes back what it delivers, trusting nothing.
 #pragma once
 
 #include <array>
@@ -68,7 +68,7 @@ class Tessellation {
   std::array<double, 3> position(std::int64_t v) const { return read(positions_, v); }
   std::array<double, 3> normal(std::int64_t v) const { return read(normals_, v); }
 
-  /// The same as raw bytes (12 or 24), for comparing bits.
+  /// Their bytes (12 or 24), to compare bits.
   std::span<const std::byte> position_bits(std::int64_t v) const { return bits(positions_, v); }
   std::span<const std::byte> normal_bits(std::int64_t v) const { return bits(normals_, v); }
 
@@ -115,7 +115,10 @@ class Tessellation {
     if (precision != precision_ || data == nullptr) return {};
     return {static_cast<const T*>(data), 3 * static_cast<std::size_t>(vertices_)};
   }
+  bool indices_ok(std::int64_t t) const;
+  bool face_ok(std::int64_t t) const;
   void inspect(const lc_tessellation& out, bool promises_normals);
+  void inspect_contents();
 
   std::shared_ptr<detail::Memory> memory_;
   lc_precision precision_ = LC_FLOAT32;
@@ -161,7 +164,7 @@ class Session {
   ///   face_depth   one per control face: 0..max_depth, or -1 (culled)
   ///   threads      at most so many, >= 1
   /// Throws SubjectError: the subject fails; NotAsked if the depths are beyond max_depth or differ although
-  /// it cannot. Throws std::invalid_argument: wrong number of depths, depth <
+  /// it cannot. Throws data::ArgumentError: wrong number of depths, depth <
   /// -1, threads < 1.
   Tessellation tessellate(std::span<const std::int32_t> face_depth, int threads = 1);
   /// The same depth for all faces.

@@ -25,7 +25,7 @@ std::size_t page() {
   return size;
 }
 
-// Of what is mapped for a block, its zones included.
+// The size of the mapping for a block, its zones included.
 std::size_t mapped(const Memory::Block& b) {
   return b.before + b.size + b.behind + 2 * Memory::kNoAccess;
 }
@@ -50,7 +50,8 @@ extern "C" void tell_overrun(int signal, siginfo_t* info, void*) {
       break;
     }
   }
-  // SA_RESETHAND: done again, it has its usual end. What was sent and not done must be sent again.
+  // SA_RESETHAND has restored the default action, so the same access now ends the process. A signal that was
+  // sent by kill() must be raised again.
   if (info->si_code <= 0) raise(signal);
 }
 

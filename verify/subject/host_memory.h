@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The memory behind lc_request::allocate: filled with 0xFF, between guard zones, and these between pages that
-// nobody may touch.
+// The memory behind lc_request::allocate: filled with 0xFF, between guard zones, and these between pages
+// without access.
 //
 //   | no access | guard zone | block | guard zone | no access |
 //
@@ -22,8 +22,7 @@ class Memory {
   static constexpr std::size_t kGuard = 1024;          // bytes of a guard zone, at least
   static constexpr std::size_t kNoAccess = 256 << 10;  // bytes beyond each zone
   static constexpr std::size_t kMostBlocks = 1 << 14;  // what the kernel tells apart is limited
-  /// Refuses (NULL) what would take the sum over this many
-  /// bytes: a count gone wild must not take the machine down.
+  /// Allocations beyond this sum are refused (NULL): a wild count must not exhaust the machine.
   static constexpr std::size_t kLimit = std::size_t{16} << 30;
 
   struct Block {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+#include "data/error.h"
 #include "data/shapes.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/registry.h"
@@ -50,13 +51,13 @@ lc_status status_of(const auto& work) {
   return LC_OK;
 }
 
-TEST(Door, IsPlainC) {
+TEST(PlugInInterface, IsPlainC) {
   Session session(*subject_in_c(), octahedron());
   EXPECT_EQ(session.tessellate(0).vertex_count(), 0);
   EXPECT_EQ(status_of([] { Session(*subject_in_c(), octahedron(), "a=b"); }), LC_INVALID_INPUT);
 }
 
-TEST(Door, RefusesAnotherInterfaceVersion) {
+TEST(PlugInInterface, RefusesAnotherInterfaceVersion) {
   lc_subject other = *lc_subject_null();
   ++other.abi;
   EXPECT_EQ(status_of([&] { Session(other, octahedron()); }), LC_NOT_SUPPORTED);
@@ -141,9 +142,9 @@ TEST(Host, DoesNotAskForDepthsBeyondTheCapabilities) {
   EXPECT_EQ(status_of([&] { session.tessellate(99); }), LC_NOT_SUPPORTED);
   const std::vector<std::int32_t> mixed{1, 1, 1, 1, 2, 2, 2, 2};
   EXPECT_EQ(status_of([&] { session.tessellate(mixed); }), LC_NOT_SUPPORTED);
-  EXPECT_THROW(session.tessellate(std::vector<std::int32_t>(3, 1)), std::invalid_argument);
-  EXPECT_THROW(session.tessellate(-2), std::invalid_argument);
-  EXPECT_THROW(session.tessellate(1, 0), std::invalid_argument);
+  EXPECT_THROW(session.tessellate(std::vector<std::int32_t>(3, 1)), data::ArgumentError);
+  EXPECT_THROW(session.tessellate(-2), data::ArgumentError);
+  EXPECT_THROW(session.tessellate(1, 0), data::ArgumentError);
 }
 
 TEST(Host, SeesWritesOutsideTheArrays) {
@@ -170,7 +171,8 @@ TEST(Host, SeesWhatIsLeftUnwritten) {
   EXPECT_TRUE(has_only(planted("unwritten_triangle"), Kind::kIndexOutOfRange, "triangles"));
 }
 
-// What the door promises about memory, and what comes of a subject that allocates and then writes nothing.
+// What the interface promises about memory, and what comes of a subject that allocates and then writes
+// nothing.
 TEST(Host, HandsOutAlignedMemoryFullOfOnes) {
   lc_subject subject = *lc_subject_null();
   subject.tessellate = [](void*, const lc_request* request, lc_tessellation* out, const char** message) {
@@ -227,11 +229,28 @@ TEST(Host, TakesNothingFromMemoryItCannotTrust) {
   EXPECT_EQ(large.vertex_count(), 0);
 }
 
+// Normals may be missing, and that excuses no other array.
+TEST(Host, ReadsNoPositionsThatAreMissingTogetherWithTheNormals) {
+  lc_subject subject = *lc_subject_null();
+  subject.tessellate = [](void*, const lc_request* request, lc_tessellation* out, const char**) {
+    out->vertex_count = 3;
+    out->provenance =
+        static_cast<lc_provenance*>(request->allocate(request->host, 3 * sizeof(lc_provenance)));
+    return LC_OK;
+  };
+  Session session(subject, octahedron());
+  const Tessellation t = session.tessellate(0);
+  ASSERT_FALSE(t.defects().empty());
+  EXPECT_EQ(t.defects()[0].kind, Kind::kMissingArray);
+  EXPECT_EQ(t.defects()[0].array, "positions");
+  EXPECT_EQ(t.vertex_count(), 0);
+}
+
 TEST(Host, SeesThatTheControlMeshWasWrittenTo) {
   EXPECT_TRUE(has_only(planted("modified_mesh"), Kind::kMeshModified, "mesh"));
 }
 
-// A subject may be C++ and throw through the door.
+// A subject may be C++ and throw through the interface.
 TEST(Host, TurnsExceptionsOfASubjectIntoFailures) {
   lc_subject subject = *lc_subject_null();
   subject.tessellate = [](void*, const lc_request*, lc_tessellation*, const char**) -> lc_status { throw 1; };

@@ -14,11 +14,11 @@
 namespace limitcheck::verify {
 namespace {
 
-constexpr double kMany = 16384;  // triangles that nobody looks at
+constexpr double kMany = 16384;  // triangles of requests whose answers are thrown away
 
 const lc_subject* inner = nullptr;  // the functions of a subject are not told whose they are
 
-// Memory for answers that nobody looks at, as the door promises it.
+// Memory for answers that are thrown away, as the plug-in interface promises it.
 struct Scratch {
   std::vector<std::unique_ptr<void, decltype(&std::free)>> blocks;
 
@@ -67,7 +67,7 @@ class Instance {
   /// Tessellates, and looks away.
   lc_status disturb(std::int32_t depth, const char** message) {
     Scratch scratch;
-    const std::vector<std::int32_t> depths(static_cast<std::size_t>(faces()), depth);
+    const std::vector<std::int32_t> depths(faces(), depth);
     const lc_request request{depths.data(), 1, &scratch, &Scratch::allocate};
     lc_tessellation out{};
     const lc_status status = tessellate(request, &out, message);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A subject that is asked for other things in between: what it keeps from one request for the next shows.
+// A wrapper that makes other requests in between, so that state which a subject keeps between requests shows.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ inline constexpr std::array<const char*, 8> kTurns{
     "for the eighth time, another mesh made in between",
     "made again after another mesh, and asked for another depth first"};
 
-/// Behind the door of `inner`: create() first makes two other meshes and tessellates them, then the one that
-/// is asked for, and all live together; each tessellate() is passed on after the turn above. All other meshes
-/// are valid and closed. A failure in a turn is a failure of the request. One at a time in a process.
+/// Another subject around `inner`: create() first makes two other meshes and tessellates them, then the one
+/// that is asked for, and all live together; each tessellate() is passed on after the turn above. All other
+/// meshes are valid and closed. A failure in a turn is a failure of the request. One at a time in a process.
 class InTurns {
  public:
   explicit InTurns(const lc_subject& inner);

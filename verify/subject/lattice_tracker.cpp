@@ -53,8 +53,8 @@ void LatticeTracker::step(std::int64_t vertex_count, std::vector<std::array<std:
     }
   }
 
-  // The two old vertices that each vertex comes from; an old one comes from itself.
-  std::vector<std::array<std::uint32_t, 2>> ends(static_cast<std::size_t>(vertex_count), {kNone, kNone});
+  // The two old vertices whose edge each vertex divides; an old vertex is both of them.
+  std::vector<std::array<std::uint32_t, 2>> ends(vertex_count, {kNone, kNone});
   for (std::uint32_t v = 0; v < old; ++v) ends[v] = {v, v};
   for (const auto& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -97,7 +97,7 @@ void LatticeTracker::step(std::int64_t vertex_count, std::vector<std::array<std:
       Place sum{0, 0};
       for (const auto end : ends[triangles[t][k]]) {
         const auto corner = std::find(triangles_[*parent].begin(), triangles_[*parent].end(), end);
-        const Place& at = places_[*parent][static_cast<std::size_t>(corner - triangles_[*parent].begin())];
+        const Place& at = places_[*parent][corner - triangles_[*parent].begin()];
         sum = {sum[0] + at[0], sum[1] + at[1]};
       }
       places[t][k] = sum;
@@ -111,7 +111,7 @@ void LatticeTracker::step(std::int64_t vertex_count, std::vector<std::array<std:
 }
 
 std::vector<lc_provenance> LatticeTracker::provenance() const {
-  std::vector<lc_provenance> result(static_cast<std::size_t>(vertex_count_), {-1, 0, 0, 0});
+  std::vector<lc_provenance> result(vertex_count_, {-1, 0, 0, 0});
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       auto& p = result[triangles_[t][k]];

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "reference/point/normal.h"
+#include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -47,11 +48,11 @@ void ModelFrame::display(std::size_t f) {
   int deeper = 0;
   for (int k = 0; k < 3; ++k) {
     const int other = mesh_.neighbour_depth(depth_, f, k);
-    edge[static_cast<std::size_t>(k)] = std::max(d, other);
+    edge[k] = std::max(d, other);
     deeper += other > d;
   }
   if (rules_.is("exchanged_depths") && deeper > 0)
-    for (int k = 0; k < 3; ++k) edge[static_cast<std::size_t>(k)] = mesh_.neighbour_depth(depth_, f, k);
+    for (int k = 0; k < 3; ++k) edge[k] = mesh_.neighbour_depth(depth_, f, k);
   if (rules_.is("no_repair") || rules_.is("chords_at_depth_steps") ||
       (rules_.is("fan_needs_two") && deeper == 1))
     deeper = 0;
@@ -75,27 +76,24 @@ void ModelFrame::repeat_tile_of(std::size_t t) {
 void ModelFrame::at_depth_steps() {
   for (Vertex& v : vertices) {
     const auto f = static_cast<std::size_t>(v.place.face);
-    const std::array<std::uint32_t, 3> l{v.place.denominator - v.place.i - v.place.j, v.place.i, v.place.j};
-    for (int k = 0; k < 3; ++k) {
-      const int other = mesh_.neighbour_depth(depth_, f, k);
-      const std::size_t from = static_cast<std::size_t>(k), to = (from + 1) % 3;
-      if (l[(from + 2) % 3] != 0 || other >= depth_[f] || l[from] == 0 || l[to] == 0) continue;
-      if (rules_.is("crack_at_depth_steps")) v.position.x = one_ulp_up(v.position.x);
-      if (rules_.is("chords_at_depth_steps")) {
-        const int steps = static_cast<int>(l[to]) << other, n = static_cast<int>(v.place.denominator);
-        const V a = border_point(f, k, steps / n, other), b = border_point(f, k, steps / n + 1, other);
-        if (steps % n != 0) v.position = a + (b - a) * (static_cast<double>(steps % n) / n);
-      }
+    const auto at = FaceDomain().side_of(point_of(v.place), v.place.denominator);
+    if (!at || at->along == 0) continue;
+    const int other = mesh_.neighbour_depth(depth_, f, at->side);
+    if (other >= depth_[f]) continue;
+    if (rules_.is("crack_at_depth_steps")) v.position.x = one_ulp_up(v.position.x);
+    if (rules_.is("chords_at_depth_steps")) {
+      const int steps = static_cast<int>(at->along) << other, n = static_cast<int>(v.place.denominator);
+      const V a = border_point(f, at->side, steps / n, other);
+      const V b = border_point(f, at->side, steps / n + 1, other);
+      if (steps % n != 0) v.position = a + (b - a) * (static_cast<double>(steps % n) / n);
     }
   }
 }
 
 ModelRules::V ModelFrame::border_point(std::size_t f, int k, int s, int d) const {
-  const int n = 1 << d, times = 1 << (level_.mesh.depth() - d);
-  const std::int32_t v = k == 0   ? level_.mesh.vertex(f, s * times, 0)
-                         : k == 1 ? level_.mesh.vertex(f, (n - s) * times, s * times)
-                                  : level_.mesh.vertex(f, 0, (n - s) * times);
-  return level_.limits[static_cast<std::size_t>(v)];
+  const int depth = level_.mesh.depth();
+  const FaceDomain::Point p = FaceDomain().on_side(k, s << (depth - d), std::int64_t{1} << depth);
+  return level_.limits[level_.mesh.vertex(f, static_cast<int>(p.i), static_cast<int>(p.j))];
 }
 
 void ModelFrame::triangle(std::size_t f, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -120,7 +118,7 @@ void ModelFrame::tiles(std::size_t f, const std::vector<Tile>& list) {
 void ModelFrame::fan(std::size_t f, const std::array<int, 3>& edge) {
   std::vector<std::uint32_t> border;
   for (int k = 0; k < 3; ++k) {
-    const int d = edge[static_cast<std::size_t>(k)], n = 1 << d;
+    const int d = edge[k], n = 1 << d;
     for (int s = 0; s < n; ++s)
       border.push_back(k == 0 ? put(f, s, 0, d) : k == 1 ? put(f, n - s, s, d) : put(f, 0, n - s, d));
   }
@@ -130,14 +128,12 @@ void ModelFrame::fan(std::size_t f, const std::array<int, 3>& edge) {
   const auto centre = surface_->evaluate(static_cast<int>(f), third, third, reference::Order::kFirst);
   Vertex out{centre.position, centre.normal, {static_cast<std::int32_t>(f), 1, 1, 3}};
   const auto control = [&](int k) {
-    const auto& p =
-        mesh_.control
-            .positions[static_cast<std::size_t>(mesh_.control.triangles[f][static_cast<std::size_t>(k)])];
+    const auto& p = mesh_.control.positions[mesh_.control.triangles[f][k]];
     return V{p[0], p[1], p[2]};
   };
   const auto corner = [&](int k) {
     const int n = 1 << level_.mesh.depth();
-    return level_.limits[static_cast<std::size_t>(level_.mesh.vertex(f, k == 1 ? n : 0, k == 2 ? n : 0))];
+    return level_.limits[level_.mesh.vertex(f, k == 1 ? n : 0, k == 2 ? n : 0)];
   };
   const bool at_boundary =
       mesh_.neighbour(f, 0) < 0 || mesh_.neighbour(f, 1) < 0 || mesh_.neighbour(f, 2) < 0;
@@ -157,7 +153,7 @@ void ModelFrame::fan(std::size_t f, const std::array<int, 3>& edge) {
     const std::int32_t four = once.vertex(f, 1, 0), seven = once.vertex(f, 1, 1);
     const auto ring = once.topology().ring(four);
     const auto first = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), seven) - ring.begin());
-    const V& one = once.positions()[static_cast<std::size_t>(ring[(first + 4) % ring.size()])];
+    const V& one = once.positions()[ring[(first + 4) % ring.size()]];
     out.position += one * ((11. / 108 - 1. / 4) / 81);
   }
   vertices.push_back(out);
@@ -201,9 +197,8 @@ std::uint32_t ModelFrame::put(std::size_t f, int i, int j, int d) {
     out.normal = reference::unit(cross(corner(1) - corner(0), corner(2) - corner(0)));
   }
   if (rules_.is("phong_normals"))
-    out.normal = reference::unit(level_.normals[static_cast<std::size_t>(vertex(0, 0))] * (n - i - j) +
-                                 level_.normals[static_cast<std::size_t>(vertex(n, 0))] * i +
-                                 level_.normals[static_cast<std::size_t>(vertex(0, n))] * j);
+    out.normal = reference::unit(level_.normals[vertex(0, 0)] * (n - i - j) +
+                                 level_.normals[vertex(n, 0)] * i + level_.normals[vertex(0, n)] * j);
   if (rules_.is("sums_begun_in_face"))
     out.position = rules_.limit(level_.mesh.topology(), level_.points, static_cast<std::int32_t>(v),
                                 level_.mesh.depth(), f);
@@ -211,11 +206,10 @@ std::uint32_t ModelFrame::put(std::size_t f, int i, int j, int d) {
     out.normal = rules_.normal(level_.mesh.topology(), level_.points, static_cast<std::int32_t>(v), f);
   if (rules_.is("faces_sorted")) {
     const auto& corner = mesh_.control.triangles[f];
-    const auto lowest = std::min_element(corner.begin(), corner.end()) - corner.begin();
-    std::array<std::uint32_t, 3> l{static_cast<std::uint32_t>(n - i - j), out.place.i, out.place.j};
-    std::rotate(l.begin(), l.begin() + lowest, l.end());
-    out.place.i = l[1];
-    out.place.j = l[2];
+    const auto lowest = static_cast<int>(std::min_element(corner.begin(), corner.end()) - corner.begin());
+    const FaceDomain::Point p = FaceDomain().moved({i, j}, n, {(3 - lowest) % 3});
+    out.place.i = static_cast<std::uint32_t>(p.i);
+    out.place.j = static_cast<std::uint32_t>(p.j);
   }
   if (rules_.is("edges_sorted") && j == 0 && mesh_.control.triangles[f][0] > mesh_.control.triangles[f][1])
     out.place.i = out.place.denominator - out.place.i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the model can be told to do wrong: something that a real tessellator could do.
+// The faults that the model can be told to have, each of a kind that a real tessellator could have.
 #include "verify/subject/model_rules.h"
 
 namespace limitcheck::verify {
@@ -73,7 +73,7 @@ std::span<const Mutation> mutations() {
       {"float_normals", "normals computed in float, and declared double", "normals"},
       {"two_components", "normals kept as two floats: the third by a square root", "rotation"},
       {"quick_root", "1 / sqrt by the bits of a float and one step of Newton's", "normal-length", "", true},
-      {"fixed_epsilon", "tangents whose cross product is below 1e-15 count as none", "extreme-scale"},
+      {"fixed_epsilon", "tangents whose cross product is below 1e-15 count as none", "scaling"},
       {"epsilon_of_coordinates",
        "tangents below 1e-4 of their point's distance from the origin count as none", "normals"},
       {"thin_is_none", "tangents at less than 1e-3 rad count as none", "normals"},
@@ -82,7 +82,7 @@ std::span<const Mutation> mutations() {
       {"zero_where_tangents_vanish", "the zero vector where the tangents vanish", "degenerate-geometry"},
       {"fails_on_a_point", "gives up on a bounding box without size", "degenerate-geometry"},
       {"nan_where_tangents_vanish", "no substitute where the tangents vanish", "degenerate-geometry"},
-      {"float_squares", "squared lengths of normals in float: overflow far from size 1", "extreme-scale"},
+      {"float_squares", "squared lengths of normals in float: overflow far from size 1", "scaling"},
       // Display.
       {"printed_cone_depth", "depth 0 for all faces, which the printed inequality allows", "coverage", "C27"},
       {"one_level_short", "faces of depth 2 and more are displayed one level short", "coverage"},

@@ -24,7 +24,7 @@ double turn(double fraction) {
 std::vector<V> ring_of(const Topology& topology, const std::vector<V>& points, std::int32_t v,
                        std::size_t first = 0) {
   std::vector<V> ring;
-  for (const std::int32_t r : topology.ring(v)) ring.push_back(points[static_cast<std::size_t>(r)]);
+  for (const std::int32_t r : topology.ring(v)) ring.push_back(points[r]);
   if (!topology.on_boundary(v))
     std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first % ring.size()), ring.end());
   return ring;
@@ -58,7 +58,7 @@ double ModelRules::alpha(int n) const {
 }
 
 V ModelRules::vertex_point(const Topology& topology, const std::vector<V>& points, std::int32_t v) const {
-  const V& p = points[static_cast<std::size_t>(v)];
+  const V& p = points[v];
   const std::vector<V> ring = ring_of(topology, points, v);
   if (topology.on_boundary(v)) {
     const double end = is("boundary_vertex_5_8") ? 3. / 16 : 1. / 8;
@@ -69,14 +69,13 @@ V ModelRules::vertex_point(const Topology& topology, const std::vector<V>& point
   if (is("ring_off_by_one")) sum += ring.front() - ring.back();
   if (is("valence_3_pairs") && ring.size() == 3)
     for (const std::int32_t r : topology.ring(v))
-      if (!topology.on_boundary(r) && topology.ring(r).size() == 3)
-        sum += points[static_cast<std::size_t>(r)] - p;
+      if (!topology.on_boundary(r) && topology.ring(r).size() == 3) sum += points[r] - p;
   const auto n = static_cast<int>(ring.size());
   return p + sum * (alpha(n) / n);
 }
 
 V ModelRules::edge_point(const Topology& topology, const std::vector<V>& points, const Edge& e) const {
-  const auto at = [&](std::int32_t v) { return points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](std::int32_t v) { return points[v]; };
   const V a = at(e.a), b = at(e.b);
   const std::int32_t left = opposite(topology, e, e.left_face);
   if (e.on_boundary()) {
@@ -111,15 +110,14 @@ std::vector<V> ModelRules::refine(const Topology& topology, const std::vector<V>
   for (std::size_t v = 0; v < points.size(); ++v)
     out.push_back(vertex_point(topology, points, static_cast<std::int32_t>(v)));
   for (const Edge& e : topology.edges())
-    out.push_back(depth == 1 && is("midpoints_at_depth_1")
-                      ? (points[static_cast<std::size_t>(e.a)] + points[static_cast<std::size_t>(e.b)]) * .5
-                      : edge_point(topology, points, e));
+    out.push_back(depth == 1 && is("midpoints_at_depth_1") ? (points[e.a] + points[e.b]) * .5
+                                                           : edge_point(topology, points, e));
   return out;
 }
 
 V ModelRules::limit(const Topology& topology, const std::vector<V>& points, std::int32_t v, int depth,
                     std::size_t first) const {
-  const V& p = points[static_cast<std::size_t>(v)];
+  const V& p = points[v];
   if (refined_ || is("no_limit") || (is("no_limit_at_depth_0") && depth == 0) ||
       (is("no_limit_from_depth_5") && depth >= 5) ||
       (is("valence_in_8_bits") && topology.ring(v).size() == 256))
@@ -165,7 +163,7 @@ bool ModelRules::taken_as_vanishing(const reference::Tangents<double>& t, const 
 
 V ModelRules::normal(const Topology& topology, const std::vector<V>& points, std::int32_t v,
                      std::size_t first) const {
-  const V& p = points[static_cast<std::size_t>(v)];
+  const V& p = points[v];
   const std::vector<V> ring = ring_of(topology, points, v, first);
   const bool open = topology.on_boundary(v);
   const std::size_t n = ring.size();

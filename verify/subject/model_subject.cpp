@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The model: a plain tessellator that is right, and can be told to be wrong in one way. Uniform refinement to
-// the deepest level asked for, every point once; faces beside deeper ones are stitched to them or, below
-// depth 2, become fans round their centre. Computes in double.
+// The model: a plain, correct tessellator that can be told to be wrong in one way. Uniform refinement to the
+// deepest level asked for, every point once; faces beside deeper ones are stitched to them or, below depth 2,
+// become fans round their centre. Computes in double.
 //
 //   options   mutation=NAME (default none)
 //             precision=double|float (default double; of what is delivered)
@@ -39,7 +39,7 @@ std::vector<std::string_view> names() {
 
 struct Settings {
   explicit Settings(Options& options)
-      : mutation(names()[static_cast<std::size_t>(options.choice("mutation", names()))]),
+      : mutation(names()[options.choice("mutation", names())]),
         single(options.choice("precision", {"double", "float"}) == 1),
         weights(weights_option(options)),
         refined(options.choice("points", {"limit", "refined"}) == 1) {
@@ -71,7 +71,7 @@ class ModelSubject {
       c.points = LC_POINTS_REFINED;
       c.normals = c.per_face_depth = 0;
     }
-    // What C++ does not let an enumeration hold, a subject in C does.
+    // A subject in C may store values that C++ does not let an enumeration hold.
     const auto set = [&](std::string_view mutation, auto& value, std::int32_t number) {
       if (settings.mutation == mutation) std::memcpy(&value, &number, sizeof value);
     };
@@ -134,7 +134,7 @@ class ModelSubject {
         throw SubjectError(LC_INVALID_INPUT, "more than 50 neighbours");
   }
 
-  // What mutants keep from one mesh to the next.
+  // The state that mutants keep from one mesh to the next.
   void remember(data::ControlMesh& control) const {
     if (rules_.is("cache_by_count")) {
       control =
@@ -193,7 +193,7 @@ class ModelSubject {
       std::copy(frame_->triangles[t].begin(), frame_->triangles[t].end(), output.triangles + 3 * t);
       output.triangle_face[t] = frame_->faces[t];
     }
-    // As if as many vectors were there as the true sum has, in memory of the printed one.
+    // Writes as many vectors as the true sum counts, into memory for those that the printed sum counts.
     if (rules_.is("buffer_as_printed")) out.vertex_count += 5 + 6 * 50;
   }
 
@@ -219,7 +219,7 @@ extern "C" const lc_subject* lc_subject_model() {
         "model", "a plain tessellator that is right, or wrong in one stated way",
         "mutation=NAME (default none), precision=double|float (default double), weights=loop|warren "
         "(default loop), points=limit|refined (default limit)");
-    // It refuses by itself what it cannot use: some mutants do not.
+    // ModelMesh refuses meshes that it cannot use; some mutants do not.
     model.create = [](const lc_mesh* mesh, const char* text, void** instance, const char** message) {
       return detail::guarded(message, [&] {
         Options options(text);

@@ -11,17 +11,16 @@ namespace {
 
 using V = ModelRules::V;
 
-// Edge points between faces that are shown and faces that are not, as if the latter were not there.
+// Edge points between visible and culled faces, as if the culled faces did not exist.
 void cut_holes(const ModelMesh& from, const std::vector<V>& points, std::span<const std::int32_t> shown,
                std::vector<V>& next) {
   for (std::size_t f = 0; f < shown.size(); ++f)
     for (int k = 0; k < 3; ++k) {
       const std::int32_t edge = from.topology.edge(f, k);
-      const auto& e = from.topology.edges()[static_cast<std::size_t>(edge)];
+      const auto& e = from.topology.edges()[edge];
       const std::int32_t g = from.neighbour(f, k);
-      if (g >= 0 && (shown[f] < 0) != (shown[static_cast<std::size_t>(g)] < 0))
-        next[points.size() + static_cast<std::size_t>(edge)] =
-            (points[static_cast<std::size_t>(e.a)] + points[static_cast<std::size_t>(e.b)]) * .5;
+      if (g >= 0 && (shown[f] < 0) != (shown[g] < 0))
+        next[points.size() + static_cast<std::size_t>(edge)] = (points[e.a] + points[e.b]) * .5;
     }
 }
 
@@ -30,9 +29,7 @@ void smooth(const reference::Topology& topology, std::vector<V>& limits) {
   const std::vector<V> before = limits;
   for (const auto& e : topology.edges())
     for (const auto& [to, from] : {std::pair(e.a, e.b), std::pair(e.b, e.a)})
-      limits[static_cast<std::size_t>(to)] +=
-          (before[static_cast<std::size_t>(from)] - before[static_cast<std::size_t>(to)]) *
-          (1e-3 / static_cast<double>(topology.ring(to).size()));
+      limits[to] += (before[from] - before[to]) * (1e-3 / static_cast<double>(topology.ring(to).size()));
 }
 
 }  // namespace
@@ -58,7 +55,7 @@ std::int32_t ModelMesh::neighbour(std::size_t face, int k) const {
 
 int ModelMesh::neighbour_depth(std::span<const std::int32_t> depth, std::size_t face, int k) const {
   const std::int32_t g = neighbour(face, k);
-  return g < 0 || depth[static_cast<std::size_t>(g)] < 0 ? depth[face] : depth[static_cast<std::size_t>(g)];
+  return g < 0 || depth[g] < 0 ? depth[face] : depth[g];
 }
 
 ModelLevel::ModelLevel(const ModelMesh& from, const ModelRules& rules, int depth,

@@ -21,7 +21,7 @@ struct ModelMesh {
 
   /// The face beyond the edge from corner k to the next, or -1.
   std::int32_t neighbour(std::size_t face, int k) const;
-  /// The depth of that face; the face's own where there is none, or it is culled.
+  /// The depth of that face; if there is none or it is culled, the depth of face f itself.
   int neighbour_depth(std::span<const std::int32_t> depth, std::size_t face, int k) const;
 
   data::ControlMesh control;

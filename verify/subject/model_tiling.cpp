@@ -37,17 +37,17 @@ std::vector<Tile> stitched_tiles(int depth, const std::array<int, 3>& edge, int 
   std::vector<Tile> tiles;
   add_lattice(tiles, 1, inner, depth);
   for (int k = 0; k < 3; ++k) {
-    // Between the edge and the first row inside: on with the side that lags behind.
-    const int steps = 1 << edge[static_cast<std::size_t>(k)];
+    // Between the edge and the first inner row: advance on the side that is behind.
+    const int steps = 1 << edge[k];
     int outside = 0, inside = 0;
     while (outside < steps || inside < inner) {
-      const TilePoint a = on_side(k, outside, steps, 0, edge[static_cast<std::size_t>(k)]);
+      const TilePoint a = on_side(k, outside, steps, 0, edge[k]);
       const TilePoint b = on_side(k, inside, inner, 1, depth);
       // Halves of steps done, as shares of both sides: (2 outside + 1) / steps against (2 inside + 3) / n.
       const bool along_edge =
           inside == inner || (outside < steps && (2 * outside + 1) * n <= (2 * inside + 3) * steps);
       if (along_edge) {
-        tiles.push_back({a, on_side(k, ++outside, steps, 0, edge[static_cast<std::size_t>(k)]), b});
+        tiles.push_back({a, on_side(k, ++outside, steps, 0, edge[k]), b});
       } else {
         const int next = inside + every < inner ? inside + every : inner;
         tiles.push_back({a, on_side(k, next, inner, 1, depth), b});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of the paper's section 4 (reference/loop/naive.h) in double. It sends single triangles,
-// and rounds differently in each: of all that it says of one point, the first in the order of the bits is
-// taken, so that neither the triangles of a face nor faces of one depth leave cracks of one ulp. Faces share
-// no vertices. [C18]
+// The recursive subdivider of the paper's section 4 (reference/loop/naive.h) in double. It delivers single
+// triangles and rounds differently in each. Of the values of one point the first in the order of their bits
+// is taken, so that neither the triangles of a face nor faces of one depth have cracks of one ulp. Faces
+// share no vertices. [C18]
 //
 //   options   weights=loop|warren (default loop)
 #include <array>
@@ -18,6 +18,7 @@
 #include "reference/loop/naive.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
+#include "verify/subject/face_domain.h"
 #include "verify/subject/faces_in_parallel.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/weights_option.h"
@@ -39,7 +40,7 @@ bool before(const reference::Vec3<double>& a, const reference::Vec3<double>& b) 
   return bits(a) < bits(b);
 }
 
-// What both agree on, in place of the first.
+// Puts the lesser of both, by their bits, in place of the first.
 void agree(Corner& a, const Corner& b) {
   if (before(b.position, a.position)) a.position = b.position;
   if (before(b.normal, a.normal)) a.normal = b.normal;
@@ -77,20 +78,16 @@ struct Face {
 // control vertex is both ends of its edge.
 using BorderPoint = std::array<std::int64_t, 3>;
 
-// False for a point inside the face.
+// Sets `point` and returns true, or returns false for a point inside the face.
 bool on_border(const std::array<std::int32_t, 3>& face, const Corner& corner, int depth, BorderPoint& point) {
-  const std::int64_t unit = std::int64_t{1} << (31 - depth), i = corner.i, j = corner.j;
-  const std::array<std::int64_t, 3> l{(std::int64_t{1} << depth) - i - j, i, j};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (l[k] != 0) continue;
-    std::int64_t a = face[(k + 1) % 3], b = face[(k + 2) % 3], way = l[(k + 2) % 3];
-    if (way == 0) b = a;
-    if (l[(k + 1) % 3] == 0) a = b, way = 0;
-    if (a > b) std::swap(a, b), way = l[(k + 1) % 3];
-    point = {a, b, way * unit};
-    return true;
-  }
-  return false;
+  const std::int64_t n = std::int64_t{1} << depth, unit = std::int64_t{1} << (31 - depth);
+  const auto place = FaceDomain().side_of({corner.i, corner.j}, n);
+  if (!place) return false;
+  std::int64_t a = face[place->side], b = face[FaceDomain().next(place->side)], way = place->along;
+  if (way == 0) b = a;
+  if (a > b) std::swap(a, b), way = n - way;
+  point = {a, b, way * unit};
+  return true;
 }
 
 class NaiveSubject {
@@ -106,7 +103,8 @@ class NaiveSubject {
     const auto count = static_cast<std::int64_t>(subdivider_.face_count());
     const std::span depth(request.face_depth, subdivider_.face_count());
 
-    // How many vertices a face has is known when it is done: all faces first, then the arrays.
+    // The number of vertices of a face is known only when it is done, so all faces come first, then the
+    // arrays.
     std::vector<std::unique_ptr<Face>> faces(subdivider_.face_count());
     faces_in_parallel(count, request.threads, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t f = begin; f < end; ++f) {

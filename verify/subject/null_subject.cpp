@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Delivers nothing and says so: zero vertices, zero triangles. Every check of an audit must fail on it, none
-// may crash and none may call "nothing wrong" what is "nothing there".
+// may crash, and none may report an empty delivery as correct.
 #include "verify/subject/adapter.h"
 #include "verify/subject/registry.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the two subjects share that evaluate OpenSubdiv's surface face by face. Faces share no vertices. The
+// Shared by the two subjects that evaluate OpenSubdiv's surface face by face. Faces share no vertices. The
 // normal is d/du x d/dv as evaluated, NaN where the library's derivatives are parallel or zero.
 #pragma once
 
@@ -68,8 +68,8 @@ void tessellate_faces(const lc_mesh& mesh, const lc_request& request, lc_tessell
       const auto face = static_cast<std::int32_t>(f);
       here.begin(face);
       const Pattern<Real>& pattern = patterns.at(request.face_depth[f]);
-      std::int64_t vertex = first_vertex[static_cast<std::size_t>(f)];
-      std::int64_t triangle = first_triangle[static_cast<std::size_t>(f)];
+      std::int64_t vertex = first_vertex[f];
+      std::int64_t triangle = first_triangle[f];
       const auto first = static_cast<std::uint32_t>(vertex);
       for (std::size_t p = 0; p < pattern.coords.size(); p += 2, ++vertex) {
         Real du[3], dv[3];

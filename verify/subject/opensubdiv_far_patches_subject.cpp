@@ -42,7 +42,7 @@ class FacePatches {
     const auto control = table_.GetPatchVertices(*patch);
     for (std::size_t c = 0; c < 3; ++c) position[c] = du[c] = dv[c] = 0;
     for (int k = 0; k < control.size(); ++k) {
-      const auto& p = points_[static_cast<std::size_t>(control[k])].x;
+      const auto& p = points_[control[k]].x;
       const auto weight = static_cast<std::size_t>(k);
       for (std::size_t c = 0; c < 3; ++c) {
         position[c] += w[weight] * p[c];
@@ -102,7 +102,7 @@ class FarPatchesSubject {
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
-    // The points of all levels, then those the end caps have of their own.
+    // The points of all levels, then those of the end caps.
     const auto refined = static_cast<std::size_t>(refiner_->GetNumVerticesTotal());
     std::vector<Vector<Real>> points(refined + static_cast<std::size_t>(table_->GetNumLocalPoints()));
     for (std::size_t v = 0; v < static_cast<std::size_t>(mesh_.vertex_count); ++v) {
@@ -134,7 +134,6 @@ extern "C" const lc_subject* lc_subject_opensubdiv_far_patches() {
   static const lc_subject subject = make_subject<FarPatchesSubject>(
       "opensubdiv-far-patches", "OpenSubdiv 3.5 Far: adaptive refinement, then a PatchTable evaluated",
       "precision=float|double (default float), level=N of isolation (1 to 10, default 2), "
-      "end-cap=gregory|bspline "
-      "(default gregory), corners=legacy|smooth (default legacy, the library's)");
+      "end-cap=gregory|bspline (default gregory), corners=legacy|smooth (default legacy, the library's)");
   return &subject;
 }

@@ -61,13 +61,13 @@ class FarSubject {
 
   template <class Real>
   void run(const lc_request& request, int depth, lc_tessellation& out) const {
-    std::vector<Vector<Real>> points(static_cast<std::size_t>(mesh_.vertex_count));
+    std::vector<Vector<Real>> points(mesh_.vertex_count);
     for (std::size_t v = 0; v < points.size(); ++v) {
       for (std::size_t c = 0; c < 3; ++c) points[v].x[c] = static_cast<Real>(mesh_.positions[3 * v + c]);
     }
     const Far::PrimvarRefinerReal<Real> primvars(*refiner_);
     for (int level = 1; level <= depth; ++level) {
-      std::vector<Vector<Real>> next(static_cast<std::size_t>(refiner_->GetLevel(level).GetNumVertices()));
+      std::vector<Vector<Real>> next(refiner_->GetLevel(level).GetNumVertices());
       primvars.Interpolate(level, points, next);
       points.swap(next);
     }
@@ -104,7 +104,7 @@ class FarSubject {
     const auto corners = here.GetFaceVertices(face);
     if (level == depth) {
       for (int k = 0; k < 3; ++k) {
-        const auto& [i, j] = at.corner[static_cast<std::size_t>(k)];
+        const auto& [i, j] = at.corner[k];
         output.triangles[3 * written + k] = static_cast<std::uint32_t>(corners[k]);
         output.provenance[corners[k]] = {control_face, i, j, std::uint32_t{1} << depth};
       }
@@ -115,12 +115,12 @@ class FarSubject {
     std::array<int, 6> candidates{};
     std::array<std::array<std::uint32_t, 2>, 6> places{};
     for (int k = 0; k < 3; ++k) {
-      const auto& a = at.corner[static_cast<std::size_t>(k)];
-      const auto& b = at.corner[static_cast<std::size_t>((k + 1) % 3)];
-      candidates[static_cast<std::size_t>(k)] = here.GetVertexChildVertex(corners[k]);
-      places[static_cast<std::size_t>(k)] = {2 * a[0], 2 * a[1]};
-      candidates[static_cast<std::size_t>(k + 3)] = here.GetEdgeChildVertex(edges[k]);
-      places[static_cast<std::size_t>(k + 3)] = {a[0] + b[0], a[1] + b[1]};
+      const auto& a = at.corner[k];
+      const auto& b = at.corner[(k + 1) % 3];
+      candidates[k] = here.GetVertexChildVertex(corners[k]);
+      places[k] = {2 * a[0], 2 * a[1]};
+      candidates[k + 3] = here.GetEdgeChildVertex(edges[k]);
+      places[k + 3] = {a[0] + b[0], a[1] + b[1]};
     }
     const auto children = here.GetFaceChildFaces(face);
     for (int c = 0; c < children.size(); ++c) {
@@ -131,7 +131,7 @@ class FarSubject {
         while (match < 6 && candidates[match] != child_corners[k]) ++match;
         if (match == 6)
           throw SubjectError(LC_FAILED, "a refined vertex is the child of no vertex or edge of its face");
-        child.corner[static_cast<std::size_t>(k)] = places[match];
+        child.corner[k] = places[match];
       }
       descend(control_face, level + 1, depth, children[c], child, output, written);
     }

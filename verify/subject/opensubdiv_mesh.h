@@ -59,7 +59,7 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
         OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY) {
   using namespace OpenSubdiv;
   const OpenSubdivErrors errors;
-  const std::vector<int> sizes(static_cast<std::size_t>(mesh.triangle_count), 3);
+  const std::vector<int> sizes(mesh.triangle_count, 3);
   Far::TopologyDescriptor descriptor;
   descriptor.numVertices = static_cast<int>(mesh.vertex_count);
   descriptor.numFaces = static_cast<int>(mesh.triangle_count);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The OpenSubdiv adapters against limit masks written out again on CGAL's refinement; and OpenSubdiv's known
-// faults, which must come through the door as they are.
+// The OpenSubdiv adapters against the reference; and OpenSubdiv's known faults, which the adapters must hand
+// on as they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
+#include "reference/loop/refine.h"
+#include "verify/audit/vector.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_lattice.h"
-#include "verify/subject/test_limit.h"
 
 namespace {
 
@@ -17,15 +19,39 @@ using namespace limitcheck;
 using namespace limitcheck::verify;
 using namespace limitcheck::verify::test;
 
-// By place: the ring in CGAL's refinement of the mesh.
-std::map<Place, Ring> cgal_rings(const data::ControlMesh& mesh, int depth) {
-  Session session(*lc_subject_cgal(), mesh);
-  const Tessellation t = session.tessellate(depth);
-  const auto all = rings(t);
-  std::map<Place, Ring> result;
-  for (std::size_t v = 0; v < all.size(); ++v) result.emplace(place(mesh, t.provenance()[v]), all[v]);
-  return result;
-}
+// What the reference makes of a mesh, at the lattice points of one depth.
+class Expected {
+ public:
+  Expected(const data::ControlMesh& mesh, int depth)
+      : refined_(reference::refine<double>(mesh, depth)), limits_(refined_.limits()) {}
+
+  std::int32_t vertex(const lc_provenance& p) const {
+    const auto step = (std::uint32_t{1} << refined_.depth()) / p.denominator;
+    return refined_.vertex(static_cast<std::size_t>(p.face), static_cast<int>(p.i * step),
+                           static_cast<int>(p.j * step));
+  }
+  Vector position(std::int32_t v) const { return vector_of(limits_.positions[v]); }
+  Vector normal(std::int32_t v) const { return vector_of(limits_.normals[v]); }
+  /// The number of faces at a boundary vertex, 0 inside.
+  std::size_t boundary_faces(std::int32_t v) const {
+    return refined_.topology().on_boundary(v) ? refined_.topology().ring(v).size() - 1 : 0;
+  }
+  /// Of a boundary vertex of four faces or more, by OpenSubdiv's mask for the tangent across (D4): the ends
+  /// of the ring weigh sin(theta) / (2 cos(theta) - 2), theta = pi / faces, those between sin(k theta).
+  Vector normal_by_the_other_mask(std::int32_t v) const {
+    const auto ring = refined_.topology().ring(v);
+    const double theta = std::numbers::pi / static_cast<double>(ring.size() - 1);
+    const auto at = [&](std::size_t k) { return vector_of(refined_.positions()[ring[k]]); };
+    Vector across = std::sin(theta) / (2 * std::cos(theta) - 2) * (at(0) + at(ring.size() - 1));
+    for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+      across = across + std::sin(static_cast<double>(k) * theta) * at(k);
+    return cross(at(0) - at(ring.size() - 1), across);
+  }
+
+ private:
+  reference::RefinedMesh<double> refined_;
+  reference::RefinedMesh<double>::Limits limits_;
+};
 
 struct Deviation {
   double position = 0;                              // of the box
@@ -38,22 +64,23 @@ void record_all(const Deviation& worst) {
   record("boundary_normal_degrees", worst.boundary_normal);
 }
 
-// Worst deviation from the masks. Boundary vertices of four faces or more are left out, and those of one face
-// where the subject is known to fail: they have tests of their own.
+// Worst deviation from the reference. Boundary vertices of four faces or more are left out, and those of one
+// face where the subject is known to fail: they have tests of their own.
 Deviation deviation(const char* subject, const char* options, const data::ControlMesh& mesh, int depth,
                     bool one_face) {
-  const auto expected = cgal_rings(mesh, depth);
+  const Expected expected(mesh, depth);
   Session session(*find_subject(subject), mesh, options);
   const Tessellation t = session.tessellate(depth);
   Deviation worst;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    const Ring& ring = expected.at(place(mesh, t.provenance()[static_cast<std::size_t>(v)]));
+    const std::int32_t at = expected.vertex(t.provenance()[v]);
     worst.position =
-        std::max(worst.position, distance(t.position(v), limit_position(ring)) / data::box_diagonal(mesh));
-    if (ring.open && (ring.points.size() > 4 || (ring.points.size() == 2 && !one_face))) continue;
-    const double a = angle(t.normal(v), ring.open ? boundary_normal(ring, false) : interior_normal(ring));
-    double& normal = ring.open ? worst.boundary_normal : worst.interior_normal;
-    normal = std::max(normal, std::isnan(a) ? 180 : a);
+        std::max(worst.position, distance(t.position(v), expected.position(at)) / data::box_diagonal(mesh));
+    const std::size_t faces = expected.boundary_faces(at);
+    if (faces > 3 || (faces == 1 && !one_face)) continue;
+    const double a = angle_degrees(t.normal(v), expected.normal(at));
+    double& normal = faces > 0 ? worst.boundary_normal : worst.interior_normal;
+    normal = std::max(normal, std::isfinite(a) ? a : 180);
   }
   return worst;
 }
@@ -119,13 +146,13 @@ TEST(OpenSubdivBfr, ComputesSharedPointsWithOtherBitsInEachFace) {
 TEST(OpenSubdivFar, UsesATangentMaskOfAnotherRuleAtBoundaryVerticesOfFourFacesOrMore) {
   for (int faces = 1; faces <= 8; ++faces) {
     const auto mesh = data::named_mesh("fan:" + std::to_string(faces));
-    const Ring ring = cgal_rings(mesh, 1).at({0, 0, 0, 0, 0});
-    ASSERT_EQ(ring.points.size(), static_cast<std::size_t>(faces + 1));
+    const Expected expected(mesh, 1);
+    ASSERT_EQ(expected.boundary_faces(0), static_cast<std::size_t>(faces));
     Session session(*lc_subject_opensubdiv_far(), mesh, "precision=double");
     const Tessellation t = session.tessellate(1);
-    const Point normal = t.normal(places(mesh, t).at({0, 0, 0, 0, 0})[0]);
-    const double to_rule = angle(normal, boundary_normal(ring, false));
-    const double to_other = faces > 3 ? angle(normal, boundary_normal(ring, true)) : to_rule;
+    const Vector normal = t.normal(places(mesh, t).at({0, 0, 0, 0, 0})[0]);
+    const double to_rule = angle_degrees(normal, expected.normal(0));
+    const double to_other = faces > 3 ? angle_degrees(normal, expected.normal_by_the_other_mask(0)) : to_rule;
     EXPECT_LE(to_other, 1e-10) << faces << " faces";
     EXPECT_EQ(to_rule > 0.1, faces > 3) << faces << " faces: " << to_rule;
     record("degrees_at_" + std::to_string(faces) + "_faces", to_rule);
@@ -136,11 +163,11 @@ TEST(OpenSubdivBfr, HasNoNormalAtABoundaryVertexOfOneFace) {
   const auto mesh = data::named_mesh("triangle");
   Session session(*lc_subject_opensubdiv_bfr(), mesh);
   const Tessellation t = session.tessellate(2);
-  const auto expected = cgal_rings(mesh, 2);
+  const Expected expected(mesh, 2);
   for (int corner = 0; corner < 3; ++corner) {
     const Place at{0, corner, 0, 0, 0};
-    const double a = angle(t.normal(places(mesh, t).at(at)[0]), boundary_normal(expected.at(at), false));
-    EXPECT_FALSE(a < 1) << "corner " << corner << ": " << a;  // wrong, or NaN
+    const double a = angle_degrees(t.normal(places(mesh, t).at(at)[0]), expected.normal(corner));
+    EXPECT_FALSE(a < 1) << "corner " << corner << ": " << a;  // wrong, or none
     record("degrees_at_corner_" + std::to_string(corner), a);
   }
 }

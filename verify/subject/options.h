@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "key=value,key=value", as the door passes options.
+// "key=value,key=value", as the plug-in interface passes options.
 #pragma once
 
 #include <map>
@@ -10,8 +10,8 @@
 
 namespace limitcheck::verify {
 
-/// The options of a subject. Each is read once by name; `finish` refuses what nobody read.
-/// All members throw SubjectError(LC_INVALID_INPUT) with the option and what would be accepted.
+/// The options of a subject. Each is read once by name; `finish` refuses those that were not read. All
+/// members throw SubjectError(LC_INVALID_INPUT) with the option and what would be accepted.
 class Options {
  public:
   /// nullptr or "": none. "key" without "=", an empty key and a key given twice are refused.
@@ -23,8 +23,8 @@ class Options {
   int choice(const std::string& key, const std::vector<std::string_view>& choices);
   /// Any text.
   std::string value(const std::string& key, const std::string& fallback);
-  /// All that nobody has read yet, as "key=value,key=value",
-  /// and counts as read: for a subject that wraps another.
+  /// All options that have not been read yet, as "key=value,key=value", which then count as read: for a
+  /// subject that wraps another.
   std::string rest();
 
   void finish() const;

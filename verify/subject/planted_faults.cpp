@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "verify/subject/face_domain.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify {
@@ -89,11 +90,9 @@ std::size_t split_off(Copy<Real>& out, const HalfFan& fan) {
 }  // namespace
 
 std::int32_t control_vertex(const data::ControlMesh& mesh, const lc_provenance& p) {
-  const bool first = p.i == 0 && p.j == 0;
-  if (!first && p.i != p.denominator && p.j != p.denominator) return -1;
-  const std::size_t k = first ? 0 : p.i == p.denominator ? 1 : 2;
-  if (p.face < 0 || static_cast<std::size_t>(p.face) >= mesh.triangles.size()) return -1;
-  return mesh.triangles[static_cast<std::size_t>(p.face)][k];
+  const auto corner = FaceDomain().corner_at(point_of(p), p.denominator);
+  if (!corner || p.face < 0 || static_cast<std::size_t>(p.face) >= mesh.triangles.size()) return -1;
+  return mesh.triangles[p.face][*corner];
 }
 
 template <class Real>
@@ -138,7 +137,7 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
          for (std::size_t v = 0; v < out.positions.size(); ++v) {
            const std::int32_t at = control_vertex(mesh, out.provenance[v]);
            if (at < 0) continue;
-           const auto& control = mesh.positions[static_cast<std::size_t>(at)];
+           const auto& control = mesh.positions[at];
            for (std::size_t c = 0; c < 3; ++c) {
              out.positions[v][c] +=
                  static_cast<Real>(0.01 * (control[c] - static_cast<double>(out.positions[v][c])));
@@ -157,7 +156,7 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
          for (std::size_t v = 0; v < out.positions.size(); ++v)
            if (const std::int32_t at = control_vertex(mesh, out.provenance[v]); at >= 0)
              for (std::size_t c = 0; c < 3; ++c)
-               out.positions[v][c] = static_cast<Real>(mesh.positions[static_cast<std::size_t>(at)][c]);
+               out.positions[v][c] = static_cast<Real>(mesh.positions[at][c]);
        }},
       {{"snapped_positions", "positions are multiples of a fiftieth: small triangles collapse"},
        [](Mesh, Out out) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faults that hide on most control meshes: tables too short, assumptions about the shape.
+// Faults that show on some control meshes only: tables too short, assumptions about the shape.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "verify/subject/face_domain.h"
 #include "verify/subject/planted_faults.h"
 
 namespace limitcheck::verify {
@@ -17,7 +18,7 @@ std::vector<std::int32_t> components(const data::ControlMesh& mesh) {
   std::vector<std::int32_t> root(mesh.positions.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](std::int32_t v) {
-    while (root[static_cast<std::size_t>(v)] != v) v = root[static_cast<std::size_t>(v)];
+    while (root[v] != v) v = root[v];
     return static_cast<std::size_t>(v);
   };
   for (const auto& t : mesh.triangles)
@@ -33,7 +34,7 @@ std::vector<std::int32_t> components(const data::ControlMesh& mesh) {
 
 std::int32_t component_of(const data::ControlMesh& mesh, const std::vector<std::int32_t>& component,
                           const lc_provenance& place) {
-  return component[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(place.face)][0])];
+  return component[mesh.triangles[place.face][0]];
 }
 
 // Edges in the order in which the faces name them; points inside those beyond the first `room` lie half way
@@ -46,15 +47,13 @@ void forget_edges(const data::ControlMesh& mesh, std::size_t room, Copy<Real>& o
   for (std::size_t v = 0; v < out.positions.size(); ++v) {
     const lc_provenance& p = out.provenance[v];
     if (control_vertex(mesh, p) >= 0) continue;
-    const auto& t = mesh.triangles[static_cast<std::size_t>(p.face)];
-    const std::size_t from = p.j == 0 ? 0 : p.i == 0 ? 2 : 1;
-    if (p.i != 0 && p.j != 0 && p.i + p.j != p.denominator) continue;
-    const std::int32_t a = t[from], b = t[(from + 1) % 3];
+    const auto& t = mesh.triangles[p.face];
+    const auto place = FaceDomain().side_of(point_of(p), p.denominator);
+    if (!place) continue;
+    const std::int32_t a = t[place->side], b = t[FaceDomain().next(place->side)];
     if (edges.at(std::minmax(a, b)) < room) continue;
     for (std::size_t c = 0; c < 3; ++c)
-      out.positions[v][c] = static_cast<Real>(
-          (mesh.positions[static_cast<std::size_t>(a)][c] + mesh.positions[static_cast<std::size_t>(b)][c]) /
-          2);
+      out.positions[v][c] = static_cast<Real>((mesh.positions[a][c] + mesh.positions[b][c]) / 2);
   }
 }
 
@@ -116,8 +115,7 @@ std::vector<PlantedFault<Real>> mesh_faults() {
              if (mesh.positions[a] == mesh.positions[b]) spoilt[a] = spoilt[b] = true;
            }
          for (std::size_t v = 0; v < out.positions.size(); ++v)
-           if (const auto at = control_vertex(mesh, out.provenance[v]);
-               at >= 0 && spoilt[static_cast<std::size_t>(at)])
+           if (const auto at = control_vertex(mesh, out.provenance[v]); at >= 0 && spoilt[at])
              out.positions[v].fill(kNan);
        }},
       {{"indices_of_16_bits", "control points are fetched by the lower 16 bits of their number"},

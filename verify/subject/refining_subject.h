@@ -49,9 +49,9 @@ class RefiningSubject {
     const auto provenance = tracker.provenance();
     std::copy(provenance.begin(), provenance.end(), output.provenance);
     for (std::int64_t t = 0; t < triangle_count; ++t) {
-      const auto& corners = tracker.triangles()[static_cast<std::size_t>(t)];
+      const auto& corners = tracker.triangles()[t];
       std::copy(corners.begin(), corners.end(), output.triangles + 3 * t);
-      output.triangle_face[t] = tracker.triangle_face()[static_cast<std::size_t>(t)];
+      output.triangle_face[t] = tracker.triangle_face()[t];
     }
   }
 

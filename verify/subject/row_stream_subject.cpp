@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Row streaming through the door. As strips and fans (the default) every face and pair delivers its border
+// Row streaming as a subject. As strips and fans (the default) every face and pair delivers its border
 // points itself, so that their bits can be compared; as an indexed mesh they are shared. `target` forces one
 // compiled variant.
 #include <algorithm>
@@ -26,8 +26,7 @@ struct Settings {
     indexed = options.choice("output", {"strips", "indexed"}) == 1;
     tessellator.provenance = true;
     constexpr std::array kRepairs{fast::Repair::kStitch, fast::Repair::kFan, fast::Repair::kNone};
-    tessellator.cracks.repair =
-        kRepairs[static_cast<std::size_t>(options.choice("repair", {"stitch", "fan", "none"}))];
+    tessellator.cracks.repair = kRepairs[options.choice("repair", {"stitch", "fan", "none"})];
     const std::string target = options.value("target", rs::kernels().front().name);
     kernel = rs::find_kernel(target.c_str());
     if (kernel == nullptr) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Our own engine, judged through the door like everybody else: pairing, sliding window, crack repair. As
-// strips and fans (the default) every face and pair delivers its border points itself, so that their bits can
-// be compared; as an indexed mesh they are shared. Cracks are stitched: the paper's fans leave out the points
-// inside a face beside a deeper one, which every face that asks for them must have.
+// Our own engine, audited through the plug-in interface like every other subject: pairing, sliding window,
+// crack repair. As strips and fans (the default) every face and pair delivers its border points itself, so
+// that their bits can be compared; as an indexed mesh they are shared. Cracks are stitched: the paper's fans
+// leave out the points inside a face beside a deeper one, which every face that asks for them must have.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -26,12 +26,12 @@ struct Settings {
     wide = options.choice("precision", {"float", "double"}) == 1;
     indexed = options.choice("output", {"strips", "indexed"}) == 1;
     tessellator.provenance = true;
-    tessellator.cracks.repair = std::array{
-        fast::Repair::kStitch, fast::Repair::kFan,
-        fast::Repair::kNone}[static_cast<std::size_t>(options.choice("repair", {"stitch", "fan", "none"}))];
-    tessellator.cracks.centre = std::array{fast::FanCentre::kLimit, fast::FanCentre::kFlatLimit,
-                                           fast::FanCentre::kFlatControl}[static_cast<std::size_t>(
-        options.choice("centre", {"limit", "flat", "flat-control"}))];
+    tessellator.cracks.repair =
+        std::array{fast::Repair::kStitch, fast::Repair::kFan,
+                   fast::Repair::kNone}[options.choice("repair", {"stitch", "fan", "none"})];
+    tessellator.cracks.centre = std::array{
+        fast::FanCentre::kLimit, fast::FanCentre::kFlatLimit,
+        fast::FanCentre::kFlatControl}[options.choice("centre", {"limit", "flat", "flat-control"})];
     rules.pairing = options.choice("pairing", {"corrected", "printed"}) == 1 ? fast::PairingRule::kPrinted
                                                                              : fast::PairingRule::kCorrected;
   }
@@ -93,7 +93,6 @@ const lc_subject* lc_subject_sliding_window() {
   static const lc_subject subject = make_subject<SlidingWindowSubject>(
       "sliding-window", "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000)",
       "precision=float|double, output=strips|indexed, repair=stitch|fan|none, "
-      "centre=limit|flat|flat-control, "
-      "pairing=corrected|printed");
+      "centre=limit|flat|flat-control, pairing=corrected|printed");
   return &subject;
 }

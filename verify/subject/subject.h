@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The door: the one interface through which limitcheck reaches a tessellator, its own included. Plain C99.
+ * The plug-in interface: the one way in which limitcheck reaches a tessellator, its own included. Plain C99.
  * Installed as <limitcheck/subject.h>; CMake: find_package(limitcheck), target limitcheck::subject.
  *
  * A subject is a table of functions. For each control mesh the host calls capabilities(), then create() once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calling through the door. Private to the host and to the worker.
+// Calls through the plug-in interface. Private to the host and to the worker.
 #pragma once
 
 #include <fmt/core.h>

@@ -8,10 +8,11 @@
 
 namespace limitcheck::verify {
 
-/// A subject says no, or the host does not even ask (depths beyond its capabilities, another interface).
+/// A subject refuses or fails, or the host does not call it (depths beyond its capabilities, another
+/// interface).
 ///   status   LC_NOT_SUPPORTED, LC_INVALID_INPUT or LC_FAILED, never LC_OK
 /// Thrown by the host (verify/subject/host.h); an adapter
-/// that throws it makes the door return status and text.
+/// that throws it makes the interface return status and text.
 class SubjectError : public std::runtime_error {
  public:
   SubjectError(lc_status status, const std::string& message) : std::runtime_error(message), status_(status) {}
@@ -21,7 +22,8 @@ class SubjectError : public std::runtime_error {
   lc_status status_;
 };
 
-/// The host has not asked: what was wanted is beyond what the subject declares, or beyond the door itself.
+/// The host did not call the subject: the request is beyond what the subject declares, or beyond the
+/// interface itself.
 class NotAsked : public SubjectError {
  public:
   explicit NotAsked(const std::string& message) : SubjectError(LC_NOT_SUPPORTED, message) {}
@@ -35,7 +37,7 @@ class SubjectDied : public SubjectError {
     kCrash,     // killed by a signal, or ended without an answer
     kTimeout,   // no answer in time
     kMemory,    // took more memory than allowed
-    kProtocol,  // answered something that is no answer
+    kProtocol,  // its answer breaks the protocol
   };
   SubjectDied(Kind kind, const std::string& message) : SubjectError(LC_FAILED, message), kind_(kind) {}
   Kind kind() const { return kind_; }

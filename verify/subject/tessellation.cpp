@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "verify/subject/face_domain.h"
 #include "verify/subject/host.h"
 #include "verify/subject/host_memory.h"
 
@@ -36,6 +37,80 @@ void count_bad(std::vector<Defect>& defects, Defect::Kind kind, const char* arra
   }
 }
 
+using Arrays = std::array<Array, 5>;
+using Kind = Defect::Kind;
+
+void note(std::vector<Defect>& defects, Kind kind, const char* array, std::string message) {
+  defects.push_back({kind, array, 1, -1, std::move(message)});
+}
+
+// Finds writes to the guard zones of each block; a block is named by the array that begins in it.
+void find_overruns(const detail::Memory& memory, const Arrays& arrays, std::vector<Overrun>& overruns) {
+  for (const auto& block : memory.blocks()) {
+    const auto owner =
+        std::find_if(arrays.begin(), arrays.end(), [&](const Array& a) { return a.data == block.data; });
+    const std::string name =
+        owner != arrays.end() ? owner->name : fmt::format("block of {} bytes", block.size);
+    if (const auto far = memory.written_before(block)) overruns.push_back({name, true, far});
+    if (const auto far = memory.written_behind(block)) overruns.push_back({name, false, far});
+  }
+}
+
+// Neither negative nor so large that a size in bytes overflows.
+bool counts_usable(const lc_tessellation& out, std::vector<Defect>& defects) {
+  constexpr std::int64_t kMany = std::numeric_limits<std::int64_t>::max() / 64;
+  bool usable = true;
+  for (const auto& [name, count] :
+       {std::pair{"vertex_count", out.vertex_count}, {"triangle_count", out.triangle_count}}) {
+    if (count >= 0 && count <= kMany) continue;
+    note(defects, count < 0 ? Kind::kNegativeCount : Kind::kArrayTooSmall, "",
+         fmt::format("{} is {}", name, count));
+    usable = false;
+  }
+  return usable;
+}
+
+// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals may be missing.
+bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vector<Defect>& defects) {
+  bool usable = true;
+  for (const Array& a : arrays) {
+    if (a.data == nullptr) {
+      if (!a.required || a.elements <= 0) continue;
+      note(defects, Kind::kMissingArray, a.name,
+           fmt::format("{} is NULL, {} elements were announced", a.name, a.elements));
+      usable = usable && std::string_view(a.name) == "normals";
+      continue;
+    }
+    const auto* block = memory.find(a.data);
+    const bool aligned = reinterpret_cast<std::uintptr_t>(a.data) % a.alignment == 0;
+    if (block == nullptr || !aligned) {
+      note(
+          defects, Kind::kForeignPointer, a.name,
+          fmt::format("{} {}", a.name, block == nullptr ? "is not memory from allocate()" : "is misaligned"));
+      usable = false;
+    } else if (a.bytes() > static_cast<std::size_t>(block->data + block->size - a.begin())) {
+      note(defects, Kind::kArrayTooSmall, a.name,
+           fmt::format("{}: {} elements need {} bytes, {} were allocated", a.name, a.elements, a.bytes(),
+                       block->data + block->size - a.begin()));
+      usable = false;
+    }
+  }
+  return usable;
+}
+
+bool overlapping(const Arrays& arrays, std::vector<Defect>& defects) {
+  bool any = false;
+  for (const Array& a : arrays)
+    for (const Array& b : arrays)
+      if (&a < &b && a.bytes() > 0 && b.bytes() > 0 && a.data != nullptr && b.data != nullptr &&
+          a.begin() < b.begin() + b.bytes() && b.begin() < a.begin() + a.bytes()) {
+        note(defects, Kind::kOverlappingArrays, b.name,
+             fmt::format("{} and {} share memory", a.name, b.name));
+        any = true;
+      }
+  return any;
+}
+
 }  // namespace
 
 std::array<double, 3> Tessellation::read(const void* array, std::int64_t v) const {
@@ -65,11 +140,17 @@ bool Tessellation::unwritten(const void* array, std::int64_t v) const {
   return false;
 }
 
-bool Tessellation::triangle_ok(std::int64_t t) const {
+bool Tessellation::indices_ok(std::int64_t t) const {
   const auto& corners = indices_[t];
-  return triangle_face_[t] >= 0 && triangle_face_[t] < faces_ &&
-         std::all_of(corners.begin(), corners.end(),
-                     [this](std::uint32_t v) { return static_cast<std::int64_t>(v) < vertices_; });
+  return std::all_of(corners.begin(), corners.end(), [this](std::uint32_t v) { return v < vertices_; });
+}
+
+bool Tessellation::face_ok(std::int64_t t) const {
+  return triangle_face_[t] >= 0 && triangle_face_[t] < faces_;
+}
+
+bool Tessellation::triangle_ok(std::int64_t t) const {
+  return face_ok(t) && indices_ok(t);
 }
 
 void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t count) {
@@ -84,25 +165,10 @@ void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t
 bool Tessellation::provenance_ok(std::int64_t v) const {
   const lc_provenance& p = provenance_[v];
   return p.face >= 0 && p.face < faces_ && p.denominator > 0 &&
-         std::uint64_t{p.i} + std::uint64_t{p.j} <= p.denominator;
+         FaceDomain().contains(point_of(p), p.denominator);
 }
 
 void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
-  using Kind = Defect::Kind;
-  const auto defect = [this](Kind kind, const char* array, std::string message) {
-    defects_.push_back({kind, array, 1, -1, std::move(message)});
-  };
-
-  // The counts, and where each array must lie if they are believed.
-  constexpr std::int64_t kMany =
-      std::numeric_limits<std::int64_t>::max() / 64;  // counts * sizes cannot overflow
-  bool usable = true;
-  for (const auto& [name, count] :
-       {std::pair{"vertex_count", out.vertex_count}, {"triangle_count", out.triangle_count}}) {
-    if (count >= 0 && count <= kMany) continue;
-    defect(count < 0 ? Kind::kNegativeCount : Kind::kArrayTooSmall, "", fmt::format("{} is {}", name, count));
-    usable = false;
-  }
   const std::size_t real = coordinate_size();
   const std::array<Array, 5> arrays{{
       {"positions", out.positions, out.vertex_count, 3 * real, real, true},
@@ -113,52 +179,10 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
       {"triangle_face", out.triangle_face, out.triangle_count, sizeof(std::int32_t), alignof(std::int32_t),
        true},
   }};
-
-  // Guard zones first: they are meaningful whatever else is wrong.
-  for (const auto& block : memory_->blocks()) {
-    const auto owner =
-        std::find_if(arrays.begin(), arrays.end(), [&](const Array& a) { return a.data == block.data; });
-    const std::string name =
-        owner != arrays.end() ? owner->name : fmt::format("block of {} bytes", block.size);
-    if (const auto far = memory_->written_before(block)) overruns_.push_back({name, true, far});
-    if (const auto far = memory_->written_behind(block)) overruns_.push_back({name, false, far});
-  }
-
-  if (!usable) return;
-  for (const Array& a : arrays) {
-    if (a.data == nullptr) {
-      if (a.required && a.elements > 0) {
-        defect(Kind::kMissingArray, a.name,
-               fmt::format("{} is NULL, {} elements were announced", a.name, a.elements));
-        if (a.data != out.normals) usable = false;
-      }
-      continue;
-    }
-    const auto* block = memory_->find(a.data);
-    const bool aligned = reinterpret_cast<std::uintptr_t>(a.data) % a.alignment == 0;
-    if (block == nullptr || !aligned) {
-      defect(
-          Kind::kForeignPointer, a.name,
-          fmt::format("{} {}", a.name, block == nullptr ? "is not memory from allocate()" : "is misaligned"));
-      usable = false;
-    } else if (a.bytes() > static_cast<std::size_t>(block->data + block->size - a.begin())) {
-      defect(Kind::kArrayTooSmall, a.name,
-             fmt::format("{}: {} elements need {} bytes, {} were allocated", a.name, a.elements, a.bytes(),
-                         block->data + block->size - a.begin()));
-      usable = false;
-    }
-  }
-  if (!usable) return;
-  for (const Array& a : arrays) {
-    for (const Array& b : arrays) {
-      if (&a < &b && a.bytes() > 0 && b.bytes() > 0 && a.data != nullptr && b.data != nullptr &&
-          a.begin() < b.begin() + b.bytes() && b.begin() < a.begin() + a.bytes()) {
-        defect(Kind::kOverlappingArrays, b.name, fmt::format("{} and {} share memory", a.name, b.name));
-        usable = false;
-      }
-    }
-  }
-  if (!usable) return;
+  find_overruns(*memory_, arrays, overruns_);  // they are meaningful whatever else is wrong
+  if (!counts_usable(out, defects_) || !memory_usable(*memory_, arrays, defects_) ||
+      overlapping(arrays, defects_))
+    return;
 
   vertices_ = out.vertex_count;
   triangles_ = out.triangle_count;
@@ -167,18 +191,17 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
   provenance_ = out.provenance;
   indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
   triangle_face_ = out.triangle_face;
+  inspect_contents();
+}
 
+void Tessellation::inspect_contents() {
+  using Kind = Defect::Kind;
   count_bad(
       defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
-      [&](std::int64_t t) {
-        return std::all_of(indices_[t].begin(), indices_[t].end(),
-                           [this](std::uint32_t v) { return static_cast<std::int64_t>(v) < vertices_; });
-      },
-      "triangles name a vertex that does not exist");
+      [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");
   count_bad(
       defects_, Kind::kFaceOutOfRange, "triangle_face", triangles_,
-      [&](std::int64_t t) { return triangle_face_[t] >= 0 && triangle_face_[t] < faces_; },
-      "triangles name a control face that does not exist");
+      [&](std::int64_t t) { return face_ok(t); }, "triangles name a control face that does not exist");
   count_bad(
       defects_, Kind::kProvenanceOutOfRange, "provenance", vertices_,
       [&](std::int64_t v) { return provenance_ok(v); }, "vertices name a place outside the control mesh");

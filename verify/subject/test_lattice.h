@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Points by where they lie, the same name from every face that touches them. For tests of this folder.
+// Names of points by where they lie, the same from every face that touches a point. For tests of this folder.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +17,8 @@
 
 #include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
+#include "verify/audit/vector.h"
+#include "verify/subject/face_domain.h"
 #include "verify/subject/host.h"
 
 namespace limitcheck::verify::test {
@@ -33,24 +37,20 @@ inline std::vector<std::pair<std::string, data::ControlMesh>> shapes() {
 using Place = std::tuple<int, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
 
 inline Place place(const data::ControlMesh& mesh, const lc_provenance& p) {
-  const auto& corners = mesh.triangles[static_cast<std::size_t>(p.face)];
-  const std::array<std::int64_t, 3> l{std::int64_t{p.denominator} - p.i - p.j, p.i, p.j};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (l[k] == p.denominator) return {0, corners[k], 0, 0, 0};
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto a = corners[k], b = corners[(k + 1) % 3];
-    if (l[(k + 2) % 3] != 0) continue;
-    return a < b ? Place{1, a, b, l[(k + 1) % 3], p.denominator} : Place{1, b, a, l[k], p.denominator};
-  }
-  return {2, p.face, p.i, p.j, p.denominator};
+  const auto& corners = mesh.triangles[p.face];
+  const auto at = FaceDomain().side_of(point_of(p), p.denominator);
+  if (!at) return {2, p.face, p.i, p.j, p.denominator};
+  const auto a = corners[at->side], b = corners[FaceDomain().next(at->side)];
+  if (at->along == 0) return {0, a, 0, 0, 0};
+  return a < b ? Place{1, a, b, at->along, p.denominator}
+               : Place{1, b, a, p.denominator - at->along, p.denominator};
 }
 
 /// (l0, l1, l2) of `p` on `face`, which it may name or only touch.
 inline std::optional<std::array<std::int64_t, 3>> on_face(const data::ControlMesh& mesh,
                                                           const lc_provenance& p, std::int32_t face) {
-  const auto& from = mesh.triangles[static_cast<std::size_t>(p.face)];
-  const auto& to = mesh.triangles[static_cast<std::size_t>(face)];
+  const auto& from = mesh.triangles[p.face];
+  const auto& to = mesh.triangles[face];
   const std::array<std::int64_t, 3> l{std::int64_t{p.denominator} - p.i - p.j, p.i, p.j};
   if (p.face == face) return l;
   std::array<std::int64_t, 3> result{0, 0, 0};
@@ -69,14 +69,20 @@ inline std::map<Place, std::vector<std::int64_t>> places(const data::ControlMesh
                                                          const Tessellation& t) {
   std::map<Place, std::vector<std::int64_t>> result;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    result[place(mesh, t.provenance()[static_cast<std::size_t>(v)])].push_back(v);
+    result[place(mesh, t.provenance()[v])].push_back(v);
   }
   return result;
 }
 
-inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                   (a[2] - b[2]) * (a[2] - b[2]));
+inline double distance(const Vector& a, const Vector& b) {
+  return norm(a - b);
+}
+
+/// Keeps the worst value seen in the test's record.
+inline void record(const std::string& what, double worst) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", worst);
+  testing::Test::RecordProperty(what, text);
 }
 
 }  // namespace limitcheck::verify::test

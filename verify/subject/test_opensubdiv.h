@@ -39,7 +39,7 @@ inline RefinedByOpenSubdiv refined_by_opensubdiv(const data::ControlMesh& mesh,
   for (const auto& p : mesh.positions) level.push_back({p});
   const Far::PrimvarRefinerReal<double> primvars(*result.refiner);
   for (int step = 1; step <= steps; ++step) {
-    std::vector<Point> next(static_cast<std::size_t>(result.refiner->GetLevel(step).GetNumVertices()));
+    std::vector<Point> next(result.refiner->GetLevel(step).GetNumVertices());
     primvars.Interpolate(step, level, next);
     level = std::move(next);
   }

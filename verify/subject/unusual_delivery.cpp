@@ -106,7 +106,7 @@ void name_other_faces(const data::ControlMesh& mesh, DeliveredCopy<Real>& out) {
       edges[{mesh.triangles[f][k], mesh.triangles[f][(k + 1) % 3]}] = {static_cast<std::int32_t>(f), k};
   for (lc_provenance& p : out.provenance) {
     const std::array<std::uint32_t, 3> l{p.denominator - p.i - p.j, p.i, p.j};
-    const auto& t = mesh.triangles[static_cast<std::size_t>(p.face)];
+    const auto& t = mesh.triangles[p.face];
     for (std::size_t k = 0; k < 3; ++k) {
       if (l[(k + 2) % 3] != 0) continue;
       const auto beyond = edges.find({t[(k + 1) % 3], t[k]});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the subject `unusual` does to a tessellation that is right, and leaves right. Private to it.
+// The habits in which the subject `unusual` delivers a correct tessellation. Private to it.
 #pragma once
 
 #include <string_view>

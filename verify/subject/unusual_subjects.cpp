@@ -81,7 +81,7 @@ class UnusualSubject {
   // What the options say: the habit, the subject that has it, and the options for that one.
   struct Inner {
     explicit Inner(Options& given)
-        : habit(names()[static_cast<std::size_t>(given.choice("habit", names()))]),
+        : habit(names()[given.choice("habit", names())]),
           subject(find(given.value("of", "null"))),
           options(given.rest()) {}
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The subject `unusual`: another subject with a habit that is rare and right by subject.h, so that checks can
-// be tried for blame that nobody deserves.
+// The subject `unusual`: another subject with a habit that is rare but allowed by subject.h, to test that no
+// check reports it as a fault.
 //
 //   options   of=SUBJECT, habit=NAME (default none), and any option of that subject
 #pragma once

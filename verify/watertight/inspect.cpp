@@ -18,7 +18,8 @@ bool degenerate(const Triangle& t) {
   return t[0] < 0 || t[1] < 0 || t[2] < 0 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-// What one block of consecutive points found; blocks are joined in order, so threads do not show.
+// The findings of one block of consecutive points. Blocks are joined in order, so the result does not depend
+// on threads.
 struct Block {
   std::int64_t directed_edges = 0, crowded = 0, clashing = 0, bow_ties = 0, duplicates = 0;
   std::vector<Edge> open, crowded_witness, clashing_witness;
@@ -87,7 +88,7 @@ class StarInspector {
     }
   }
 
-  // Told by the smallest of the three points.
+  // Counted once, by the smallest of the three points.
   void duplicates(std::int32_t v, std::span<const Ray> star, Block& out) {
     pairs_.clear();
     for (const Ray& r : star)
@@ -146,7 +147,7 @@ class StarInspector {
 
 // Closed walks along the open edges, or -1 where a point has more than one of them leaving or none.
 std::int64_t count_loops(std::int64_t point_count, const std::vector<Edge>& open) {
-  std::vector<std::int32_t> leaving(static_cast<std::size_t>(point_count), -1);
+  std::vector<std::int32_t> leaving(point_count, -1);
   for (std::size_t e = 0; e < open.size(); ++e) {
     if (leaving[open[e].from] >= 0) return -1;
     leaving[open[e].from] = static_cast<std::int32_t>(e);
@@ -182,7 +183,7 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
     for (const std::int32_t p : triangles[t]) ++start[p + 1];
   }
   for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
-  std::vector<Ray> rays(static_cast<std::size_t>(start.back()));
+  std::vector<Ray> rays(start.back());
   {
     std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -194,7 +195,7 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
   }
 
   const auto block_count = static_cast<std::int32_t>((point_count + kGrain - 1) / kGrain);
-  std::vector<Block> blocks(static_cast<std::size_t>(block_count));
+  std::vector<Block> blocks(block_count);
   tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, block_count, 1), [&](const auto& range) {
     StarInspector inspector;
     for (std::int32_t b = range.begin(); b < range.end(); ++b) {

@@ -77,7 +77,7 @@ std::vector<TVertex> find_t_vertices(std::span<const double> positions,
   CGAL::box_intersection_d(
       edge_boxes.begin(), edge_boxes.end(), point_boxes.begin(), point_boxes.end(),
       [&](const Box& e, const Box& p) {
-        const auto& edge = open_edges[static_cast<std::size_t>(e.info())];
+        const auto& edge = open_edges[e.info()];
         const std::int32_t point = p.info();
         if (point == edge.from || point == edge.to) return;
         const Point a = place(edge.from), b = place(edge.to), c = place(point);

@@ -41,9 +41,8 @@ MergedPoints merge(std::span<const Real> positions) {
   };
 
   // Hash. Adding +0 turns -0 into +0 and changes nothing else.
-  std::vector<Keyed> keys(static_cast<std::size_t>(count));
-  std::vector<std::int32_t> first(
-      static_cast<std::size_t>(count));  // the first vertex in the same place, or -1
+  std::vector<Keyed> keys(count);
+  std::vector<std::int32_t> first(count);  // the first vertex in the same place, or -1
   tbb::parallel_for(std::int32_t{0}, count, [&](std::int32_t v) {
     std::uint64_t hash = 0;
     bool finite = true;
@@ -78,7 +77,7 @@ MergedPoints merge(std::span<const Real> positions) {
 
   // Number the places by first appearance.
   MergedPoints merged;
-  merged.point_of.resize(static_cast<std::size_t>(count));
+  merged.point_of.resize(count);
   for (std::int32_t v = 0; v < count; ++v) {
     if (first[v] == v) {
       merged.point_of[v] = static_cast<std::int32_t>(merged.vertex_of.size());

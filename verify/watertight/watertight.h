@@ -18,8 +18,8 @@ struct MergedPoints {
 };
 
 /// Merges vertices whose three coordinates are equal as numbers and nothing else: bit-identical coordinates,
-/// and -0 with +0, which are the same place to every consumer (the bits of zeros are the business of the
-/// shared-points check). A NaN or infinity is no place and is merged with nothing.
+/// and -0 with +0, which are the same place to every consumer (`shared-positions` compares the bits of
+/// zeros). A vertex with a NaN or an infinity is merged with nothing.
 ///   positions  3 * n coordinates
 /// O(n log n), in parallel; the result does not depend on the number of threads.
 MergedPoints merge_identical(std::span<const float> positions);

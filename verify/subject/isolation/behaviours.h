@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What libraries and programs may do, and what is to come of it: for tests.
+// What libraries and programs may do, and the expected outcome of an audit. For tests.
 #pragma once
 
 #include <vector>

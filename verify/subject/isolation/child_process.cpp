@@ -60,7 +60,7 @@ std::string how_it_ended(int status) {
                      name == nullptr ? "" : fmt::format(" (a shell says so of SIG{})", name));
 }
 
-// Where namespaces are not to be had the first child finds out for all.
+// Whether namespaces are available is found out once, with the first child.
 std::atomic<bool> no_namespaces{false};
 
 }  // namespace
@@ -76,7 +76,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Proces
   if (!alive()) refuse("cannot start a process");
 }
 
-// Leaves it not alive, with errno, if it cannot be held in this way.
+// If the child cannot be contained in this way, it is not alive afterwards, and errno says why.
 void ChildProcess::start(const std::vector<std::string>& command, Containment containment) {
   std::vector<char*> argv;
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
@@ -109,7 +109,7 @@ void ChildProcess::start(const std::vector<std::string>& command, Containment co
     ::close(fd);
   for (const int fd : pipe_) fcntl(fd, F_SETFL, O_NONBLOCK);
   start_clock();
-  // The first news: whether there is a child.
+  // The first message of the keeper says whether there is a child.
   pollfd news{pipe_[kNews], POLLIN, 0};
   while (::poll(&news, 1, static_cast<int>(std::chrono::milliseconds(kGrace).count())) < 0 &&
          errno == EINTR) {
@@ -157,7 +157,7 @@ bool ChildProcess::wait_for_end(Clock::time_point until) {
   }
 }
 
-// Waits for nothing without limit: what the kernel does not end is left to it.
+// Every wait is limited: a process that the kernel cannot end is left to it.
 void ChildProcess::kill_and_reap() {
   if (keeper_ > 0) {
     close_pipe(kIn);
@@ -168,7 +168,7 @@ void ChildProcess::kill_and_reap() {
         if (Clock::now() > until) return false;
       return true;
     };
-    // A subreaper has its children to kill first; a namespace goes with its first process.
+    // A subreaper has to kill its children first; a namespace ends with its first process.
     if (containment_ == Containment::kNamespace || !reap(kGrace)) {
       kill(keeper_, SIGKILL);
       if (!reap(kGrace)) epitaph_ += "; it cannot be killed, and is left to the system";
@@ -181,7 +181,7 @@ void ChildProcess::kill_and_reap() {
 
 void ChildProcess::drain_errors() {
   std::array<char, 4096> chunk;
-  // Bounded: what writes without end must not keep the host here.
+  // Bounded, because a process that writes without end must not keep the host here.
   for (int k = 0; k < 64 && pipe_[kErr] >= 0; ++k) {
     const ssize_t n = ::read(pipe_[kErr], chunk.data(), chunk.size());
     if (n < 0 && errno == EINTR) continue;
@@ -216,7 +216,7 @@ void ChildProcess::fail(SubjectDied::Kind kind, const std::string& what) {
   throw SubjectDied(kind_, epitaph_);
 }
 
-// Standard output or input is closed: the process is ending, or has lost interest.
+// Standard output or input is closed: the process is ending, or no longer reads.
 void ChildProcess::ended() {
   if (!wait_for_end(Clock::now() + kGrace))
     fail(SubjectDied::Kind::kProtocol, "closed its standard input or output before its answer was complete");
@@ -240,7 +240,7 @@ void ChildProcess::watch_limits() {
   if (now < next_look_) return;
   const std::vector<pid_t> all = descendants(keeper_);
   const std::uint64_t bytes = resident_bytes(all, limits_.memory_bytes());
-  // Where there are thousands of processes a look takes its time; nine tenths of it are for other things.
+  // With thousands of processes a look takes long; at most a tenth of the time is spent on looking.
   const auto after = Clock::now();
   next_look_ = after + std::max<Clock::duration>(kTick, 9 * (after - now));
   if (bytes > limits_.memory_bytes())
@@ -275,7 +275,7 @@ void ChildProcess::ask(std::string_view request) {
       request.remove_prefix(static_cast<std::size_t>(n));
       watch_limits();
     } else if (n < 0 && errno == EPIPE) {
-      // What has spoken before it was asked, and left, is judged by what it said.
+      // A process that answered before it was asked, and ended, is judged by its answer.
       pollfd said{pipe_[kOut], POLLIN, 0};
       if (!answered_ && ::poll(&said, 1, 0) == 1 && (said.revents & POLLIN) != 0) return;
       ended();

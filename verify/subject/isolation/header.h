@@ -12,10 +12,11 @@
 
 namespace limitcheck::verify::protocol {
 
-/// Dumped on one line; text that is not UTF-8 is replaced, never a reason to throw.
+/// Dumped on one line. Text that is not UTF-8 is replaced; it never throws.
 std::string to_line(const nlohmann::json& json);
 
-/// An object; every member function throws Error naming the key if its value is missing or not what is asked.
+/// An object; every member function throws Error, which names the key, if the value is missing or of another
+/// type.
 class Header {
  public:
   explicit Header(const std::string& line);

@@ -65,7 +65,7 @@ bool write_line(const char* file, const char* text, unsigned a, unsigned b) {
   return written;
 }
 
-// In a user namespace of its own everybody stays who he is.
+// In the new user namespace, user and group keep their numbers.
 bool keep_identity(const Identity& own) {
   return write_line("/proc/self/setgroups", "deny", 0, 0) &&
          write_line("/proc/self/uid_map", "", own.user, own.user) &&
@@ -136,7 +136,7 @@ void shed_memory() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpgid(0, 0);
   for (int k = 0; k < 3; ++k)
-    if (dup2(pipes.standard[static_cast<std::size_t>(k)], k) < 0) {
+    if (dup2(pipes.standard[k], k) < 0) {
       tell(pipes.news, News::kNotStarted, errno);
       _exit(126);
     }
@@ -203,11 +203,11 @@ void sweep(pid_t child) {
 }
 
 [[noreturn]] void keep(bool in_namespace, const Identity* mapped, char* const* argv, KeeperPipes pipes) {
-  // Without a namespace it must live to kill its children: there the lifeline alone tells it.
+  // Without a namespace the keeper must live to kill its children: there only the lifeline ends it.
   if (in_namespace) prctl(PR_SET_PDEATHSIG, SIGKILL);
   setsid();
   for (const int signal : kIgnored) std::signal(signal, SIG_IGN);
-  // No descriptor but its own: the lifeline of another child in here would keep that one alive.
+  // It keeps no other descriptors: the lifeline of another child, if open here, would keep that child alive.
   std::array<int, 5> own{pipes.standard[0], pipes.standard[1], pipes.standard[2], pipes.lifeline, pipes.news};
   std::sort(own.begin(), own.end());
   unsigned next = 3;
@@ -253,7 +253,8 @@ void sweep(pid_t child) {
     if (read(signals, taken.data(), sizeof taken) < 0 && errno != EAGAIN && errno != EINTR) end();
     host_lives = awaited[0].revents == 0;
     if (!first) continue;
-    // Once all that is called below has been called: to find a function for the first time takes the heap.
+    // After every function used below has been called once, because resolving a function for the first time
+    // uses the heap.
     kill_children(std::numeric_limits<pid_t>::max());
     kill(getpid(), 0);
     shed_memory();

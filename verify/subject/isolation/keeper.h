@@ -3,12 +3,11 @@
 // outlives it. It leads a session of its own, so that the child has no terminal.
 //
 //   in a PID namespace   where the system allows one (root, or user namespaces). The keeper is its first
-//   process:
-//                        when it ends, however it ends, the kernel kills all others. They see no process
-//                        outside.
+//                        process: when it ends, however it ends, the kernel kills all others. They see no
+//                        process outside.
 //   as a subreaper       elsewhere. What a descendant leaves behind becomes a child of the keeper, which
-//   kills its
-//                        children until none is left. A descendant that kills the keeper gets past that.
+//                        kills its children until none is left. A descendant that kills the keeper escapes
+//                        this.
 #pragma once
 
 #include <sys/types.h>

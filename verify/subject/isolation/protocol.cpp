@@ -188,7 +188,7 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   const std::int64_t vertices = header.integer("vertices", 0, INT64_MAX);
   const std::int64_t triangles = header.integer("triangles", 0, INT64_MAX);
 
-  // Nothing is allocated for a count before it is known to be bearable.
+  // A count is checked before memory is allocated for it.
   const std::size_t point = 3 * real_size(capabilities);
   const bool normals = capabilities.values.normals != 0;
   const double bytes =

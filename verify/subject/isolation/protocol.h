@@ -19,7 +19,7 @@ inline constexpr int kVersion = 1;
 inline constexpr std::size_t kLongestHeader = std::size_t{64} << 10;
 inline constexpr std::size_t kLongestLine = 1024;  // of a text payload
 
-/// The answer is none. what() says what came instead.
+/// The bytes are no valid answer. what() says what came instead.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

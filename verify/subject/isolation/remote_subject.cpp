@@ -8,13 +8,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "data/error.h"
 #include "verify/subject/isolation/witness.h"
 
 namespace limitcheck::verify {
 
-// The functions behind the table. capabilities() and create() are not told whose they are: each remote
-// subject has a pair of its own, made by the compiler for one of 64 slots.
-struct RemoteDoor {
+// The functions behind the table. capabilities() and create() get no pointer to their subject, so each remote
+// subject has a pair of its own, which the compiler makes for each of 64 slots.
+struct RemoteCalls {
   struct Instance {
     RemoteSubject& subject;
     std::unique_ptr<ChildProcess> child;
@@ -30,7 +31,7 @@ struct RemoteDoor {
     return all;
   }
 
-  // What goes wrong with a process, and refusals, in the words of the door.
+  // Errors of the process, and refusals, as statuses of the plug-in interface.
   template <class Work>
   static lc_status answer(RemoteSubject& s, ChildProcess& child, const char** message, const Input& input,
                           Work&& work) {
@@ -49,7 +50,7 @@ struct RemoteDoor {
     } catch (const std::bad_alloc&) {
       throw HostOutOfMemory();
     } catch (const SubjectDied& error) {
-      // What has answered once can be started: a later failure is its own.
+      // A program that has answered once can be started: a later failure is the program's own.
       if (!child.not_started() || s.has_answered_) died(error);
       text = error.what();  // a wrong command line, not a fault of the subject
       *message = text.c_str();
@@ -162,7 +163,7 @@ struct RemoteDoor {
   }
   template <std::size_t... Slot>
   static void install(lc_subject& table, std::size_t slot, std::index_sequence<Slot...>) {
-    static constexpr std::array kInstall{&RemoteDoor::install_slot<Slot>...};
+    static constexpr std::array kInstall{&RemoteCalls::install_slot<Slot>...};
     kInstall[slot](table);
   }
 };
@@ -172,21 +173,21 @@ RemoteSubject::RemoteSubject(Kind kind, std::string what, IsolationSettings sett
       what_(std::move(what)),
       name_(kind == Kind::kProgram ? "program:" + what_ : what_),
       settings_(std::move(settings)) {
-  auto& slots = RemoteDoor::slots();
+  auto& slots = RemoteCalls::slots();
   while (slot_ < slots.size() && slots[slot_] != nullptr) ++slot_;
-  if (slot_ == slots.size()) throw std::length_error("more than 64 subjects in processes of their own");
+  if (slot_ == slots.size()) throw data::ArgumentError("more than 64 subjects in processes of their own");
   slots[slot_] = this;
   subject_.abi = LC_SUBJECT_ABI;
   subject_.name = name_.c_str();
   subject_.description = "runs in a process of its own";
-  RemoteDoor::install(subject_, slot_, std::make_index_sequence<RemoteDoor::kSlots>());
-  subject_.tessellate = &RemoteDoor::tessellate;
-  subject_.release = &RemoteDoor::release;
-  subject_.destroy = &RemoteDoor::destroy;
+  RemoteCalls::install(subject_, slot_, std::make_index_sequence<RemoteCalls::kSlots>());
+  subject_.tessellate = &RemoteCalls::tessellate;
+  subject_.release = &RemoteCalls::release;
+  subject_.destroy = &RemoteCalls::destroy;
 }
 
 RemoteSubject::~RemoteSubject() {
-  RemoteDoor::slots()[slot_] = nullptr;
+  RemoteCalls::slots()[slot_] = nullptr;
 }
 
 std::unique_ptr<ChildProcess> RemoteSubject::start() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Subjects that run in a process of their own, behind the same door as all others.
+// Subjects that run in a process of their own, behind the same plug-in interface as all others.
 #pragma once
 
 #include <memory>
@@ -30,7 +30,7 @@ class RemoteSubject {
  public:
   enum class Kind { kLibrary, kProgram, kBuiltIn };
   /// `what`: a file, a command for /bin/sh, the name of a built-in subject. Starts nothing. Throws
-  /// std::length_error: more than 64 at a time.
+  /// data::ArgumentError: more than 64 at a time.
   RemoteSubject(Kind kind, std::string what, IsolationSettings settings);
   ~RemoteSubject();
   RemoteSubject(const RemoteSubject&) = delete;
@@ -39,11 +39,11 @@ class RemoteSubject {
   /// Valid as long as this. Its name is `what`, "program:" in front of a command.
   const lc_subject& subject() const { return subject_; }
 
-  /// How its last process was held; none: there was none yet.
+  /// How its last process was contained; none if there was no process yet.
   std::optional<Containment> containment() const { return containment_; }
 
  private:
-  friend struct RemoteDoor;
+  friend struct RemoteCalls;
   std::unique_ptr<ChildProcess> start() const;
 
   Kind kind_;

@@ -21,8 +21,7 @@ struct Block {
 };
 
 std::vector<Block> read_blocks(Source& source, const Header& header, std::uint64_t most_bytes) {
-  std::vector<Block> blocks(
-      static_cast<std::size_t>(header.integer("blocks", 0, std::int64_t{Memory::kMostBlocks})));
+  std::vector<Block> blocks(header.integer("blocks", 0, std::int64_t{Memory::kMostBlocks}));
   source.read(std::as_writable_bytes(std::span(blocks)));
   std::uint64_t total = 0;
   for (const Block& b : blocks) {
@@ -46,9 +45,9 @@ void* pointer(const nlohmann::json& place, const std::vector<std::byte*>& memory
   const auto block = place[0].get<std::int64_t>(), offset = place[1].get<std::int64_t>();
   if (block == -1) return elsewhere;
   if (block < 0 || block >= static_cast<std::int64_t>(blocks.size()) || offset < 0 ||
-      offset > blocks[static_cast<std::size_t>(block)].size)
+      offset > blocks[block].size)
     throw Error("an array it describes lies nowhere");
-  return memory[static_cast<std::size_t>(block)] + offset;
+  return memory[block] + offset;
 }
 
 }  // namespace
@@ -66,7 +65,7 @@ Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& m
     auto* data = static_cast<std::byte*>(request.allocate(request.host, static_cast<std::size_t>(b.size)));
     if (data == nullptr) throw std::bad_alloc();
     source.read({data, static_cast<std::size_t>(b.size)});
-    // Any other byte than what stands there.
+    // Any byte other than the present one.
     if (b.before > 0) *(data - b.before) ^= std::byte{1};
     if (b.behind > 0) *(data + b.size + b.behind - 1) ^= std::byte{1};
     memory.push_back(data);

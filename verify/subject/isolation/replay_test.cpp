@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "data/error.h"
 #include "data/shapes.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/host.h"
@@ -80,7 +81,7 @@ TEST(Isolation, AsManySubjectsAsThereAreSlotsAndNoMore) {
         std::make_unique<RemoteSubject>(RemoteSubject::Kind::kProgram, "true", IsolationSettings{}));
   };
   for (int k = 0; k < 64; ++k) one_more();
-  EXPECT_THROW(one_more(), std::length_error);
+  EXPECT_THROW(one_more(), data::ArgumentError);
   all.clear();
   one_more();
 }

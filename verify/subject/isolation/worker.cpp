@@ -26,7 +26,7 @@ namespace {
 using detail::Memory;
 using protocol::Header;
 
-// The host has gone: there is nobody to tell.
+// The host has ended: nothing can be reported.
 struct HostGone {};
 
 class Connection final : public protocol::Source {
@@ -51,7 +51,7 @@ class Connection final : public protocol::Source {
   }
   template <class T>
   std::vector<T> array(std::int64_t count) {
-    std::vector<T> result(static_cast<std::size_t>(count));
+    std::vector<T> result(count);
     read(std::as_writable_bytes(std::span(result)));
     return result;
   }
@@ -157,7 +157,7 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
   }
 }
 
-// An exit status that nobody ends with by chance: a library that ends the process while it is unloaded is
+// An exit status that no program ends with by chance: a library that ends the process while it is unloaded is
 // found out by its own.
 int unlikely_status() {
   std::uint8_t random = 0;

@@ -16,9 +16,9 @@ namespace limitcheck::verify {
 const lc_subject& load_subject(const std::string& file);
 
 /// Serves one host on standard input and output until the input ends; returns the exit status. Asked to end
-/// in good order it calls destroy(), tells which exit status it will have, and exits. `load` is called at the
-/// first request. From the start, what the subject prints goes to standard error. Crashes with the subject:
-/// that is its purpose.
+/// in good order it calls destroy(), sends the exit status that it will have, and exits. `load` is called at
+/// the first request. From the start, what the subject prints goes to standard error. Crashes with the
+/// subject: that is its purpose.
 int serve(const std::function<const lc_subject&()>& load);
 
 }  // namespace limitcheck::verify

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A list, not a loop of EXPECTs only: who reads the output sees every finding with its figure.
+// Prints a list besides the EXPECTs, so that the output has every finding with its figure.
 TEST(Peers, EveryFindingOfTheRegisterIsStillThere) {
   const Json text = Json::parse(std::ifstream(LIMITCHECK_SOURCE_DIR "/verify/subject/peers/findings.json"));
   int seen = 0;

@@ -65,13 +65,12 @@ class VtkMesh {
   }
   std::vector<std::array<std::uint32_t, 3>> triangles() const {
     std::vector<std::array<std::uint32_t, 3>> result;
-    result.reserve(static_cast<std::size_t>(mesh_->GetNumberOfCells()));
+    result.reserve(mesh_->GetNumberOfCells());
     vtkNew<vtkIdList> corners;
     for (vtkIdType f = 0; f < mesh_->GetNumberOfCells(); ++f) {
       mesh_->GetPolys()->GetCellAtId(f, corners);
       auto& triangle = result.emplace_back();
-      for (int k = 0; k < 3; ++k)
-        triangle[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(corners->GetId(k));
+      for (int k = 0; k < 3; ++k) triangle[k] = static_cast<std::uint32_t>(corners->GetId(k));
     }
     return result;
   }

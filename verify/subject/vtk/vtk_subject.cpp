@@ -65,7 +65,7 @@ extern "C" const lc_subject* lc_subject_vtk() {
         const lc_subject* vtk = module().subject;
         return vtk ? vtk->create(mesh, options, instance, message) : absent(message);
       },
-      // Whoever has an instance has the library.
+      // An instance exists only if the library was loaded.
       [](void* instance, const lc_request* request, lc_tessellation* out, const char** message) {
         return module().subject->tessellate(instance, request, out, message);
       },

@@ -6,9 +6,9 @@
 
 #include <limitcheck/data/io/read.h>
 #include <limitcheck/data/shapes.h>
-#include <limitcheck/reference/surface/certified.h>
 #include <limitcheck/reference/loop/naive.h>
 #include <limitcheck/reference/loop/stam.h>
+#include <limitcheck/reference/surface/certified.h>
 
 int main(int argc, char** argv) try {
   namespace data = limitcheck::data;

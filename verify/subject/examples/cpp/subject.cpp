@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A subject in C++: the tessellator of loop.h behind limitcheck's door, delivering in float.
+// A subject in C++: the tessellator of loop.h behind limitcheck's plug-in interface, delivering in float.
 #include <limitcheck/subject.h>
 
 #include <exception>

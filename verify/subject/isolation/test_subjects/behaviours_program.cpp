@@ -107,7 +107,7 @@ int main(int count, char** words) {
   if (count > 1) thing = words[1];
   if (count > 3) place = words[3];
   const auto lines = [](int n) {
-    std::vector<std::string> all(static_cast<std::size_t>(n));
+    std::vector<std::string> all(n);
     for (std::string& line : all) std::getline(std::cin, line);
     return all;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `limitcheck audit`: the ways a subject gets in, and the options that belong to them.
+// `limitcheck audit`: how the subject is found, and the options that say how.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@
 
 namespace limitcheck::cli {
 
-struct DoorArguments {
+struct SubjectArguments {
   std::string program;
   std::string containment = "auto";
   bool isolate = false;
@@ -21,19 +21,19 @@ struct DoorArguments {
   std::string witness_folder = "limitcheck-witness";
 };
 
-void add_door_options(CLI::App& command, DoorArguments& arguments);
+void add_subject_options(CLI::App& command, SubjectArguments& arguments);
 
 /// With --program there is no SUBJECT among the positional
 /// arguments: what was taken for one is the first mesh.
-void take_program(const DoorArguments& arguments, std::string& subject, std::vector<std::string>& meshes);
+void take_program(const SubjectArguments& arguments, std::string& subject, std::vector<std::string>& meshes);
 
 /// The subjects of one audit; owns those that run in processes of their own.
-class Doors {
+class SubjectLoader {
  public:
-  explicit Doors(DoorArguments arguments) : arguments_(std::move(arguments)) {}
+  explicit SubjectLoader(SubjectArguments arguments) : arguments_(std::move(arguments)) {}
 
   /// NAME, FILE.so, an executable, or program:COMMAND; all but the last may be followed by ":key=value,...".
-  /// Returns the subject with those options. Throws std::invalid_argument: there is no such subject.
+  /// Returns the subject with those options. Throws data::ArgumentError: there is no such subject.
   verify::AuditSubject open(const std::string& text);
 
   /// A built-in subject: itself, or in a process of its own with --isolate.
@@ -45,7 +45,7 @@ class Doors {
  private:
   const lc_subject* remote(verify::RemoteSubject::Kind kind, const std::string& what, bool in_turns = false);
 
-  DoorArguments arguments_;
+  SubjectArguments arguments_;
   std::vector<std::unique_ptr<verify::RemoteSubject>> remote_;
 };
 

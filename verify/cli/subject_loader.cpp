@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/doors.h"
+#include "verify/cli/subject_loader.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "data/error.h"
 #include "data/io/whole_content.h"
 #include "verify/cli/finite.h"
 #include "verify/subject/isolation/witness.h"
@@ -38,7 +39,7 @@ std::string as_command(const std::string& file) {
 
 }  // namespace
 
-void add_door_options(CLI::App& command, DoorArguments& a) {
+void add_subject_options(CLI::App& command, SubjectArguments& a) {
   const std::string group = "Subjects of your own (libraries and programs run in a process of their own)";
   command
       .add_option(
@@ -74,13 +75,13 @@ void add_door_options(CLI::App& command, DoorArguments& a) {
       ->group(group);
 }
 
-void take_program(const DoorArguments& a, std::string& subject, std::vector<std::string>& meshes) {
+void take_program(const SubjectArguments& a, std::string& subject, std::vector<std::string>& meshes) {
   if (a.program.empty()) return;
   if (!subject.empty()) meshes.insert(meshes.begin(), subject);
   subject = "program:" + a.program;
 }
 
-const lc_subject* Doors::remote(Kind kind, const std::string& what, bool in_turns) {
+const lc_subject* SubjectLoader::remote(Kind kind, const std::string& what, bool in_turns) {
   arguments_.limits.namespaces = arguments_.containment == "auto";
   remote_.push_back(std::make_unique<verify::RemoteSubject>(
       kind, what,
@@ -88,7 +89,7 @@ const lc_subject* Doors::remote(Kind kind, const std::string& what, bool in_turn
   return &remote_.back()->subject();
 }
 
-std::string Doors::containment() const {
+std::string SubjectLoader::containment() const {
   for (const auto& remote : remote_)
     if (const auto how = remote->containment())
       return *how == verify::Containment::kNamespace
@@ -97,12 +98,12 @@ std::string Doors::containment() const {
   return "";
 }
 
-verify::AuditSubject Doors::built_in(const lc_subject& subject) {
+verify::AuditSubject SubjectLoader::built_in(const lc_subject& subject) {
   if (!arguments_.isolate) return {&subject, ""};
   return {remote(Kind::kBuiltIn, subject.name), "", remote(Kind::kBuiltIn, subject.name, true)};
 }
 
-verify::AuditSubject Doors::open(const std::string& text) {
+verify::AuditSubject SubjectLoader::open(const std::string& text) {
   if (text.starts_with("program:")) return {remote(Kind::kProgram, text.substr(8)), ""};
 
   // A file name may contain a colon: the longest that exists wins.
@@ -120,10 +121,10 @@ verify::AuditSubject Doors::open(const std::string& text) {
     return {remote(Kind::kLibrary, name), options, remote(Kind::kLibrary, name, true)};
 
   for (const verify::MissingSubject& missing : verify::missing_subjects())
-    if (missing.name == name) throw std::invalid_argument(missing.why);
+    if (missing.name == name) throw data::ArgumentError(missing.why);
   std::string known = "all";
   for (const lc_subject* s : verify::built_in_subjects()) known += fmt::format(", {}", s->name);
-  throw std::invalid_argument(fmt::format(
+  throw data::ArgumentError(fmt::format(
       "there is no subject '{}'; there are: {}, shared libraries (./lib{}.so) and programs (program:COMMAND)",
       name, known, name));
 }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/rewriting.h"
+
+#include <numeric>
+#include <utility>
+
+namespace limitcheck::verify {
+namespace {
+
+template <class T>
+std::vector<T> in_order(const std::vector<T>& list, const std::vector<std::int32_t>& order) {
+  std::vector<T> result;
+  result.reserve(list.size());
+  for (const std::int32_t k : order) result.push_back(list[k]);
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> shuffled(std::size_t count, data::SplitMix64& random) {
+  std::vector<std::int32_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random.next() % k]);
+  return order;
+}
+
+Rewriting::Rewriting(data::ControlMesh original) : mesh(std::move(original)) {
+  face.resize(mesh.triangles.size());
+  std::iota(face.begin(), face.end(), 0);
+  symmetry.resize(face.size());
+}
+
+void Rewriting::number_vertices(const std::vector<std::int32_t>& number) {
+  const auto positions = mesh.positions;
+  for (std::size_t v = 0; v < number.size(); ++v) mesh.positions[number[v]] = positions[v];
+  for (auto& t : mesh.triangles)
+    for (std::int32_t& v : t) v = number[v];
+}
+
+void Rewriting::order_faces(const std::vector<std::int32_t>& order) {
+  mesh.triangles = in_order(mesh.triangles, order);
+  face = in_order(face, order);
+  symmetry = in_order(symmetry, order);
+}
+
+void Rewriting::turn_face(std::size_t f, int first) {
+  const auto before = mesh.triangles[f];
+  for (int k = 0; k < 3; ++k) mesh.triangles[f][k] = before[(k + first) % 3];
+  symmetry[f].first = FaceDomain().corner(first, symmetry[f]);
+}
+
+void Rewriting::mirror_faces() {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  for (auto& s : symmetry) s.mirrored = !s.mirrored;
+}
+
+lc_provenance Rewriting::original(const lc_provenance& p) const {
+  const FaceDomain::Point at = FaceDomain().moved(point_of(p), p.denominator, symmetry[p.face]);
+  return {face[p.face], static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j), p.denominator};
+}
+
+}  // namespace limitcheck::verify

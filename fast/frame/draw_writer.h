@@ -46,7 +46,7 @@ inline std::int64_t limit_points_of(const Patch& patch, const CrackPlan& plan) {
   for (const Half& half : patch.half) {
     if (!half.repaired()) continue;
     for (int e = 0; e < 3; ++e) points += std::int64_t{1} << edge_depth(plan, half.face, e);
-    points += half.display == Half::Display::kFan ? 1 : 0;
+    points += half.display == Display::kFan ? 1 : 0;
   }
   return points;
 }
@@ -65,22 +65,22 @@ inline DrawSize draw_size(const Patch& patch, const CrackPlan& plan) {
       }
     }
     switch (half.display) {
-      case Half::Display::kStrips:
+      case Display::kStrips:
         size.vertices += k * k + 2 * k;
         size.draws += k;
         size.triangles += k * k;
         break;
-      case Half::Display::kFan:
+      case Display::kFan:
         size.vertices += border + 2;
         size.draws += 1;
         size.triangles += border;
         break;
-      case Half::Display::kStitch:
+      case Display::kStitch:
         size.vertices += (k - 1) * (k - 3) + 3 * ring;
         size.draws += k - 3 + 1;
         size.triangles += (k - 3) * (k - 3) + ring;
         break;
-      case Half::Display::kNothing:
+      case Display::kNothing:
         break;
     }
   }
@@ -138,7 +138,7 @@ class DrawWriter {
     const Half& half = patch_.half[side];
     int from = 0, to = 2 * (k_ - row);
     Kind kind = patch_.kind;
-    if (half.display == Half::Display::kStitch) {
+    if (half.display == Display::kStitch) {
       capture(side, row, at);
       if (row < 1 || row > k_ - 3) return;
       from = 2;

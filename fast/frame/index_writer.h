@@ -57,11 +57,11 @@ struct IndexLayout {
       for (std::size_t e = 0; e < 3; ++e) border += std::int64_t{1} << plan.edge_depth[3 * f + e];
       l.interior[f] = l.vertex_count;
       l.first_triangle[f] = l.triangle_count;
-      const bool fan = plan.repair[f] == Repair::kFan;
+      const bool fan = plan.display[f] == Display::kFan;
       l.vertex_count += fan ? 1 : interior_points(k);
-      l.triangle_count += fan                                 ? border
-                          : plan.repair[f] == Repair::kStitch ? (k - 3) * (k - 3) + border + 3 * (k - 3)
-                                                              : k * k;
+      l.triangle_count += fan                                   ? border
+                          : plan.display[f] == Display::kStitch ? (k - 3) * (k - 3) + border + 3 * (k - 3)
+                                                                : k * k;
     }
     return l;
   }
@@ -99,7 +99,7 @@ class IndexWriter {
   template <class At>
   void half_strip(int side, int row, At&& at) {
     const Half& half = patch_.half[side];
-    const bool stitch = half.display == Half::Display::kStitch;
+    const bool stitch = half.display == Display::kStitch;
     // Every row is written with the strip below it; row k is a corner.
     write_row(half, stitch, row, [&](int c) -> const Vertex& { return at(2 * c); });
 

@@ -23,8 +23,6 @@ namespace limitcheck::fast {
 ///           |  /
 ///        (k, 0)
 struct Half {
-  enum class Display : std::uint8_t { kNothing, kStrips, kFan, kStitch };
-
   std::int32_t face = -1;
   std::int32_t edge = 0;
   Display display = Display::kNothing;
@@ -53,30 +51,18 @@ struct Patch {
   int depth = 0;
   Kind kind = Kind::kPair;
 
-  bool full() const {
-    return half[0].display == Half::Display::kStrips && half[1].display == Half::Display::kStrips;
-  }
+  bool full() const { return half[0].display == Display::kStrips && half[1].display == Display::kStrips; }
 
   static Patch of(const Adjacency& adjacency, const Grid& grid, const CrackPlan& plan) {
-    const auto display = [&](std::int32_t face) {
-      switch (plan.repair[face]) {
-        case Repair::kFan:
-          return Half::Display::kFan;
-        case Repair::kStitch:
-          return Half::Display::kStitch;
-        default:
-          return Half::Display::kStrips;
-      }
-    };
     Patch patch;
     patch.depth = grid.depth;
     patch.kind = grid.singleton() ? Kind::kSingleton : Kind::kPair;
-    patch.half[0] = {grid.face0, grid.edge0 < 0 ? 0 : grid.edge0, display(grid.face0)};
+    patch.half[0] = {grid.face0, grid.edge0 < 0 ? 0 : grid.edge0, plan.display[grid.face0]};
     if (grid.singleton()) {
       const std::int32_t dummy = grid.edge0 < 0 ? -1 : adjacency.twin(3 * grid.face0 + grid.edge0);
-      patch.half[1] = {dummy < 0 ? -1 : dummy / 3, dummy < 0 ? 0 : dummy % 3, Half::Display::kNothing};
+      patch.half[1] = {dummy < 0 ? -1 : dummy / 3, dummy < 0 ? 0 : dummy % 3, Display::kNothing};
     } else {
-      patch.half[1] = {grid.face1, grid.edge1, display(grid.face1)};
+      patch.half[1] = {grid.face1, grid.edge1, plan.display[grid.face1]};
     }
     return patch;
   }

@@ -13,7 +13,7 @@ CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> 
   if (depth.size() != faces) throw data::ArgumentError("cracks: not one depth per face");
   CrackPlan plan;
   plan.edge_depth.assign(3 * faces, -1);
-  plan.repair.assign(faces, Repair::kNone);
+  plan.display.assign(faces, Display::kNothing);
   for (std::size_t f = 0; f < faces; ++f) {
     const std::int32_t own = depth[f];
     if (own < 0) continue;
@@ -33,10 +33,11 @@ CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> 
                                     : std::max(own, neighbour[k]);
       plan.edge_depth[3 * f + k] = static_cast<std::int8_t>(edge);
     }
+    plan.display[f] = Display::kStrips;
     if (!repaired) continue;
     const bool fan =
         options.repair == Repair::kFan || own < 2 || rules.edge_depth == EdgeDepthRule::kRespective;
-    plan.repair[f] = fan ? Repair::kFan : Repair::kStitch;
+    plan.display[f] = fan ? Display::kFan : Display::kStitch;
     ++(fan ? plan.fans : plan.stitched);
   }
   return plan;

@@ -10,7 +10,7 @@
 
 namespace limitcheck::fast {
 
-/// How a face with deeper neighbours is displayed.
+/// How faces with deeper neighbours are repaired.
 enum class Repair : std::uint8_t {
   kFan,     // the paper's: a fan around the centre, no interior points
   kStitch,  // ours: keep the interior points, stitch the outer ring (a fan below depth 2, which has none)
@@ -30,10 +30,18 @@ struct CrackOptions {
   FanCentre centre = FanCentre::kLimit;
 };
 
-/// Per face, which are repaired, and the depth of each of its edges.
+/// How a face is displayed.
+enum class Display : std::uint8_t {
+  kNothing,  // it is culled, or nobody's partner
+  kStrips,   // in strips of its whole lattice
+  kFan,      // as Repair::kFan says
+  kStitch    // as Repair::kStitch says
+};
+
+/// How each face is displayed, and the depth of each of its edges.
 struct CrackPlan {
   std::vector<std::int8_t> edge_depth;  // 3 per face, edge k from corner k to k + 1; -1 on culled faces
-  std::vector<Repair> repair;           // per face; kNone: ordinary strips
+  std::vector<Display> display;         // per face
   std::int64_t fans = 0, stitched = 0;
 };
 

@@ -93,27 +93,4 @@ class NumberStream {
 
 using DoubleStream = NumberStream<ScalarNumber<double>>;
 
-/// A limit point as linear maps of the control points; see NumberStream for which multiples the tangents are.
-template <class T>
-struct LinearPoint {
-  std::array<T, 3> position, slant, across;
-};
-
-/// All vertices of the grids in the order of NumberStream::whole.
-template <class T>
-std::vector<LinearPoint<T>> linear_points(const Adjacency& adjacency,
-                                          std::span<const std::array<T, 3>> points,
-                                          std::span<const Grid> grids, int depth) {
-  const std::size_t side = (std::size_t{1} << depth) + 1, count = grids.size() * side * side;
-  std::vector<T> slant(6 * count), across(6 * count);
-  NumberStream<LinearNumber<T, 0>>(adjacency, points).whole(grids, depth, slant.data());
-  NumberStream<LinearNumber<T, 1>>(adjacency, points).whole(grids, depth, across.data());
-  std::vector<LinearPoint<T>> out(count);
-  for (std::size_t v = 0; v < count; ++v) {
-    const T *a = &slant[6 * v], *b = &across[6 * v];
-    out[v] = {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {b[3], b[4], b[5]}};
-  }
-  return out;
-}
-
 }  // namespace limitcheck::fast::row_stream

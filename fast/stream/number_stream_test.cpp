@@ -17,6 +17,29 @@
 namespace limitcheck::fast::row_stream {
 namespace {
 
+/// A limit point as linear maps of the control points; see NumberStream for which multiples the tangents are.
+template <class T>
+struct LinearPoint {
+  std::array<T, 3> position, slant, across;
+};
+
+/// All vertices of the grids in the order of NumberStream::whole.
+template <class T>
+std::vector<LinearPoint<T>> linear_points(const Adjacency& adjacency,
+                                          std::span<const std::array<T, 3>> points,
+                                          std::span<const Grid> grids, int depth) {
+  const std::size_t side = (std::size_t{1} << depth) + 1, count = grids.size() * side * side;
+  std::vector<T> slant(6 * count), across(6 * count);
+  NumberStream<LinearNumber<T, 0>>(adjacency, points).whole(grids, depth, slant.data());
+  NumberStream<LinearNumber<T, 1>>(adjacency, points).whole(grids, depth, across.data());
+  std::vector<LinearPoint<T>> out(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    const T *a = &slant[6 * v], *b = &across[6 * v];
+    out[v] = {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {b[3], b[4], b[5]}};
+  }
+  return out;
+}
+
 std::vector<std::array<Rational, 3>> exactly(const data::ControlMesh& mesh) {
   std::vector<std::array<Rational, 3>> points;
   for (const auto& p : mesh.positions) points.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
@@ -65,9 +88,10 @@ TEST(NumberStream, InRationalsIsTheLimitSurfaceWithItsTangents) {
       for (std::size_t v = 0; v < found.size(); ++v) {
         const int side = size + 1, inside = static_cast<int>(v) % (side * side);
         const int i = inside % side, j = inside / side;
-        const FacePoint at = face_point(grids[v / static_cast<std::size_t>(side * side)], size, i, j, i <= j);
+        const LatticePoint at =
+            face_point(grids[v / static_cast<std::size_t>(side * side)], size, i, j, i <= j);
         if (at.face < 0) continue;
-        const RefinedMesh::Limit e = expected.limit(at.face, at.i, at.j);
+        const RefinedMesh::Limit e = expected.limit(at);
         double p[3], a[3], b[3];
         for (std::size_t c = 0; c < 3; ++c) {
           p[c] = static_cast<double>(found[v].position[c]);

@@ -76,9 +76,9 @@ Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const K
   for (std::size_t p = 0; p < grids.size(); ++p) {
     for (int j = 0; j <= size; ++j) {
       for (int i = 0; i <= size; ++i) {
-        const FacePoint at = face_point(grids[p], size, i, j, j >= i);
+        const LatticePoint at = face_point(grids[p], size, i, j, j >= i);
         if (at.face < 0) continue;
-        const RefinedMesh::Limit e = expected.limit(at.face, at.i, at.j);
+        const RefinedMesh::Limit e = expected.limit(at);
         const Vertex& v = out[(p * side(depth) + j) * side(depth) + i];
         for (int c = 0; c < 3; ++c) {
           raise(worst.position, std::abs(v.position[c] - static_cast<double>(e.position[c])) / scale, p, i,

@@ -8,7 +8,6 @@ namespace limitcheck::fast::row_stream {
 namespace {
 
 Delivery delivery_of(const Patch& patch) {
-  using Display = Half::Display;
   const Half &first = patch.half[0], &second = patch.half[1];
   if (!first.uses_window() && !second.uses_window()) return Delivery::kNothing;
   if (first.display == Display::kStitch || second.display == Display::kStitch) return Delivery::kWhole;

@@ -53,8 +53,7 @@ TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
           if (at.denominator == 3) continue;
           Vertex vertex;
           std::memcpy(static_cast<void*>(&vertex), &list.vertices[v], sizeof vertex);
-          shared[at.denominator].add(mesh, {at.face, static_cast<int>(at.i), static_cast<int>(at.j)},
-                                     static_cast<int>(at.denominator), vertex, {});
+          shared[at.denominator].add(mesh, at, vertex, {});
         }
         for (const auto& [denominator, points] : shared) {
           EXPECT_EQ(points.different(), 0) << "seed " << seed << " 1/" << denominator;

@@ -160,7 +160,7 @@ class StreamWorker {
       const Half& half = patch.half[s];
       if (!half.repaired()) continue;
       const Border<float> border = evaluate_border(frame, half.face);
-      if (half.display == Half::Display::kStitch) {
+      if (half.display == Display::kStitch) {
         writer.ring(s, border);
         continue;
       }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "fast/frame/sink.h"
 
 namespace limitcheck::fast {
 
@@ -80,8 +81,10 @@ struct RefinedMesh {
     return {open, result};
   }
 
-  /// The limit of point (i, j) of a control face.
-  Limit limit(std::int32_t face, int i, int j) const { return limit(lattice[face].at({i, j})); }
+  /// The limit of a point of a control face, whose denominator is 2^depth.
+  Limit limit(const LatticePoint& at) const {
+    return limit(lattice[at.face].at({static_cast<int>(at.i), static_cast<int>(at.j)}));
+  }
   Limit limit(int v) const {
     const auto [open, r] = ring(v);
     const Point c = points[v];

@@ -53,11 +53,13 @@ inline data::ControlMesh renumbered(const data::ControlMesh& mesh, std::uint64_t
 /// The first bits seen for each point on a control edge or vertex, and how often others came.
 class SharedPoints {
  public:
-  /// Point (i, j) at depth `size` = 2^depth of a face; `number` undoes a renumbering (index as first known).
-  void add(const data::ControlMesh& mesh, const FacePoint& at, int size, const Vertex& v,
+  /// A vertex and where it lies; `known`, if not empty, undoes a renumbering of the mesh.
+  void add(const data::ControlMesh& mesh, const LatticePoint& at, const Vertex& v,
            const std::vector<std::int32_t>& known) {
     const auto& t = mesh.triangles[at.face];
-    const std::array<int, 3> l{size - at.i - at.j, at.i, at.j};
+    const auto size = static_cast<int>(at.denominator);
+    const std::array<int, 3> l{size - static_cast<int>(at.i + at.j), static_cast<int>(at.i),
+                               static_cast<int>(at.j)};
     const auto name = [&](int corner) { return known.empty() ? t[corner] : known[t[corner]]; };
     for (int k = 0; k < 3; ++k) {
       if (l[(k + 2) % 3] != 0) continue;
@@ -98,9 +100,9 @@ inline void add_shared_points(const data::ControlMesh& mesh, int depth, const Ke
         if (i > 0 && i < size && j > 0 && j < size && i != j) continue;
         const Vertex& v = out[(p * side(depth) + j) * side(depth) + i];
         for (const bool upper : {true, false}) {
-          const FacePoint at = face_point(grids[p], size, i, j, upper);
+          const LatticePoint at = face_point(grids[p], size, i, j, upper);
           if (at.face < 0 || (upper ? j < i : i < j)) continue;
-          shared.add(mesh, at, size, v, known);
+          shared.add(mesh, at, v, known);
         }
       }
     }
@@ -121,9 +123,7 @@ inline void add_edges(const data::ControlMesh& mesh, int depth, const Kernel& ke
   const int size = 1 << depth;
   for (std::int32_t h : half_edges) {
     for (int t = 0; t <= size; ++t) {
-      std::array<int, 3> l{};
-      l[h % 3] = size - t, l[(h + 1) % 3] = t;
-      shared.add(mesh, {h / 3, l[1], l[2]}, size, out[h * length + t], known);
+      shared.add(mesh, Half{h / 3, h % 3}.lattice(size, size - t, t), out[h * length + t], known);
     }
   }
 }

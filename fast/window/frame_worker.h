@@ -72,7 +72,7 @@ void evaluate(const PreparedMesh<Real>& mesh, const Patch& patch, const CrackPla
       worker.edge.evaluate(mesh, 3 * half.face + e, edge_depth(plan, half.face, e), points.data());
       border[e] = points.data();
     }
-    if (half.display == Half::Display::kFan)
+    if (half.display == Display::kFan)
       writer.fan(side, worker.centre.evaluate(mesh, half.face, centre), border);
     else
       writer.ring(side, border);

@@ -9,9 +9,9 @@
 namespace limitcheck::fast {
 namespace {
 
-/// Lattice (l1, l2) of (row, column) in the face left of half-edge h0 (upper left) or its twin (lower right).
-std::pair<int, int> lattice_of(std::int32_t h0, std::int32_t h1, int k, int row, int column, bool upper) {
-  int weight[3];
+/// (row, column) of the window as a point of the face left of half-edge h0 (upper left) or of its twin h1.
+LatticePoint lattice_of(std::int32_t h0, std::int32_t h1, int k, int row, int column, bool upper) {
+  std::uint32_t weight[3];
   const int edge = upper ? h0 % 3 : h1 % 3;
   if (upper) {  // h0 runs corner0 -> corner2, then corner3
     weight[edge] = row;
@@ -22,7 +22,7 @@ std::pair<int, int> lattice_of(std::int32_t h0, std::int32_t h1, int k, int row,
     weight[(edge + 1) % 3] = k - column;
     weight[(edge + 2) % 3] = row + column - k;
   }
-  return {weight[1], weight[2]};
+  return {(upper ? h0 : h1) / 3, weight[1], weight[2], static_cast<std::uint32_t>(k)};
 }
 
 struct Worst {
@@ -47,8 +47,7 @@ Worst compare(const data::ControlMesh& mesh, int depth) {
         for (int below = 0; below < 2; ++below) {
           const int r = row + below;
           const bool upper = r + i <= k;
-          const auto ij = lattice_of(h, twin, k, r, i, upper);
-          const auto expected = refined.limit((upper ? h : twin) / 3, ij.first, ij.second);
+          const auto expected = refined.limit(lattice_of(h, twin, k, r, i, upper));
           const auto& got = strip[2 * i + below];
           const Point p{got.position.x, got.position.y, got.position.z};
           const Point n{got.normal.x, got.normal.y, got.normal.z};

@@ -21,8 +21,8 @@ namespace limitcheck::fast {
 
 namespace {
 
-// Where a coordinate is taken relative to: near the middle of the box, with few digits, so that subtracting it
-// rarely costs any. Near the origin only if every control point stays exact in Real; else 0.
+// Where a coordinate is taken relative to: near the middle of the box, with few digits, so that subtracting
+// it rarely costs any. Near the origin only if every control point stays exact in Real; else 0.
 template <class Real>
 double exact_centre(const data::ControlMesh& mesh, const Box& box, std::size_t axis) {
   const double size = box.size();
@@ -38,9 +38,9 @@ double exact_centre(const data::ControlMesh& mesh, const Box& box, std::size_t a
   return coarse;
 }
 
-// Sets the placement of a mesh and returns its control points there, of size at most 1. Control points that are
-// representable in Real are taken exactly if the mesh lies near the origin. (Row streaming has a rule of its own,
-// see `place` in stream/rings.h.)
+// Sets the placement of a mesh and returns its control points there, of size at most 1. Control points that
+// are representable in Real are taken exactly if the mesh lies near the origin. (Row streaming has a rule of
+// its own, see `place` in stream/rings.h.)
 template <class Real>
 std::vector<Vec3<Real>> place(const data::ControlMesh& mesh, Placement<Real>& placement) {
   const Box box(mesh);

@@ -68,7 +68,7 @@ void expect_on_the_limit(const data::ControlMesh& mesh, const Output& out, doubl
     if (refined.count(at.denominator) == 0)
       refined[at.denominator] = RefinedMesh::of(mesh, static_cast<int>(std::bit_width(at.denominator)) - 1);
     const RefinedMesh& fine = refined[at.denominator];
-    const auto expected = fine.limit(at.face, static_cast<int>(at.i), static_cast<int>(at.j));
+    const auto expected = fine.limit(at);
     position = std::max(position, norm(p - expected.position));
     normal = std::max(normal, norm(n - expected.normal));
   }

@@ -51,9 +51,9 @@ class WindowRuns {
   void pair(int depth, Visit&& visit) const {
     if (adjacency_.twin(0) < 0) return alone(depth, visit);
     fast::SlidingWindow<N, Surface> window(depth, adjacency_.max_valence());
-    const fast::Half upper{0, 0, fast::Half::Display::kStrips};
+    const fast::Half upper{0, 0, fast::Display::kStrips};
     const std::int32_t twin = adjacency_.twin(0);
-    const fast::Half lower{twin / 3, twin % 3, fast::Half::Display::kStrips};
+    const fast::Half lower{twin / 3, twin % 3, fast::Display::kStrips};
     const int k = 1 << depth;
     window.run(prepared_, 0, depth, [&](int row, const Vertex* strip) {
       for (int i = 0; i <= k; ++i) {
@@ -72,7 +72,7 @@ class WindowRuns {
     fast::EdgeStrip<N, Surface> strip(depth, adjacency_.max_valence());
     std::vector<Vertex> out(static_cast<std::size_t>(k) + 1);
     strip.evaluate(prepared_, h, depth, out.data());
-    const fast::Half half{h / 3, h % 3, fast::Half::Display::kFan};
+    const fast::Half half{h / 3, h % 3, fast::Display::kFan};
     for (int t = 0; t <= k; ++t) visit(half.lattice(k, k - t, t), out[t]);
   }
 
@@ -87,7 +87,7 @@ class WindowRuns {
   template <class Visit>
   void alone(int depth, Visit&& visit) const {
     fast::TriangleLattice<N, Surface> lattice(depth);
-    const fast::Half half{0, 0, fast::Half::Display::kStrips};
+    const fast::Half half{0, 0, fast::Display::kStrips};
     const int k = 1 << depth;
     lattice.run(prepared_, 0, depth, [&](int row, const Vertex* strip) {
       for (int q = 0; q <= 2 * (k - row); ++q) visit(half.lattice(k, row + q % 2, q / 2), strip[q]);

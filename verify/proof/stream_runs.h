@@ -44,9 +44,7 @@ class StreamRuns {
       for (int column = 0; column <= (alone ? row : size); ++column) {
         const auto at = fast::row_stream::face_point(pair, size, column, row, row >= column);
         const std::size_t k = 6 * (row * side + column);
-        visit(fast::LatticePoint{at.face, static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j),
-                                 static_cast<std::uint32_t>(size)},
-              frame(&first[k], &second[k]));
+        visit(at, frame(&first[k], &second[k]));
       }
     }
   }
@@ -58,7 +56,7 @@ class StreamRuns {
     std::vector<T> first(6 * (size + 1)), second(first.size());
     first_.edges({&h, 1}, depth, first.data());
     second_.edges({&h, 1}, depth, second.data());
-    const fast::Half half{h / 3, h % 3, fast::Half::Display::kFan};
+    const fast::Half half{h / 3, h % 3, fast::Display::kFan};
     for (int t = 0; t <= size; ++t)
       visit(half.lattice(size, size - t, t), frame(&first[6 * t], &second[6 * t]));
   }

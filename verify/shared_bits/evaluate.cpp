@@ -17,9 +17,8 @@ struct Sink {
   const Rewriting& mesh;
   SharedBits& bits;
 
-  void add(int size, const rs::FacePoint& at, const rs::Vertex& v) {
-    const auto number = [](int k) { return static_cast<std::uint32_t>(k); };
-    bits.add(mesh.original({at.face, number(at.i), number(at.j), number(size)}), v.position);
+  void add(const fast::LatticePoint& at, const rs::Vertex& v) {
+    bits.add(mesh.original({at.face, at.i, at.j, at.denominator}), v.position);
   }
 
   // Row j of a pair: its ends and its point on the diagonal, or all of the outer rows.
@@ -27,8 +26,8 @@ struct Sink {
     const int size = 1 << depth;
     const bool outer = j == 0 || j == size;
     for (int i = 0; i <= size; i = outer || i + 1 > size ? i + 1 : i < j ? j : std::max(i + 1, size)) {
-      const rs::FacePoint at = rs::face_point(pair, size, i, j, j >= i);
-      if (at.face >= 0) add(size, at, vertices[i]);
+      const fast::LatticePoint at = rs::face_point(pair, size, i, j, j >= i);
+      if (at.face >= 0) add(at, vertices[i]);
     }
   }
 };
@@ -83,7 +82,9 @@ void add_edges(const Rewriting& mesh, int depth, const rs::Kernel& kernel, std::
     for (std::size_t e = 0; e < some.size(); ++e) {
       for (int t = 0; t <= size; ++t) {
         const FaceDomain::Point at = FaceDomain().on_side(some[e] % 3, t, size);
-        sink.add(size, {some[e] / 3, static_cast<int>(at.i), static_cast<int>(at.j)}, out[e * side + t]);
+        sink.add({some[e] / 3, static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j),
+                  static_cast<std::uint32_t>(size)},
+                 out[e * side + t]);
       }
     }
   }

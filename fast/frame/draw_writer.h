@@ -30,6 +30,11 @@ inline int edge_depth(const CrackPlan& plan, std::int32_t face, int k) {
   return plan.edge_depth[3 * face + k];
 }
 
+/// Point t of 0 .. count on edge e of a face.
+inline LatticePoint lattice_on_edge(std::int32_t face, int e, int t, int count) {
+  return Half{face, e}.lattice(count, count - t, t);
+}
+
 /// The number of limit points evaluated for a patch: rows, each once, the borders of repaired faces, centres.
 inline std::int64_t limit_points_of(const Patch& patch, const CrackPlan& plan) {
   const std::int64_t k = std::int64_t{1} << patch.depth;
@@ -153,9 +158,9 @@ class DrawWriter {
     put(centre, {half.face, 1, 1, 3});
     for (int e = 0; e < 3; ++e) {
       const int count = 1 << edge_depth(plan_, half.face, e);
-      for (int t = 0; t < count; ++t) put(border[e][t], on_edge(half.face, e, t, count));
+      for (int t = 0; t < count; ++t) put(border[e][t], lattice_on_edge(half.face, e, t, count));
     }
-    put(border[0][0], on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)));
+    put(border[0][0], lattice_on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)));
     end(triangles + 2);
   }
 
@@ -167,13 +172,8 @@ class DrawWriter {
       const int depth = edge_depth(plan_, half.face, e);
       const auto one = [&](std::int64_t index, bool is_inner) {
         const int t = static_cast<int>(index);
-        if (!is_inner) return put(border[e][t], on_edge(half.face, e, t, 1 << depth));
-        std::array<int, 3> w{};
-        w[(e + 1) % 3] = t + 1;
-        w[(e + 2) % 3] = 1;
-        w[e] = k_ - t - 2;
-        put(inner(side, e)[t], {half.face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
-                                static_cast<std::uint32_t>(k_)});
+        if (!is_inner) return put(border[e][t], lattice_on_edge(half.face, e, t, 1 << depth));
+        put(inner(side, e)[t], Half{half.face, e}.lattice(k_, k_ - t - 2, t + 1));
       };
       stitch_edge(k_, depth, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
         one(a, ai);
@@ -184,14 +184,6 @@ class DrawWriter {
     }
     draw_->split = triangles;
     end(3 * triangles);
-  }
-
-  static LatticePoint on_edge(std::int32_t face, int e, int t, int count) {
-    std::array<int, 3> w{};
-    w[e] = count - t;
-    w[(e + 1) % 3] = t;
-    return {face, static_cast<std::uint32_t>(w[1]), static_cast<std::uint32_t>(w[2]),
-            static_cast<std::uint32_t>(count)};
   }
 
  private:

@@ -118,13 +118,7 @@ FrameState::FrameState(const data::ControlMesh& given, const TessellatorOptions&
 
 FrameStats FrameState::plan_frame(std::span<const std::int32_t> depth) {
   FrameStats stats;
-  if (depth.size() != mesh.triangles.size())
-    throw data::ArgumentError("frame: " + std::to_string(depth.size()) + " depths for " +
-                              std::to_string(mesh.triangles.size()) + " faces");
-  for (const std::int32_t d : depth)
-    if (d < kCulled || d > kDeepest)
-      throw data::ArgumentError("frame: depth " + std::to_string(d) + " is not in -1.." +
-                                std::to_string(kDeepest));
+  check_depths(depth, adjacency.face_count(), kDeepest);
   auto start = Clock::now();
   pairing = pair_faces(adjacency, depth, rules);
   stats.seconds_pairing = seconds_since(start);

@@ -182,7 +182,7 @@ class IndexWriter {
       const int d = edge_depth(plan_, face, e);
       for (int t = 1; t < (1 << d); ++t)
         write(layout_.on_edge(adjacency_, 3 * face + e, d, t), border[e][t],
-              DrawWriter<Real>::on_edge(face, e, t, 1 << d));
+              lattice_on_edge(face, e, t, 1 << d));
     }
   }
 

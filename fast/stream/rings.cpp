@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fast/mesh/box.h"
 #include "fast/stream/rings_impl.h"
 
 namespace limitcheck::fast::row_stream {
@@ -31,20 +32,12 @@ template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh) {
   PlacedPoints<T> placed{{}, KernelPlacement<T>{}};
   if (mesh.positions.empty()) return placed;
-  std::array<double, 3> low = mesh.positions[0], high = low;
-  for (const auto& p : mesh.positions) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], p[c]);
-      high[c] = std::max(high[c], p[c]);
-    }
-  }
-  double extent = 0, unit = 1;
-  for (std::size_t c = 0; c < 3; ++c) extent = std::max(extent, high[c] - low[c]);
+  const Box box(mesh);
+  const double extent = box.size();
   std::array<double, 3> centre{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double middle = low[c] / 2 + high[c] / 2;
-    if (std::abs(middle) > extent / 4) centre[c] = static_cast<float>(middle);
-  }
+  for (std::size_t c = 0; c < 3; ++c)
+    if (std::abs(box.middle(c)) > extent / 4) centre[c] = static_cast<float>(box.middle(c));
+  double unit = 1;
   if (extent > 0 && std::isfinite(extent)) unit = std::ldexp(1., std::clamp(std::ilogb(extent), -120, 120));
 
   const double inverse = 1 / unit;

@@ -6,17 +6,66 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "data/error.h"
 #include "fast/frame/engine_state.h"
+#include "fast/mesh/box.h"
 #include "fast/window/frame_worker.h"
 
 namespace limitcheck::fast {
+
+namespace {
+
+// Where a coordinate is taken relative to: near the middle of the box, with few digits, so that subtracting it
+// rarely costs any. Near the origin only if every control point stays exact in Real; else 0.
+template <class Real>
+double exact_centre(const data::ControlMesh& mesh, const Box& box, std::size_t axis) {
+  const double size = box.size();
+  const double unit = size > 0 ? std::exp2(std::floor(std::log2(size)) - 3) : 1;
+  const double coarse = std::round(box.middle(axis) / unit) * unit;
+  if (static_cast<double>(static_cast<Real>(coarse)) != coarse) return 0;
+  if (std::abs(coarse) > 2 * size) return coarse;
+  for (const auto& p : mesh.positions) {
+    const double x = static_cast<double>(static_cast<Real>(p[axis]));
+    if (static_cast<double>(static_cast<Real>(x - coarse)) != x - coarse || x - coarse + coarse != x)
+      return 0;
+  }
+  return coarse;
+}
+
+// Sets the placement of a mesh and returns its control points there, of size at most 1. Control points that are
+// representable in Real are taken exactly if the mesh lies near the origin. (Row streaming has a rule of its own,
+// see `place` in stream/rings.h.)
+template <class Real>
+std::vector<Vec3<Real>> place(const data::ControlMesh& mesh, Placement<Real>& placement) {
+  const Box box(mesh);
+  std::array<double, 3> centre{};
+  double largest = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    centre[c] = exact_centre<Real>(mesh, box, c);
+    largest = std::max({largest, std::abs(box.low[c] - centre[c]), std::abs(box.high[c] - centre[c])});
+  }
+  int exponent = 0;
+  if (largest > 0) std::frexp(largest, &exponent);
+  placement = {{static_cast<Real>(centre[0]), static_cast<Real>(centre[1]), static_cast<Real>(centre[2])},
+               static_cast<Real>(std::ldexp(1.0, exponent))};
+  if (!std::isfinite(placement.unit) || !(placement.unit > 0))
+    throw data::ArgumentError("tessellator: the mesh is too large or too small for its number type");
+  const auto scaled = [&](const std::array<double, 3>& p, std::size_t c) {
+    return static_cast<Real>(std::ldexp(p[c] - centre[c], -exponent));
+  };
+  std::vector<Vec3<Real>> positions;
+  positions.reserve(mesh.positions.size());
+  for (const auto& p : mesh.positions) positions.push_back({scaled(p, 0), scaled(p, 1), scaled(p, 2)});
+  return positions;
+}
+
+}  // namespace
 
 template <class Real>
 struct Tessellator<Real>::State final : EngineState<Real> {
@@ -26,60 +75,10 @@ struct Tessellator<Real>::State final : EngineState<Real> {
 
   State(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
       : EngineState<Real>(given, with, by) {
-    prepared.emplace(adjacency, place());
+    prepared.emplace(adjacency, place(mesh, placement));
     for (std::int32_t f = 0; f < adjacency.face_count(); ++f)
       if (adjacency.neighbour(f, 0) < 0 && adjacency.neighbour(f, 1) < 0 && adjacency.neighbour(f, 2) < 0)
         isolated_faces = true;
-  }
-
-  /// The control points relative to a centre, scaled by a power of two to at most 1: normals of tiny and huge
-  /// meshes neither vanish nor overflow, and no digits are lost to a common offset. Near the origin the
-  /// centre is taken only if every control point stays exact.
-  std::vector<Vec3<Real>> place() {
-    double low[3], high[3];
-    std::fill_n(low, 3, std::numeric_limits<double>::infinity());
-    std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
-    for (const auto& p : mesh.positions) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
-      }
-    }
-    double size = 0, centre[3];
-    for (int i = 0; i < 3; ++i) size = std::max(size, high[i] - low[i]);
-    double largest = 0;
-    for (int i = 0; i < 3; ++i) {
-      centre[i] = choose_centre(i, low[i], high[i], size);
-      largest = std::max({largest, std::abs(low[i] - centre[i]), std::abs(high[i] - centre[i])});
-    }
-    int exponent = 0;
-    if (largest > 0) std::frexp(largest, &exponent);
-    placement = {{static_cast<Real>(centre[0]), static_cast<Real>(centre[1]), static_cast<Real>(centre[2])},
-                 static_cast<Real>(std::ldexp(1.0, exponent))};
-    if (!std::isfinite(placement.unit) || !(placement.unit > 0))
-      throw data::ArgumentError("tessellator: the mesh is too large or too small for its number type");
-    std::vector<Vec3<Real>> positions;
-    positions.reserve(mesh.positions.size());
-    const auto scaled = [&](double x, int i) {
-      return static_cast<Real>(std::ldexp(x - centre[i], -exponent));
-    };
-    for (const auto& p : mesh.positions)
-      positions.push_back({scaled(p[0], 0), scaled(p[1], 1), scaled(p[2], 2)});
-    return positions;
-  }
-
-  double choose_centre(int axis, double low, double high, double size) const {
-    // few digits, so that subtracting it rarely costs any
-    const double unit = size > 0 ? std::exp2(std::floor(std::log2(size)) - 3) : 1;
-    const double coarse = std::round((low / 2 + high / 2) / unit) * unit;
-    if (static_cast<double>(static_cast<Real>(coarse)) != coarse) return 0;
-    if (std::abs(coarse) > 2 * size) return coarse;
-    for (const auto& p : mesh.positions) {
-      const double x = static_cast<double>(static_cast<Real>(p[axis]));
-      if (static_cast<double>(static_cast<Real>(x - coarse)) != x - coarse || x - coarse + coarse != x)
-        return 0;
-    }
-    return coarse;
   }
 
   /// Makes workers that are deep enough for the frame.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "data/splitmix64.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/global_refinement.h"
 #include "fast/test_support/test_meshes.h"
@@ -14,29 +15,18 @@
 namespace limitcheck::fast {
 namespace {
 
-/// splitmix64: the same everywhere.
-struct Random {
-  std::uint64_t state;
-  std::uint64_t operator()() {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  int below(int n) { return static_cast<int>((*this)() % static_cast<std::uint64_t>(n)); }
-  double unit() { return static_cast<double>((*this)() >> 11) * 0x1p-53; }
-};
-
 data::ControlMesh shaken(data::ControlMesh mesh, std::uint64_t seed) {
-  Random random{seed};
+  data::SplitMix64 random(seed);
   for (auto& p : mesh.positions)
     for (double& x : p) x = static_cast<float>(x + .3 * (random.unit() - .5));
   return mesh;
 }
 
-std::vector<std::int32_t> random_depths(const data::ControlMesh& mesh, int low, int high, Random& random) {
+std::vector<std::int32_t> random_depths(const data::ControlMesh& mesh, int low, int high,
+                                        data::SplitMix64& random) {
   std::vector<std::int32_t> depth(mesh.triangles.size());
-  for (auto& d : depth) d = low + random.below(high - low + 1);
+  for (auto& d : depth)
+    d = low + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(high - low + 1));
   return depth;
 }
 
@@ -88,7 +78,7 @@ void expect_on_the_limit(const data::ControlMesh& mesh, const Output& out, doubl
 
 TEST(Sec5_Frame, EveryPointLiesWhereItsProvenanceSays) {
   for (const auto& [name, mesh, loops] : shapes()) {
-    Random random{11};
+    data::SplitMix64 random(11);
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       TessellatorOptions options;
       options.provenance = true;
@@ -113,7 +103,7 @@ TEST(Sec5_Frame, EveryPointLiesWhereItsProvenanceSays) {
 template <class Real>
 void expect_watertight(int rounds, int deepest) {
   for (const auto& [name, mesh, loops] : shapes()) {
-    Random random{12};
+    data::SplitMix64 random(12);
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       TessellatorOptions options;
       options.cracks.repair = repair;

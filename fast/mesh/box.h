@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The bounding box of a control mesh.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "data/control_mesh.h"
+
+namespace limitcheck::fast {
+
+/// Of a mesh with vertices.
+struct Box {
+  explicit Box(const data::ControlMesh& mesh) : low(mesh.positions.front()), high(low) {
+    for (const auto& p : mesh.positions) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        low[c] = std::min(low[c], p[c]);
+        high[c] = std::max(high[c], p[c]);
+      }
+    }
+  }
+  double middle(std::size_t axis) const { return low[axis] / 2 + high[axis] / 2; }
+  /// The longest side.
+  double size() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
+
+  std::array<double, 3> low, high;
+};
+
+}  // namespace limitcheck::fast

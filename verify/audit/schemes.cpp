@@ -42,24 +42,26 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
   return result;
 }
 
-// After the first step a face is three quads of h = n / 2 steps a side, one at each corner. Of the point (i,
-// j) of a quad l1 = (i - i j / (3 h)) / n, if its corner is the face's first; l2 likewise.
+// After the first step a face is three quads, one at each corner, with n / 2 steps a side. Only the points on
+// control edges are points of the lattice, but for a few of no interest.
 SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit) {
   reference::catmull_clark::RefinedMesh<double> refined(data::Faces(mesh.triangles),
                                                         reference::positions_of<double>(mesh));
   for (int step = 0; step < steps; ++step) refined.refine();
   SchemePoints result = points_of(refined, limit);
-  const int n = 1 << steps, h = n / 2;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i <= h; ++i)
-        for (int j = 0; j <= h; ++j) {
-          if (i * j % (3 * h) != 0) continue;
-          const int inwards = i * j / (3 * h);
-          const FaceDomain::Point p = FaceDomain().moved({i - inwards, j - inwards}, n, {k});
-          result.place[refined.vertex(f, static_cast<std::size_t>(k), i, j)] = {
-              static_cast<std::int32_t>(f), number(p.i), number(p.j), number(n)};
-        }
+  const FaceDomain domain;
+  const int n = 1 << steps;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto put = [&](std::int32_t vertex, FaceDomain::Point p) {
+      result.place[vertex] = {static_cast<std::int32_t>(f), number(p.i), number(p.j), number(n)};
+    };
+    for (int k = 0; k < domain.corners(); ++k)
+      for (int along = 0; along <= n / 2; ++along) {
+        const auto corner = static_cast<std::size_t>(k);
+        put(refined.vertex(f, corner, along, 0), domain.on_side(k, along, n));
+        put(refined.vertex(f, corner, 0, along), domain.on_side(domain.previous(k), n - along, n));
+      }
+  }
   return result;
 }
 

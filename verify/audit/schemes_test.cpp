@@ -2,8 +2,11 @@
 // The other schemes against OpenSubdiv and the reference.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "data/generators/named_mesh.h"
 #include "reference/loop/refine.h"
+#include "verify/audit/lattice.h"
 #include "verify/audit/schemes.h"
 #include "verify/subject/test_opensubdiv.h"
 
@@ -70,6 +73,30 @@ TEST(Schemes, PointsKnowTheirPlaces) {
     EXPECT_LE(norm(quads.position[k] - Vector{p.i / 2., p.j / 2., 0}), 1e-15) << "the middle of an edge";
   }
   EXPECT_EQ(placed, 6U) << "three corners and three middles of edges; the face's point is on no lattice";
+}
+
+// Both schemes have the cubic B-spline as their boundary curve, so their points on the boundary are the same.
+TEST(Schemes, CatmullClarksAndLoopsPointsOnTheBoundaryAreTheSame) {
+  const auto mesh = data::named_mesh("holes");
+  constexpr int kSteps = 3;
+  const Lattice lattice(mesh, kSteps);
+  for (const bool limit : {false, true}) {
+    const auto loop = placed_scheme_points(mesh, Scheme::kLoop, kSteps, limit);
+    const auto quads = placed_scheme_points(mesh, Scheme::kCatmullClark, kSteps, limit);
+    std::map<Lattice::Id, Vector> at;
+    for (std::size_t k = 0; k < quads.place.size(); ++k)
+      if (quads.place[k].denominator != 0) at[lattice.id(quads.place[k])] = quads.position[k];
+    std::size_t compared = 0;
+    for (std::size_t k = 0; k < loop.place.size(); ++k) {
+      const lc_provenance& p = loop.place[k];
+      const FaceDomain domain = lattice.domain(p.face);
+      const auto place = domain.side_of(point_of(p), p.denominator);
+      if (!place || lattice.across(p.face, place->side) >= 0) continue;
+      ++compared;
+      EXPECT_LE(norm(loop.position[k] - at.at(lattice.id(p))), 1e-14) << k;
+    }
+    EXPECT_GT(compared, 100U);
+  }
 }
 
 // Warren's weight of each neighbour is 3/(8 n), and 3/16 at valence 3: an octahedron's vertex (1, 0, 0) goes

@@ -43,12 +43,12 @@ void Outline::find_fans(const Evidence& e) {
     return c;
   };
   for (const Lattice::Edge& edge : lattice_.edges()) {
-    const auto [f, g] = edge.face;
+    const std::int32_t f = edge.face[0], g = edge.face[1];
     if (edge.on_boundary() || e.face_depth[f] < 0 || e.face_depth[g] < 0) continue;
     const auto join = [&](int k, int m) {
       parent[root(lattice_.corner_number(f, k))] = root(lattice_.corner_number(g, m));
     };
-    const auto [k, m] = edge.corner;  // the two faces run along it in opposite directions
+    const int k = edge.corner[0], m = edge.corner[1];  // the two faces run along it in opposite directions
     join(k, lattice_.domain(g).next(m));
     join(lattice_.domain(f).next(k), m);
   }

@@ -195,7 +195,6 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
 }
 
 void Tessellation::inspect_contents() {
-  using Kind = Defect::Kind;
   count_bad(
       defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
       [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");

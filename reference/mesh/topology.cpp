@@ -53,24 +53,26 @@ struct Groups {
 struct Topology::Sides {
   explicit Sides(const data::Faces& all) : faces(all) {
     face.reserve(all.corners().size());
-    for (std::size_t f = 0; f < all.size(); ++f)
-      face.insert(face.end(), all[f].size(), static_cast<std::int32_t>(f));
+    end.reserve(all.corners().size());
+    for (std::size_t f = 0; f < all.size(); ++f) {
+      const auto corners = all[f];
+      face.insert(face.end(), corners.size(), static_cast<std::int32_t>(f));
+      end.insert(end.end(), corners.begin() + 1, corners.end());
+      end.push_back(corners[0]);
+    }
   }
 
   std::size_t count() const { return face.size(); }
-  std::size_t next(std::size_t s) const {
-    return s + 1 == faces.first_corner(face[s] + 1) ? faces.first_corner(face[s]) : s + 1;
-  }
   std::size_t previous(std::size_t s) const {
     return (s == faces.first_corner(face[s]) ? faces.first_corner(face[s] + 1) : s) - 1;
   }
   std::int32_t from(std::size_t s) const { return faces.corners()[s]; }
-  std::int32_t to(std::size_t s) const { return from(next(s)); }
+  std::int32_t to(std::size_t s) const { return end[s]; }
   std::int32_t low(std::size_t s) const { return std::min(from(s), to(s)); }
   std::int32_t high(std::size_t s) const { return std::max(from(s), to(s)); }
 
   const data::Faces& faces;
-  std::vector<std::int32_t> face;
+  std::vector<std::int32_t> face, end;  ///< of each side: its face, and the vertex that it leads to
   std::vector<std::int32_t> across;  ///< the side of the other face at the same edge, or -1
 };
 

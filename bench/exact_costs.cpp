@@ -78,7 +78,7 @@ void add_allocations(Costs& costs, const Shape& shape) {
 /// What is kept of the control mesh before the first point, and the most that making it takes.
 void add_prepass(Costs& costs, const Shape& shape) {
   const data::ControlMesh& mesh = shape.second;
-  const std::string tail = fmt::format("/{}/faces:{}", shape.first, mesh.triangles.size());
+  const std::string tail = fmt::format("/{}/faces:{}", shape.first, mesh.faces.size());
   const auto add = [&](const std::string& what, const bench::Allocations& made) {
     costs["bytes/" + what + tail] = made.kept;
     costs["bytes-while-made/" + what + tail] = made.peak;

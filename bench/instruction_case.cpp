@@ -61,8 +61,7 @@ std::map<std::string, std::function<Case()>> cases() {
     const auto engine = std::make_shared<fast::row_stream::StreamTessellator>(
         mesh, options, *fast::row_stream::find_kernel("avx2"));
     std::vector<std::int32_t> depth;
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-      depth.push_back(static_cast<std::int32_t>(f * 7 % 5));
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) depth.push_back(static_cast<std::int32_t>(f * 7 % 5));
     const auto out = std::make_shared<fast::DrawList<float>>();
     engine->frame(depth, *out);
     return Case{[=] { engine->frame(depth, *out); }};

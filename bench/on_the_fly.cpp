@@ -64,8 +64,7 @@ int main(int argc, char** argv) {
 
   const double start = seconds();
   const fast::Adjacency adjacency(mesh);
-  const auto pairs =
-      fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+  const auto pairs = fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
   const rs::RowStream stream(mesh, adjacency);
   const double prepared = seconds();
 

@@ -32,7 +32,7 @@ void window(benchmark::State& state, int faces, int depth) {
   const auto& mesh = mesh_of(faces);
   const fast::Adjacency adjacency(mesh);
   const fast::PreparedMesh<Real> prepared(adjacency, fast::positions_of<Real>(mesh));
-  const auto pairing = fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth));
+  const auto pairing = fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth));
   fast::SlidingWindow<Real, fast::LimitSurface<Real>, fast::NoProbe, Carry> sliding(depth,
                                                                                     adjacency.max_valence());
   for (auto _ : state) {
@@ -52,7 +52,7 @@ void frame(benchmark::State& state, int faces, int depth, int threads) {
   fast::TessellatorOptions options;
   options.threads = threads;
   fast::Tessellator<float> tessellator(mesh, options);
-  const std::vector<std::int32_t> depths(mesh.triangles.size(), depth);
+  const std::vector<std::int32_t> depths(mesh.faces.size(), depth);
   Output out;
   fast::FrameStats sum;
   for (auto _ : state) {

@@ -3,18 +3,28 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <vector>
+
+#include "data/faces.h"
 
 namespace limitcheck::data {
 
-/// A triangle mesh: the input of subdivision, and nothing computed from it.
+/// A mesh of polygons: the input of subdivision, and nothing computed from it.
 ///   positions   one (x, y, z) per vertex, finite
-///   triangles   vertex indices 0..positions.size()-1, counter-clockwise seen from outside
+///   faces       vertex indices 0..positions.size()-1, counter-clockwise seen from outside
 /// The container does not check any of this; `validate` (data/validate.h) does.
 struct ControlMesh {
   std::vector<std::array<double, 3>> positions;
-  std::vector<std::array<std::int32_t, 3>> triangles;
+  Faces faces;
+
+  friend bool operator==(const ControlMesh&, const ControlMesh&) = default;
 };
+
+/// The faces of a mesh that has triangles only: the way in for everything that is Loop's alone. Refers to the mesh.
+///   throws   ArgumentError if a face is no triangle
+inline Triangles triangles_of(const ControlMesh& mesh) {
+  return Triangles(mesh.faces);
+}
+Triangles triangles_of(const ControlMesh&& mesh) = delete;  // it would refer to what is gone
 
 }  // namespace limitcheck::data

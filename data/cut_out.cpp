@@ -32,31 +32,34 @@ std::uint64_t edge(std::int32_t from, std::int32_t to) {
 
 }  // namespace
 
-std::vector<std::int32_t> split_fans(std::vector<std::array<std::int32_t, 3>>& triangles,
-                                     std::size_t vertex_count) {
+std::vector<std::int32_t> split_fans(Faces& faces, std::size_t vertex_count) {
   // Corners at the same end of an edge of two faces are one vertex.
-  const auto corner = [](std::size_t face, std::size_t k) { return 3 * face + k % 3; };
-  Union corners(3 * triangles.size());
-  std::unordered_map<std::uint64_t, std::size_t> starts;  // of a directed edge: its first corner
-  starts.reserve(3 * triangles.size());
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    const auto& t = triangles[f];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = t[k], b = t[(k + 1) % 3];
-      starts[edge(a, b)] = corner(f, k);
-      const auto other = starts.find(edge(b, a));
+  const std::size_t count = faces.corners().size();
+  struct Side {
+    std::size_t from, to;  // corners
+  };
+  Union corners(count);
+  std::unordered_map<std::uint64_t, Side> starts;  // of a directed edge: its corners
+  starts.reserve(count);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto face = faces[f];
+    const std::size_t first = faces.first_corner(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const std::size_t next = (k + 1) % face.size();
+      starts[edge(face[k], face[next])] = {first + k, first + next};
+      const auto other = starts.find(edge(face[next], face[k]));
       if (other == starts.end()) continue;
-      const std::size_t g = other->second / 3, j = other->second % 3;
-      corners.join(corner(f, k + 1), corner(g, j));
-      corners.join(corner(f, k), corner(g, j + 1));
+      corners.join(first + next, other->second.from);
+      corners.join(first + k, other->second.to);
     }
   }
 
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<std::size_t> fan_of(vertex_count, kNone);  // the first fan of a vertex
-  std::vector<std::int32_t> vertex_of(3 * triangles.size(), -1), copies;
-  for (std::size_t c = 0; c < 3 * triangles.size(); ++c) {
-    std::int32_t& v = triangles[c / 3][c % 3];
+  std::vector<std::int32_t> vertex_of(count, -1), copies;
+  for (std::size_t f = 0, c = 0; c < count; ++c) {
+    while (c >= faces.first_corner(f + 1)) ++f;
+    std::int32_t& v = faces[f][c - faces.first_corner(f)];
     const std::size_t fan = corners.find(c);
     std::size_t& first = fan_of[v];
     if (first == kNone) first = fan;
@@ -70,20 +73,21 @@ std::vector<std::int32_t> split_fans(std::vector<std::array<std::int32_t, 3>>& t
   return copies;
 }
 
-CutOut cut_out(std::span<const std::array<std::int32_t, 3>> whole, std::span<const std::int32_t> faces) {
+CutOut cut_out(const Faces& whole, std::span<const std::int32_t> faces) {
   CutOut part;
-  part.triangles.reserve(faces.size());
+  part.faces.reserve(faces.size());
   std::unordered_map<std::int32_t, std::int32_t> number;
+  std::vector<std::int32_t> face;
   for (const std::int32_t f : faces) {
-    auto t = whole[f];
-    for (std::int32_t& v : t) {
+    face.assign(whole[f].begin(), whole[f].end());
+    for (std::int32_t& v : face) {
       const auto [entry, is_new] = number.try_emplace(v, static_cast<std::int32_t>(part.vertices.size()));
       if (is_new) part.vertices.push_back(v);
       v = entry->second;
     }
-    part.triangles.push_back(t);
+    part.faces.push_back(face);
   }
-  for (const std::int32_t v : split_fans(part.triangles, part.vertices.size()))
+  for (const std::int32_t v : split_fans(part.faces, part.vertices.size()))
     part.vertices.push_back(part.vertices[v]);
   return part;
 }

@@ -2,26 +2,26 @@
 // Some faces of a mesh as a mesh of their own.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "data/faces.h"
 
 namespace limitcheck::data {
 
 /// Splits every vertex whose faces form several fans, so that each fan has a vertex of its own. The fan with
 /// the lowest face keeps the number; the others get the numbers from `vertex_count` on, in the order of their
 /// lowest corners.                                                                                  O(n)
-///   triangles  indices in 0 .. vertex_count - 1, no directed edge twice
+///   faces      indices in 0 .. vertex_count - 1, no directed edge twice
 ///   returns    for each new vertex the one that it is a copy of
-std::vector<std::int32_t> split_fans(std::vector<std::array<std::int32_t, 3>>& triangles,
-                                     std::size_t vertex_count);
+std::vector<std::int32_t> split_fans(Faces& faces, std::size_t vertex_count);
 
 /// Faces of a mesh, renumbered. Any faces of a valid mesh (validate.h) give a valid mesh: where they touch in
 /// a vertex only, they are cut apart.
 struct CutOut {
-  std::vector<std::array<std::int32_t, 3>> triangles;  ///< of the faces, in their order
-  std::vector<std::int32_t> vertices;                  ///< for each vertex, its number in the whole mesh
+  Faces faces;                         ///< in the order asked for
+  std::vector<std::int32_t> vertices;  ///< for each vertex, its number in the whole mesh
 
   /// Values of the whole mesh's vertices, picked for the vertices of the part.
   template <class T>
@@ -34,6 +34,6 @@ struct CutOut {
 };
 
 /// The given faces, each at most once, as a mesh of their own.       O(faces), however large the mesh is
-CutOut cut_out(std::span<const std::array<std::int32_t, 3>> whole, std::span<const std::int32_t> faces);
+CutOut cut_out(const Faces& whole, std::span<const std::int32_t> faces);
 
 }  // namespace limitcheck::data

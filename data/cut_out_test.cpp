@@ -20,16 +20,16 @@ TEST(CutOut, AnyFacesOfAValidMeshAreAValidMeshWithTheSameCorners) {
                                    holes(), wheel(7), two_components()})
     for (int attempt = 0; attempt < 100; ++attempt) {
       std::vector<std::int32_t> faces;
-      for (std::size_t f = 0; f < whole.triangles.size(); ++f)
+      for (std::size_t f = 0; f < whole.faces.size(); ++f)
         if (random.next() % 3 == 0) faces.push_back(static_cast<std::int32_t>(f));
       if (faces.empty()) continue;
       std::reverse(faces.begin(), faces.end());
-      const CutOut part = cut_out(whole.triangles, faces);
-      ASSERT_EQ(part.triangles.size(), faces.size());
+      const CutOut part = cut_out(whole.faces, faces);
+      ASSERT_EQ(part.faces.size(), faces.size());
       for (std::size_t f = 0; f < faces.size(); ++f)
         for (std::size_t k = 0; k < 3; ++k)
-          EXPECT_EQ(part.vertices[part.triangles[f][k]], whole.triangles[faces[f]][k]);
-      const auto findings = validate({part.of(whole.positions), part.triangles});
+          EXPECT_EQ(part.vertices[part.faces[f][k]], whole.faces[faces[f]][k]);
+      const auto findings = validate(ControlMesh{part.of(whole.positions), part.faces});
       EXPECT_TRUE(findings.empty()) << findings.front().message;
     }
 }
@@ -37,19 +37,26 @@ TEST(CutOut, AnyFacesOfAValidMeshAreAValidMeshWithTheSameCorners) {
 TEST(CutOut, AllFacesAreTheMeshItself) {
   const ControlMesh whole = torus(3, 3);
   std::vector<std::int32_t> faces;
-  for (std::size_t f = 0; f < whole.triangles.size(); ++f) faces.push_back(static_cast<std::int32_t>(f));
-  const CutOut part = cut_out(whole.triangles, faces);
+  for (std::size_t f = 0; f < whole.faces.size(); ++f) faces.push_back(static_cast<std::int32_t>(f));
+  const CutOut part = cut_out(whole.faces, faces);
   EXPECT_EQ(part.vertices.size(), whole.positions.size());
   EXPECT_EQ(std::set(part.vertices.begin(), part.vertices.end()).size(), whole.positions.size());
 }
 
 TEST(CutOut, FansThatNoEdgeHoldsTogetherGetAVertexEach) {
   // Vertex 0 joins three fans, of three faces, one and one: the first holds together over edges 2-0 and 0-3.
-  std::vector<std::array<std::int32_t, 3>> triangles{{0, 1, 2}, {0, 3, 4}, {2, 3, 0}, {5, 0, 6}, {7, 8, 0}};
-  const std::vector<std::int32_t> copies = split_fans(triangles, 9);
+  Faces faces{{0, 1, 2}, {0, 3, 4}, {2, 3, 0}, {5, 0, 6}, {7, 8, 0}};
+  const std::vector<std::int32_t> copies = split_fans(faces, 9);
   EXPECT_EQ(copies, (std::vector<std::int32_t>{0, 0}));
-  EXPECT_EQ(triangles, (std::vector<std::array<std::int32_t, 3>>{
-                           {0, 1, 2}, {0, 3, 4}, {2, 3, 0}, {5, 9, 6}, {7, 8, 10}}));
+  EXPECT_EQ(faces, (Faces{{0, 1, 2}, {0, 3, 4}, {2, 3, 0}, {5, 9, 6}, {7, 8, 10}}));
+}
+
+TEST(CutOut, TakesFacesOfAnyNumberOfCorners) {
+  // Two quads and a pentagon around vertex 0, and a triangle that touches it: the fans become two vertices.
+  const Faces whole{{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 7, 8}, {9, 10, 0}};
+  const CutOut part = cut_out(whole, std::vector<std::int32_t>{2, 0, 3});
+  EXPECT_EQ(part.faces, (Faces{{0, 1, 2, 3, 4}, {10, 5, 6, 7}, {8, 9, 11}}));
+  EXPECT_EQ(part.vertices, (std::vector<std::int32_t>{0, 5, 6, 7, 8, 1, 2, 3, 9, 10, 0, 0}));
 }
 
 }  // namespace

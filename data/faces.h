@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Faces of any number of corners.
+// Faces of any number of corners, and the view of faces that are all triangles.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <initializer_list>
+#include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "data/error.h"
@@ -17,30 +22,105 @@ namespace limitcheck::data {
 class Faces {
  public:
   Faces() = default;
+  Faces(std::initializer_list<std::initializer_list<std::int32_t>> faces) {
+    for (const auto& face : faces) push_back(face);
+  }
   explicit Faces(std::span<const std::array<std::int32_t, 3>> triangles) {
-    corners_.reserve(3 * triangles.size());
-    ends_.reserve(triangles.size());
+    reserve(triangles.size());
     for (const auto& t : triangles) push_back(t);
   }
   /// Throws ArgumentError beyond 2^31 - 1 corners.
-  void push_back(std::span<const std::int32_t> face) {
-    if (face.size() > std::numeric_limits<std::int32_t>::max() - corners_.size())
-      throw ArgumentError("the faces have more than 2^31 - 1 corners");
-    corners_.insert(corners_.end(), face.begin(), face.end());
-    ends_.push_back(static_cast<std::int32_t>(corners_.size()));
+  void push_back(std::span<const std::int32_t> face);
+  void push_back(std::initializer_list<std::int32_t> face) { push_back({face.begin(), face.size()}); }
+  /// Room for so many triangles.
+  void reserve(std::size_t faces) {
+    corners_.reserve(3 * faces);
+    ends_.reserve(faces);
   }
+  void clear() { *this = {}; }
 
   std::size_t size() const { return ends_.size(); }
+  bool empty() const { return ends_.empty(); }
+  bool are_triangles() const { return triangles_ == ends_.size(); }
   std::span<const std::int32_t> operator[](std::size_t f) const {
-    return std::span(corners_).subspan(first_corner(f), ends_[f] - first_corner(f));
+    return {corners_.data() + first_corner(f), static_cast<std::size_t>(ends_[f]) - first_corner(f)};
+  }
+  std::span<std::int32_t> operator[](std::size_t f) {
+    return {corners_.data() + first_corner(f), static_cast<std::size_t>(ends_[f]) - first_corner(f)};
   }
   /// The vertices at all corners.
   std::span<const std::int32_t> corners() const { return corners_; }
-  /// The number of corner 0 of face f.
-  std::size_t first_corner(std::size_t f) const { return f == 0 ? 0 : ends_[f - 1]; }
+  /// The number of corner 0 of face f; of the face after the last, the number of all corners.
+  std::size_t first_corner(std::size_t f) const {
+    return f == 0 ? 0 : static_cast<std::size_t>(ends_[f - 1]);
+  }
+
+  friend bool operator==(const Faces&, const Faces&) = default;
 
  private:
   std::vector<std::int32_t> corners_, ends_;
+  std::size_t triangles_ = 0;
+};
+
+/// Faces that are all triangles, each as three indices. Refers to the faces.
+class Triangles {
+ public:
+  using Triangle = std::array<std::int32_t, 3>;
+
+  /// Throws ArgumentError if one is not.
+  explicit Triangles(const Faces& faces) : corners_(faces.corners()) {
+    if (!faces.are_triangles()) throw ArgumentError("the mesh has faces that are not triangles");
+  }
+
+  std::size_t size() const { return corners_.size() / 3; }
+  bool empty() const { return corners_.empty(); }
+  /// Constant, so that nobody takes them for the mesh's own and changes a copy.
+  const Triangle operator[](std::size_t f) const {
+    return {corners_[3 * f], corners_[3 * f + 1], corners_[3 * f + 2]};
+  }
+  Triangle front() const { return (*this)[0]; }
+  Triangle back() const { return (*this)[size() - 1]; }
+  std::vector<Triangle> to_vector() const { return {begin(), end()}; }
+
+  class Iterator {
+   public:
+    using iterator_category = std::random_access_iterator_tag;
+    using value_type = Triangle;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = Triangle;
+
+    Iterator() = default;
+    Iterator(const std::int32_t* corner) : corner_(corner) {}
+    const Triangle operator*() const { return {corner_[0], corner_[1], corner_[2]}; }
+    Triangle operator[](difference_type n) const { return *(*this + n); }
+    Iterator& operator++() { return *this += 1; }
+    Iterator& operator--() { return *this += -1; }
+    Iterator operator++(int) { return std::exchange(*this, *this + 1); }
+    Iterator operator--(int) { return std::exchange(*this, *this + -1); }
+    Iterator& operator+=(difference_type n) { return corner_ += 3 * n, *this; }
+    Iterator& operator-=(difference_type n) { return corner_ -= 3 * n, *this; }
+    friend Iterator operator+(Iterator a, difference_type n) { return a += n; }
+    friend Iterator operator+(difference_type n, Iterator a) { return a += n; }
+    friend Iterator operator-(Iterator a, difference_type n) { return a -= n; }
+    friend difference_type operator-(Iterator a, Iterator b) { return (a.corner_ - b.corner_) / 3; }
+    friend auto operator<=>(Iterator, Iterator) = default;
+
+   private:
+    const std::int32_t* corner_ = nullptr;
+  };
+  Iterator begin() const { return corners_.data(); }
+  Iterator end() const { return corners_.data() + corners_.size(); }
+
+  friend bool operator==(const Triangles& a, const Triangles& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+  friend bool operator==(const Triangles& a, const std::vector<Triangle>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+ private:
+  std::span<const std::int32_t> corners_;
 };
 
 }  // namespace limitcheck::data

@@ -132,7 +132,7 @@ ControlMesh control_mesh(const std::vector<Numeral3>& vertices,
   ControlMesh mesh;
   mesh.positions.reserve(vertices.size());
   for (const Numeral3& vertex : vertices) mesh.positions.push_back(parse<double>(vertex));
-  mesh.triangles = faces;
+  mesh.faces = Faces(faces);
   return mesh;
 }
 

@@ -62,8 +62,8 @@ ControlMesh sectors_of_lattice(const std::vector<std::array<double, 2>>& directi
     }
     for (int r = 0; r < rings; ++r) {
       for (int i = 0; i <= r; ++i) {
-        mesh.triangles.push_back({vertex(s, r, i), vertex(s, r + 1, i), vertex(s, r + 1, i + 1)});
-        if (i < r) mesh.triangles.push_back({vertex(s, r, i), vertex(s, r + 1, i + 1), vertex(s, r, i + 1)});
+        mesh.faces.push_back({vertex(s, r, i), vertex(s, r + 1, i), vertex(s, r + 1, i + 1)});
+        if (i < r) mesh.faces.push_back({vertex(s, r, i), vertex(s, r + 1, i + 1), vertex(s, r, i + 1)});
       }
     }
   }
@@ -73,8 +73,8 @@ ControlMesh sectors_of_lattice(const std::vector<std::array<double, 2>>& directi
 void append(ControlMesh& mesh, const ControlMesh& other, double shift_x) {
   const auto offset = static_cast<std::int32_t>(mesh.positions.size());
   for (const auto& p : other.positions) mesh.positions.push_back({rounded(p[0] + shift_x), p[1], p[2]});
-  for (const auto& t : other.triangles)
-    mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  for (const auto& t : triangles_of(other))
+    mesh.faces.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }
 
 // A sheet without the squares for which `absent` holds; vertices that no face uses are dropped.
@@ -95,8 +95,8 @@ ControlMesh sheet_without(int nx, int ny, Absent absent) {
       if (absent(i, j)) continue;
       const std::int32_t a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
                          d = vertex(i, j + 1);
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({a, c, d});
+      mesh.faces.push_back({a, b, c});
+      mesh.faces.push_back({a, c, d});
     }
   }
   add_bumps(mesh);
@@ -147,8 +147,8 @@ ControlMesh torus(int around, int along) {
       const std::int32_t next_i = (i + 1) % around, next_j = (j + 1) % along;
       const std::int32_t a = i * along + j, b = next_i * along + j, c = next_i * along + next_j,
                          d = i * along + next_j;
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({a, c, d});
+      mesh.faces.push_back({a, b, c});
+      mesh.faces.push_back({a, c, d});
     }
   }
   return mesh;
@@ -162,8 +162,8 @@ ControlMesh bipyramid(int n) {
   for (int i = 0; i < n; ++i) {
     const auto p = on_circle(double(i) / n);
     mesh.positions.push_back({p[0], p[1], 0});
-    mesh.triangles.push_back({0, 2 + i, 2 + (i + 1) % n});
-    mesh.triangles.push_back({1, 2 + (i + 1) % n, 2 + i});
+    mesh.faces.push_back({0, 2 + i, 2 + (i + 1) % n});
+    mesh.faces.push_back({1, 2 + (i + 1) % n, 2 + i});
   }
   return mesh;
 }
@@ -173,8 +173,8 @@ ControlMesh cube() {
   for (int v = 0; v < 8; ++v) {
     mesh.positions.push_back({v & 1 ? 1.0 : -1.0, v & 2 ? 1.0 : -1.0, v & 4 ? 1.0 : -1.0});
   }
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  mesh.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
 }
 
@@ -220,9 +220,9 @@ ControlMesh strip(int n) {
   for (int i = 0; i < n + 2; ++i) mesh.positions.push_back({i / 2.0, i % 2 == 0 ? 0.0 : 1.0, 0});
   for (int i = 0; i < n; ++i) {
     if (i % 2 == 0) {
-      mesh.triangles.push_back({i, i + 2, i + 1});
+      mesh.faces.push_back({i, i + 2, i + 1});
     } else {
-      mesh.triangles.push_back({i, i + 1, i + 2});
+      mesh.faces.push_back({i, i + 1, i + 2});
     }
   }
   add_bumps(mesh);
@@ -243,14 +243,14 @@ ControlMesh ragged_disc() {
     const auto at = on_circle((p + apex_of[k] / 2.0 + k * inner_count / 9.0) / (2 * inner_count));
     mesh.positions.push_back({rounded(4.5 * at[0]), rounded(4.5 * at[1]), 0});
     for (int i = 0; i < apex_of[k]; ++i, ++p) {
-      mesh.triangles.push_back({outer + k, inner + (p + 1) % inner_count, inner + p % inner_count});
+      mesh.faces.push_back({outer + k, inner + (p + 1) % inner_count, inner + p % inner_count});
     }
-    mesh.triangles.push_back({inner + p % inner_count, outer + k, outer + (k + 1) % outer_count});
+    mesh.faces.push_back({inner + p % inner_count, outer + k, outer + (k + 1) % outer_count});
   }
   // The ear: a vertex with one face, on the edge of outer vertices 0 and 1.
   const auto ear = static_cast<std::int32_t>(mesh.positions.size());
   mesh.positions.push_back({6, 1, 0});
-  mesh.triangles.push_back({outer + 1, outer, ear});
+  mesh.faces.push_back({outer + 1, outer, ear});
   add_bumps(mesh);
   return mesh;
 }

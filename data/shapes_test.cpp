@@ -22,7 +22,7 @@ struct Counts {
 
   explicit Counts(const ControlMesh& mesh) : faces(mesh.positions.size()), neighbours(mesh.positions.size()) {
     std::map<std::pair<std::int32_t, std::int32_t>, int> uses;
-    for (const auto& t : mesh.triangles) {
+    for (const auto& t : triangles_of(mesh)) {
       for (int k = 0; k < 3; ++k) {
         ++faces[t[k]];
         ++uses[std::minmax(t[k], t[(k + 1) % 3])];
@@ -39,8 +39,7 @@ struct Counts {
 };
 
 int euler(const ControlMesh& mesh) {
-  return static_cast<int>(mesh.positions.size()) - Counts(mesh).edges +
-         static_cast<int>(mesh.triangles.size());
+  return static_cast<int>(mesh.positions.size()) - Counts(mesh).edges + static_cast<int>(mesh.faces.size());
 }
 
 void expect_valid(const ControlMesh& mesh, const std::string& name) {
@@ -56,11 +55,11 @@ TEST(Shapes, ClosedOnesHaveTheirEulerCharacteristicAndPointOutwards) {
       {tetrahedron(), 2}, {octahedron(), 2},   {icosahedron(), 2}, {cube(), 2},
       {bipyramid(3), 2},  {bipyramid(200), 2}, {torus(12, 6), 0},  {torus(3, 3), 0}};
   for (const auto& [mesh, characteristic] : all) {
-    expect_valid(mesh, std::to_string(mesh.triangles.size()));
+    expect_valid(mesh, std::to_string(mesh.faces.size()));
     EXPECT_EQ(Counts(mesh).boundary_edges, 0);
     EXPECT_EQ(euler(mesh), characteristic);
     double volume = 0;  // six times; positive if the faces are counter-clockwise from outside
-    for (const auto& t : mesh.triangles) {
+    for (const auto& t : triangles_of(mesh)) {
       const auto &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
       volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
                 a[2] * (b[0] * c[1] - b[1] * c[0]);
@@ -73,7 +72,7 @@ TEST(Shapes, TheTetrahedronIsTheOneOfTheKnownAnswers) {
   for (const auto& answer : load_known_answers().closed_meshes) {
     if (answer.id != "exact_tetrahedron") continue;
     EXPECT_EQ(control_mesh(answer.vertices, answer.faces).positions, tetrahedron().positions);
-    EXPECT_EQ(answer.faces, tetrahedron().triangles);
+    EXPECT_EQ(Faces(answer.faces), tetrahedron().faces);
   }
 }
 
@@ -82,7 +81,7 @@ TEST(Shapes, TheHubOfAWheelHasItsValenceAndEverythingElseIsRegular) {
     for (const int rings : {1, 2, 3}) {
       const ControlMesh mesh = wheel(n, rings);
       expect_valid(mesh, "wheel " + std::to_string(n));
-      EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(n) * rings * rings);
+      EXPECT_EQ(mesh.faces.size(), static_cast<std::size_t>(n) * rings * rings);
       const Counts counts(mesh);
       EXPECT_EQ(counts.neighbours[0], n);
       EXPECT_TRUE(counts.interior(0));
@@ -130,15 +129,15 @@ TEST(Shapes, TheRaggedDiscHasBoundaryVerticesOfOneToEightFaces) {
 
 TEST(Shapes, FlatOnesAreWhatTheySay) {
   EXPECT_EQ(euler(sheet(5, 3)), 1);
-  EXPECT_EQ(sheet(5, 3).triangles.size(), 30u);
+  EXPECT_EQ(sheet(5, 3).faces.size(), 30u);
   EXPECT_EQ(euler(holes()), -1);  // a disc with two holes
   EXPECT_EQ(euler(two_components()), 3);
-  EXPECT_EQ(triangle().triangles.size(), 1u);
-  EXPECT_EQ(triangle_pair().triangles.size(), 2u);
+  EXPECT_EQ(triangle().faces.size(), 1u);
+  EXPECT_EQ(triangle_pair().faces.size(), 2u);
   for (const int n : {1, 2, 3, 8}) {
     const ControlMesh mesh = strip(n);
     expect_valid(mesh, "strip");
-    EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(n));
+    EXPECT_EQ(mesh.faces.size(), static_cast<std::size_t>(n));
     EXPECT_EQ(Counts(mesh).boundary_edges, n + 2);
   }
   for (const ControlMesh& mesh :
@@ -151,10 +150,10 @@ TEST(Shapes, FlatOnesAreWhatTheySay) {
 TEST(Shapes, FlatOnesAreNotFoldedOver) {
   for (const ControlMesh& mesh : {wheel(3), wheel(7), wheel(200), fan(1), fan(2), fan(3), fan(8), sheet(4, 4),
                                   strip(7), holes(), ragged_disc()}) {
-    for (const auto& t : mesh.triangles) {
+    for (const auto& t : triangles_of(mesh)) {
       const auto &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
       EXPECT_GT((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0)
-          << mesh.triangles.size() << " faces: " << t[0] << " " << t[1] << " " << t[2];
+          << mesh.faces.size() << " faces: " << t[0] << " " << t[1] << " " << t[2];
     }
   }
 }

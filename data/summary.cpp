@@ -76,9 +76,12 @@ std::vector<std::int32_t> first_at_place(const ControlMesh& mesh) {
 // All edges, each as often as it has faces, sorted.
 std::vector<Edge> sides(const ControlMesh& mesh) {
   std::vector<Edge> list;
-  list.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) list.push_back(std::minmax({t[k], t[(k + 1) % 3]}));
+  list.reserve(mesh.faces.corners().size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto face = mesh.faces[f];
+    for (std::size_t k = 0; k < face.size(); ++k)
+      list.push_back(std::minmax({face[k], face[(k + 1) % face.size()]}));
+  }
   std::sort(list.begin(), list.end());
   return list;
 }
@@ -89,19 +92,24 @@ MeshSummary summarise(const ControlMesh& mesh) {
   MeshSummary s;
   const std::size_t n = mesh.positions.size();
   s.vertices = static_cast<std::int64_t>(n);
-  s.faces = static_cast<std::int64_t>(mesh.triangles.size());
+  s.faces = static_cast<std::int64_t>(mesh.faces.size());
 
   // Faces.
   Groups components(n);
   std::vector<bool> used(n, false);
   std::vector<int> faces_at(n, 0), edges_at(n, 0);
-  for (const auto& t : mesh.triangles) {
-    for (const std::int32_t v : t) {
-      used[v] = true;
-      ++faces_at[v];
-      components.join(t[0], v);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto face = mesh.faces[f];
+    bool flat = true;
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      used[face[k]] = true;
+      ++faces_at[face[k]];
+      components.join(face[0], face[k]);
+      if (k >= 2)
+        flat = flat &&
+               has_no_area(mesh.positions[face[0]], mesh.positions[face[k - 1]], mesh.positions[face[k]]);
     }
-    s.zero_area_faces += has_no_area(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    s.zero_area_faces += flat;
   }
   s.unused_vertices = std::count(used.begin(), used.end(), false);
   s.components = components.count(used);

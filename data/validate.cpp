@@ -36,13 +36,18 @@ std::string listed(const std::vector<std::int64_t>& faces) {
 
 class Validator {
  public:
-  Validator(const ControlMesh& mesh, const Numbering& numbering)
+  Validator(const ControlMesh& mesh, Scheme scheme, const Numbering& numbering)
       : mesh_(mesh),
+        scheme_(scheme),
         numbering_(numbering),
         vertices_(mesh.positions.size()),
         used_(vertices_, false),
         tainted_(vertices_, false),
-        removed_(mesh.triangles.size(), false) {}
+        removed_(mesh.faces.size(), false) {
+    face_of_.reserve(mesh.faces.corners().size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      face_of_.insert(face_of_.end(), mesh.faces[f].size(), static_cast<std::int32_t>(f));
+  }
 
   std::vector<MeshFinding> run() {
     check_positions();
@@ -77,7 +82,7 @@ class Validator {
   // The vertices of a face left out have lost part of their surroundings: no verdict on their fans.
   void remove(std::size_t face) {
     removed_[face] = true;
-    for (const std::int32_t v : mesh_.triangles[face]) {
+    for (const std::int32_t v : mesh_.faces[face]) {
       if (v >= 0 && static_cast<std::size_t>(v) < vertices_) tainted_[v] = true;
     }
   }
@@ -93,8 +98,8 @@ class Validator {
   }
 
   void check_indices() {
-    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-      const auto& t = mesh_.triangles[f];
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      const auto t = mesh_.faces[f];
       const auto at = static_cast<std::int64_t>(f);
       const auto wrong = std::find_if(t.begin(), t.end(), [&](std::int32_t v) {
         return v < 0 || static_cast<std::size_t>(v) >= vertices_;
@@ -107,40 +112,73 @@ class Validator {
                fmt::format("face {} names vertex {}, the mesh has {}", face(at), vertex(*wrong), vertices_),
                at);
         remove(f);
-      } else if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-        const std::int32_t twice = t[0] == t[1] ? t[0] : t[2];
+      } else if (const auto twice = repeated(t, at); twice >= 0) {
         report(MeshFault::kDegenerateFace, {at, twice},
                fmt::format("face {} names vertex {} twice", face(at), vertex(twice)), at);
         remove(f);
+      } else if (t.size() < 3) {
+        report(MeshFault::kDegenerateFace, {at, t.empty() ? -1 : t[0]},
+               fmt::format("face {} has {} corners", face(at), t.size()), at);
+        remove(f);
+      } else if (t.size() > 3 && scheme_ == Scheme::kLoop) {
+        report(MeshFault::kPolygon, {at},
+               fmt::format("face {} has {} corners; Loop's scheme takes triangles only", face(at), t.size()),
+               at);
       }
     }
   }
 
-  std::array<std::int32_t, 3> sorted_corners(std::int32_t face) const {
-    auto t = mesh_.triangles[face];
-    std::sort(t.begin(), t.end());
-    return t;
+  // A vertex that a face names twice, or -1.
+  std::int64_t repeated(std::span<const std::int32_t> corners, std::int64_t face) {
+    if (last_face_.empty()) last_face_.assign(vertices_, -1);
+    for (const std::int32_t v : corners) {
+      if (last_face_[v] == face) return v;
+      last_face_[v] = face;
+    }
+    return -1;
+  }
+
+  // The corners from the smallest on, towards the smaller of its neighbours: the same for a face and for the same face
+  // turned over.
+  std::vector<std::int32_t> canonical(std::int32_t face) const {
+    const auto corners = mesh_.faces[face];
+    const std::size_t n = corners.size();
+    const auto smallest =
+        static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) - corners.begin());
+    const bool backwards = corners[(smallest + n - 1) % n] < corners[(smallest + 1) % n];
+    std::vector<std::int32_t> turned(n);
+    for (std::size_t k = 0; k < n; ++k) turned[k] = corners[(smallest + (backwards ? n - k : k)) % n];
+    return turned;
   }
 
   void check_duplicates() {
-    std::vector<std::int32_t> faces;
-    faces.reserve(mesh_.triangles.size());
+    std::vector<std::int32_t> faces, smallest(mesh_.faces.size(), 0);
+    faces.reserve(mesh_.faces.size());
     std::vector<std::int32_t> faces_at(vertices_, 0);
-    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       if (removed_[f]) continue;
       faces.push_back(static_cast<std::int32_t>(f));
-      for (const std::int32_t v : mesh_.triangles[f]) ++faces_at[v];
+      const auto corners = mesh_.faces[f];
+      smallest[f] = *std::min_element(corners.begin(), corners.end());
+      for (const std::int32_t v : corners) ++faces_at[v];
     }
-    for (const int corner : {2, 1, 0}) {
-      sort_by(faces, vertices_, [&](std::int32_t f) { return sorted_corners(f)[corner]; });
-    }
-    for (std::size_t i = 1, first = 0; i < faces.size(); ++i) {
-      if (sorted_corners(faces[i]) != sorted_corners(faces[first])) {
-        first = i;
-        continue;
+    sort_by(faces, vertices_, [&](std::int32_t f) { return smallest[f]; });
+    // Few faces share their smallest corner, but for those of a hub.
+    std::vector<std::pair<std::vector<std::int32_t>, std::int32_t>> group;
+    for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+      while (end < faces.size() && smallest[faces[end]] == smallest[faces[begin]]) ++end;
+      if (end - begin == 1) continue;
+      group.clear();
+      for (std::size_t i = begin; i < end; ++i) group.emplace_back(canonical(faces[i]), faces[i]);
+      std::sort(group.begin(), group.end());
+      for (std::size_t i = 1, first = 0; i < group.size(); ++i) {
+        if (group[i].first != group[first].first) {
+          first = i;
+          continue;
+        }
+        report_same_corners(group[first].second, group[i].second, faces_at);
+        remove(group[i].second);
       }
-      report_same_corners(faces[first], faces[i], faces_at);
-      remove(faces[i]);
     }
   }
 
@@ -148,10 +186,9 @@ class Validator {
   // is a duplicate.
   void report_same_corners(std::int32_t first, std::int32_t later,
                            const std::vector<std::int32_t>& faces_at) {
-    const auto& a = mesh_.triangles[first];
-    const auto& b = mesh_.triangles[later];
-    const auto at = std::find(b.begin(), b.end(), a[0]) - b.begin();
-    const bool back_to_back = a[1] == b[(at + 2) % 3];
+    const auto a = mesh_.faces[first], b = mesh_.faces[later];
+    const auto at = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
+    const bool back_to_back = a[1] == b[(at + b.size() - 1) % b.size()];
     bool low = false;
     for (const std::int32_t v : b) {
       if (!back_to_back || faces_at[v] != 2) continue;
@@ -163,28 +200,38 @@ class Validator {
     }
     if (low) return;
     report(MeshFault::kDuplicateFace, {first, later},
-           fmt::format("face {} has the vertices of face {} ({}, {}, {})", face(later), face(first),
-                       vertex(b[0]), vertex(b[1]), vertex(b[2])),
+           fmt::format("face {} has the vertices of face {} ({})", face(later), face(first), vertices_of(b)),
            later);
   }
 
-  std::int32_t from(std::int32_t h) const { return mesh_.triangles[h / 3][h % 3]; }
-  std::int32_t to(std::int32_t h) const { return mesh_.triangles[h / 3][(h % 3 + 1) % 3]; }
+  // Half-edges are numbered like the corners that they leave.
+  std::int32_t next(std::int32_t h) const {
+    const auto f = static_cast<std::size_t>(face_of_[h]);
+    return static_cast<std::size_t>(h) + 1 == mesh_.faces.first_corner(f + 1)
+               ? static_cast<std::int32_t>(mesh_.faces.first_corner(f))
+               : h + 1;
+  }
+  std::int32_t previous(std::int32_t h) const {
+    const auto f = static_cast<std::size_t>(face_of_[h]);
+    return static_cast<std::size_t>(h) == mesh_.faces.first_corner(f)
+               ? static_cast<std::int32_t>(mesh_.faces.first_corner(f + 1)) - 1
+               : h - 1;
+  }
+  std::int32_t from(std::int32_t h) const { return mesh_.faces.corners()[h]; }
+  std::int32_t to(std::int32_t h) const { return from(next(h)); }
 
   std::pair<std::int32_t, std::int32_t> edge(std::int32_t h) const { return std::minmax({from(h), to(h)}); }
 
-  // Groups the half-edges 3 * face + corner by edge, and pairs the two of an edge in `twin_`.
+  // Groups the half-edges by edge, and pairs the two of an edge in `twin_`.
   void check_edges() {
     std::vector<std::int32_t> half_edges;
-    half_edges.reserve(3 * mesh_.triangles.size());
-    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-      if (removed_[f]) continue;
-      for (std::size_t k = 0; k < 3; ++k) half_edges.push_back(static_cast<std::int32_t>(3 * f + k));
-    }
+    half_edges.reserve(face_of_.size());
+    for (std::size_t h = 0; h < face_of_.size(); ++h)
+      if (!removed_[face_of_[h]]) half_edges.push_back(static_cast<std::int32_t>(h));
     sort_by(half_edges, vertices_, [&](std::int32_t h) { return edge(h).second; });
     sort_by(half_edges, vertices_, [&](std::int32_t h) { return edge(h).first; });
 
-    twin_.assign(3 * mesh_.triangles.size(), -1);
+    twin_.assign(face_of_.size(), -1);
     for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
       const auto [v0, v1] = edge(half_edges[begin]);
       while (end < half_edges.size() && edge(half_edges[end]) == std::pair(v0, v1)) ++end;
@@ -196,10 +243,10 @@ class Validator {
           twin_[b] = a;
           continue;
         }
-        report(MeshFault::kOrientationClash, {v0, v1, a / 3, b / 3},
-               fmt::format("faces {} and {} both run from {} to {}", face(a / 3), face(b / 3),
+        report(MeshFault::kOrientationClash, {v0, v1, face_of_[a], face_of_[b]},
+               fmt::format("faces {} and {} both run from {} to {}", face(face_of_[a]), face(face_of_[b]),
                            vertex(from(a)), vertex(to(a))),
-               b / 3);
+               face_of_[b]);
         tainted_[v0] = tainted_[v1] = true;
       } else if (end - begin > 2) {
         report_nonmanifold(v0, v1, std::vector(half_edges.begin() + begin, half_edges.begin() + end));
@@ -209,7 +256,7 @@ class Validator {
   }
 
   void report_nonmanifold(std::int32_t v0, std::int32_t v1, std::vector<std::int32_t> at_edge) {
-    for (std::int32_t& h : at_edge) h /= 3;
+    for (std::int32_t& h : at_edge) h = face_of_[h];
     std::vector<std::int64_t> elements = {v0, v1};
     elements.insert(elements.end(), at_edge.begin(), at_edge.end());
     report(
@@ -225,19 +272,23 @@ class Validator {
     std::vector<std::int32_t> finding_of(vertices_, -1);
     for (std::size_t corner = 0; corner < twin_.size(); ++corner) {
       const auto h = static_cast<std::int32_t>(corner);
-      if (removed_[h / 3] || reached[h]) continue;
+      if (removed_[face_of_[h]] || reached[h]) continue;
       const std::int32_t v = from(h);
       if (tainted_[v]) continue;
-      walk(h, reached);
+      if (walk(h, reached) == 2 && first_face[v] < 0)  // closed: two faces that share both edges at v
+        report(MeshFault::kLowValence, {v},
+               fmt::format("interior vertex {} has valence 2 (faces {}, {})", vertex(v), face(face_of_[h]),
+                           face(face_of_[twin_[h]])),
+               std::max(face_of_[h], face_of_[twin_[h]]), v);
       if (first_face[v] < 0) {
-        first_face[v] = h / 3;
+        first_face[v] = face_of_[h];
         continue;
       }
       if (finding_of[v] < 0) {
         finding_of[v] = static_cast<std::int32_t>(findings_.size());
-        report(MeshFault::kBowtieVertex, {v, first_face[v]}, "", h / 3, v);
+        report(MeshFault::kBowtieVertex, {v, first_face[v]}, "", face_of_[h], v);
       }
-      findings_[finding_of[v]].elements.push_back(h / 3);
+      findings_[finding_of[v]].elements.push_back(face_of_[h]);
     }
     for (MeshFinding& finding : findings_) {
       if (finding.fault != MeshFault::kBowtieVertex) continue;
@@ -247,13 +298,18 @@ class Validator {
     }
   }
 
-  // Marks the corners of one fan, both ways round from the corner at h.
-  void walk(std::int32_t start, std::vector<bool>& reached) const {
-    const auto next = [](std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
-    const auto previous = [](std::int32_t h) { return h % 3 == 0 ? h + 2 : h - 1; };
-    for (std::int32_t h = start; h >= 0 && !reached[h]; h = twin_[previous(h)]) reached[h] = true;
+  // Marks the corners of one fan, both ways round from the corner at h. Returns the number of faces of a closed one, 0 of
+  // an open one.
+  int walk(std::int32_t start, std::vector<bool>& reached) const {
+    int count = 0;
+    for (std::int32_t h = start; h >= 0; h = twin_[previous(h)]) {
+      if (reached[h]) return count;  // all the way round
+      reached[h] = true;
+      ++count;
+    }
     for (std::int32_t t = twin_[start]; t >= 0 && !reached[next(t)]; t = twin_[next(t)])
       reached[next(t)] = true;
+    return 0;
   }
 
   void check_isolated() {
@@ -264,12 +320,21 @@ class Validator {
     }
   }
 
+  std::string vertices_of(std::span<const std::int32_t> corners) const {
+    std::vector<std::int64_t> numbers;
+    for (const std::int32_t v : corners) numbers.push_back(vertex(v));
+    return listed(numbers);
+  }
+
   const ControlMesh& mesh_;
+  Scheme scheme_;
   Numbering numbering_;
   std::size_t vertices_;
-  std::vector<bool> used_;     // by a face, even a refused one
-  std::vector<bool> tainted_;  // vertices on which no verdict is possible
-  std::vector<bool> removed_;  // faces already refused
+  std::vector<bool> used_;               // by a face, even a refused one
+  std::vector<bool> tainted_;            // vertices on which no verdict is possible
+  std::vector<bool> removed_;            // faces already refused
+  std::vector<std::int32_t> face_of_;    // of each corner
+  std::vector<std::int64_t> last_face_;  // that named the vertex
   std::vector<std::int32_t> twin_;
   std::vector<MeshFinding> findings_;
 };
@@ -298,30 +363,38 @@ std::string_view code(MeshFault fault) {
       return "MESH_BOWTIE_VERTEX";
     case MeshFault::kLowValence:
       return "MESH_LOW_VALENCE";
+    case MeshFault::kPolygon:
+      return "MESH_POLYGON";
     case MeshFault::kIsolatedVertex:
       return "MESH_ISOLATED_VERTEX";
   }
   return "MESH_UNKNOWN";
 }
 
-std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces) {
+std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces, std::int64_t corners) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   if (vertices == 0 || faces == 0) {
     return {{MeshFault::kEmpty, {}, fmt::format("{} vertices and {} faces", vertices, faces)}};
   }
-  if (vertices > most || faces > most / 3) {
+  if (vertices > most || corners > most) {
     return {
         {MeshFault::kTooLarge,
          {vertices, faces},
-         fmt::format("{} vertices and {} faces; the most are {} and {}", vertices, faces, most, most / 3)}};
+         fmt::format("{} vertices and {} faces with {} corners; the most are {} vertices and as many corners",
+                     vertices, faces, corners, most)}};
   }
   return {};
 }
 
-std::vector<MeshFinding> validate(const ControlMesh& mesh, const Numbering& numbering) {
+std::vector<MeshFinding> validate(const ControlMesh& mesh, Scheme scheme, const Numbering& numbering) {
   auto findings = validate_counts(static_cast<std::int64_t>(mesh.positions.size()),
-                                  static_cast<std::int64_t>(mesh.triangles.size()));
-  return findings.empty() ? Validator(mesh, numbering).run() : findings;
+                                  static_cast<std::int64_t>(mesh.faces.size()),
+                                  static_cast<std::int64_t>(mesh.faces.corners().size()));
+  return findings.empty() ? Validator(mesh, scheme, numbering).run() : findings;
+}
+
+std::vector<MeshFinding> validate(const ControlMesh& mesh, const Numbering& numbering) {
+  return validate(mesh, natural_scheme(mesh), numbering);
 }
 
 }  // namespace limitcheck::data

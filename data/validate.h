@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a control mesh is one that Loop subdivision is defined on: an oriented 2-manifold, boundaries
-// allowed.
+// Whether a control mesh is one that a scheme is defined on: an oriented 2-manifold, boundaries allowed; of triangles for
+// Loop's scheme, of any polygons for Catmull-Clark's.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/scheme.h"
 
 namespace limitcheck::data {
 
@@ -20,12 +21,13 @@ enum class MeshFault {
   kTooLarge,          ///< more vertices or half-edges than 32-bit indices name        [vertex and face count]
   kIndexOutOfRange,   ///< a face names a vertex that does not exist                   [face, index]
   kNotFinite,         ///< a coordinate is NaN or infinite                             [vertex]
-  kDegenerateFace,    ///< a face names a vertex twice                                 [face, vertex]
-  kDuplicateFace,     ///< two faces have the same three vertices                      [first face, later one]
+  kDegenerateFace,    ///< a face names a vertex twice, or has fewer than 3 corners    [face, vertex]
+  kDuplicateFace,     ///< two faces have the same corners, in either direction        [first face, later one]
   kNonmanifoldEdge,   ///< an edge has three faces or more                             [v0, v1, faces...]
   kOrientationClash,  ///< both faces of an edge run along it in the same direction    [v0, v1, two faces]
   kBowtieVertex,      ///< the faces at a vertex form two fans or more                 [vertex, face of each]
   kLowValence,        ///< an interior vertex with fewer than 3 neighbours, D9         [vertex]
+  kPolygon,           ///< a face that is no triangle, where the scheme is Loop's      [face]
   kIsolatedVertex,    ///< a vertex that no face names                                 [vertex]
 };
 
@@ -52,10 +54,12 @@ struct Numbering {
 /// one property refuses is left out when the later properties are examined. Ordered by fault, then by
 /// element. Time and memory are O(vertices + faces), whatever the valences: 0.1 to 0.5 s for a million faces,
 /// depending on their order in memory.
+std::vector<MeshFinding> validate(const ControlMesh& mesh, Scheme scheme, const Numbering& numbering = {});
+/// The same for the scheme that the mesh is meant for, natural_scheme(mesh).
 std::vector<MeshFinding> validate(const ControlMesh& mesh, const Numbering& numbering = {});
 
-/// The finding kTooLarge if 32-bit indices cannot name that many vertices or half-edges (3 per face); else
-/// nothing.
-std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces);
+/// The finding kEmpty if there are no vertices or no faces, kTooLarge if 32-bit indices cannot name that many vertices or
+/// corners; else nothing.
+std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces, std::int64_t corners);
 
 }  // namespace limitcheck::data

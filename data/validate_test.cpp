@@ -8,6 +8,7 @@
 #include <iostream>
 #include <limits>
 
+#include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 
@@ -15,8 +16,8 @@ namespace limitcheck::data {
 namespace {
 
 // A mesh of which only the connections matter.
-ControlMesh mesh_of(std::size_t vertices, std::vector<std::array<std::int32_t, 3>> triangles) {
-  return {std::vector<std::array<double, 3>>(vertices), std::move(triangles)};
+ControlMesh mesh_of(std::size_t vertices, Faces faces) {
+  return {std::vector<std::array<double, 3>>(vertices), std::move(faces)};
 }
 
 // Expects exactly one finding of this fault with these elements.
@@ -32,15 +33,15 @@ void expect_only(const ControlMesh& mesh, MeshFault fault, const std::vector<std
 TEST(Validate, AnEmptyMeshIsRefused) {
   expect_only({}, MeshFault::kEmpty, {}, "0 vertices and 0 faces");
   expect_only(mesh_of(3, {}), MeshFault::kEmpty, {}, "3 vertices and 0 faces");
-  EXPECT_EQ(validate_counts(0, 3).at(0).fault, MeshFault::kEmpty);
-  EXPECT_TRUE(validate_counts(1, 3).empty());
+  EXPECT_EQ(validate_counts(0, 3, 9).at(0).fault, MeshFault::kEmpty);
+  EXPECT_TRUE(validate_counts(1, 3, 9).empty());
 }
 
 TEST(Validate, MoreThan32BitIndicesCanNameIsRefused) {
   const std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  EXPECT_TRUE(validate_counts(most, most / 3).empty());
-  EXPECT_EQ(validate_counts(most + 1, 1).at(0).fault, MeshFault::kTooLarge);
-  EXPECT_EQ(validate_counts(3, most / 3 + 1).at(0).fault, MeshFault::kTooLarge);
+  EXPECT_TRUE(validate_counts(most, most / 3, most).empty());
+  EXPECT_EQ(validate_counts(most + 1, 1, 3).at(0).fault, MeshFault::kTooLarge);
+  EXPECT_EQ(validate_counts(3, most / 3 + 1, most + 2).at(0).fault, MeshFault::kTooLarge);
 }
 
 TEST(Validate, AnIndexOutOfRangeNamesItsFaceAndNothingElse) {
@@ -77,7 +78,7 @@ TEST(Validate, EveryCoordinateMustBeFinite) {
 TEST(Validate, AFaceWithARepeatedVertexIsDegenerate) {
   for (const std::array<std::int32_t, 3> t :
        {std::array{3, 3, 1}, std::array{1, 3, 3}, std::array{3, 1, 3}}) {
-    expect_only(mesh_of(4, {{0, 1, 2}, {2, 1, 3}, t}), MeshFault::kDegenerateFace, {2, 3},
+    expect_only(mesh_of(4, {{0, 1, 2}, {2, 1, 3}, {t[0], t[1], t[2]}}), MeshFault::kDegenerateFace, {2, 3},
                 "face 2 names vertex 3 twice");
   }
 }
@@ -87,8 +88,8 @@ TEST(Validate, TheSameThreeVerticesTwiceAreADuplicateInAnyOrder) {
   for (std::int64_t original = 0; original < 4; ++original) {
     for (const auto& order : orders) {
       ControlMesh mesh = tetrahedron();
-      const auto t = mesh.triangles[original];
-      mesh.triangles.push_back({t[order[0]], t[order[1]], t[order[2]]});
+      const auto t = triangles_of(mesh)[original];
+      mesh.faces.push_back({t[order[0]], t[order[1]], t[order[2]]});
       const auto findings = validate(mesh);
       ASSERT_EQ(findings.size(), 1u);
       EXPECT_EQ(findings[0].fault, MeshFault::kDuplicateFace);
@@ -104,13 +105,14 @@ TEST(Validate, AnEdgeOfThreeFacesNamesThemAll) {
 }
 
 TEST(Validate, AnEdgeOfManyFacesNamesTheFirstEightInItsMessage) {
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (int i = 0; i < 12; ++i) triangles.push_back({0, 1, 2 + i});
-  expect_only(mesh_of(14, triangles), MeshFault::kNonmanifoldEdge,
-              {0, 1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
+  const auto fan = [](int count) {
+    Faces faces;
+    for (int i = 0; i < count; ++i) faces.push_back({0, 1, 2 + i});
+    return faces;
+  };
+  expect_only(mesh_of(14, fan(12)), MeshFault::kNonmanifoldEdge, {0, 1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
               "edge 0–1 has 12 faces (0, 1, 2, 3, 4, 5, 6, 7, …)");
-  triangles.resize(8);
-  expect_only(mesh_of(10, triangles), MeshFault::kNonmanifoldEdge, {0, 1, 0, 1, 2, 3, 4, 5, 6, 7},
+  expect_only(mesh_of(10, fan(8)), MeshFault::kNonmanifoldEdge, {0, 1, 0, 1, 2, 3, 4, 5, 6, 7},
               "edge 0–1 has 8 faces (0, 1, 2, 3, 4, 5, 6, 7)");
 }
 
@@ -118,7 +120,7 @@ TEST(Validate, TwoFacesAlongAnEdgeInTheSameDirectionClash) {
   expect_only(mesh_of(4, {{0, 1, 2}, {0, 1, 3}}), MeshFault::kOrientationClash, {0, 1, 0, 1},
               "faces 0 and 1 both run from 0 to 1");
   ControlMesh mesh = octahedron();
-  std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
+  std::swap(mesh.faces[5][0], mesh.faces[5][1]);
   const auto findings = validate(mesh);
   ASSERT_EQ(findings.size(), 3u);  // its three edges
   for (const MeshFinding& finding : findings) EXPECT_EQ(finding.fault, MeshFault::kOrientationClash);
@@ -134,9 +136,9 @@ TEST(Validate, AVertexBetweenTwoClosedFansIsABowtie) {
   const ControlMesh other = tetrahedron();
   for (const auto& p : other.positions) mesh.positions.push_back(p);
   mesh.positions.pop_back();
-  for (auto t : other.triangles) {
+  for (auto t : triangles_of(other)) {
     for (auto& v : t) v = v == 0 ? 0 : v + 3;
-    mesh.triangles.push_back(t);
+    mesh.faces.push_back(t);
   }
   expect_only(mesh, MeshFault::kBowtieVertex, {0, 0, 4}, "vertex 0 joins 2 fans (of faces 0, 4)");
 }
@@ -144,7 +146,7 @@ TEST(Validate, AVertexBetweenTwoClosedFansIsABowtie) {
 TEST(Validate, AVertexBetweenAClosedAndAnOpenFanIsABowtie) {
   ControlMesh mesh = wheel(5, 1);
   mesh.positions.resize(mesh.positions.size() + 2);
-  mesh.triangles.push_back({0, 6, 7});
+  mesh.faces.push_back({0, 6, 7});
   expect_only(mesh, MeshFault::kBowtieVertex, {0, 0, 5}, "vertex 0 joins 2 fans (of faces 0, 5)");
 }
 
@@ -170,7 +172,7 @@ TEST(Validate, EveryIndependentFaultIsReported) {
   const auto before = static_cast<std::int32_t>(mesh.positions.size());
   mesh.positions.push_back({9, 9, 9});
   mesh.positions.push_back({8, 8, 8});
-  mesh.triangles.push_back({0, 1, before});
+  mesh.faces.push_back({0, 1, before});
   const auto findings = validate(mesh);
   ASSERT_EQ(findings.size(), 3u);
   EXPECT_EQ(findings[0].fault, MeshFault::kNotFinite);
@@ -182,80 +184,87 @@ TEST(Validate, EveryIndependentFaultIsReported) {
 // all with all.
 bool valid_by_definition(const ControlMesh& mesh) {
   const auto vertices = static_cast<std::int32_t>(mesh.positions.size());
-  const auto& faces = mesh.triangles;
-  const auto has = [](const auto& t, std::int32_t v) { return t[0] == v || t[1] == v || t[2] == v; };
-  for (const auto& t : faces) {
-    for (int k = 0; k < 3; ++k) {
-      if (t[k] < 0 || t[k] >= vertices || t[k] == t[(k + 1) % 3]) return false;
+  const Faces& faces = mesh.faces;
+  const auto has = [&](std::size_t f, std::int32_t v) {
+    return std::count(faces[f].begin(), faces[f].end(), v) > 0;
+  };
+  // How many faces run from a to b.
+  const auto runs = [&](std::size_t f, std::int32_t a, std::int32_t b) {
+    int count = 0;
+    for (std::size_t k = 0; k < faces[f].size(); ++k)
+      count += faces[f][k] == a && faces[f][(k + 1) % faces[f].size()] == b;
+    return count;
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f].size() < 3) return false;
+    for (std::size_t k = 0; k < faces[f].size(); ++k) {
+      const std::int32_t a = faces[f][k], b = faces[f][(k + 1) % faces[f].size()];
+      if (a < 0 || a >= vertices || std::count(faces[f].begin(), faces[f].end(), a) != 1) return false;
       int along = 0, against = 0;
-      for (const auto& u : faces) {
-        for (int j = 0; j < 3; ++j) {
-          along += u[j] == t[k] && u[(j + 1) % 3] == t[(k + 1) % 3];
-          against += u[j] == t[(k + 1) % 3] && u[(j + 1) % 3] == t[k];
-        }
-      }
+      for (std::size_t g = 0; g < faces.size(); ++g) along += runs(g, a, b), against += runs(g, b, a);
       if (along != 1 || against > 1) return false;
     }
   }
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::size_t g = 0; g < f; ++g) {
-      if (has(faces[f], faces[g][0]) && has(faces[f], faces[g][1]) && has(faces[f], faces[g][2]))
-        return false;
-    }
-  }
   for (std::int32_t v = 0; v < vertices; ++v) {
-    // The faces at v must be connected through edges at v.
+    // The faces at v must be connected through edges at v; if all these have two faces, there are three or more.
     std::vector<std::size_t> at;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (has(faces[f], v)) at.push_back(f);
-    }
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (has(f, v)) at.push_back(f);
     if (at.empty()) return false;
+    const auto share_an_edge = [&](std::size_t f, std::size_t g) {
+      for (std::int32_t w = 0; w < vertices; ++w)
+        if ((runs(f, v, w) > 0 && runs(g, w, v) > 0) || (runs(f, w, v) > 0 && runs(g, v, w) > 0)) return true;
+      return false;
+    };
     std::vector<bool> in(at.size(), false);
     in[0] = true;
-    for (std::size_t round = 0; round < at.size(); ++round) {
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        for (std::size_t j = 0; j < at.size(); ++j) {
-          if (!in[i] || in[j]) continue;
-          int common = 0;
-          for (const std::int32_t w : faces[at[i]]) common += has(faces[at[j]], w);
-          if (common >= 2) in[j] = true;
-        }
-      }
+    for (std::size_t round = 0; round < at.size(); ++round)
+      for (std::size_t i = 0; i < at.size(); ++i)
+        for (std::size_t j = 0; j < at.size(); ++j)
+          if (in[i] && !in[j] && share_an_edge(at[i], at[j])) in[j] = true;
+    if (std::count(in.begin(), in.end(), false) > 0) return false;
+    bool closed = true;
+    for (std::int32_t w = 0; w < vertices; ++w) {
+      int edges = 0;
+      for (const std::size_t f : at) edges += runs(f, v, w) + runs(f, w, v);
+      closed = closed && edges != 1;
     }
-    for (const bool reached : in) {
-      if (!reached) return false;
-    }
+    if (closed && at.size() < 3) return false;
   }
   return true;
 }
 
-TEST(Validate, AgreesWithTheDefinitionsOnRandomTriangleSoups) {
+// Changes the meshes at random and asks both; most of the changed ones are wrong somewhere.
+void expect_agreement(const std::vector<ControlMesh>& starts, int count) {
   SplitMix64 random(7);
-  const std::vector<ControlMesh> starts = {tetrahedron(), octahedron(), wheel(3, 1),  wheel(5, 1),
-                                           fan(4, 1),     strip(4),     bipyramid(3), sheet(2, 2)};
   int valid = 0, total = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < count; ++i) {
     ControlMesh mesh = starts[random.next() % starts.size()];
     for (int change = static_cast<int>(random.next() % 4); change > 0; --change) {
       const auto any_vertex = [&] {
         return static_cast<std::int32_t>(random.next() % mesh.positions.size());
       };
-      const std::size_t face = random.next() % mesh.triangles.size();
+      const std::size_t face = random.next() % mesh.faces.size();
       switch (random.next() % 5) {
         case 0:
-          mesh.triangles[face][random.next() % 3] = any_vertex();
+          mesh.faces[face][random.next() % mesh.faces[face].size()] = any_vertex();
           break;
         case 1:
-          mesh.triangles.push_back({any_vertex(), any_vertex(), any_vertex()});
+          mesh.faces.push_back({any_vertex(), any_vertex(), any_vertex()});
           break;
         case 2:
-          if (mesh.triangles.size() > 1) mesh.triangles.erase(mesh.triangles.begin() + face);
+          if (mesh.faces.size() > 1) {
+            Faces fewer;
+            for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+              if (f != face) fewer.push_back(mesh.faces[f]);
+            mesh.faces = fewer;
+          }
           break;
         case 3:
-          std::swap(mesh.triangles[face][0], mesh.triangles[face][1]);
+          std::swap(mesh.faces[face][0], mesh.faces[face][1]);
           break;
         case 4:
-          std::swap(mesh.triangles[face], mesh.triangles[0]);
+          std::rotate(mesh.faces[face].begin(), mesh.faces[face].begin() + 1, mesh.faces[face].end());
           break;
       }
     }
@@ -264,9 +273,44 @@ TEST(Validate, AgreesWithTheDefinitionsOnRandomTriangleSoups) {
     valid += expected;
     ++total;
   }
-  RecordProperty("valid", valid);
+  testing::Test::RecordProperty("valid", valid);
   EXPECT_GT(valid, total / 10);
   EXPECT_LT(valid, total * 9 / 10);
+}
+
+TEST(Validate, AgreesWithTheDefinitionsOnRandomTriangleSoups) {
+  const std::vector<ControlMesh> starts = {tetrahedron(), octahedron(), wheel(3, 1),  wheel(5, 1),
+                                           fan(4, 1),     strip(4),     bipyramid(3), sheet(2, 2)};
+  expect_agreement(starts, 20000);
+}
+
+TEST(Validate, AgreesWithTheDefinitionsOnRandomPolygonSoups) {
+  // The last is two quads that share two edges: their common vertex is inside and has valence 2.
+  expect_agreement({quad_cube(), quad_fan(1, 1), quad_fan(3, 1), quad_wheel(3, 1), polygon_prism(3),
+                    polygon_prism(5), mesh_of(5, {{0, 1, 2, 3}, {0, 3, 2, 4}})},
+                   10000);
+}
+
+TEST(Validate, PolygonsAreForCatmullClark) {
+  const ControlMesh prism = polygon_prism(5);
+  EXPECT_TRUE(validate(prism).empty());
+  EXPECT_TRUE(validate(prism, Scheme::kCatmullClark).empty());
+  const auto findings = validate(prism, Scheme::kLoop);
+  ASSERT_EQ(findings.size(), 7U);
+  EXPECT_EQ(findings[0].fault, MeshFault::kPolygon);
+  EXPECT_EQ(findings[0].message, "face 0 has 5 corners; Loop's scheme takes triangles only");
+  EXPECT_TRUE(validate(tetrahedron(), Scheme::kCatmullClark).empty());
+}
+
+TEST(Validate, PolygonsBackToBackAndFacesThatShareTwoEdges) {
+  const auto pillow = validate(mesh_of(4, {{0, 1, 2, 3}, {3, 2, 1, 0}}));
+  ASSERT_EQ(pillow.size(), 4U);
+  EXPECT_EQ(pillow[0].fault, MeshFault::kLowValence);
+  expect_only(mesh_of(5, {{0, 1, 2, 3}, {0, 3, 2, 4}}), MeshFault::kLowValence, {3},
+              "interior vertex 3 has valence 2 (faces 0, 1)");
+  expect_only(mesh_of(4, {{0, 1, 2, 3}, {0, 1}}), MeshFault::kDegenerateFace, {1, 0}, "face 1 has 2 corners");
+  expect_only(mesh_of(4, {{0, 1, 2, 3}, {0, 1, 2, 1}}), MeshFault::kDegenerateFace, {1, 1},
+              "face 1 names vertex 1 twice");
 }
 
 TEST(Validate, AHubOfAMillionFacesAndAMillionFacedSheetTakeOnePass) {
@@ -275,14 +319,14 @@ TEST(Validate, AHubOfAMillionFacesAndAMillionFacedSheetTakeOnePass) {
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(validate(mesh).empty());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::cout << mesh.triangles.size() << " faces validated in " << seconds.count() << " s\n";
+    std::cout << mesh.faces.size() << " faces validated in " << seconds.count() << " s\n";
   }
 }
 
 TEST(Validate, AMillionFacesOnOneEdgeAreOneFinding) {
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (int i = 0; i < 1'000'000; ++i) triangles.push_back({0, 1, 2 + i});
-  EXPECT_EQ(validate(mesh_of(1'000'002, triangles)).size(), 1u);
+  Faces faces;
+  for (int i = 0; i < 1'000'000; ++i) faces.push_back({0, 1, 2 + i});
+  EXPECT_EQ(validate(mesh_of(1'000'002, faces)).size(), 1u);
 }
 
 }  // namespace

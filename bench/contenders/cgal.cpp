@@ -19,7 +19,7 @@ class Refinement : public Contender {
   Refinement(const data::ControlMesh& mesh, int depth)
       : depth_(depth), evaluated_(distinct_points(mesh, depth)) {
     for (const auto& p : mesh.positions) mesh_.add_vertex({p[0], p[1], p[2]});
-    for (const auto& t : mesh.triangles) mesh_.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2]));
+    for (const auto& t : triangles_of(mesh)) mesh_.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2]));
   }
   void run() override {
     Mesh refined = mesh_;

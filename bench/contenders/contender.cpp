@@ -12,7 +12,7 @@ namespace limitcheck::bench {
 
 double distinct_points(const data::ControlMesh& mesh, int depth) {
   const double edges = std::ldexp(1., depth);
-  const auto faces = static_cast<double>(mesh.triangles.size());
+  const auto faces = static_cast<double>(mesh.faces.size());
   return faces * edges * edges / 2 + static_cast<double>(mesh.positions.size()) - faces / 2;
 }
 

@@ -27,12 +27,11 @@ inline void set_normal(const float* du, const float* dv, LimitPoint& point) {
 class OpenSubdivMesh {
  public:
   explicit OpenSubdivMesh(const data::ControlMesh& mesh) {
-    std::vector<std::int32_t> corners;
-    for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
     for (const auto& p : mesh.positions)
       for (const double x : p) control_.push_back(static_cast<float>(x));
-    refiner_ = verify::make_refiner({nullptr, static_cast<std::int64_t>(mesh.positions.size()),
-                                     corners.data(), static_cast<std::int64_t>(mesh.triangles.size())});
+    refiner_ =
+        verify::make_refiner({nullptr, static_cast<std::int64_t>(mesh.positions.size()),
+                              mesh.faces.corners().data(), static_cast<std::int64_t>(mesh.faces.size())});
   }
   OpenSubdiv::Far::TopologyRefiner& refiner() const { return *refiner_; }
   std::size_t faces() const { return static_cast<std::size_t>(refiner_->GetLevel(0).GetNumFaces()); }

@@ -58,7 +58,7 @@ class RowStreaming final : public Contender {
         threads_(threads),
         form_(form),
         adjacency_(mesh),
-        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids),
+        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids),
         stream_(mesh, adjacency_, kernel) {
     if (form == Form::kWhole || form == Form::kStreamed) out_.resize(evaluated());
     if (form == Form::kCompact) compact_.resize(evaluated());
@@ -116,7 +116,7 @@ class Window : public Contender {
       : depth_(depth),
         threads_(threads),
         adjacency_(mesh),
-        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids),
+        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids),
         prepared_(adjacency_, fast::positions_of<float>(mesh)) {}
 
   void run() override {

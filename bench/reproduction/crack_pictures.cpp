@@ -37,7 +37,7 @@ Image cracks_and_repair() {
 Image fan_centres() {
   Studio studio(data::icosahedron());
   // Two faces of depth 1, which become a pair, amid depth 3: two fans.
-  const auto& faces = studio.mesh().triangles;
+  const data::Faces& faces = studio.mesh().faces;
   const auto common = [&](std::int32_t face) {
     int corners = 0;
     for (const std::int32_t v : faces[face])

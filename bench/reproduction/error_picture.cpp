@@ -27,7 +27,7 @@ Colour heat(double t) {
 /// The control mesh itself as triangles with normals of their own.
 fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
   fast::DrawList<float> list;
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : triangles_of(mesh)) {
     std::array<fast::Point3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[t[k]]);
     fast::Point3 n = cross(p[1] - p[0], p[2] - p[0]);

@@ -19,7 +19,7 @@ nlohmann::ordered_json shapes(const std::vector<std::string>& names) {
       const data::ControlMesh mesh = data::open_mesh(name);
       fast::DepthOptions depth;
       depth.strategy = fast::Strategy::kUniform;
-      for (depth.depth = 0; depth.depth < 4 && mesh.triangles.size() << 2 * (depth.depth + 1) <= kTriangles;)
+      for (depth.depth = 0; depth.depth < 4 && mesh.faces.size() << 2 * (depth.depth + 1) <= kTriangles;)
         ++depth.depth;
       fast::Tessellator<float> engine(mesh);
       fast::IndexedMesh<float> out;

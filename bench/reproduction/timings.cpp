@@ -73,7 +73,7 @@ Json time_per_point(bool quick) {
   std::vector<double> depths, nanoseconds;
   double widest = 1;
   for (int depth = 3; depth <= 7; ++depth) {
-    const std::vector<std::int32_t> all(mesh.triangles.size(), depth);
+    const std::vector<std::int32_t> all(mesh.faces.size(), depth);
     std::vector<double> times;
     for (int k = 0; k < (quick ? 4 : 10) << (7 - depth); ++k) {
       const double start = seconds_of(Clock::kProcessor);

@@ -38,7 +38,7 @@ ControlMesh scaled(ControlMesh mesh, int exponent) {
 void append(ControlMesh& mesh, const ControlMesh& other) {
   const auto first = static_cast<std::int32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-  for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const auto& t : triangles_of(other)) mesh.faces.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
 }  // namespace
@@ -69,8 +69,8 @@ ControlMesh handles(int genus) {
       c[up ? k : 3 - k] = vertex(q);
     }
     if ((p[0] + p[1] + p[2]) % 2 != 0) c = {c[1], c[2], c[3], c[0]};
-    mesh.triangles.push_back({c[0], c[1], c[2]});
-    mesh.triangles.push_back({c[0], c[2], c[3]});
+    mesh.faces.push_back({c[0], c[1], c[2]});
+    mesh.faces.push_back({c[0], c[2], c[3]});
   };
   for (int x = 0; x <= 2 * genus; ++x)
     for (int y = 0; y < 3; ++y) {
@@ -125,13 +125,13 @@ ControlMesh zero_edge() {
 ControlMesh stellated() {
   const ControlMesh inner = octahedron();
   ControlMesh mesh{inner.positions, {}};
-  for (const auto& t : inner.triangles) {
+  for (const auto& t : triangles_of(inner)) {
     const auto tip = static_cast<std::int32_t>(mesh.positions.size());
     Point p{};
     for (const std::int32_t v : t)
       for (std::size_t k = 0; k < 3; ++k) p[k] += inner.positions[v][k] / 2;
     mesh.positions.push_back(p);
-    for (std::size_t k = 0; k < 3; ++k) mesh.triangles.push_back({t[k], t[(k + 1) % 3], tip});
+    for (std::size_t k = 0; k < 3; ++k) mesh.faces.push_back({t[k], t[(k + 1) % 3], tip});
   }
   return mesh;
 }

@@ -31,7 +31,7 @@ struct Counts {
       while (parent[v] != v) v = parent[v];
       return v;
     };
-    for (const auto& t : mesh.triangles)
+    for (const auto& t : triangles_of(mesh))
       for (int k = 0; k < 3; ++k) {
         ++edges[std::minmax(t[k], t[(k + 1) % 3])];
         parent[root(t[k])] = root(t[(k + 1) % 3]);
@@ -45,8 +45,7 @@ struct Counts {
     for (const int n : neighbours) ++valences[n];
     for (std::size_t v = 0; v < parent.size(); ++v) components += parent[v] == static_cast<std::int32_t>(v);
     characteristic = static_cast<std::int64_t>(mesh.positions.size()) -
-                     static_cast<std::int64_t>(edges.size()) +
-                     static_cast<std::int64_t>(mesh.triangles.size());
+                     static_cast<std::int64_t>(edges.size()) + static_cast<std::int64_t>(mesh.faces.size());
   }
 };
 
@@ -73,7 +72,7 @@ TEST(AwkwardMeshes, HandlesHaveTheirGenusAndAreIrregular) {
     EXPECT_EQ(counts.boundary, 0);
     EXPECT_EQ(counts.components, 1U);
     EXPECT_GE(counts.valences.size(), 4U) << "valences";
-    EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(36 * genus + 28));
+    EXPECT_EQ(mesh.faces.size(), static_cast<std::size_t>(36 * genus + 28));
   }
   EXPECT_THROW(handles(0), InputError);
 }
@@ -92,7 +91,7 @@ TEST(AwkwardMeshes, HaveTheGeometryThatTheyAreNamedFor) {
   for (const auto& p : flat().positions) EXPECT_EQ(p[2], 0);
 
   const ControlMesh thin = needles();
-  for (const auto& t : thin.triangles) {
+  for (const auto& t : triangles_of(thin)) {
     double longest = 0;
     for (int k = 0; k < 3; ++k)
       longest = std::max(longest, distance(thin.positions[t[k]], thin.positions[t[(k + 1) % 3]]));
@@ -104,7 +103,7 @@ TEST(AwkwardMeshes, HaveTheGeometryThatTheyAreNamedFor) {
 
   const ControlMesh edge = zero_edge();
   EXPECT_EQ(edge.positions[0], edge.positions[1]);
-  EXPECT_TRUE(std::any_of(edge.triangles.begin(), edge.triangles.end(), [](const auto& t) {
+  EXPECT_TRUE(std::any_of(triangles_of(edge).begin(), triangles_of(edge).end(), [](const auto& t) {
     return std::count_if(t.begin(), t.end(), [](std::int32_t v) { return v < 2; }) == 2;
   }));
 

@@ -72,9 +72,9 @@ ControlMesh bumpy_sphere_of_vertices(int vertices, std::uint64_t seed, double rm
   ControlMesh mesh;
   mesh.positions.reserve(vertices);
   for (int i = 0; i < vertices; ++i) mesh.positions.push_back(random_direction(random));
-  mesh.triangles = hull(mesh.positions);
+  mesh.faces = Faces(hull(mesh.positions));
   // With very few points the hull may miss the origin or a direction may occur twice; neither is a sphere.
-  if (mesh.triangles.size() != 2 * static_cast<std::size_t>(vertices) - 4) {
+  if (mesh.faces.size() != 2 * static_cast<std::size_t>(vertices) - 4) {
     refuse("these directions have no triangulation with F = 2V - 4; try another seed");
   }
   for (auto& position : mesh.positions) {

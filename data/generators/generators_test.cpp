@@ -29,8 +29,8 @@ TEST(Sec6_BumpySphere, HasTwiceItsVerticesMinusFourFacesAndIsAClosedManifold) {
   for (const int faces : {4, 6, 8, 20, 200, 800, 2000, 4000}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       const ControlMesh mesh = bumpy_sphere(faces, seed);
-      EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(faces));
-      EXPECT_EQ(mesh.triangles.size(), 2 * mesh.positions.size() - 4);
+      EXPECT_EQ(mesh.faces.size(), static_cast<std::size_t>(faces));
+      EXPECT_EQ(mesh.faces.size(), 2 * mesh.positions.size() - 4);
       EXPECT_TRUE(validate(mesh).empty());
     }
   }
@@ -68,7 +68,7 @@ TEST(Sec6_BumpySphere, IsTriangulatedByTheConvexHullOfItsDirections) {
         std::sqrt((long double)p[0] * p[0] + (long double)p[1] * p[1] + (long double)p[2] * p[2]);
     d.push_back({p[0] / r, p[1] / r, p[2] / r});
   }
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : triangles_of(mesh)) {
     const auto &a = d[t[0]], &b = d[t[1]], &c = d[t[2]];
     for (std::size_t v = 0; v < d.size(); ++v) {
       if (v == std::size_t(t[0]) || v == std::size_t(t[1]) || v == std::size_t(t[2])) continue;

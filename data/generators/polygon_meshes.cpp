@@ -13,10 +13,10 @@ namespace limitcheck::data {
 namespace {
 
 /// Two rings of quads in `sectors` sectors of a full turn or, if open, of 120 degrees for one and more for more.
-PolygonMesh two_rings(int sectors, bool open, std::uint64_t seed) {
+ControlMesh two_rings(int sectors, bool open, std::uint64_t seed) {
   SplitMix64 random(seed);
   const auto varied = [&](double x) { return x + 0.3 * (2 * random.unit() - 1); };
-  PolygonMesh mesh;
+  ControlMesh mesh;
   const double turn =
       open ? std::min(1.8, 0.45 * sectors) * std::numbers::pi / sectors : 2 * std::numbers::pi / sectors;
   const int spokes = open ? sectors + 1 : sectors;
@@ -40,8 +40,8 @@ PolygonMesh two_rings(int sectors, bool open, std::uint64_t seed) {
 
 }  // namespace
 
-PolygonMesh quad_cube() {
-  PolygonMesh mesh;
+ControlMesh quad_cube() {
+  ControlMesh mesh;
   for (int i = 0; i < 8; ++i)
     mesh.positions.push_back({i & 1 ? 1. : -1., i & 2 ? 1. : -1., i & 4 ? 1. : -1.});
   for (const auto& quad :
@@ -50,8 +50,8 @@ PolygonMesh quad_cube() {
   return mesh;
 }
 
-PolygonMesh quad_torus(int around, int across) {
-  PolygonMesh mesh;
+ControlMesh quad_torus(int around, int across) {
+  ControlMesh mesh;
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j) {
       const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
@@ -65,16 +65,16 @@ PolygonMesh quad_torus(int around, int across) {
   return mesh;
 }
 
-PolygonMesh quad_wheel(int n, std::uint64_t seed) {
+ControlMesh quad_wheel(int n, std::uint64_t seed) {
   return two_rings(n, false, seed);
 }
 
-PolygonMesh quad_fan(int faces, std::uint64_t seed) {
+ControlMesh quad_fan(int faces, std::uint64_t seed) {
   return two_rings(faces, true, seed);
 }
 
-PolygonMesh polygon_prism(int n) {
-  PolygonMesh mesh;
+ControlMesh polygon_prism(int n) {
+  ControlMesh mesh;
   for (int i = 0; i < 2 * n; ++i) {
     const double t = 2 * std::numbers::pi * (i % n) / n;
     mesh.positions.push_back({std::cos(t), std::sin(t), i < n ? -1. : 1.});
@@ -87,12 +87,13 @@ PolygonMesh polygon_prism(int n) {
   return mesh;
 }
 
-PolygonMesh dual(const ControlMesh& mesh) {
-  PolygonMesh result;
+ControlMesh dual(const ControlMesh& mesh) {
+  ControlMesh result;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> face_of;  // of each directed edge
+  const Triangles triangles = triangles_of(mesh);
   std::vector<std::int32_t> some_edge(mesh.positions.size(), -1);  // the vertex that an edge from v leads to
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const auto& t = mesh.triangles[f];
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto t = triangles[f];
     std::array<double, 3> middle{};
     for (std::size_t k = 0; k < 3; ++k) {
       face_of[{t[k], t[(k + 1) % 3]}] = static_cast<std::int32_t>(f);
@@ -110,7 +111,7 @@ PolygonMesh dual(const ControlMesh& mesh) {
       const auto face = face_of.find({from, to});
       if (face == face_of.end()) throw ArgumentError("the dual is for closed meshes");
       corners.push_back(face->second);
-      const auto& t = mesh.triangles[static_cast<std::size_t>(face->second)];
+      const auto t = triangles[static_cast<std::size_t>(face->second)];
       to = t[0] == from ? t[2] : t[1] == from ? t[0] : t[1];
     } while (to != some_edge[v]);
     result.faces.push_back(corners);

@@ -26,7 +26,7 @@ class Editor {
         positions_(mesh.positions),
         neighbour_(positions_.size(), -1),
         max_valence_(max_valence) {
-    for (const auto& t : mesh.triangles) add(t[0], t[1], t[2]);
+    for (const auto& t : triangles_of(mesh)) add(t[0], t[1], t[2]);
   }
 
   int face_count() const { return static_cast<int>(faces_.size()); }
@@ -144,7 +144,7 @@ class Editor {
       number[v] = static_cast<Index>(mesh.positions.size());
       mesh.positions.push_back(positions_[v]);
     }
-    for (const Face& f : faces_) mesh.triangles.push_back({number[f[0]], number[f[1]], number[f[2]]});
+    for (const Face& f : faces_) mesh.faces.push_back({number[f[0]], number[f[1]], number[f[2]]});
     return mesh;
   }
 

@@ -25,7 +25,7 @@ Census census(const ControlMesh& mesh) {
   std::map<std::int32_t, int> faces;
   std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
   std::set<std::int32_t> boundary;
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : triangles_of(mesh)) {
     for (int k = 0; k < 3; ++k) {
       ++faces[t[k]];
       ++edges[std::minmax(t[k], t[(k + 1) % 3])];
@@ -51,7 +51,7 @@ TEST(RandomMesh, IsValidWhateverTheSeed) {
     const ControlMesh mesh = random_mesh(seed, {.faces = 1 + static_cast<int>(seed * 7 % 400)});
     const auto findings = validate(mesh);
     ASSERT_TRUE(findings.empty()) << "seed " << seed << ": " << findings.front().message;
-    faces += static_cast<std::int64_t>(mesh.triangles.size());
+    faces += static_cast<std::int64_t>(mesh.faces.size());
     for (const auto& p : mesh.positions) {
       for (const double x : p) ASSERT_EQ(x, static_cast<double>(static_cast<float>(x)));
     }
@@ -82,7 +82,7 @@ TEST(RandomMesh, HasAllValencesAndBoundariesAmongAHundredSeeds) {
 TEST(RandomMesh, HasAboutTheFacesAskedFor) {
   for (const int faces : {50, 200, 5000}) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      const auto made = static_cast<double>(random_mesh(seed, {.faces = faces}).triangles.size());
+      const auto made = static_cast<double>(random_mesh(seed, {.faces = faces}).faces.size());
       EXPECT_NEAR(made, faces, 2) << "seed " << seed;
     }
   }

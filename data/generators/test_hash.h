@@ -18,7 +18,7 @@ inline std::uint64_t hash(const ControlMesh& mesh) {
   for (const auto& p : mesh.positions) {
     for (const double x : p) add(std::bit_cast<std::uint64_t>(x));
   }
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : triangles_of(mesh)) {
     for (const std::int32_t v : t) add(static_cast<std::uint32_t>(v));
   }
   return value;

@@ -40,7 +40,7 @@ TEST_P(MalformedFile, IsRefusedWithTheCodeAndTheLineOfItsName) {
   ASSERT_EQ(name.substr(dot, 5), ".line");
   try {
     const ControlMesh mesh = read_mesh(file);
-    FAIL() << "accepted with " << mesh.positions.size() << " vertices, " << mesh.triangles.size() << " faces";
+    FAIL() << "accepted with " << mesh.positions.size() << " vertices, " << mesh.faces.size() << " faces";
   } catch (const InputError& error) {
     EXPECT_EQ(error.code(), name.substr(0, dot)) << error.what();
     EXPECT_EQ(error.line(), std::stoll(name.substr(dot + 5))) << error.what();
@@ -63,7 +63,7 @@ TEST_P(WellformedFile, IsReadWithTheCountsOfItsName) {
   ASSERT_NE(f, std::string::npos);
   const ControlMesh mesh = read_mesh(GetParam());
   EXPECT_EQ(mesh.positions.size(), std::stoul(name.substr(v + 2)));
-  EXPECT_EQ(mesh.triangles.size(), std::stoul(name.substr(f + 2)));
+  EXPECT_EQ(mesh.faces.size(), std::stoul(name.substr(f + 2)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, WellformedFile, testing::ValuesIn(files_of("wellformed")), test_name);

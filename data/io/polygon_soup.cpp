@@ -67,10 +67,11 @@ class PolygonChecker {
 Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   Examination result;
   const std::size_t polygons = soup.polygon_end.size();
-  const auto triangles =
-      static_cast<std::int64_t>(soup.corners.size()) - 2 * static_cast<std::int64_t>(polygons);
-  const auto too_many = validate_counts(static_cast<std::int64_t>(soup.positions.size()),
-                                        std::max(static_cast<std::int64_t>(polygons), triangles));
+  const bool keep = options.polygons == Triangulation::kKeep;
+  const auto faces = static_cast<std::int64_t>(polygons),
+             corners = static_cast<std::int64_t>(soup.corners.size());
+  const auto too_many = validate_counts(static_cast<std::int64_t>(soup.positions.size()), faces,
+                                        keep ? corners : std::max(faces, 3 * (corners - 2 * faces)));
   if (!too_many.empty()) {
     result.faults.push_back({std::string(code(too_many[0].fault)), 0, too_many[0].message, -1});
     return result;
@@ -79,11 +80,12 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   // Polygon by polygon.
   ControlMesh& mesh = result.mesh;
   mesh.positions = soup.positions;
-  mesh.triangles.reserve(polygons);
-  std::vector<std::int64_t> polygon_of;  // each triangle
+  mesh.faces.reserve(polygons);
+  std::vector<std::int64_t> polygon_of;  // each face
   polygon_of.reserve(polygons);
   std::vector<bool> of_a_bad_polygon(soup.positions.size(), false);
   PolygonChecker checker(soup.positions.size(), soup.first);
+  std::vector<std::int32_t> face;
   std::size_t begin = 0;
   for (std::size_t i = 0; i < polygons; begin = soup.polygon_end[i++]) {
     const auto number = static_cast<std::int64_t>(i);
@@ -101,17 +103,25 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
         if (v >= 0 && v < static_cast<std::int64_t>(of_a_bad_polygon.size())) of_a_bad_polygon[v] = true;
       continue;
     }
+    if (keep || polygon.size() == 3) {
+      face.assign(polygon.begin(), polygon.end());
+      mesh.faces.push_back(face);
+      polygon_of.push_back(number);
+      continue;
+    }
+    ++result.cut;
     const std::size_t apex = fan_apex(soup, polygon, options.polygons), n = polygon.size();
     for (std::size_t k = 1; k + 1 < n; ++k) {
-      mesh.triangles.push_back({static_cast<std::int32_t>(polygon[apex]),
-                                static_cast<std::int32_t>(polygon[(apex + k) % n]),
-                                static_cast<std::int32_t>(polygon[(apex + k + 1) % n])});
+      mesh.faces.push_back({static_cast<std::int32_t>(polygon[apex]),
+                            static_cast<std::int32_t>(polygon[(apex + k) % n]),
+                            static_cast<std::int32_t>(polygon[(apex + k + 1) % n])});
       polygon_of.push_back(number);
     }
   }
 
   // All of them together.
-  for (MeshFinding& finding : validate(mesh, {soup.first, polygon_of})) {
+  for (MeshFinding& finding :
+       validate(mesh, options.scheme.value_or(natural_scheme(mesh)), {soup.first, polygon_of})) {
     const bool entailed =
         (finding.fault == MeshFault::kBowtieVertex || finding.fault == MeshFault::kIsolatedVertex) &&
         of_a_bad_polygon[finding.vertex];

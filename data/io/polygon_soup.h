@@ -52,9 +52,10 @@ struct SoupFault {
   std::int64_t vertex;  // from 0, if the fault is that of one vertex; else -1
 };
 
-/// The mesh of a file, triangulated, and everything that is wrong with it.
+/// The mesh of a file, and everything that is wrong with it.
 struct Examination {
   ControlMesh mesh;               // without the polygons that are at fault by themselves
+  std::int64_t cut = 0;           // so many polygons became triangles
   std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
 };
 

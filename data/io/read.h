@@ -14,15 +14,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "data/control_mesh.h"
+#include "data/scheme.h"
 
 namespace limitcheck::data {
 
-/// How a face of more than three corners becomes triangles; the limit surface depends on it. [C09]
+/// What becomes of a face of more than three corners. Cut into triangles it has another limit surface. [C09]
 enum class Triangulation {
+  kKeep,              ///< it stays what it is
   kFan,               ///< from its first corner: (0, 1, 2), (0, 2, 3), ...
   kShortestDiagonal,  ///< quads along the shorter diagonal, 0-2 if equal; larger faces as kFan
   kNone               ///< refused: MESH_POLYGON
@@ -31,6 +34,8 @@ enum class Triangulation {
 /// Choices for reading a file.
 struct ReadOptions {
   Triangulation polygons = Triangulation::kFan;
+  /// The scheme that the mesh is validated for; by default the one that it is meant for, natural_scheme().
+  std::optional<Scheme> scheme{};
 };
 
 /// The format of a file.
@@ -38,7 +43,7 @@ enum class FileFormat { kObj, kOff, kPly, kStl };
 
 /// Reads and validates a file. Its extension says its format.
 ///   vertices   in file order. STL has none: equal positions (-0 = 0) become one vertex, in the order seen
-///   faces      in file order; the triangles of a polygon follow one another
+///   faces      in file order; the triangles of a polygon that is cut follow one another
 ///   precision  decimals are correctly rounded to double, binary doubles are taken bit for bit
 /// Throws InputError for the first fault, with the line where the format has lines (binary ones: line 0).
 ControlMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});

@@ -43,7 +43,7 @@ TEST(Read, ErrorsNameFileLineCodeAndElements) {
 TEST(Read, ACommentIsNotContinuedByABackslash) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
   const auto faces = [&](const std::string& text) {
-    return read_mesh(vertices + text, FileFormat::kObj, "text").triangles.size();
+    return read_mesh(vertices + text, FileFormat::kObj, "text").faces.size();
   };
   EXPECT_EQ(faces("# from C:\\models\\\nf 1 2 3\nf 1 3 4\n"), 2U);
   EXPECT_EQ(faces("f 1 2 3 # the first \\\nf 1 3 4\n"), 2U);
@@ -53,10 +53,10 @@ TEST(Read, ACommentIsNotContinuedByABackslash) {
 
 TEST(Read, AByteOrderMarkIsReadOver) {
   const std::string mark = "\xEF\xBB\xBF", obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
-  EXPECT_EQ(read_mesh(mark + obj, FileFormat::kObj, "text").triangles.size(), 1U);
-  EXPECT_EQ(read_mesh(mark + "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n", FileFormat::kOff, "text")
-                .triangles.size(),
-            1U);
+  EXPECT_EQ(read_mesh(mark + obj, FileFormat::kObj, "text").faces.size(), 1U);
+  EXPECT_EQ(
+      read_mesh(mark + "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n", FileFormat::kOff, "text").faces.size(),
+      1U);
   EXPECT_NE(error_of(obj + mark), "accepted") << "at the beginning, that is";
 }
 
@@ -73,7 +73,7 @@ TEST(Read, EveryFormOfATetrahedronIsTheSameTetrahedron) {
                            "tetrahedron.v4.f4.continued.obj", "tetrahedron.v4.f4.everything.obj"}) {
     const ControlMesh mesh = read_mesh(wellformed(name));
     EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
   }
 }
 
@@ -85,7 +85,7 @@ TEST(Read, EveryFormOfAnOffOrPlyIsTheSameMesh) {
                            "tetrahedron.v4.f4.stcnoff.off"}) {
     const ControlMesh mesh = read_mesh(wellformed(name));
     EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
   }
   expected.positions[3][2] = 0.1;
   for (const char* name :
@@ -93,12 +93,12 @@ TEST(Read, EveryFormOfAnOffOrPlyIsTheSameMesh) {
         "tetrahedron.v4.f4.crlf.ply", "tetrahedron.v4.f4.faces_first.ply"}) {
     const ControlMesh mesh = read_mesh(wellformed(name));
     EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
   }
   expected.positions[3][2] = 0.1F;
   const ControlMesh mesh = read_mesh(wellformed("tetrahedron.v4.f4.float_and_more.ply"));
   EXPECT_EQ(mesh.positions, expected.positions);
-  EXPECT_EQ(mesh.triangles, expected.triangles);
+  EXPECT_EQ(triangles_of(mesh), triangles_of(expected));
 }
 
 TEST(Read, EveryFormOfAnStlIsTheSameMeshWithVerticesInOrderOfAppearance) {
@@ -109,7 +109,7 @@ TEST(Read, EveryFormOfAnStlIsTheSameMeshWithVerticesInOrderOfAppearance) {
         "tetrahedron.v4.f4.upper_case.stl", "tetrahedron.v4.f4.minus_zero.stl"}) {
     const ControlMesh mesh = read_mesh(wellformed(name));
     EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
   }
 }
 
@@ -138,9 +138,19 @@ TEST(Read, TheLocaleDoesNotMatter) {
             "cage.obj:1: FILE_SYNTAX: x is not a number: \"0,5\"");
 }
 
-TEST(Read, PolygonsAreFansFromTheirFirstCornerByDefault) {
-  const ControlMesh mesh = read_mesh(wellformed("pentagon.v5.f3.obj"));
-  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+TEST(Read, PolygonsAreFansFromTheirFirstCornerByDefaultOrStayWhatTheyAre) {
+  EXPECT_EQ(read_mesh(wellformed("pentagon.v5.f3.obj")).faces, (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+  EXPECT_EQ(read_mesh(wellformed("pentagon.v5.f3.obj"), {Triangulation::kKeep}).faces,
+            (Faces{{0, 1, 2, 3, 4}}));
+}
+
+TEST(Read, PolygonsAreRefusedForLoopsSchemeUnlessTheyAreCut) {
+  const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  EXPECT_EQ(
+      error_of(quad, FileFormat::kObj, {Triangulation::kKeep, Scheme::kLoop}),
+      "cage.obj:5: MESH_POLYGON: face 1 has 4 corners; Loop's scheme takes triangles only (numbers from 1)");
+  EXPECT_EQ(error_of(quad, FileFormat::kObj, {Triangulation::kFan, Scheme::kLoop}), "accepted");
+  EXPECT_EQ(error_of(quad, FileFormat::kObj, {Triangulation::kKeep, Scheme::kCatmullClark}), "accepted");
 }
 
 // [C09] The same quad, its diagonals 0-2 and 1-3 of lengths sqrt(a^2 + 1) and 2.
@@ -148,11 +158,11 @@ TEST(Read, QuadsAreCutAlongTheShorterDiagonalOnRequest) {
   const auto cut = [](const std::string& x) {
     return read_mesh("v -1 0 0\nv 0 -1 0\nv " + x + " 0 0\nv 0 1 0\nf 1 2 3 4\n", FileFormat::kObj, "text",
                      {Triangulation::kShortestDiagonal})
-        .triangles;
+        .faces;
   };
-  EXPECT_EQ(cut("2"), (Triangles{{1, 2, 3}, {1, 3, 0}}));    // 3 against 2
-  EXPECT_EQ(cut("0.5"), (Triangles{{0, 1, 2}, {0, 2, 3}}));  // 1.5 against 2
-  EXPECT_EQ(cut("1"), (Triangles{{0, 1, 2}, {0, 2, 3}}));    // equal
+  EXPECT_EQ(cut("2"), (Faces{{1, 2, 3}, {1, 3, 0}}));    // 3 against 2
+  EXPECT_EQ(cut("0.5"), (Faces{{0, 1, 2}, {0, 2, 3}}));  // 1.5 against 2
+  EXPECT_EQ(cut("1"), (Faces{{0, 1, 2}, {0, 2, 3}}));    // equal
 }
 
 TEST(Read, PolygonsAreRefusedOnRequest) {

@@ -143,10 +143,10 @@ void write_content(const std::filesystem::path& name, const std::string& content
 }  // namespace
 
 std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options) {
-  std::array<std::int64_t, 3> corners{};
-  return content_of({mesh.positions, mesh.triangles.size(),
+  std::vector<std::int64_t> corners;
+  return content_of({mesh.positions, mesh.faces.size(),
                      [&](std::size_t f) {
-                       std::copy(mesh.triangles[f].begin(), mesh.triangles[f].end(), corners.begin());
+                       corners.assign(mesh.faces[f].begin(), mesh.faces[f].end());
                        return std::span<const std::int64_t>(corners);
                      }},
                     format, options);

@@ -57,7 +57,7 @@ void expect_same_bits(const ControlMesh& a, const ControlMesh& b) {
           << "vertex " << v << ": " << a.positions[v][axis] << " and " << b.positions[v][axis];
     }
   }
-  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(triangles_of(a), triangles_of(b));
 }
 
 TEST(Write, WhatIsReadBackIsTheSameBitForBit) {
@@ -76,7 +76,7 @@ TEST(Write, AFileAppearsUnderItsNameOnly) {
   const fs::path place = folder();
   write_mesh(place / "a.obj", tetrahedron());
   write_mesh(place / "a.obj", octahedron());  // over the old one
-  EXPECT_EQ(read_mesh(place / "a.obj").triangles.size(), 8u);
+  EXPECT_EQ(read_mesh(place / "a.obj").faces.size(), 8u);
   EXPECT_EQ(std::distance(fs::directory_iterator(place), {}), 1);
 }
 

@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 const data::ControlMesh& checked(const data::ControlMesh& mesh) {
-  if (mesh.triangles.empty()) throw data::ArgumentError("tessellator: a mesh without faces");
+  if (mesh.faces.empty()) throw data::ArgumentError("tessellator: a mesh without faces");
   for (const auto& p : mesh.positions)
     for (const double x : p)
       if (!std::isfinite(x)) throw data::ArgumentError("tessellator: a coordinate is not finite");

@@ -25,8 +25,7 @@ std::string two_faces(std::int32_t h, std::int32_t g) {
 
 Adjacency::Adjacency(const data::ControlMesh& mesh) {
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-  if (mesh.triangles.size() > kMost / 3 || mesh.positions.size() > kMost)
-    refuse("too many faces or vertices");
+  if (mesh.faces.size() > kMost / 3 || mesh.positions.size() > kMost) refuse("too many faces or vertices");
   outgoing_.assign(mesh.positions.size(), -1);
   read_faces(mesh);
   sort_by_origin();
@@ -35,10 +34,11 @@ Adjacency::Adjacency(const data::ControlMesh& mesh) {
 
 void Adjacency::read_faces(const data::ControlMesh& mesh) {
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
-  origin_.resize(3 * mesh.triangles.size());
+  const data::Triangles triangles = triangles_of(mesh);
+  origin_.resize(3 * triangles.size());
   bool bad = false;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const auto& t = mesh.triangles[f];
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const auto& t = triangles[f];
     for (std::size_t k = 0; k < 3; ++k) {
       bad |= static_cast<std::uint32_t>(t[k]) >= vertices;
       origin_[3 * f + k] = t[k];
@@ -47,8 +47,8 @@ void Adjacency::read_faces(const data::ControlMesh& mesh) {
     bad |= t[1] == t[2];
     bad |= t[2] == t[0];
   }
-  for (std::size_t f = 0; bad && f < mesh.triangles.size(); ++f) {
-    const auto& t = mesh.triangles[f];
+  for (std::size_t f = 0; bad && f < triangles.size(); ++f) {
+    const auto& t = triangles[f];
     for (const std::int32_t v : t) {
       if (static_cast<std::uint32_t>(v) >= vertices) {
         refuse("face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +

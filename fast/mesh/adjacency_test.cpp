@@ -23,16 +23,16 @@ void expect_consistent(const ControlMesh& mesh) {
   std::map<std::pair<int, int>, int> half_edge;  // (from, to) -> h
   std::map<int, std::set<int>> neighbours;
   std::map<int, int> faces;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
+      const int a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
       half_edge[{a, b}] = static_cast<int>(3 * f) + k;
       neighbours[a].insert(b);
       neighbours[b].insert(a);
       ++faces[a];
     }
   }
-  ASSERT_EQ(adjacency.face_count(), static_cast<int>(mesh.triangles.size()));
+  ASSERT_EQ(adjacency.face_count(), static_cast<int>(mesh.faces.size()));
   ASSERT_EQ(adjacency.vertex_count(), static_cast<int>(mesh.positions.size()));
   int largest = 0;
   for (const auto& [ends, h] : half_edge) {
@@ -97,7 +97,7 @@ void expect_refused(int vertices, std::vector<std::array<std::int32_t, 3>> trian
                     const std::string& part) {
   ControlMesh mesh;
   mesh.positions.resize(static_cast<std::size_t>(vertices));
-  mesh.triangles = std::move(triangles);
+  mesh.faces = data::Faces(triangles);
   try {
     const Adjacency adjacency(mesh);
     FAIL() << "accepted; expected: " << part;

@@ -104,7 +104,7 @@ DepthHeuristics::DepthHeuristics(const data::ControlMesh& mesh, const Adjacency&
     if (degenerate && ring.faces() > 0) ++degenerate_count;
   });
   degenerate_normals_ = degenerate_count;
-  spheres_.resize(mesh.triangles.size());
+  spheres_.resize(mesh.faces.size());
   for_each_index(spheres_.size(), [&](std::int32_t f) {
     const Point3 a = to_point(mesh_.positions[adjacency_.corner(f, 0)]),
                  b = to_point(mesh_.positions[adjacency_.corner(f, 1)]),

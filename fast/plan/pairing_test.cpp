@@ -64,7 +64,7 @@ TEST(Pairing, PartitionsTheVisibleFacesForAnyMeshDepthAndRule) {
     for (const PairingRule rule : {PairingRule::kCorrected, PairingRule::kPrinted}) {
       for (const bool prefer : {true, false}) {
         for (int variant = 0; variant < 4; ++variant) {
-          std::vector<std::int32_t> depth(mesh.triangles.size(), 2);
+          std::vector<std::int32_t> depth(mesh.faces.size(), 2);
           for (std::size_t f = 0; variant > 0 && f < depth.size(); ++f) {
             depth[f] =
                 static_cast<std::int32_t>((f * 7919 + 31 * static_cast<std::size_t>(variant)) % 97 % 4) - 1;

@@ -37,7 +37,7 @@ data::ControlMesh refined_once(const data::ControlMesh& mesh) {
   for (const Point& p : refined.points)
     fine.positions.push_back(
         {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
-  for (const auto& t : refined.faces) fine.triangles.push_back({t[0], t[1], t[2]});
+  for (const auto& t : refined.faces) fine.faces.push_back({t[0], t[1], t[2]});
   return fine;
 }
 

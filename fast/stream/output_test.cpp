@@ -57,8 +57,7 @@ TEST(RowStreamOutput, StreamedIsWholeByteForByteAndCompactIsItsCompaction) {
       if (!kernel.fused && kernel.lanes > 1) continue;  // slow, and the same code
       const RowStream stream(mesh, adjacency, kernel);
       for (int depth = 0; depth <= 6; ++depth) {
-        const auto grids =
-            pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+        const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
         const std::size_t count = base_vertex(grids.size(), depth);
         Workspace workspace;
         std::vector<Vertex> whole(count);
@@ -204,7 +203,7 @@ TEST(GridIndices, WithABaseVertexPerGridCloseTheSurface) {
   const Adjacency adjacency(mesh);
   const RowStream stream(mesh, adjacency);
   for (const int depth : {0, 2, 4}) {
-    const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+    const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
     std::vector<Vertex> vertices(base_vertex(grids.size(), depth));
     Workspace workspace;
     stream.whole(grids, depth, workspace, vertices.data());

@@ -18,7 +18,8 @@ bool has_needles(const data::ControlMesh& mesh, double height) {
     const auto& p = mesh.positions[v];
     return Vec3<double>{p[0], p[1], p[2]};
   };
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+  const data::Triangles triangles = triangles_of(mesh);
+  return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
     const Vec3<double> a = vertex(t[0]), e = vertex(t[1]) - a, f = vertex(t[2]) - a, g = f - e;
     const Vec3<double> c = cross(e, f);
     const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), dot(g, g)});

@@ -42,7 +42,7 @@ std::vector<NamedMesh> open_meshes() {
 
 double shortest_edge(const data::ControlMesh& mesh) {
   double shortest = data::box_diagonal(mesh);
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : triangles_of(mesh)) {
     for (int k = 0; k < 3; ++k) {
       const auto &a = mesh.positions[t[k]], &b = mesh.positions[t[(k + 1) % 3]];
       shortest = std::min(shortest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
@@ -58,7 +58,7 @@ struct Worst {
 
 Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const Kernel& kernel) {
   const Adjacency adjacency(mesh);
-  const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+  const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
   const RowStream stream(mesh, adjacency, kernel);
   const int size = 1 << depth;
   Workspace workspace;
@@ -184,7 +184,7 @@ TEST(RowStreamManyVertices, KeepTheNormalsOfNeedlesAtEveryDepth) {
   Workspace workspace;
   double allowed = 1e-3;
   for (const int depth : {4, 3, 2, 1}) {
-    auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+    auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
     grids.resize(1000);  // ten rows of the sheet
     const auto count = grids.size() * static_cast<std::size_t>(side(depth) * side(depth));
     std::vector<Vertex> got(count);

@@ -44,7 +44,7 @@ TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
         options.cracks.repair = repair;
         StreamTessellator tessellator(mesh, options);
         DrawList<float> list;
-        tessellator.frame(random_depths(mesh.triangles.size(), 4, seed), list);
+        tessellator.frame(random_depths(mesh.faces.size(), 4, seed), list);
         // One table for all depths would be wrong: a point at two depths may differ in bits. Edges have one
         // depth.
         std::map<std::uint32_t, SharedPoints> shared;
@@ -70,7 +70,7 @@ TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
 TEST(StreamFrame, ClosesEveryEdgeOfAClosedMeshAtRandomDepths) {
   for (const auto& mesh : {shaken(tetrahedron(), .2, 1), shaken(grid_torus(4, 5), .2, 2)}) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      auto depth = random_depths(mesh.triangles.size(), 4, seed);
+      auto depth = random_depths(mesh.faces.size(), 4, seed);
       for (auto& d : depth) d = std::max(d, 0);
       StreamTessellator tessellator(mesh);
       IndexedMesh<float> out;
@@ -90,7 +90,7 @@ TEST(StreamFrame, ClosesEveryEdgeOfAClosedMeshAtRandomDepths) {
 
 TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
   const auto mesh = shaken(grid_torus(5, 6), .2, 7);
-  const auto depth = random_depths(mesh.triangles.size(), 5, 11);
+  const auto depth = random_depths(mesh.faces.size(), 5, 11);
   DrawList<float> expected;
   TessellatorOptions options;
   options.threads = 1;
@@ -118,9 +118,9 @@ TEST(StreamFrame, NeedsTwoHundredKilobytesPerThreadAtDepthFive) {
       options.cracks.repair = repair;
       StreamTessellator tessellator(mesh, options);
       IndexedMesh<float> out;
-      tessellator.frame(std::vector<std::int32_t>(mesh.triangles.size(), 5), out);
+      tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), 5), out);
       most = std::max(most, tessellator.worker_bytes());
-      auto depth = random_depths(mesh.triangles.size(), 5, 3);
+      auto depth = random_depths(mesh.faces.size(), 5, 3);
       tessellator.frame(depth, out);
       most = std::max(most, tessellator.worker_bytes());
     }
@@ -132,7 +132,7 @@ TEST(StreamFrame, NeedsTwoHundredKilobytesPerThreadAtDepthFive) {
 // A mesh times 2^k, k even far out: the same surface times 2^k, the same normals, to the last bit.
 TEST(StreamFrame, ScalesByPowersOfTwoExactly) {
   const auto mesh = shaken(bipyramid(7), .2, 9);
-  const std::vector<std::int32_t> depth(mesh.triangles.size(), 4);
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 4);
   DrawList<float> expected;
   StreamTessellator(mesh).frame(depth, expected);
   for (const int exponent : {-60, -20, 20, 60}) {
@@ -160,7 +160,7 @@ TEST(StreamFrame, StandsAShiftOfAThousandTimesItsSize) {
     for (double& x : p) x = std::round(x * 4096) / 4096;
   auto shifted = mesh;
   for (auto& p : shifted.positions) p = {p[0] + 2000, p[1] - 2000, p[2] + 1000};
-  const std::vector<std::int32_t> depth(mesh.triangles.size(), 4);
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 4);
   DrawList<float> expected, out;
   StreamTessellator(mesh).frame(depth, expected);
   StreamTessellator(shifted).frame(depth, out);

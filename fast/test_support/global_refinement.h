@@ -49,9 +49,9 @@ struct RefinedMesh {
   static RefinedMesh of(const data::ControlMesh& mesh, int depth) {
     RefinedMesh out;
     for (const auto& p : mesh.positions) out.points.push_back({p[0], p[1], p[2]});
-    out.lattice.resize(mesh.triangles.size());
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-      const auto& t = mesh.triangles[f];
+    out.lattice.resize(mesh.faces.size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      const auto& t = triangles_of(mesh)[f];
       out.faces.push_back({t[0], t[1], t[2]});
       out.lattice[f] = {{{0, 0}, t[0]}, {{1, 0}, t[1]}, {{0, 1}, t[2]}};
     }

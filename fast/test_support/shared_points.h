@@ -39,14 +39,15 @@ inline data::ControlMesh renumbered(const data::ControlMesh& mesh, std::uint64_t
   number.resize(mesh.positions.size());
   for (std::size_t v = 0; v < number.size(); ++v) number[v] = static_cast<std::int32_t>(v);
   for (std::size_t v = number.size(); v > 1; --v) std::swap(number[v - 1], number[below(random, v)]);
-  data::ControlMesh out{mesh.positions, mesh.triangles};
+  data::ControlMesh out{mesh.positions, {}};
   for (std::size_t v = 0; v < number.size(); ++v) out.positions[number[v]] = mesh.positions[v];
-  for (auto& t : out.triangles) {
+  std::vector<std::array<std::int32_t, 3>> triangles = triangles_of(mesh).to_vector();
+  for (auto& t : triangles) {
     const std::size_t turn = below(random, 3);
     t = {number[t[turn]], number[t[(turn + 1) % 3]], number[t[(turn + 2) % 3]]};
   }
-  for (std::size_t f = out.triangles.size(); f > 1; --f)
-    std::swap(out.triangles[f - 1], out.triangles[below(random, f)]);
+  for (std::size_t f = triangles.size(); f > 1; --f) std::swap(triangles[f - 1], triangles[below(random, f)]);
+  out.faces = data::Faces(triangles);
   return out;
 }
 
@@ -56,7 +57,7 @@ class SharedPoints {
   /// A vertex and where it lies; `known`, if not empty, undoes a renumbering of the mesh.
   void add(const data::ControlMesh& mesh, const LatticePoint& at, const Vertex& v,
            const std::vector<std::int32_t>& known) {
-    const auto& t = mesh.triangles[at.face];
+    const auto t = triangles_of(mesh)[at.face];
     const auto size = static_cast<int>(at.denominator);
     const std::array<int, 3> l{size - static_cast<int>(at.i + at.j), static_cast<int>(at.i),
                                static_cast<int>(at.j)};
@@ -88,7 +89,7 @@ class SharedPoints {
 inline void add_shared_points(const data::ControlMesh& mesh, int depth, const Kernel& kernel,
                               const std::vector<std::int32_t>& known, SharedPoints& shared) {
   const Adjacency adjacency(mesh);
-  const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.triangles.size(), depth)).grids;
+  const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
   const RowStream stream(mesh, adjacency, kernel);
   const int size = 1 << depth;
   Workspace workspace;
@@ -114,7 +115,7 @@ inline void add_edges(const data::ControlMesh& mesh, int depth, const Kernel& ke
                       const std::vector<std::int32_t>& known, SharedPoints& shared) {
   const Adjacency adjacency(mesh);
   const RowStream stream(mesh, adjacency, kernel);
-  std::vector<std::int32_t> half_edges(3 * mesh.triangles.size());
+  std::vector<std::int32_t> half_edges(3 * mesh.faces.size());
   for (std::size_t h = 0; h < half_edges.size(); ++h) half_edges[h] = static_cast<std::int32_t>(h);
   const std::size_t length = static_cast<std::size_t>(side(depth));
   std::vector<Vertex> out(half_edges.size() * length);

@@ -29,8 +29,8 @@ inline data::ControlMesh bipyramid(int n) {
   mesh.positions.push_back({0, 0, -1});
   for (std::int32_t i = 0; i < n; ++i) {
     const std::int32_t j = (i + 1) % n;
-    mesh.triangles.push_back({i, j, n});
-    mesh.triangles.push_back({j, i, n + 1});
+    mesh.faces.push_back({i, j, n});
+    mesh.faces.push_back({j, i, n + 1});
   }
   return mesh;
 }
@@ -45,7 +45,7 @@ inline data::ControlMesh wheel(int n, double height = 0) {
   mesh.positions.pop_back();
   mesh.positions.back() = {0, 0, height};
   data::ControlMesh upper{mesh.positions, {}};
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 2) upper.triangles.push_back(mesh.triangles[i]);
+  for (std::size_t i = 0; i < mesh.faces.size(); i += 2) upper.faces.push_back(mesh.faces[i]);
   return upper;
 }
 
@@ -57,7 +57,7 @@ inline data::ControlMesh fan(int n) {
     mesh.positions.push_back({std::cos(t), std::sin(t), .2 * std::sin(3 * t)});
   }
   mesh.positions.push_back({0, 0, 0});
-  for (std::int32_t i = 0; i < n; ++i) mesh.triangles.push_back({i, i + 1, n + 1});
+  for (std::int32_t i = 0; i < n; ++i) mesh.faces.push_back({i, i + 1, n + 1});
   return mesh;
 }
 
@@ -71,8 +71,8 @@ inline data::ControlMesh grid_sheet(int rows, int columns) {
   const auto at = [&](int i, int j) { return static_cast<std::int32_t>(i * (columns + 1) + j); };
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+      mesh.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      mesh.faces.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
     }
   }
   return mesh;
@@ -91,8 +91,8 @@ inline data::ControlMesh grid_torus(int rows, int columns) {
   const auto at = [&](int i, int j) { return static_cast<std::int32_t>((i % rows) * columns + j % columns); };
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+      mesh.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      mesh.faces.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
     }
   }
   return mesh;

@@ -127,7 +127,7 @@ TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
   data::ControlMesh mesh = grid_torus(20, 30);
   for (auto& p : mesh.positions) p[2] += .05 * std::sin(9 * p[0]);
   std::vector<std::int32_t> depth;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     depth.push_back(static_cast<std::int32_t>(f * f % 6) - 1);
   std::vector<DrawList<float>> lists;
   std::vector<IndexedMesh<float>> meshes;

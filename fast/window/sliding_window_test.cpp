@@ -83,7 +83,7 @@ std::vector<Shape> shapes() {
 
 TEST(Sec4_SlidingWindow, EqualsTheMeshRefinedAsAWhole) {
   for (const auto& [name, mesh] : shapes()) {
-    for (int depth = 0; depth <= (mesh.triangles.size() > 50 ? 2 : 4); ++depth) {
+    for (int depth = 0; depth <= (mesh.faces.size() > 50 ? 2 : 4); ++depth) {
       const Worst worst = compare<double>(mesh, depth);
       EXPECT_LE(worst.position, 1e-14L) << name << " depth " << depth;
       EXPECT_LE(worst.normal, 1e-12L) << name << " depth " << depth;

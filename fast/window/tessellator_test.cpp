@@ -24,7 +24,7 @@ data::ControlMesh shaken(data::ControlMesh mesh, std::uint64_t seed) {
 
 std::vector<std::int32_t> random_depths(const data::ControlMesh& mesh, int low, int high,
                                         data::SplitMix64& random) {
-  std::vector<std::int32_t> depth(mesh.triangles.size());
+  std::vector<std::int32_t> depth(mesh.faces.size());
   for (auto& d : depth)
     d = low + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(high - low + 1));
   return depth;
@@ -163,7 +163,7 @@ TEST(Sec4_Frame, OpensOnlyWhereCulledFacesBegin) {
 
 TEST(Sec4_Frame, KeepsItsNormalsAtAnyScaleAndFarFromTheOrigin) {
   const data::ControlMesh mesh = shaken(grid_torus(4, 5), 13);
-  const std::vector<std::int32_t> depth(mesh.triangles.size(), 3);
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 3);
   DrawList<float> plain, other;
   Tessellator<float>(mesh).frame(depth, plain);
   for (const int exponent : {-60, -20, 20, 60}) {
@@ -199,7 +199,7 @@ TEST(Sec4_Frame, KeepsTheBitsOfItsNormalsWhereverTheMeshLies) {
   data::ControlMesh mesh = shaken(grid_torus(4, 5), 13);
   for (auto& p : mesh.positions)
     for (double& x : p) x = std::round(64 * x) / 64;
-  const std::vector<std::int32_t> depth(mesh.triangles.size(), 3);
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 3);
   DrawList<float> plain, other;
   const std::array<double, 3> middle = [&] {  // of the box: then the centre of the plain mesh is 0
     std::array<double, 3> low = mesh.positions[0], high = low;
@@ -226,7 +226,7 @@ TEST(Sec4_Frame, RoundsACoordinateOnceThatIsNoFloat) {
   data::ControlMesh mesh = grid_sheet(3, 3);
   for (auto& p : mesh.positions) p = {0x1p25 + 3, p[1], p[0]};
   DrawList<float> list;
-  Tessellator<float>(mesh).frame(std::vector<std::int32_t>(mesh.triangles.size(), 2), list);
+  Tessellator<float>(mesh).frame(std::vector<std::int32_t>(mesh.faces.size(), 2), list);
   for (const auto& v : list.vertices) EXPECT_EQ(v.position.x, 0x1p25f + 4);
 }
 

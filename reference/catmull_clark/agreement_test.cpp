@@ -22,7 +22,7 @@ namespace limitcheck::reference::catmull_clark {
 namespace {
 
 template <class N>
-std::vector<Vec3<N>> positions_of(const data::PolygonMesh& mesh) {
+std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
   std::vector<Vec3<N>> positions;
   for (const auto& p : mesh.positions)
     positions.push_back({NumberTraits<N>::from_double(p[0]), NumberTraits<N>::from_double(p[1]),
@@ -32,7 +32,7 @@ std::vector<Vec3<N>> positions_of(const data::PolygonMesh& mesh) {
 
 struct Case {
   std::string name;
-  data::PolygonMesh mesh;
+  data::ControlMesh mesh;
   int faces;  // so many are looked at
 };
 

@@ -11,6 +11,7 @@
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/number/number_exact.h"
+#include "reference/surface/certified.h"
 
 namespace limitcheck::reference::catmull_clark {
 namespace {
@@ -83,6 +84,33 @@ TEST(CatmullClark_KnownAnswers, BySubdivisionToThirtyNineDigits) {
 }
 TEST(CatmullClark_KnownAnswers, ByStamToThirtyNineDigits) {
   check_all<StamEvaluator<N>>();
+}
+
+TEST(CatmullClark_KnownAnswers, AreInsideTheCertifiedEnclosures) {
+  for (const auto& a : smooth_answers()) {
+    if (a.faces.size() > 100) continue;  // balls at valence 50 take their time
+    const CertifiedEvaluator evaluator(a.vertices, a.faces, data::Scheme::kCatmullClark);
+    for (const auto& s : a.samples) {
+      const auto p =
+          evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]), 45);
+      const auto check = [&](const Enclosure3& got, const data::Numeral3& expected) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          const N want = data::parse<N>(expected[i]), value(got[i].value);
+          const N rounding = magnitude(want) * N("1e-41") + N("1e-43");  // of the answer's own 42 digits
+          EXPECT_LE(magnitude(want - value), N(got[i].radius) + rounding)
+              << a.id << " " << s.uv[0] << " " << s.uv[1];
+        }
+      };
+      check(p.position, s.position);
+      if (s.normal) check(p.normal, *s.normal);
+      if (s.du) check(p.d1, *s.du), check(p.d2, *s.dv);
+      if (s.dudu) {
+        ASSERT_TRUE(p.d11.has_value()) << a.id;
+        check(*p.d11, *s.dudu), check(*p.d12, *s.dudv), check(*p.d22, *s.dvdv);
+      }
+      EXPECT_EQ(p.first_exist, s.du.has_value()) << a.id;
+    }
+  }
 }
 
 }  // namespace

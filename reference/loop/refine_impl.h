@@ -54,7 +54,7 @@ std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
 
 template <class N>
 RefinedMesh<N>::RefinedMesh(const data::ControlMesh& mesh, Weights weights)
-    : RefinedMesh(positions_of<N>(mesh), mesh.triangles, weights) {}
+    : RefinedMesh(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {}
 
 template <class N>
 RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles, Weights weights)

@@ -216,7 +216,7 @@ class StamData {
 
 template <class N>
 StamEvaluator<N>::StamEvaluator(const data::ControlMesh& mesh, Weights weights)
-    : StamEvaluator(positions_of<N>(mesh), mesh.triangles, weights) {}
+    : StamEvaluator(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {}
 template <class N>
 StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                                 Weights weights)

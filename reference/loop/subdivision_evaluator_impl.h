@@ -37,7 +37,7 @@ std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
 
 template <class N>
 SubdivisionEvaluator<N>::SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights)
-    : SubdivisionEvaluator(positions_of<N>(mesh), mesh.triangles, weights) {}
+    : SubdivisionEvaluator(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {}
 
 template <class N>
 SubdivisionEvaluator<N>::SubdivisionEvaluator(std::vector<Vec3<N>> positions,

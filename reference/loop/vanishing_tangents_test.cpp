@@ -38,7 +38,7 @@ data::ControlMesh wheel_of(const V& hub, const std::vector<V>& ring) {
   data::ControlMesh mesh{{{hub.x, hub.y, hub.z}}, {}};
   const auto n = static_cast<std::int32_t>(ring.size());
   for (const V& r : ring) mesh.positions.push_back({r.x, r.y, r.z});
-  for (std::int32_t i = 0; i < n; ++i) mesh.triangles.push_back({0, i + 1, (i + 1) % n + 1});
+  for (std::int32_t i = 0; i < n; ++i) mesh.faces.push_back({0, i + 1, (i + 1) % n + 1});
   return mesh;
 }
 
@@ -59,8 +59,8 @@ data::ControlMesh sphere_with_residue(int around) {
   };
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < around; ++j) {
-      if (i > 0) mesh.triangles.push_back({at(i, j + 1), at(i, j), at(i + 1, j + 1)});
-      if (i < rows - 1) mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      if (i > 0) mesh.faces.push_back({at(i, j + 1), at(i, j), at(i + 1, j + 1)});
+      if (i < rows - 1) mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
     }
   return mesh;
 }

@@ -73,7 +73,7 @@ struct Topology::Sides {
 
   const data::Faces& faces;
   std::vector<std::int32_t> face, end;  ///< of each side: its face, and the vertex that it leads to
-  std::vector<std::int32_t> across;  ///< the side of the other face at the same edge, or -1
+  std::vector<std::int32_t> across;     ///< the side of the other face at the same edge, or -1
 };
 
 Topology::Topology(std::size_t vertex_count, data::Faces faces) : faces_(std::move(faces)) {

@@ -67,13 +67,13 @@ TEST(Sec4_NaiveSubdivider, EqualsRefinementAndStamOnEveryStockShapeAndFan) {
 TEST(Refinement, KeepsTheControlVerticesFirstAndTheMeshManifold) {
   const data::ControlMesh mesh = data::named_mesh("bumpy:200");
   const auto refined = refine<double>(mesh, 3);
-  EXPECT_EQ(refined.triangles().size(), mesh.triangles.size() * 64);
+  EXPECT_EQ(refined.triangles().size(), mesh.faces.size() * 64);
   EXPECT_EQ(refined.positions().size() - refined.topology().edges().size() + refined.triangles().size(),
             2U);  // Euler
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    EXPECT_EQ(refined.vertex(f, 0, 0), mesh.triangles[f][0]);
-    EXPECT_EQ(refined.vertex(f, 8, 0), mesh.triangles[f][1]);
-    EXPECT_EQ(refined.vertex(f, 0, 8), mesh.triangles[f][2]);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    EXPECT_EQ(refined.vertex(f, 0, 0), mesh.faces[f][0]);
+    EXPECT_EQ(refined.vertex(f, 8, 0), mesh.faces[f][1]);
+    EXPECT_EQ(refined.vertex(f, 0, 8), mesh.faces[f][2]);
   }
 }
 
@@ -181,7 +181,7 @@ TEST(DegenerateSurfaces, HaveFiniteNormals) {
 TEST(DegenerateSurfaces, FallBackToTheControlFacesNormal) {
   data::ControlMesh mesh = data::named_mesh("octahedron");
   const int face = 0;
-  const Triangle t = mesh.triangles[0];
+  const Triangle t = triangles_of(mesh)[0];
   const auto gradient = [&](std::size_t vertex) {
     data::ControlMesh bump = mesh;
     for (auto& p : bump.positions) p = {};

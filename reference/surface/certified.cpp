@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "reference/surface/certified.h"
-#include "data/error.h"
 
 #include <flint/flint.h>
 
@@ -8,8 +7,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <unordered_set>
+#include <utility>
 
 #include "data/cut_out.h"
+#include "data/error.h"
+#include "reference/catmull_clark/stam.h"
 #include "reference/loop/stam.h"
 #include "reference/number/ball.h"
 #include "reference/point/parameter_exact.h"
@@ -19,9 +22,32 @@ namespace limitcheck::reference {
 struct CertifiedEvaluator::Data {
   using Position = std::array<Rational, 3>;
   Topology topology;
-  std::vector<Triangle> triangles;
   std::function<Position(std::int32_t)> position;  // of a vertex
+  data::Scheme scheme;
   Weights weights;
+
+  static std::unique_ptr<const Data> of(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights) {
+    for (const auto& p : mesh.positions)
+      for (const double x : p)
+        if (!std::isfinite(x)) throw data::ArgumentError("control mesh: a coordinate is not finite");
+    if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
+    const auto position = [positions = mesh.positions](std::int32_t v) {
+      const auto& p = positions[v];
+      return Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
+    };
+    return std::unique_ptr<const Data>(
+        new Data{Topology(mesh.positions.size(), mesh.faces), position, scheme, weights});
+  }
+  static std::unique_ptr<const Data> of(const std::vector<std::array<std::string, 3>>& positions,
+                                        data::Faces faces, data::Scheme scheme, Weights weights) {
+    std::vector<Position> exact;
+    for (const auto& p : positions)
+      exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
+                       exact_value(Parameter::parse(p[2]))});
+    const auto position = [exact = std::move(exact)](std::int32_t v) { return exact[v]; };
+    return std::unique_ptr<const Data>(
+        new Data{Topology(positions.size(), std::move(faces)), position, scheme, weights});
+  }
 };
 
 namespace {
@@ -29,17 +55,35 @@ namespace {
 /// The faces that touch the corners of one face, itself first: all that its surface depends on.
 std::vector<std::int32_t> faces_near(const Topology& topology, std::int32_t face) {
   std::vector<std::int32_t> faces{face};
+  std::unordered_set<std::int32_t> known{face};
   for (const std::int32_t v : topology.faces()[face])
     for (const std::int32_t f : topology.sector(v).faces)
-      if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+      if (known.insert(f).second) faces.push_back(f);
   return faces;
 }
 
-/// The control vertex at a corner of a face.
-std::int32_t corner_at(const Topology& topology, std::int32_t face, const Parameter& l1,
-                       const Parameter& l2) {
-  const std::size_t k = exact_value(l1) == 1 ? 1 : exact_value(l2) == 1 ? 2 : 0;
-  return topology.faces()[face][k];
+/// Whether the control vertex at which the parameters lie is on the boundary. (The middle of a face is not.)
+bool corner_on_boundary(const Topology& topology, data::Scheme scheme, std::int32_t face, int corner,
+                        const Parameter& a, const Parameter& b) {
+  const auto corners = topology.faces()[face];
+  const bool first = exact_value(a) == 1, second = exact_value(b) == 1;
+  std::size_t k = first ? 1 : second ? 2 : 0;
+  if (scheme == data::Scheme::kCatmullClark) {
+    if (corners.size() != 4 && (first || second)) return false;
+    k = corners.size() != 4 ? static_cast<std::size_t>(corner) : first ? (second ? 2 : 1) : (second ? 3 : 0);
+  }
+  return topology.on_boundary(corners[k]);
+}
+
+/// The point of a mesh of few faces.
+SurfacePoint<Ball> evaluate_in_balls(const data::Faces& faces, std::vector<Vec3<Ball>> positions,
+                                     data::Scheme scheme, Weights weights, int corner, const Parameter& a,
+                                     const Parameter& b) {
+  if (scheme == data::Scheme::kCatmullClark)
+    return catmull_clark::StamEvaluator<Ball>(faces, std::move(positions)).evaluate(0, corner, a, b);
+  if (corner != 0) throw data::ArgumentError("a triangle has one domain, with corner 0");
+  return StamEvaluator<Ball>(std::move(positions), data::Triangles(faces).to_vector(), weights)
+      .evaluate(0, a, b);
 }
 
 double radius_of(const Ball& a) {
@@ -170,35 +214,30 @@ class Printer {
 
 }  // namespace
 
-CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights) {
-  for (const auto& p : mesh.positions)
-    for (const double x : p)
-      if (!std::isfinite(x)) throw data::ArgumentError("control mesh: a coordinate is not finite");
-  const auto position = [positions = mesh.positions](std::int32_t v) {
-    const auto& p = positions[v];
-    return Data::Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
-  };
-  data_.reset(new Data{Topology(mesh.positions.size(), mesh.triangles), mesh.triangles, position, weights});
-}
-
+CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights)
+    : data_(Data::of(mesh, data::Scheme::kLoop, weights)) {}
+CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh, data::Scheme scheme)
+    : data_(Data::of(mesh, scheme, Weights::kLoop)) {}
 CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
-                                       const std::vector<Triangle>& triangles, Weights weights) {
-  std::vector<Data::Position> exact;
-  for (const auto& p : positions)
-    exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
-                     exact_value(Parameter::parse(p[2]))});
-  const auto position = [exact = std::move(exact)](std::int32_t v) { return exact[v]; };
-  data_.reset(new Data{Topology(positions.size(), triangles), triangles, position, weights});
-}
+                                       const std::vector<Triangle>& triangles, Weights weights)
+    : data_(Data::of(positions, data::Faces(triangles), data::Scheme::kLoop, weights)) {}
+CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
+                                       const data::Faces& faces, data::Scheme scheme)
+    : data_(Data::of(positions, faces, scheme, Weights::kLoop)) {}
 
 CertifiedEvaluator::~CertifiedEvaluator() = default;
 
 CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const Parameter& l2,
                                             int digits) const {
+  return evaluate(face, 0, l1, l2, digits);
+}
+
+CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Parameter& l1, const Parameter& l2,
+                                            int digits) const {
   if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.faces().size())
     throw data::ArgumentError("no face " + std::to_string(face));
-  const data::CutOut local = data::cut_out(data_->triangles, faces_near(data_->topology, face));
+  const data::CutOut local = data::cut_out(data_->topology.faces(), faces_near(data_->topology, face));
   std::vector<Data::Position> exact;
   for (const std::int32_t v : local.vertices) exact.push_back(data_->position(v));
 
@@ -217,8 +256,8 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
     for (const auto& p : exact)
       positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
                            NumberTraits<Ball>::from_rational(p[2])});
-    const StamEvaluator<Ball> evaluator(std::move(positions), local.triangles, data_->weights);
-    const SurfacePoint<Ball> s = evaluator.evaluate(0, l1, l2);
+    const SurfacePoint<Ball> s =
+        evaluate_in_balls(local.faces, std::move(positions), data_->scheme, data_->weights, corner, l1, l2);
     const bool has_normal =
         s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
     if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
@@ -232,7 +271,7 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
     result.normal_kind = s.normal_kind;
     result.first_exist = s.first_exist;
     result.boundary_corner =
-        s.at_corner && data_->topology.on_boundary(corner_at(data_->topology, face, l1, l2));
+        s.at_corner && corner_on_boundary(data_->topology, data_->scheme, face, corner, l1, l2);
     if (s.at_corner) {
       result.t1 = print(s.t1);
       result.t2 = print(s.t2);

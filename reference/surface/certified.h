@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/scheme.h"
 #include "reference/loop/weights.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/parameter.h"
@@ -42,12 +43,16 @@ struct CertifiedPoint {
 /// parameters as exact rationals.
 class CertifiedEvaluator {
  public:
-  /// As StamEvaluator; throws data::ArgumentError also if a coordinate is not finite.
+  /// Loop's scheme, as StamEvaluator; throws data::ArgumentError also if a coordinate is not finite.
   explicit CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  /// Either scheme; Catmull-Clark's as catmull_clark::StamEvaluator.
+  CertifiedEvaluator(const data::ControlMesh& mesh, data::Scheme scheme);
   /// Control points as text, "1/3" or "0.125", taken exactly. Throws data::ArgumentError as
   /// Parameter::parse does.
   CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
                      const std::vector<Triangle>& triangles, Weights weights = Weights::kLoop);
+  CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions, const data::Faces& faces,
+                     data::Scheme scheme);
   ~CertifiedEvaluator();
 
   /// Evaluates a mesh of only the faces that touch the face, so that it is quick on large meshes.
@@ -57,6 +62,9 @@ class CertifiedEvaluator {
   ///            lost) is printed as 0 with its radius
   ///   throws   data::ArgumentError: digits or parameters out of range, no such face
   CertifiedPoint evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const;
+  /// The same with Catmull-Clark's parameters: (u, v) of a quad (corner 0), or of the sub-quad at a corner of another
+  /// face, see catmull_clark::SubdivisionEvaluator; d1 and d2 are by u and v. Loop's have the corner 0.
+  CertifiedPoint evaluate(int face, int corner, const Parameter& u, const Parameter& v, int digits) const;
 
  private:
   struct Data;

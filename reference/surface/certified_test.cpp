@@ -85,7 +85,7 @@ TEST(Certified, EveryFaceOfATightMeshHasTheSurfaceOfTheWhole) {
           const std::array<Big, 3> coordinates{want.x, want.y, want.z};
           for (std::size_t i = 0; i < 3; ++i)
             EXPECT_LE(abs(Big(got[i].value) - coordinates[i]), Big(got[i].radius) + Big("1e-80"))
-                << mesh.triangles.size() << " faces, face " << face;
+                << mesh.faces.size() << " faces, face " << face;
         };
         check(p.position, s.position);
         check(p.d1, s.d1);
@@ -98,7 +98,7 @@ TEST(Certified, HasWarrensSurfaceToo) {
   const data::ControlMesh mesh = data::octahedron();
   const CertifiedEvaluator certified(mesh, Weights::kWarren);
   EXPECT_EQ(Big(certified.evaluate(0, 0.0, 0.0, 10).position[0].value),
-            Big(mesh.positions[mesh.triangles[0][0]][0]) / 2);
+            Big(mesh.positions[mesh.faces[0][0]][0]) / 2);
   const SurfacePoint<Big> s = SubdivisionEvaluator<Big>(mesh, Weights::kWarren).evaluate(3, 0.25, 0.125);
   const CertifiedPoint p = certified.evaluate(3, 0.25, 0.125, 40);
   EXPECT_LE(abs(Big(p.position[1].value) - s.position.y), Big(p.position[1].radius));
@@ -164,7 +164,8 @@ TEST(Certified, PrecisionRisesUntilTheNormalIsKnown) {
       const Big x(p[0]), y = x + Big(offset) * Big(p[1]);
       positions.push_back({x.str(), y.str(90), Big(0).str()});
     }
-    const CertifiedPoint p = CertifiedEvaluator(positions, mesh.triangles).evaluate(0, 0.25, 0.25, 10);
+    const CertifiedPoint p =
+        CertifiedEvaluator(positions, triangles_of(mesh).to_vector()).evaluate(0, 0.25, 0.25, 10);
     EXPECT_EQ(p.normal_kind, NormalKind::kRegular) << offset;
     EXPECT_EQ(abs(Big(p.normal[2].value)), 1) << offset;
     EXPECT_LE(p.normal[2].radius, 1e-9) << offset;

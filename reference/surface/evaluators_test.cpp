@@ -177,7 +177,7 @@ TEST(Evaluators, TheMapOfAnExtraordinaryCornerPointsAlongTheEdges) {
     const data::ControlMesh mesh = data::wheel(n);
     const StamEvaluator<Big> stam(mesh);
     for (int face = 0; face < stam.face_count(); ++face) {
-      if (mesh.triangles[face][0] != 0) continue;
+      if (mesh.faces[face][0] != 0) continue;
       const auto corner = stam.evaluate(face, 0.0, 0.0);
       const Vec3<Big> first = stam.evaluate(face, 0x1p-60, 0.0).position - corner.position;
       const Vec3<Big> second = stam.evaluate(face, 0.0, 0x1p-60).position - corner.position;
@@ -190,8 +190,8 @@ TEST(Evaluators, TheMapOfAnExtraordinaryCornerPointsAlongTheEdges) {
 /// The first face that has vertex 0 as its corner 0, for every place it can have around vertex 0.
 std::vector<int> faces_of_the_hub(const data::ControlMesh& mesh) {
   std::vector<int> faces;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-    if (mesh.triangles[f][0] == 0) faces.push_back(static_cast<int>(f));
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (mesh.faces[f][0] == 0) faces.push_back(static_cast<int>(f));
   return faces;
 }
 
@@ -295,7 +295,7 @@ TEST(Evaluators, StamStaysExactDownTo1e300FromTheVertex) {
     const StamEvaluator<double> fast(mesh);
     int face = 0;
     for (int f = 0; f < exact.face_count(); ++f)
-      if (mesh.triangles[f][0] == 0) face = f;
+      if (mesh.faces[f][0] == 0) face = f;
     for (const double distance : {1e-3, 1e-8, 1e-16, 1e-60, 1e-300}) {
       const double l1 = distance, l2 = 0.375 * distance;
       const auto truth = exact.evaluate(face, l1, l2);

@@ -125,7 +125,7 @@ ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, int depth
   for (const auto& kept : cache_)
     if (kept->points() == capabilities.points && kept->weights() == weights &&
         kept->lattice().depth() == depth && kept->mesh().positions == rounded.positions &&
-        kept->mesh().triangles == rounded.triangles)
+        triangles_of(kept->mesh()) == triangles_of(rounded))
       return *kept;
   cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth, capabilities.points, weights));
   return *cache_.back();
@@ -164,7 +164,7 @@ void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bo
   std::vector<std::string_view> missing{"tessellates"};
   for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
   const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
-  if (related(mesh, judged.triangles.size()))
+  if (related(mesh, judged.faces.size()))
     missing.insert(missing.end(), relation_rows().begin(), relation_rows().end());
   std::erase_if(missing, [&](std::string_view check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
@@ -183,7 +183,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   // The whole mesh is tessellated, and all of it but a sample is culled.
   const MeshSample* sample = mesh.sample.get();
   std::vector<std::int32_t> asked = mesh.face_depth;
-  if (asked.empty()) asked.assign(mesh.mesh.triangles.size(), depth_of(mesh));
+  if (asked.empty()) asked.assign(mesh.mesh.faces.size(), depth_of(mesh));
   if (sample) asked = sample->cull(std::move(asked));
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
@@ -227,7 +227,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
 
   run_checks(evidence, rows, no_reference);
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
-  if (interrupted() == 0 && related(mesh, judged.triangles.size())) {
+  if (interrupted() == 0 && related(mesh, judged.faces.size())) {
     const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
     for (Result& r : check_relations(audited, evidence, threads_, refusals_[rows.subject], told))
       results.push_back(std::move(r));

@@ -188,7 +188,7 @@ TEST(Audit, TheBoundaryOfTheControlMeshIsTheOnlyBoundaryAllowed) {
 // The recursive subdivider does nothing about cracks, so it shows what differing depths do without.
 TEST(Audit, DifferingDepthsWithoutRepairAreTiledButNotTight) {
   AuditMesh mesh{"bumpy:60", data::named_mesh("bumpy:60")};
-  for (std::size_t f = 0; f < mesh.mesh.triangles.size(); ++f)
+  for (std::size_t f = 0; f < mesh.mesh.faces.size(); ++f)
     mesh.face_depth.push_back(static_cast<std::int32_t>(f % 4));
   const auto results = Auditor(3, 1).run({find_subject("naive"), ""}, mesh);
   EXPECT_EQ(row(results, "positions").status, Status::kHeld) << describe(results);
@@ -209,17 +209,17 @@ TEST(Audit, TheRimOfCulledFacesIsABoundaryThatIsAllowed) {
 
 TEST(Audit, VisibleFacesThatMeetInAPointOnlyAreNoFault) {
   const data::ControlMesh cage = data::named_mesh("icosahedron");
-  const auto& first = cage.triangles[0];
+  const auto& first = triangles_of(cage)[0];
   const std::int32_t pole = first[0];
   const auto common = [&](const std::array<std::int32_t, 3>& t) {
     return std::count_if(t.begin(), t.end(), [&](std::int32_t v) {
       return std::find(first.begin(), first.end(), v) != first.end();
     });
   };
-  std::vector<std::int32_t> depth(cage.triangles.size(), 2);
+  std::vector<std::int32_t> depth(cage.faces.size(), 2);
   int across = 0;  // the faces at the pole: one stays besides the first, which shares nothing else with it
   for (std::size_t f = 1; f < depth.size(); ++f) {
-    const auto& t = cage.triangles[f];
+    const auto& t = triangles_of(cage)[f];
     if (std::count(t.begin(), t.end(), pole) == 0) continue;
     if (common(t) > 1 || across++ > 0) depth[f] = -1;
   }
@@ -234,7 +234,7 @@ TEST(Audit, OfRandomFacesCulledAndRandomDepthsOurEngineShowsExactlyTheOutline) {
     std::uint32_t state = 1;
     for (int round = 0; round < 20; ++round) {
       mesh.face_depth.clear();
-      for (std::size_t f = 0; f < mesh.mesh.triangles.size(); ++f) {
+      for (std::size_t f = 0; f < mesh.mesh.faces.size(); ++f) {
         state = state * 1664525U + 1013904223U;
         mesh.face_depth.push_back(static_cast<std::int32_t>((state >> 24) % 5) - 1);
       }

@@ -118,7 +118,7 @@ bool is_plain(const Evidence& e, std::int32_t face) {
 
 // The triangles of each face, one face after the other.
 struct OfFaces {
-  explicit OfFaces(const Evidence& e) : start(e.mesh.triangles.size() + 1, 0) {
+  explicit OfFaces(const Evidence& e) : start(e.mesh.faces.size() + 1, 0) {
     const Tessellation& t = e.tessellation;
     placed.resize(t.triangle_count());
     std::vector<Corners> corners(placed.size());
@@ -148,7 +148,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
   r.unit = "faces";
   r.bound = 0;
   const Tessellation& t = e.tessellation;
-  const auto faces = static_cast<std::int32_t>(e.mesh.triangles.size());
+  const auto faces = static_cast<std::int32_t>(e.mesh.faces.size());
   const OfFaces triangles(e);
 
   std::vector<Verdict> verdicts(faces);

@@ -94,8 +94,8 @@ TEST(Condition, IsThatOfTheTangents) {
     for (int y = 0; y < 4; ++y)
       for (int x = 0; x < 4; ++x) {
         const int v = 5 * y + x;
-        mesh.triangles.push_back({v, v + 1, v + 6});
-        mesh.triangles.push_back({v, v + 6, v + 5});
+        mesh.faces.push_back({v, v + 1, v + 6});
+        mesh.faces.push_back({v, v + 6, v + 5});
       }
     ReferenceSurface surface(mesh, 1, LC_POINTS_LIMIT);
     const Lattice::Id id = surface.lattice().id({2 * (4 * 1 + 1), 1, 1, 2});
@@ -149,7 +149,7 @@ data::ControlMesh tilted_hub() {
                                                            {1.0, 1.125, -1.625}}};
   data::ControlMesh mesh;
   mesh.positions.assign(kPoints.begin(), kPoints.end());
-  for (int k = 0; k < 12; ++k) mesh.triangles.push_back({0, k + 1, (k + 1) % 12 + 1});
+  for (int k = 0; k < 12; ++k) mesh.faces.push_back({0, k + 1, (k + 1) % 12 + 1});
   return mesh;
 }
 

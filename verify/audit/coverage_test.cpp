@@ -166,7 +166,7 @@ TEST(Coverage, AFaceDisplayedDeeperThanAnyNeighbourIsFoundOut) {
       check_coverage(*Scripted(
                          data::two_components(),
                          [] {
-                           std::vector<std::int32_t> depth(data::two_components().triangles.size(), 2);
+                           std::vector<std::int32_t> depth(data::two_components().faces.size(), 2);
                            std::fill(depth.begin(), depth.begin() + 4, 1);
                            return depth;
                          }(),
@@ -233,7 +233,7 @@ TEST(Coverage, AFanWithoutThePointsOfItsBorderIsFoundOut) {
 TEST(Coverage, HoldsForStitchedBordersAndForFansOfShallowFaces) {
   const auto coverage = [](const char* subject, const char* options, int most) {
     AuditMesh mesh{"wheel:7", data::wheel(7)};
-    for (std::size_t f = 0; f < mesh.mesh.triangles.size(); ++f) {
+    for (std::size_t f = 0; f < mesh.mesh.faces.size(); ++f) {
       const auto depth = static_cast<std::int32_t>((5 * f) % 6) - 1;
       mesh.face_depth.push_back(depth > most && depth < 4 ? most : depth);
     }

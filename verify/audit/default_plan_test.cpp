@@ -74,7 +74,7 @@ TEST(DefaultPlan, ItsSampleLooksAtFacesWhoseIndicesNeedMoreThanSixteenBits) {
   ASSERT_NE(large, plan.end());
   const auto faces = large->sample->faces();
   const auto beyond = std::count_if(faces.begin(), faces.end(), [&](std::int32_t f) {
-    const auto& t = large->mesh.triangles[f];
+    const auto& t = triangles_of(large->mesh)[f];
     return *std::max_element(t.begin(), t.end()) > 0xFFFF;
   });
   EXPECT_GE(beyond, 4);

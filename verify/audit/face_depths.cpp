@@ -35,7 +35,7 @@ FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
   const double away = 2 * norm(high - low) / norm(Vector{1, 2, 3});
   const Vector eye = 0.5 * (low + high) + away * Vector{1, 2, 3};
   FaceDepths depths;
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : triangles_of(mesh)) {
     std::array<Vector, 3> p{};
     for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.positions.at(t[k]);
     const Vector to_eye = eye - (1. / 3) * (p[0] + p[1] + p[2]);
@@ -103,7 +103,7 @@ Depths parse_depths(const std::string& text) {
 }
 
 std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {
-  const std::size_t faces = mesh.triangles.size();
+  const std::size_t faces = mesh.faces.size();
   if (depths.kind == "view") return view_depths(mesh, deepest);
   if (depths.kind == "random") return random_depths(faces, depths.visible ? 0 : -1, deepest, *depths.seed);
   if (depths.kind == "file") return read_depths(depths.file, faces, deepest);

@@ -34,7 +34,7 @@ Lattice::Lattice(const data::ControlMesh& mesh, int depth)
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
     return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
   });
-  face_edges_.resize(mesh.triangles.size());
+  face_edges_.resize(mesh.faces.size());
   for (const Side& s : sides) {
     if (edges_.empty() || edges_.back().a != s.a || edges_.back().b != s.b)
       edges_.push_back({s.a, s.b, {-1, -1}, {0, 0}});

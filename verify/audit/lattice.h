@@ -45,7 +45,7 @@ class Lattice {
   std::int64_t n() const { return n_; }
   std::int64_t scale() const { return domain_.centre_denominator() * n_; }
   Id size() const { return first_interior_ + face_points_ * face_count(); }
-  std::int32_t face_count() const { return static_cast<std::int32_t>(mesh_.triangles.size()); }
+  std::int32_t face_count() const { return static_cast<std::int32_t>(mesh_.faces.size()); }
   FaceDomain domain(std::int32_t /*face*/) const { return domain_; }
 
   const std::vector<Edge>& edges() const { return edges_; }
@@ -57,7 +57,7 @@ class Lattice {
     return e.face[0] == face && e.corner[0] == k ? e.face[1] : e.face[0];
   }
   /// The control vertex at corner k.
-  std::int32_t vertex(std::int32_t face, int k) const { return mesh_.triangles[face][k]; }
+  std::int32_t vertex(std::int32_t face, int k) const { return triangles_of(mesh_)[face][k]; }
   /// The corner of the face at a control vertex, if it is one.
   std::optional<int> corner_of(std::int32_t face, Id vertex) const;
   /// The corners of all faces, numbered through.

@@ -14,7 +14,7 @@ namespace {
 template <class Visit>
 void for_each_point(const Lattice& lattice, Visit visit) {
   const auto n = static_cast<std::uint32_t>(lattice.n());
-  for (std::size_t f = 0; f < lattice.mesh().triangles.size(); ++f)
+  for (std::size_t f = 0; f < lattice.mesh().faces.size(); ++f)
     for (std::uint32_t j = 0; j <= n; ++j)
       for (std::uint32_t i = 0; i + j <= n; ++i) visit(lc_provenance{static_cast<std::int32_t>(f), i, j, n});
 }

@@ -21,7 +21,8 @@ Vector unit(const Vector& a) {
 struct FacetMeans {
   std::vector<Vector> by_area, alike, by_angle;
 
-  FacetMeans(std::span<const std::array<std::int32_t, 3>> triangles, std::span<const std::int32_t> number,
+  template <class Triangles>
+  FacetMeans(const Triangles& triangles, std::span<const std::int32_t> number,
              std::span<const Vector> positions) {
     std::int32_t most = -1;
     for (const std::int32_t k : number) most = std::max(most, k);
@@ -52,7 +53,7 @@ std::string origin_of_normals(std::span<const DeliveredNormal> normals, const da
   for (std::size_t v = 0; v < of_control.size(); ++v) of_control[v] = static_cast<std::int32_t>(v);
   const FacetMeans of_vertices(triangles, own, positions);
   const FacetMeans of_points(triangles, point_of, positions);
-  const FacetMeans of_cage(control.triangles, of_control, control.positions);
+  const FacetMeans of_cage(triangles_of(control), of_control, control.positions);
 
   const auto against = std::count_if(normals.begin(), normals.end(), [](const DeliveredNormal& n) {
     return dot(n.direction, n.expected) < 0;
@@ -69,7 +70,7 @@ std::string origin_of_normals(std::span<const DeliveredNormal> normals, const da
     return std::sqrt(sum / static_cast<double>(normals.size()));
   };
   const auto corner = [&](const DeliveredNormal& n, int k) {
-    return unit(of_cage.by_area[control.triangles[n.face][k]]);
+    return unit(of_cage.by_area[triangles_of(control)[n.face][k]]);
   };
   const std::vector<std::pair<const char*, Guess>> guesses{
       {"averages of the facets around, weighted by area",
@@ -81,7 +82,7 @@ std::string origin_of_normals(std::span<const DeliveredNormal> normals, const da
       {"the normals of single facets", [&](const auto& n) { return of_vertices.by_area[n.vertex]; }},
       {"the normals of the control mesh's faces",
        [&](const auto& n) {
-         const auto& t = control.triangles[n.face];
+         const auto& t = triangles_of(control)[n.face];
          return cross(control.positions[t[1]] - Vector(control.positions[t[0]]),
                       control.positions[t[2]] - Vector(control.positions[t[0]]));
        }},

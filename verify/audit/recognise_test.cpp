@@ -90,8 +90,7 @@ class Elsewhere {
       mesh_.positions.push_back(
           {mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
     for (std::int64_t t = 0; t < mesh.triangle_count; ++t)
-      mesh_.triangles.push_back(
-          {mesh.triangles[3 * t], mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]});
+      mesh_.faces.push_back({mesh.triangles[3 * t], mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]});
     const char* message = nullptr;
     lc_subject_cgal()->create(&mesh, nullptr, &inside_, &message);
   }
@@ -114,7 +113,7 @@ class Elsewhere {
 
 Vector on_the_flat_face(const data::ControlMesh& mesh, const lc_provenance& p) {
   const double l1 = static_cast<double>(p.i) / p.denominator, l2 = static_cast<double>(p.j) / p.denominator;
-  const auto& t = mesh.triangles[p.face];
+  const auto& t = triangles_of(mesh)[p.face];
   return (1 - l1 - l2) * mesh.positions[t[0]] + l1 * mesh.positions[t[1]] + l2 * mesh.positions[t[2]];
 }
 

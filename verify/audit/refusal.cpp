@@ -48,7 +48,7 @@ Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& me
     Session session(*subject.subject, mesh, subject.options, Session::Input::kAsItIs);
     const Tessellation t = session.tessellate(std::min(1, session.capabilities().max_depth), threads);
     session.close();
-    if (mesh.triangles.empty() && t.triangle_count() == 0) return {};  // nothing of nothing
+    if (mesh.faces.empty() && t.triangle_count() == 0) return {};  // nothing of nothing
     return {Status::kFinding, "accepted"};
   } catch (const SubjectDied& error) {
     return {status_of(error), error.what()};
@@ -73,7 +73,7 @@ data::ControlMesh read_broken_mesh(const std::string& file) {
       return static_cast<std::int32_t>(soup.corners[k]);
     };
     for (std::size_t k = begin + 1; k + 1 < end; ++k)
-      mesh.triangles.push_back({corner(begin), corner(k), corner(k + 1)});
+      mesh.faces.push_back({corner(begin), corner(k), corner(k + 1)});
     begin = end;
   }
   if (data::validate(mesh).empty())

@@ -25,7 +25,7 @@ std::vector<std::int32_t> shuffled(std::size_t count, data::SplitMix64& random) 
 }
 
 Rewriting::Rewriting(data::ControlMesh original) : mesh(std::move(original)) {
-  face.resize(mesh.triangles.size());
+  face.resize(mesh.faces.size());
   std::iota(face.begin(), face.end(), 0);
   symmetry.resize(face.size());
 }
@@ -33,24 +33,24 @@ Rewriting::Rewriting(data::ControlMesh original) : mesh(std::move(original)) {
 void Rewriting::number_vertices(const std::vector<std::int32_t>& number) {
   const auto positions = mesh.positions;
   for (std::size_t v = 0; v < number.size(); ++v) mesh.positions[number[v]] = positions[v];
-  for (auto& t : mesh.triangles)
-    for (std::int32_t& v : t) v = number[v];
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::int32_t& v : mesh.faces[f]) v = number[v];
 }
 
 void Rewriting::order_faces(const std::vector<std::int32_t>& order) {
-  mesh.triangles = in_order(mesh.triangles, order);
+  mesh.faces = data::Faces(in_order(triangles_of(mesh).to_vector(), order));
   face = in_order(face, order);
   symmetry = in_order(symmetry, order);
 }
 
 void Rewriting::turn_face(std::size_t f, int first) {
-  const auto before = mesh.triangles[f];
-  for (int k = 0; k < 3; ++k) mesh.triangles[f][k] = before[(k + first) % 3];
+  const auto before = triangles_of(mesh)[f];
+  for (int k = 0; k < 3; ++k) mesh.faces[f][k] = before[(k + first) % 3];
   symmetry[f].first = FaceDomain().corner(first, symmetry[f]);
 }
 
 void Rewriting::mirror_faces() {
-  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) std::swap(mesh.faces[f][1], mesh.faces[f][2]);
   for (auto& s : symmetry) s.mirrored = !s.mirrored;
 }
 

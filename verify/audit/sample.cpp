@@ -16,11 +16,11 @@ using data::ControlMesh;
 
 MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_t seed)
     : text_(fmt::format("{}:{}", faces, seed)),
-      part_of_(whole.triangles.size(), -1),
-      in_patch_(whole.triangles.size(), false) {
-  const FacesAround around(whole.triangles, whole.positions.size());
+      part_of_(whole.faces.size(), -1),
+      in_patch_(whole.faces.size(), false) {
+  const FacesAround around(whole.faces, whole.positions.size());
   data::SplitMix64 random(seed);
-  faces = std::min(faces, whole.triangles.size());
+  faces = std::min(faces, whole.faces.size());
   for (std::size_t chosen = 0; chosen < faces;) {
     const auto v = static_cast<std::int32_t>(random.next() % whole.positions.size());
     for (const std::int32_t f : around.of(v)) {
@@ -29,18 +29,18 @@ MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_
     }
   }
 
-  std::vector<bool> in_part(whole.triangles.size(), false);
+  std::vector<bool> in_part(whole.faces.size(), false);
   for (std::size_t f = 0; f < in_patch_.size(); ++f)
     if (in_patch_[f])
-      for (const std::int32_t v : whole.triangles[f])
+      for (const std::int32_t v : whole.faces[f])
         for (const std::int32_t g : around.of(v)) in_part[g] = true;
   for (std::size_t f = 0; f < in_part.size(); ++f)
     if (in_part[f]) {
       part_of_[f] = static_cast<std::int32_t>(faces_.size());
       faces_.push_back(static_cast<std::int32_t>(f));
     }
-  data::CutOut cut = data::cut_out(whole.triangles, faces_);
-  part_ = {cut.of(whole.positions), std::move(cut.triangles)};
+  data::CutOut cut = data::cut_out(whole.faces, faces_);
+  part_ = {cut.of(whole.positions), std::move(cut.faces)};
   vertices_ = std::move(cut.vertices);
 }
 
@@ -58,7 +58,7 @@ std::vector<std::int32_t> MeshSample::depths_of_part(std::span<const std::int32_
 
 ControlMesh MeshSample::part_with(const ControlMesh& positions) const {
   ControlMesh mesh;
-  mesh.triangles = part_.triangles;
+  mesh.faces = part_.faces;
   mesh.positions.reserve(vertices_.size());
   for (const std::int32_t v : vertices_) mesh.positions.push_back(positions.positions[v]);
   return mesh;

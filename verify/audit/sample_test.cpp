@@ -30,9 +30,9 @@ TEST(MeshSample, IsAValidMeshWithAtLeastTheFacesAskedFor) {
         const MeshSample sample(whole, faces, seed);
         const auto findings = data::validate(sample.part());
         ASSERT_TRUE(findings.empty()) << name << " " << seed << ": " << findings[0].message;
-        const auto depth = sample.cull(std::vector<std::int32_t>(whole.triangles.size(), 2));
+        const auto depth = sample.cull(std::vector<std::int32_t>(whole.faces.size(), 2));
         const auto visible = std::count(depth.begin(), depth.end(), 2);
-        EXPECT_GE(static_cast<std::size_t>(visible), std::min(faces, whole.triangles.size()));
+        EXPECT_GE(static_cast<std::size_t>(visible), std::min(faces, whole.faces.size()));
         const auto part = sample.depths_of_part(depth);
         EXPECT_EQ(std::count(part.begin(), part.end(), 2), visible) << "every visible face is in the part";
       }
@@ -42,7 +42,7 @@ TEST(MeshSample, HasTheSurfaceOfTheWholeOverItsPatches) {
   for (const char* name : kMeshes) {
     const data::ControlMesh whole = data::named_mesh(name);
     const MeshSample sample(whole, 20, 7);
-    const auto depth = sample.cull(std::vector<std::int32_t>(whole.triangles.size(), 0));
+    const auto depth = sample.cull(std::vector<std::int32_t>(whole.faces.size(), 0));
     const reference::StamEvaluator<double> of_whole(whole), of_part(sample.part());
     double worst = 0;
     for (std::size_t p = 0; p < sample.faces().size(); ++p) {

@@ -29,12 +29,12 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
   const auto refined = reference::refine<double>(mesh, steps, weights);
   SchemePoints result = points_of(refined, limit);
   const std::uint32_t n = 1U << steps;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     FaceDomain().for_each_point(n, [&](FaceDomain::Point p) {
       const std::int32_t v = refined.vertex(f, static_cast<int>(p.i), static_cast<int>(p.j));
       result.place[v] = {static_cast<std::int32_t>(f), number(p.i), number(p.j), n};
       if (scheme != Scheme::kLinear) return;
-      const auto [a, b, c] = mesh.triangles[f];
+      const auto [a, b, c] = triangles_of(mesh)[f];
       const double l1 = static_cast<double>(p.i) / n, l2 = static_cast<double>(p.j) / n;
       result.position[v] =
           (1 - l1 - l2) * mesh.positions[a] + l1 * mesh.positions[b] + l2 * mesh.positions[c];
@@ -45,13 +45,12 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
 // After the first step a face is three quads, one at each corner, with n / 2 steps a side. Only the points on
 // control edges are points of the lattice, but for a few of no interest.
 SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit) {
-  reference::catmull_clark::RefinedMesh<double> refined(data::Faces(mesh.triangles),
-                                                        reference::positions_of<double>(mesh));
+  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
   for (int step = 0; step < steps; ++step) refined.refine();
   SchemePoints result = points_of(refined, limit);
   const FaceDomain domain;
   const int n = 1 << steps;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto put = [&](std::int32_t vertex, FaceDomain::Point p) {
       result.place[vertex] = {static_cast<std::int32_t>(f), number(p.i), number(p.j), number(n)};
     };

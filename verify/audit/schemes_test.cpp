@@ -61,7 +61,7 @@ TEST(Schemes, PointsKnowTheirPlaces) {
   // A flat face keeps points in place but for their distance from its edges: its middle stays the middle.
   data::ControlMesh flat;
   flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  flat.triangles = {{0, 1, 2}};
+  flat.faces = {{0, 1, 2}};
   const auto quads = placed_scheme_points(flat, Scheme::kCatmullClark, 1, false);
   std::size_t placed = 0;
   for (std::size_t k = 0; k < quads.place.size(); ++k) {

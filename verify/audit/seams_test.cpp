@@ -39,8 +39,8 @@ ControlMesh cut_knot(int along, int round) {
   const auto at = [&](int i, int j) { return i * (round + 1) + j; };
   for (int i = 0; i < along; ++i)
     for (int j = 0; j < round; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   return mesh;
 }
@@ -59,8 +59,8 @@ ControlMesh uv_sphere(int around, int down, bool residue) {
   const auto at = [&](int y, int x) { return y * (around + 1) + x; };
   for (int y = 0; y < down; ++y)
     for (int x = 0; x < around; ++x) {
-      mesh.triangles.push_back({at(y, x + 1), at(y, x), at(y + 1, x + 1)});
-      mesh.triangles.push_back({at(y, x), at(y + 1, x), at(y + 1, x + 1)});
+      mesh.faces.push_back({at(y, x + 1), at(y, x), at(y + 1, x + 1)});
+      mesh.faces.push_back({at(y, x), at(y + 1, x), at(y + 1, x + 1)});
     }
   return mesh;
 }
@@ -72,7 +72,7 @@ ControlMesh uv_sphere_with_open_poles(int around, int down) {
   ControlMesh closed = uv_sphere(around, down, true), mesh;
   const auto at_pole = [&](std::int32_t v) { return v <= around || v >= down * (around + 1); };
   std::vector<std::int32_t> number(closed.positions.size(), -1);
-  for (auto t : closed.triangles) {
+  for (auto t : triangles_of(closed)) {
     if (std::count_if(t.begin(), t.end(), at_pole) > 1) continue;
     for (auto& v : t) {
       if (number[v] < 0) {
@@ -81,7 +81,7 @@ ControlMesh uv_sphere_with_open_poles(int around, int down) {
       }
       v = number[v];
     }
-    mesh.triangles.push_back(t);
+    mesh.faces.push_back(t);
   }
   return mesh;
 }
@@ -90,7 +90,7 @@ ControlMesh joined(const ControlMesh& a, const ControlMesh& b) {
   ControlMesh mesh = a;
   const auto first = static_cast<std::int32_t>(a.positions.size());
   mesh.positions.insert(mesh.positions.end(), b.positions.begin(), b.positions.end());
-  for (const auto& t : b.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const auto& t : triangles_of(b)) mesh.faces.push_back({t[0] + first, t[1] + first, t[2] + first});
   return mesh;
 }
 
@@ -124,7 +124,7 @@ ControlMesh along_an_edge() {
 
 ControlMesh with_an_edge_without_length() {
   ControlMesh mesh = data::icosahedron();
-  mesh.positions[mesh.triangles[0][1]] = mesh.positions[mesh.triangles[0][0]];
+  mesh.positions[triangles_of(mesh)[0][1]] = mesh.positions[triangles_of(mesh)[0][0]];
   return mesh;
 }
 

@@ -17,8 +17,8 @@ using Faces = std::vector<std::int32_t>;  // of the mesh being shrunk, ascending
 
 // The mesh of some faces, cut apart where they touch in a vertex only.
 AuditMesh part(const AuditMesh& whole, const Faces& faces) {
-  data::CutOut cut = data::cut_out(whole.mesh.triangles, faces);
-  AuditMesh out{whole.name, {cut.of(whole.mesh.positions), std::move(cut.triangles)}};
+  data::CutOut cut = data::cut_out(whole.mesh.faces, faces);
+  AuditMesh out{whole.name, {cut.of(whole.mesh.positions), std::move(cut.faces)}};
   if (!whole.face_depth.empty())
     for (const std::int32_t f : faces) out.face_depth.push_back(whole.face_depth[f]);
   return out;
@@ -28,8 +28,8 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
 AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
   AuditMesh out = whole;
   Faces left;
-  for (std::size_t f = 0; f < out.mesh.triangles.size(); ++f) {
-    auto& t = out.mesh.triangles[f];
+  for (std::size_t f = 0; f < out.mesh.faces.size(); ++f) {
+    const auto t = out.mesh.faces[f];
     std::replace(t.begin(), t.end(), b, a);
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) left.push_back(static_cast<std::int32_t>(f));
   }
@@ -68,7 +68,7 @@ class Shrinker {
   bool late() const { return std::chrono::steady_clock::now() >= end_; }
 
   bool take(AuditMesh candidate) {
-    if (late() || candidate.mesh.triangles.empty() || !data::validate(candidate.mesh).empty()) return false;
+    if (late() || candidate.mesh.faces.empty() || !data::validate(candidate.mesh).empty()) return false;
     ++best_.attempts;
     if (!fails_(candidate, best_.depth)) return false;
     best_.mesh = std::move(candidate);
@@ -77,19 +77,18 @@ class Shrinker {
 
   // All faces by the number of rings between them and `face`; those out of reach last.
   std::vector<int> rings(std::int64_t face) const {
-    const auto& triangles = best_.mesh.mesh.triangles;
-    std::vector<int> ring(triangles.size(), -1), of_vertex(best_.mesh.mesh.positions.size(), -1);
-    if (face < 0 || face >= static_cast<std::int64_t>(triangles.size())) return ring;
+    const data::Faces& faces = best_.mesh.mesh.faces;
+    std::vector<int> ring(faces.size(), -1), of_vertex(best_.mesh.mesh.positions.size(), -1);
+    if (face < 0 || face >= static_cast<std::int64_t>(faces.size())) return ring;
     ring[face] = 0;
     for (int r = 0, found = 1; found > 0; ++r) {
       found = 0;
-      for (std::size_t f = 0; f < triangles.size(); ++f)
+      for (std::size_t f = 0; f < faces.size(); ++f)
         if (ring[f] == r)
-          for (const auto v : triangles[f]) of_vertex[v] = r;
-      for (std::size_t f = 0; f < triangles.size(); ++f) {
+          for (const auto v : faces[f]) of_vertex[v] = r;
+      for (std::size_t f = 0; f < faces.size(); ++f) {
         if (ring[f] >= 0) continue;
-        if (std::any_of(triangles[f].begin(), triangles[f].end(),
-                        [&](auto v) { return of_vertex[v] >= 0; })) {
+        if (std::any_of(faces[f].begin(), faces[f].end(), [&](auto v) { return of_vertex[v] >= 0; })) {
           ring[f] = r + 1;
           ++found;
         }
@@ -112,10 +111,10 @@ class Shrinker {
 
   bool remove_chunks() {
     bool any = false;
-    for (std::size_t chunk = best_.mesh.mesh.triangles.size() / 2; chunk > 0 && !late();) {
+    for (std::size_t chunk = best_.mesh.mesh.faces.size() / 2; chunk > 0 && !late();) {
       bool smaller = false;
-      for (std::size_t begin = 0; begin < best_.mesh.mesh.triangles.size() && !late();) {
-        const std::size_t count = best_.mesh.mesh.triangles.size();
+      for (std::size_t begin = 0; begin < best_.mesh.mesh.faces.size() && !late();) {
+        const std::size_t count = best_.mesh.mesh.faces.size();
         Faces faces;
         for (std::size_t f = 0; f < count; ++f)
           if (f < begin || f >= begin + chunk) faces.push_back(static_cast<std::int32_t>(f));
@@ -132,8 +131,8 @@ class Shrinker {
 
   bool collapse_edges() {
     bool any = false;
-    for (std::size_t f = 0; f < best_.mesh.mesh.triangles.size() && !late(); ++f) {
-      const auto t = best_.mesh.mesh.triangles[f];
+    for (std::size_t f = 0; f < best_.mesh.mesh.faces.size() && !late(); ++f) {
+      const auto t = triangles_of(best_.mesh.mesh)[f];
       for (std::size_t k = 0; k < 3; ++k) {
         if (!take(collapsed(best_.mesh, t[k], t[(k + 1) % 3]))) continue;
         any = true;

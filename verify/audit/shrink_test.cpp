@@ -21,7 +21,7 @@ namespace limitcheck::verify {
 namespace {
 
 bool has_interior_valence(const data::ControlMesh& mesh, std::size_t valence) {
-  const reference::Topology topology(mesh.positions.size(), mesh.triangles);
+  const reference::Topology topology(mesh.positions.size(), mesh.faces);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const auto k = static_cast<std::int32_t>(v);
     if (!topology.on_boundary(k) && topology.ring(k).size() == valence) return true;
@@ -39,7 +39,7 @@ TEST(Shrink, KeepsLittleMoreThanTheWheelWhereAnInteriorValenceIsAtFault) {
         mesh, 4, 0,
         [](const AuditMesh& m, int depth) { return depth >= 2 && has_interior_valence(m.mesh, 7); }, 60);
     // Seven at best. What is left may be stuck where every step would make it invalid; worst seen 10.
-    EXPECT_LE(small.mesh.mesh.triangles.size(), 10U) << seed << ", " << small.attempts << " attempts";
+    EXPECT_LE(small.mesh.mesh.faces.size(), 10U) << seed << ", " << small.attempts << " attempts";
     EXPECT_EQ(small.depth, 2);
     EXPECT_TRUE(data::validate(small.mesh.mesh).empty());
   }
@@ -48,21 +48,21 @@ TEST(Shrink, KeepsLittleMoreThanTheWheelWhereAnInteriorValenceIsAtFault) {
 
 TEST(Shrink, ClosedMeshesStayClosedWhereTheFaultNeedsThat) {
   const auto closed = [](const AuditMesh& m, int) {
-    const reference::Topology topology(m.mesh.positions.size(), m.mesh.triangles);
+    const reference::Topology topology(m.mesh.positions.size(), m.mesh.faces);
     return std::none_of(topology.edges().begin(), topology.edges().end(),
                         [](const auto& e) { return e.on_boundary(); });
   };
   const Shrunk small = shrink({"torus", data::named_mesh("bumpy:100")}, 3, 5, closed, 60);
-  EXPECT_EQ(small.mesh.mesh.triangles.size(), 4U) << "a tetrahedron: nothing smaller is closed and valid";
+  EXPECT_EQ(small.mesh.mesh.faces.size(), 4U) << "a tetrahedron: nothing smaller is closed and valid";
   EXPECT_EQ(small.depth, 0);
 }
 
 TEST(Shrink, TheDepthsOfTheFacesThatStayAreKept) {
   AuditMesh mesh{"sheet", data::named_mesh("sheet")};
-  for (std::size_t f = 0; f < mesh.mesh.triangles.size(); ++f)
+  for (std::size_t f = 0; f < mesh.mesh.faces.size(); ++f)
     mesh.face_depth.push_back(static_cast<std::int32_t>(f == 17 ? 3 : 1));
   const auto fails = [](const AuditMesh& m, int) {
-    return m.face_depth.size() == m.mesh.triangles.size() &&
+    return m.face_depth.size() == m.mesh.faces.size() &&
            std::count(m.face_depth.begin(), m.face_depth.end(), 3) == 1;
   };
   const Shrunk small = shrink(mesh, 3, 17, fails, 60);
@@ -82,8 +82,8 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
   const Result finding = positions(Auditor(2, 1).run(subject, mesh));
   ASSERT_TRUE(is_bad(finding)) << "random:5:300 has a vertex of valence 5";
   const Shrunk small = shrink(subject, mesh, 2, 1, finding, 60);
-  EXPECT_LE(small.mesh.mesh.triangles.size(), 5U) << small.attempts << " attempts";
-  RecordProperty("faces", static_cast<int>(small.mesh.mesh.triangles.size()));
+  EXPECT_LE(small.mesh.mesh.faces.size(), 5U) << small.attempts << " attempts";
+  RecordProperty("faces", static_cast<int>(small.mesh.mesh.faces.size()));
   const Result again = positions(Auditor(small.depth, 1).run(subject, small.mesh));
   EXPECT_TRUE(is_bad(again));
 

@@ -118,7 +118,7 @@ inline Script exact_script(const data::ControlMesh& mesh, int depth) {
   Script s;
   ReferenceSurface surface(mesh, depth, LC_POINTS_LIMIT);
   const auto n = std::uint32_t{1} << depth;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto face = static_cast<std::int32_t>(f);
     const auto first = static_cast<std::uint32_t>(s.points.size());
     const auto at = [&](std::uint32_t i, std::uint32_t j) {

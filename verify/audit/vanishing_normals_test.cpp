@@ -23,7 +23,7 @@ data::ControlMesh wheel_of_twelve(const std::array<double, 3>& hub,
                                   const std::array<std::array<double, 3>, 12>& ring) {
   data::ControlMesh mesh{{hub}, {}};
   mesh.positions.insert(mesh.positions.end(), ring.begin(), ring.end());
-  for (std::int32_t i = 0; i < 12; ++i) mesh.triangles.push_back({0, i + 1, (i + 1) % 12 + 1});
+  for (std::int32_t i = 0; i < 12; ++i) mesh.faces.push_back({0, i + 1, (i + 1) % 12 + 1});
   return mesh;
 }
 
@@ -74,8 +74,8 @@ data::ControlMesh sphere_with_residue() {
   };
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < around; ++j) {
-      if (i > 0) mesh.triangles.push_back({at(i, j + 1), at(i, j), at(i + 1, j + 1)});
-      if (i < rows - 1) mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      if (i > 0) mesh.faces.push_back({at(i, j + 1), at(i, j), at(i + 1, j + 1)});
+      if (i < rows - 1) mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
     }
   return mesh;
 }

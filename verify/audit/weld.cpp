@@ -58,7 +58,7 @@ std::int64_t coincident_boundary_edges(const Evidence& e) {
 }
 
 std::int64_t triangles_without_area(const Evidence& e) {
-  return std::count_if(e.mesh.triangles.begin(), e.mesh.triangles.end(), [&](const auto& t) {
+  return std::count_if(triangles_of(e.mesh).begin(), triangles_of(e.mesh).end(), [&](const auto& t) {
     const Vector &a = e.mesh.positions[t[0]], &b = e.mesh.positions[t[1]], &c = e.mesh.positions[t[2]];
     return largest(cross(b - a, c - a)) == 0;
   });

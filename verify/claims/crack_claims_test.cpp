@@ -80,7 +80,7 @@ TEST(Sec5_Cracks, AppearWithoutRepairOnHalfOfTheEdges) {
   Tessellator<float> tessellator(mesh, options);
   data::SplitMix64 random(1);
   DrawList<float> list;
-  tessellator.frame(random_depths(mesh.triangles.size(), 0, 5, random), list);
+  tessellator.frame(random_depths(mesh.faces.size(), 0, 5, random), list);
   const double share =
       static_cast<double>(mismatched_edges(tessellator.adjacency(), tessellator.last_plan())) /
       static_cast<double>(edges_of(tessellator.adjacency()));
@@ -96,7 +96,7 @@ TEST(Sec5_EdgeDepth, MustBeTheMaximumOfBothFaces) {
   for (const int faces : {200, 800, 4000}) {
     const data::ControlMesh mesh = data::bumpy_sphere(faces, 2);
     data::SplitMix64 random(static_cast<std::uint64_t>(faces));
-    const auto depth = random_depths(mesh.triangles.size(), 0, 4, random);
+    const auto depth = random_depths(mesh.faces.size(), 0, 4, random);
     for (const EdgeDepthRule rule :
          {EdgeDepthRule::kMaximum, EdgeDepthRule::kRespective, EdgeDepthRule::kTwoOrMore}) {
       PrintedRules rules;
@@ -147,8 +147,7 @@ TEST(Sec5_Watertight, TenThousandRandomDepthAssignmentsOnSmallMeshes) {
       Tessellator<float> tessellator(shape.mesh, options);
       DrawList<float> list;
       for (int round = 0; round < shape.rounds / 2; ++round, ++total) {
-        tessellator.frame(random_depths(shape.mesh.triangles.size(), 0, round % 16 == 0 ? 5 : 3, random),
-                          list);
+        tessellator.frame(random_depths(shape.mesh.faces.size(), 0, round % 16 == 0 ? 5 : 3, random), list);
         const Surface surface(list);
         const SurfaceReport report = inspect_surface(surface.points, surface.triangles);
         ASSERT_TRUE(report.manifold()) << shape.name << " round " << round;
@@ -170,7 +169,7 @@ TEST(Sec5_Watertight, AHundredFramesOfFourThousandFaces) {
   data::SplitMix64 random(5);
   DrawList<float> list;
   for (int frame = 0; frame < 100; ++frame) {
-    tessellator.frame(random_depths(mesh.triangles.size(), 0, frame % 3, random), list);
+    tessellator.frame(random_depths(mesh.faces.size(), 0, frame % 3, random), list);
     const Surface surface(list);
     const SurfaceReport report = inspect_surface(surface.points, surface.triangles);
     ASSERT_TRUE(report.closed()) << frame;
@@ -357,10 +356,10 @@ TEST(Sec43_Singletons, ShowTheirOwnFaceAndNothingElse) {
       Tessellator<float> tessellator(mesh, options);
       DrawList<float> list;
       // a culled face leaves its neighbour without a partner, whose dummy it then is
-      std::vector<std::int32_t> depths(mesh.triangles.size(), depth);
+      std::vector<std::int32_t> depths(mesh.faces.size(), depth);
       if (depths.size() > 1) depths[0] = -1;
       tessellator.frame(depths, list);
-      std::vector<int> triangles(mesh.triangles.size());
+      std::vector<int> triangles(mesh.faces.size());
       for (const Draw& draw : list.draws)
         for (std::int32_t t = 0; t < draw.triangle_count(); ++t) ++triangles[draw.face_of(t)];
       for (std::size_t f = 0; f < triangles.size(); ++f)

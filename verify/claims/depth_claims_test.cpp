@@ -36,7 +36,7 @@ double cosine(double degrees) {
 /// N . N^(l) of each corner of each face and level 0 ..
 /// levels, the face's own sub-triangle only: [3 f + k][l].
 std::vector<std::vector<double>> corner_cosines(const Scene& scene, int levels) {
-  std::vector<std::vector<double>> result(3 * scene.mesh.triangles.size());
+  std::vector<std::vector<double>> result(3 * scene.mesh.faces.size());
   fast::Ring ring;
   for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v) {
     ring.gather(scene.mesh, scene.adjacency, v);

@@ -145,7 +145,7 @@ TEST(Sec41_ConvexHull, OfTheNeighbourhoodBoundsTheLimitPatchBecauseNoWeightIsNeg
       values[v].x = 1;
       if (v + 1 < vertices) values[v + 1].y = 1;
       if (v + 2 < vertices) values[v + 2].z = 1;
-      const Evaluator weights(values, mesh.triangles);
+      const Evaluator weights(values, triangles_of(mesh).to_vector());
       for (std::int32_t f = 0; f < faces; ++f) {
         const Lattice lattice = sample(weights, f, kDepth);
         for (std::size_t p = 0; p < points; ++p) {

@@ -25,7 +25,7 @@ namespace {
 TEST(Sec1_Growth, IsFourfoldForTrianglesAndForPolygonsFromTheSecondStepOn) {
   RecordProperty("claim", "C01");
   for (const auto& mesh : {data::tetrahedron(), data::holes(), data::bumpy_sphere(60, 1)}) {
-    std::size_t faces = mesh.triangles.size();
+    std::size_t faces = mesh.faces.size();
     for (int depth = 1; depth <= 3; ++depth) {
       faces *= 4;
       EXPECT_EQ(reference::refine<double>(mesh, depth).triangles().size(), faces);

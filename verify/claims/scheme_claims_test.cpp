@@ -38,7 +38,7 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
     EXPECT_TRUE(data::validate(mesh).empty()) << shape;
     for (const auto* subject : {lc_subject_naive(), lc_subject_sliding_window()}) {
       const auto t = Session(*subject, mesh).tessellate(2);
-      EXPECT_EQ(t.triangle_count(), static_cast<std::int64_t>(16 * mesh.triangles.size())) << shape;
+      EXPECT_EQ(t.triangle_count(), static_cast<std::int64_t>(16 * mesh.faces.size())) << shape;
       EXPECT_TRUE(t.defects().empty());
     }
   }
@@ -55,26 +55,26 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
     })) << seed;
     for (const auto* subject : {lc_subject_naive(), lc_subject_sliding_window()})
       EXPECT_EQ(Session(*subject, mesh).tessellate(1).triangle_count(),
-                static_cast<std::int64_t>(4 * mesh.triangles.size()))
+                static_cast<std::int64_t>(4 * mesh.faces.size()))
           << seed;
     // Of a closed mesh every edge has two faces: three halves as many edges as faces.
     std::set<std::pair<std::int32_t, std::int32_t>> edges;
-    for (const auto& t : mesh.triangles)
+    for (const auto& t : triangles_of(mesh))
       for (std::size_t k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
-    open += 2 * edges.size() > 3 * mesh.triangles.size();
+    open += 2 * edges.size() > 3 * mesh.faces.size();
   }
   RecordProperty("random_manifolds", kRandom);
   RecordProperty("of_them_with_boundary", open);
   EXPECT_GT(open, 0);
   EXPECT_LT(open, kRandom);
   data::ControlMesh fin = data::triangle_pair();  // a third face on the common edge
-  const auto& a = fin.triangles[0];
-  const auto& b = fin.triangles[1];
+  const auto& a = triangles_of(fin)[0];
+  const auto& b = triangles_of(fin)[1];
   std::vector<std::int32_t> common;
   for (const auto v : a)
     if (std::find(b.begin(), b.end(), v) != b.end()) common.push_back(v);
   fin.positions.push_back({0, 0, 5});
-  fin.triangles.push_back({common[0], common[1], static_cast<std::int32_t>(fin.positions.size()) - 1});
+  fin.faces.push_back({common[0], common[1], static_cast<std::int32_t>(fin.positions.size()) - 1});
   EXPECT_FALSE(data::validate(fin).empty());
   EXPECT_THROW(reference::refine<double>(fin, 1), data::ArgumentError);
 }
@@ -114,9 +114,9 @@ TEST(Sec3_LimitSurface, DependsOnTheDiagonalsThatTriangulateTheQuads) {
       for (std::int32_t x = 0; x < 4; ++x) {
         const std::int32_t a = 5 * y + x, b = a + 1, c = a + 6, d = a + 5;
         if (diagonal == 0) {
-          mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+          mesh.faces.push_back({a, b, c}), mesh.faces.push_back({a, c, d});
         } else {
-          mesh.triangles.insert(mesh.triangles.end(), {{b, c, d}, {b, d, a}});
+          mesh.faces.push_back({b, c, d}), mesh.faces.push_back({b, d, a});
         }
       }
     return mesh;
@@ -124,9 +124,9 @@ TEST(Sec3_LimitSurface, DependsOnTheDiagonalsThatTriangulateTheQuads) {
   const data::ControlMesh first = grid(0), second = grid(1);
   const reference::StamEvaluator<double> one(first), other(second);
   const auto corner = [](const data::ControlMesh& mesh, const auto& limit, std::int32_t v) {
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       for (int k = 0; k < 3; ++k)
-        if (mesh.triangles[f][k] == v)
+        if (triangles_of(mesh)[f][k] == v)
           return limit.evaluate(static_cast<int>(f), k == 1, k == 2, reference::Order::kFirst).position;
     return V{};
   };
@@ -142,7 +142,7 @@ TEST(Sec31_Indices, ModuloNWouldMapTheLastNeighbourToTheCentre) {
   RecordProperty("claim", "C13");
   for (const int n : {3, 4, 5, 6, 7, 20}) {
     const auto mesh = data::wheel(n, 3);
-    const reference::Topology topology(mesh.positions.size(), mesh.triangles);
+    const reference::Topology topology(mesh.positions.size(), mesh.faces);
     const auto finer = reference::refine<double>(mesh, 1);
     std::vector<V> v{{mesh.positions[0][0], mesh.positions[0][1], mesh.positions[0][2]}};  // v_0, v_1 .. v_n
     for (const std::int32_t r : topology.ring(0)) {

@@ -77,7 +77,7 @@ TEST(Sec43_SlidingWindow, ReadsTheControlMeshAndNeverWritesIt) {
       Session session(*lc_subject_sliding_window(), mesh, options);
       data::SplitMix64 random(1);
       for (const int threads : {1, 4}) {
-        std::vector<std::int32_t> depth(mesh.triangles.size());
+        std::vector<std::int32_t> depth(mesh.faces.size());
         for (auto& d : depth) d = static_cast<std::int32_t>(random.next() % 6) - 1;
         // The host compares every byte of the mesh it lent with a copy of its own.
         const Tessellation tessellation = session.tessellate(depth, threads);

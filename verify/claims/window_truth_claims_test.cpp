@@ -92,7 +92,7 @@ void compare_all(const std::vector<double>& position_bound, const std::vector<do
       for (auto& p : shape.mesh.positions)
         for (double& x : p) x = static_cast<Real>(x);
       const reference::StamEvaluator<double> truth(shape.mesh);
-      std::vector<std::int32_t> depths(shape.mesh.triangles.size(), depth);
+      std::vector<std::int32_t> depths(shape.mesh.faces.size(), depth);
       compare<Real>(shape.name, shape.mesh, truth, depths, fast::Repair::kFan, 1000, worst);
       if (depth == 0 || depth > 5) continue;
       for (auto& d : depths)

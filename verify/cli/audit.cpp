@@ -167,7 +167,7 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
     if (std::none_of(report.meshes.begin(), report.meshes.end(),
                      [&](const auto& before) { return before.name == m.name; }))
       report.meshes.push_back({m.name, static_cast<std::int64_t>(m.mesh.positions.size()),
-                               static_cast<std::int64_t>(m.mesh.triangles.size())});
+                               static_cast<std::int64_t>(m.mesh.faces.size())});
   }
   return report;
 }

@@ -20,7 +20,7 @@ constexpr double kBytesPerPoint = 350;
 
 void refuse_too_many_points(const verify::AuditMesh& mesh) {
   std::vector<std::int32_t> depths = mesh.face_depth;
-  if (depths.empty()) depths.assign(mesh.mesh.triangles.size(), mesh.depth);
+  if (depths.empty()) depths.assign(mesh.mesh.faces.size(), mesh.depth);
   if (mesh.sample) depths = mesh.sample->depths_of_part(mesh.sample->cull(std::move(depths)));
   double points = 0;
   for (const std::int32_t depth : depths) {

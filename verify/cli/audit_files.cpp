@@ -74,7 +74,7 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
   if (!files.provenance.empty())
     provenance =
         verify::read_provenance(files.provenance, static_cast<std::int64_t>(tessellation.positions.size()),
-                                static_cast<std::int64_t>(control.triangles.size()));
+                                static_cast<std::int64_t>(control.faces.size()));
   verify::FilesOptions options;
   options.tolerance = files.tolerance;
   if (files.hausdorff > 0) options.hausdorff = files.hausdorff;
@@ -97,7 +97,7 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
   report.version = LIMITCHECK_VERSION;
   report.depths = "file";
   report.meshes.push_back({files.control, static_cast<std::int64_t>(control.positions.size()),
-                           static_cast<std::int64_t>(control.triangles.size())});
+                           static_cast<std::int64_t>(control.faces.size())});
   report.subjects.push_back(files.tessellation);
   report.results = audit.results;
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));

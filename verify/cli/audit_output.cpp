@@ -125,7 +125,7 @@ std::vector<const verify::Result*> smallest(const std::vector<verify::AuditMesh>
                                             const verify::Report& report) {
   const auto faces = [&](const verify::Result& r) {
     const verify::AuditMesh* m = case_of(r, meshes);
-    return m == nullptr ? 0 : m->mesh.triangles.size();
+    return m == nullptr ? 0 : m->mesh.faces.size();
   };
   std::vector<const verify::Result*> chosen;
   for (const verify::Result& r : report.results) {
@@ -174,8 +174,8 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       if (r.check != finding->check || !verify::is_bad(r)) continue;
       const auto place = verify::write_witness(folder, report, r, small.mesh, related ? "thorough" : "quick");
       fmt::print(stderr, "{} / {}: {} faces at depth {} shrunk to {} at depth {} ({} attempts): {}\n",
-                 r.subject, r.check, mesh->mesh.triangles.size(), finding->depth,
-                 small.mesh.mesh.triangles.size(), small.depth, small.attempts, place.string());
+                 r.subject, r.check, mesh->mesh.faces.size(), finding->depth, small.mesh.mesh.faces.size(),
+                 small.depth, small.attempts, place.string());
     }
   }
   if (a.shrink_seconds <= 0 && !findings.empty())

@@ -21,15 +21,15 @@ std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash) {
   return hash;
 }
 
-template <class T>
-std::string_view bytes(const std::vector<T>& list) {
-  return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
+template <class List>
+std::string_view bytes(const List& list) {
+  return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(*list.data())};
 }
 
 // A hash, which differs for another mesh of the same name.
 std::string content(const verify::AuditMesh& m) {
   std::uint64_t hash = fnv1a(bytes(m.mesh.positions), 0xcbf29ce484222325ULL);
-  hash = fnv1a(bytes(m.face_depth), fnv1a(bytes(m.mesh.triangles), hash));
+  hash = fnv1a(bytes(m.face_depth), fnv1a(bytes(m.mesh.faces.corners()), hash));
   return fmt::format("{:016x}", hash);
 }
 

@@ -165,10 +165,9 @@ void round_to_float(data::ControlMesh& mesh) {
 void run(const Request& request) {
   data::ControlMesh mesh = data::open_mesh(request.mesh);
   if (request.precision == "float") round_to_float(mesh);
-  if (request.face < 0 || static_cast<std::size_t>(request.face) >= mesh.triangles.size())
+  if (request.face < 0 || static_cast<std::size_t>(request.face) >= mesh.faces.size())
     throw data::ArgumentError(fmt::format("{} has faces 0 to {}, not {}", request.mesh,
-                                          static_cast<std::int64_t>(mesh.triangles.size()) - 1,
-                                          request.face));
+                                          static_cast<std::int64_t>(mesh.faces.size()) - 1, request.face));
   const Parameter l1 = Parameter::parse(request.l1), l2 = Parameter::parse(request.l2);
   const Weights weights = request.weights == "warren" ? Weights::kWarren : Weights::kLoop;
   const CertifiedPoint point = reference::CertifiedEvaluator(mesh, weights)

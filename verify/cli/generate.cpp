@@ -43,8 +43,7 @@ int generate(const Options& options) {
   const std::string specification = options.seed.empty() ? options.name : options.name + ":" + options.seed;
   const data::ControlMesh mesh = data::named_mesh(specification);
   data::write_mesh(options.file, mesh, {.ascii_ply = options.ascii});
-  fmt::print(stderr, "{}: {} vertices, {} faces\n", options.file, mesh.positions.size(),
-             mesh.triangles.size());
+  fmt::print(stderr, "{}: {} vertices, {} faces\n", options.file, mesh.positions.size(), mesh.faces.size());
   return kHeld;
 }
 

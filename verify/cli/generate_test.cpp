@@ -19,7 +19,7 @@ TEST_F(GenerateCommand, WritesABumpySphereInEveryFormat) {
     const Outcome o = run(std::string("generate bumpy:200 -o ") + file);
     ASSERT_EQ(o.code, 0) << o.err;
     const data::ControlMesh mesh = data::read_mesh(folder_ / file);
-    EXPECT_EQ(mesh.triangles.size(), 200U);
+    EXPECT_EQ(mesh.faces.size(), 200U);
     EXPECT_EQ(mesh.positions.size(), 102U);
   }
 }

@@ -182,7 +182,7 @@ Outcome run(const Arguments& a, const data::ControlMesh& mesh, const fast::Depth
   if (a.engine == "sliding-window")
     return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
   fast::row_stream::StreamTessellator stream(mesh, engine);
-  const std::string text = fmt::format("tessellating {} faces", mesh.triangles.size());
+  const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
   stream.on_progress(
       [&](std::size_t done, std::size_t total) { progress.show(total + done, 3 * total, text); });
   return run(stream, options, view, lap, timings);
@@ -203,7 +203,7 @@ int tessellate(const Arguments& a) {
   timings.read = lap();
 
   progress.clear();
-  progress.show(1, 3, fmt::format("tessellating {} faces", mesh.triangles.size()));
+  progress.show(1, 3, fmt::format("tessellating {} faces", mesh.faces.size()));
   const Outcome outcome = run(a, mesh, options, view, progress, lap, timings);
   const fast::FrameStats& stats = outcome.stats;
 

@@ -94,7 +94,7 @@ TEST_F(WitnessFiles, AreSmallAfterShrinking) {
   EXPECT_NE(o.err.find("shrunk to"), std::string::npos) << o.err;
   EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
   for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
-    EXPECT_LE(data::read_mesh(entry.path() / "control.obj").triangles.size(), 8U) << entry.path();
+    EXPECT_LE(data::read_mesh(entry.path() / "control.obj").faces.size(), 8U) << entry.path();
 }
 
 TEST_F(WitnessFiles, ReproductionOfAQuickAuditIsQuick) {

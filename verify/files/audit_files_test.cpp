@@ -29,7 +29,7 @@ TEST(AuditFiles, AShuffledTessellationWithoutProvenanceHoldsWithinTheRoundingOfF
     EXPECT_EQ(findings(a), "") << name << ": " << row(a, "file-coverage").message
                                << row(a, "file-watertight").message;
     EXPECT_LE(*row(a, "file-distance").worst, 1e-7) << name;
-    EXPECT_EQ(row(a, "file-coverage").of, static_cast<std::int64_t>(mesh.triangles.size())) << name;
+    EXPECT_EQ(row(a, "file-coverage").of, static_cast<std::int64_t>(mesh.faces.size())) << name;
   }
 }
 
@@ -123,7 +123,7 @@ TEST(AuditFiles, ProvenanceIsHeldAgainstTheExactEvaluationThere) {
   const auto mesh = data::named_mesh("bumpy:20");
   const auto refined = reference::refine<double>(mesh, 2);
   std::vector<ProvenanceRow> rows(refined.positions().size());
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (int j = 0; j <= 4; ++j)
       for (int i = 0; i + j <= 4; ++i) {
         const auto v = refined.vertex(f, i, j);

@@ -66,7 +66,7 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
                          : fmt::format("{} of {} triangles face inwards", facing.bad, facing.of);
   }
 
-  std::vector<double> share(e.control.triangles.size(), 0);
+  std::vector<double> share(e.control.faces.size(), 0);
   std::int64_t crossing = 0, lost = 0;
   double all = 0;
   for (std::size_t t = 0; t < placed.size(); ++t) {

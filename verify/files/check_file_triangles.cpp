@@ -61,8 +61,8 @@ std::vector<Result> check_file_triangles(const FileEvidence& e) {
     r.message = "the file has no faces";
     return {r};
   }
-  const double spacing = std::min(1., std::sqrt(static_cast<double>(e.control.triangles.size()) /
-                                                static_cast<double>(t.triangles.size())));
+  const double spacing = std::min(
+      1., std::sqrt(static_cast<double>(e.control.faces.size()) / static_cast<double>(t.triangles.size())));
   std::int64_t joints = 0, thin = 0;
   for (std::size_t k = 0; k < t.triangles.size(); ++k) {
     const auto& v = t.triangles[k];

@@ -40,7 +40,7 @@ Apart apart(const std::vector<Vector>& points, const std::vector<Vector>& cloud)
 
 // Vertices after so many steps: triangles, or quads from triangles.
 double vertices_after(const data::ControlMesh& mesh, Scheme scheme, int steps) {
-  const double growth = std::pow(4, steps) * static_cast<double>(mesh.triangles.size());
+  const double growth = std::pow(4, steps) * static_cast<double>(mesh.faces.size());
   return scheme == Scheme::kCatmullClark ? .75 * growth : .5 * growth;
 }
 

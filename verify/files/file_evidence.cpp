@@ -146,12 +146,13 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
           if (next < 0 || !domain.express(at, next, there)) continue;
           // (a, b, c) with c opposite and d beyond: l_d d = l_d (a + b - c).
           double beyond = 0;
+          const auto corners = faces[face];
           for (int i = 0; i < 3; ++i) {
-            const auto place = std::find(faces[face].begin(), faces[face].end(), faces[next][i]);
-            if (place == faces[face].end() || place - faces[face].begin() == k)
+            const auto place = std::find(corners.begin(), corners.end(), faces[next][i]);
+            if (place == corners.end() || place - corners.begin() == k)
               beyond = there.l[i];
             else
-              l[c][place - faces[face].begin()] = there.l[i];
+              l[c][place - corners.begin()] = there.l[i];
           }
           l[c][k] = -beyond;
           l[c][(k + 1) % 3] += beyond;

@@ -25,7 +25,7 @@ constexpr std::size_t kExact = 400;  // places at which the distance is computed
 class Measurer {
  public:
   Measurer(const FileEvidence& e, std::function<void()> tick)
-      : e_(e), tick_(std::move(tick)), over_(e.control.triangles.size()) {
+      : e_(e), tick_(std::move(tick)), over_(e.control.faces.size()) {
     const auto& list = e.tessellation.triangles;
     corners_.resize(list.size());
     std::vector<BoxTree::Box> boxes;
@@ -347,7 +347,7 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
       *r.worst, most, h.from_triangles.at_least / size, h.from_triangles.at_most / size,
       h.from_surface.at_least / size, h.from_surface.at_most / size);
   if (bound < 0) r.message += "; the bound is that of one triangle per control face";
-  if (bound < 0 && e.tessellation.triangles.size() <= e.control.triangles.size())
+  if (bound < 0 && e.tessellation.triangles.size() <= e.control.faces.size())
     r.message += ", which this file is: only --max-deviation can judge it";
   if (h.loose > 0)
     r.message += fmt::format(

@@ -51,8 +51,8 @@ fast::IndexedMesh<float> sample() {
     const auto n = [size](double x) { return static_cast<float>(x / size); };
     mesh.vertices.push_back({{f(p[0]), f(p[1]), f(p[2])}, {n(p[0]), n(p[1]), n(p[2])}});
   }
-  for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
-    const auto& [a, b, c] = shape.triangles[t];
+  for (std::size_t t = 0; t < shape.faces.size(); ++t) {
+    const auto& [a, b, c] = triangles_of(shape)[t];
     mesh.triangles.push_back(
         {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
     mesh.triangle_face.push_back(static_cast<std::int32_t>(t));
@@ -93,16 +93,16 @@ TEST(MeshOutput, IsReadBackBitForBitAndWatertightByTheMeshReader) {
     write_tessellation(file, mesh);
     const data::ControlMesh back = data::read_mesh(file);  // validated: closed, manifold, oriented
     ASSERT_EQ(back.positions.size(), mesh.vertices.size());
-    ASSERT_EQ(back.triangles.size(), mesh.triangles.size());
+    ASSERT_EQ(back.faces.size(), mesh.triangles.size());
     for (std::size_t v = 0; v < back.positions.size(); ++v) {
       const auto& p = mesh.vertices[v].position;
       EXPECT_EQ(static_cast<float>(back.positions[v][0]), p.x);
       EXPECT_EQ(static_cast<float>(back.positions[v][1]), p.y);
       EXPECT_EQ(static_cast<float>(back.positions[v][2]), p.z);
     }
-    for (std::size_t t = 0; t < back.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < back.faces.size(); ++t) {
       for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(static_cast<std::uint32_t>(back.triangles[t][k]), mesh.triangles[t][k]);
+        EXPECT_EQ(static_cast<std::uint32_t>(triangles_of(back)[t][k]), mesh.triangles[t][k]);
       }
     }
   }

@@ -83,13 +83,13 @@ bool is_relation(const std::string& check) {
 // Triangles at the deepest level: what a case costs without its relations.
 double cost(const AuditMesh& m) {
   const auto& shown = m.sample ? m.sample->part() : m.mesh;
-  return std::ldexp(static_cast<double>(shown.triangles.size()), 2 * m.depth);
+  return std::ldexp(static_cast<double>(shown.faces.size()), 2 * m.depth);
 }
 
 // The model refines all faces of a mesh to the deepest level: more than these it is not asked for.
 constexpr double kModelTriangles = 70000;
 bool too_much(const AuditMesh& m) {
-  return std::ldexp(static_cast<double>(m.mesh.triangles.size()), 2 * m.depth) > kModelTriangles;
+  return std::ldexp(static_cast<double>(m.mesh.faces.size()), 2 * m.depth) > kModelTriangles;
 }
 bool is_model(const std::string& subject, const std::string& options) {
   return subject == kBase || options.find(fmt::format("of={}", kBase)) != std::string::npos;

@@ -30,7 +30,7 @@ std::vector<AuditMesh> cases(double triangles) {
   std::vector<AuditMesh> plan = default_plan(Level::kStandard);
   if (std::getenv("LIMITCHECK_WHOLE_PLAN") == nullptr)
     std::erase_if(plan, [&](const AuditMesh& m) {
-      return std::ldexp(static_cast<double>(m.mesh.triangles.size()), 2 * m.depth) > triangles;
+      return std::ldexp(static_cast<double>(m.mesh.faces.size()), 2 * m.depth) > triangles;
     });
   return plan;
 }

@@ -40,7 +40,7 @@ bool may_be_nearer(const SurfaceLattice& lattice, const reference::StamEvaluator
 
 ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces)
     : domain_(mesh),
-      lattice_(mesh, SurfaceLattice::depth_for(mesh.triangles.size(), pieces)),
+      lattice_(mesh, SurfaceLattice::depth_for(mesh.faces.size(), pieces)),
       surface_(std::make_unique<const reference::StamEvaluator<double>>(mesh)),
       tree_(boxes(lattice_)),
       diagonal_(data::box_diagonal(mesh)) {}

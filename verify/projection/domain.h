@@ -23,9 +23,9 @@ class Domain {
  public:
   /// `mesh` is valid (data/validate.h) and outlives this.
   explicit Domain(const data::ControlMesh& mesh)
-      : lattice_(mesh, 0), around_(mesh.triangles, mesh.positions.size()) {}
+      : lattice_(mesh, 0), around_(mesh.faces, mesh.positions.size()) {}
 
-  std::span<const std::array<std::int32_t, 3>> triangles() const { return lattice_.mesh().triangles; }
+  data::Triangles triangles() const { return triangles_of(lattice_.mesh()); }
 
   /// The face across the edge opposite corner k, or -1 on the boundary.
   std::int32_t across(std::int32_t face, int k) const;

@@ -64,11 +64,12 @@ TEST(PatchBound, IsSharpForAQuadratic) {
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const int a = j * (n + 1) + i;
-      mesh.triangles.push_back({a, a + 1, a + n + 1});
-      mesh.triangles.push_back({a + 1, a + n + 2, a + n + 1});
+      mesh.faces.push_back({a, a + 1, a + n + 1});
+      mesh.faces.push_back({a + 1, a + n + 2, a + n + 1});
     }
   const reference::RefinedMesh<double> refined(mesh);
-  const auto bound = regular_bound(refined.topology(), refined.positions(), mesh.triangles[2 * (3 * n + 3)]);
+  const auto bound =
+      regular_bound(refined.topology(), refined.positions(), triangles_of(mesh)[2 * (3 * n + 3)]);
   ASSERT_TRUE(bound.has_value());
   EXPECT_NEAR(*bound, 2. / 16 / 6, 1e-15);  // second difference 2 / 16
   // The quadratic itself against its chord plane at the centroid: 1/2 * 3 * (1/9) * 2/16.

@@ -57,7 +57,7 @@ TEST(Projection, APointOfTheSurfaceIsItsOwnFoot) {
     const ClosestPoint closest(mesh, 1 << 14);
     data::SplitMix64 random(1);
     for (int n = 0; n < 300; ++n) {
-      const FacePoint at = random_point(random, mesh.triangles.size());
+      const FacePoint at = random_point(random, mesh.faces.size());
       const Foot truth = closest.at(at, {});
       const Foot foot = closest.closest(truth.position);
       if (name != "fan:1") worst = std::max(worst, foot.distance / closest.diagonal());
@@ -77,7 +77,7 @@ TEST(Projection, TheParameterOfAPointOfTheSurfaceIsRecovered) {
     const ClosestPoint closest(mesh, 1 << 14);
     data::SplitMix64 random(2);
     for (int n = 0; n < 500; ++n) {
-      FacePoint at = random_point(random, mesh.triangles.size());
+      FacePoint at = random_point(random, mesh.faces.size());
       for (double& l : at.l) l = (l + .01) / 1.03;  // away from edges, where the face would be ambiguous
       const Foot foot = closest.closest(closest.at(at, {}).position);
       ASSERT_EQ(foot.at.face, at.face) << name;
@@ -111,7 +111,7 @@ TEST(Projection, ThePointItWasOffsetFromIsTheFoot) {
     const ClosestPoint closest(mesh, 1 << 14);
     data::SplitMix64 random(3);
     for (int n = 0; n < 400; ++n) {
-      const FacePoint at = random_point(random, mesh.triangles.size());
+      const FacePoint at = random_point(random, mesh.faces.size());
       const Foot truth = closest.at(at, {});
       const double by = (n % 2 == 0 ? 1 : -1) * 1e-3 * closest.diagonal();
       const bool bounded = name == "icosahedron" || name == "octahedron";
@@ -141,7 +141,7 @@ TEST(Projection, NoSampleOfTheSurfaceIsNearerAndNoneIsBelowTheProvedBound) {
     data::SplitMix64 random(4);
     std::vector<Vector> points;
     for (int n = 0; n < 40; ++n) {
-      const Vector origin = closest.at(random_point(random, mesh.triangles.size()), {}).position;
+      const Vector origin = closest.at(random_point(random, mesh.faces.size()), {}).position;
       const double reach = closest.diagonal() * std::ldexp(1.0, -static_cast<int>(random.next() % 10));
       Vector p = origin;
       for (double& x : p) x += reach * (random.unit() - .5);

@@ -27,7 +27,7 @@ constexpr double kUpward = 1 + 0x1p-48;
 fast::IndexedMesh<float> tessellate(FloatKernel kernel, const data::ControlMesh& mesh, int depth) {
   fast::TessellatorOptions options;
   options.provenance = true;
-  const std::vector<std::int32_t> depths(mesh.triangles.size(), depth);
+  const std::vector<std::int32_t> depths(mesh.faces.size(), depth);
   fast::IndexedMesh<float> out;
   if (kernel == FloatKernel::kSlidingWindow)
     fast::Tessellator<float>(mesh, options).frame(depths, out);

@@ -22,7 +22,7 @@ class LinearRuns {
   using Points = std::vector<fast::Vec3<T>>;
 
   LinearRuns(const data::ControlMesh& mesh, const Points& points)
-      : mesh_(mesh), points_(points), faces_(mesh.triangles.size() == 1 ? 1 : 2) {}
+      : mesh_(mesh), points_(points), faces_(mesh.faces.size() == 1 ? 1 : 2) {}
 
   template <class Visit>
   void run(BoundedKernel kernel, int depth, Visit&& visit) {

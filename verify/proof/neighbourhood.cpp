@@ -15,17 +15,16 @@
 namespace limitcheck::verify {
 namespace {
 
+using data::Faces;
 using fast::Adjacency;
-using Faces = std::vector<std::array<std::int32_t, 3>>;
 
 constexpr std::int32_t kCorners = 4;
 
 data::ControlMesh with_positions(Faces faces) {
   std::int32_t vertices = 0;
-  for (const auto& face : faces)
-    for (const std::int32_t v : face) vertices = std::max(vertices, v + 1);
+  for (const std::int32_t v : faces.corners()) vertices = std::max(vertices, v + 1);
   data::ControlMesh mesh;
-  mesh.triangles = std::move(faces);
+  mesh.faces = std::move(faces);
   data::SplitMix64 random(static_cast<std::uint64_t>(vertices));
   const auto coordinate = [&] { return static_cast<double>(random.next() >> 43) * 0x1p-20 - 1; };
   for (std::int32_t v = 0; v < vertices; ++v)
@@ -56,7 +55,8 @@ int faces_after(const Adjacency& adjacency, std::int32_t h) {
 }
 
 /// Closes the fans of the four corners one after the other; false if that cannot be done in this order.
-bool close_corners(const std::array<int, 4>& valence, const std::array<int, 4>& order, Faces& faces) {
+bool close_corners(const std::array<int, 4>& valence, const std::array<int, 4>& order,
+                   std::vector<std::array<std::int32_t, 3>>& faces) {
   faces = {{0, 2, 3}, {0, 1, 2}};
   std::vector<std::int32_t> loop{0, 1, 2, 3};  // boundary, counter-clockwise
   std::int32_t vertices = kCorners;
@@ -141,7 +141,7 @@ Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge) {
   Faces faces{{0, 2, 3}, {0, 1, 2}};
   const std::int32_t face0 = Adjacency::face(half_edge), face1 = Adjacency::face(adjacency.twin(half_edge));
   for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
-    const auto& corners = mesh.triangles[f];
+    const auto& corners = triangles_of(mesh)[f];
     const bool touches = std::ranges::any_of(corners, [&](std::int32_t v) {
       const auto known = number.find(v);
       return known != number.end() && known->second < kCorners;
@@ -161,9 +161,9 @@ Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge) {
 std::optional<Neighbourhood> interior_pair(const std::array<int, 4>& valence) {
   std::array<int, 4> order{0, 1, 2, 3};
   do {
-    Faces faces;
+    std::vector<std::array<std::int32_t, 3>> faces;
     if (!close_corners(valence, order, faces)) continue;
-    Neighbourhood result{"", with_positions(std::move(faces))};
+    Neighbourhood result{"", with_positions(Faces(faces))};
     result.name = signature(result.mesh, 0);
     return result;
   } while (std::ranges::next_permutation(order).found);
@@ -177,11 +177,11 @@ std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence) {
   std::set<std::string> seen{whole->name};
   const auto without = [&](const std::set<std::size_t>& removed) {
     data::ControlMesh mesh = whole->mesh;
-    mesh.triangles.clear();
-    for (std::size_t f = 0; f < whole->mesh.triangles.size(); ++f)
-      if (!removed.contains(f)) mesh.triangles.push_back(whole->mesh.triangles[f]);
-    data::split_fans(mesh.triangles, mesh.positions.size());
-    Neighbourhood cut = cut_out(with_positions(mesh.triangles), 0);
+    mesh.faces.clear();
+    for (std::size_t f = 0; f < whole->mesh.faces.size(); ++f)
+      if (!removed.contains(f)) mesh.faces.push_back(whole->mesh.faces[f]);
+    data::split_fans(mesh.faces, mesh.positions.size());
+    Neighbourhood cut = cut_out(with_positions(mesh.faces), 0);
     if (seen.insert(cut.name).second) result.push_back(std::move(cut));
   };
   const std::vector<std::size_t> ring = surrounding(whole->mesh);

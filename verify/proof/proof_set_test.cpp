@@ -77,7 +77,7 @@ TEST(Proof_Set, HoldsEveryTripleWithEachOfItsCornersApart) {
 std::set<Valences> pairs_by_edges(const data::ControlMesh& mesh) {
   std::map<std::int32_t, int> valence;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> apex;  // left of the directed edge
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (const auto& [a, b, c] : triangles_of(mesh)) {
     for (const auto v : {a, b, c}) ++valence[v];  // closed: as many faces as neighbours
     apex[{a, b}] = c, apex[{b, c}] = a, apex[{c, a}] = b;
   }

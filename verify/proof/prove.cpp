@@ -33,7 +33,7 @@ std::optional<BoundProof> bound_of(const std::string& kernel, const ProofTask& t
 std::optional<CostProof> cost_of(const std::string& kernel, const ProofTask& task) {
   const bool window = kernel == name_of(BoundedKernel::kSlidingWindow);
   if (!window && kernel != name_of(BoundedKernel::kRowStream)) return std::nullopt;
-  if (task.neighbourhood.mesh.triangles.size() == 1) return std::nullopt;  // counted per pair
+  if (task.neighbourhood.mesh.faces.size() == 1) return std::nullopt;  // counted per pair
   const KernelCost cost = count_operations(window ? CountedKernel::kSlidingWindow : CountedKernel::kRowStream,
                                            task.neighbourhood.mesh, task.options.last_depth);
   return CostProof{cost.flops_per_point(), cost.vectors_per_point()};

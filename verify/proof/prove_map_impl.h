@@ -100,7 +100,7 @@ ProofRow compare(const Neighbourhood& neighbourhood, const char* kernel, const M
 template <class C, class Maps>
 std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options, Maps maps) {
   std::vector<ProofRow> rows;
-  const std::int32_t faces = neighbourhood.mesh.triangles.size() == 1 ? 1 : 2;
+  const std::int32_t faces = neighbourhood.mesh.faces.size() == 1 ? 1 : 2;
   const auto points = identity<C>(neighbourhood.mesh.positions.size());
   if (options.sliding_window) {
     const WindowRuns<Stencil<C>, LinearSurface<Stencil<C>>> runs(neighbourhood.mesh, points);

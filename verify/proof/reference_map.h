@@ -44,9 +44,9 @@ inline fast::LatticePoint lowest_terms(fast::LatticePoint p) {
 
 /// The vertices that a face's limit points depend on: the rings of its corners.
 inline std::vector<std::size_t> points_near(const data::ControlMesh& mesh, std::int32_t face) {
-  const auto& corners = mesh.triangles[face];
+  const auto& corners = triangles_of(mesh)[face];
   std::vector<bool> near(mesh.positions.size());
-  for (const auto& other : mesh.triangles) {
+  for (const auto& other : triangles_of(mesh)) {
     if (std::ranges::find_first_of(other, corners) == other.end()) continue;
     for (const std::int32_t v : other) near[v] = true;
   }
@@ -93,7 +93,8 @@ class ReferenceMap {
     if (!fresh) return result;
     result.points = points_near(mesh_, face);
     for (std::size_t k = 0; k < result.points.size(); k += 3)
-      result.evaluators.emplace_back(unit_vectors<C>(mesh_, result.points, k), mesh_.triangles);
+      result.evaluators.emplace_back(unit_vectors<C>(mesh_, result.points, k),
+                                     triangles_of(mesh_).to_vector());
     return result;
   }
 

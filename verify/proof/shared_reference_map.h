@@ -18,7 +18,7 @@ template <class C>
 class SharedReferenceMap {
  public:
   explicit SharedReferenceMap(const data::ControlMesh& mesh)
-      : mesh_(mesh), topology_(mesh.positions.size(), mesh.triangles) {}
+      : mesh_(mesh), topology_(mesh.positions.size(), mesh.faces) {}
 
   const MapRow<C>& at(const fast::LatticePoint& point) {
     const fast::LatticePoint p = lowest_terms(point);

@@ -25,7 +25,7 @@ TEST(Proof_SharedReferenceMap, EqualsTheEvaluatorsAtEveryPoint) {
       EXPECT_TRUE(a.position == b.position && a.d1 == b.d1 && a.d2 == b.d2)
           << n.name << " face " << at.face << " at " << at.i << ' ' << at.j << " of " << at.denominator;
     };
-    for (std::int32_t face = 0; face < (n.mesh.triangles.size() == 1 ? 1 : 2); ++face) {
+    for (std::int32_t face = 0; face < (n.mesh.faces.size() == 1 ? 1 : 2); ++face) {
       constexpr std::uint32_t kSize = 16;
       for (std::uint32_t i = 0; i <= kSize; ++i)
         for (std::uint32_t j = 0; i + j <= kSize; ++j) expect_equal({face, i, j, kSize});

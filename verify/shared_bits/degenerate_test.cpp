@@ -79,8 +79,8 @@ TEST(RowStreamAudit, HasNoFindingsOnAPartOfATenMillionthOfTheMesh) {
   const data::ControlMesh part = data::named_mesh("icosahedron");
   const auto before = static_cast<std::int32_t>(mesh.positions.size());
   for (const auto& p : placed(part, [](double x) { return 1e-7 * x; }).positions) mesh.positions.push_back(p);
-  for (const auto& t : part.triangles)
-    mesh.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+  for (const auto& t : triangles_of(part))
+    mesh.faces.push_back({t[0] + before, t[1] + before, t[2] + before});
   for (const int depth : {1, 4}) {
     Auditor auditor(depth, 1);
     expect_no_findings(auditor, {lc_subject_row_stream(), ""}, {"part", mesh});
@@ -111,7 +111,7 @@ TEST(RowStreamDegenerate, NormalsAreUnitVectorsWhereTheSurfaceHasNoneAndTheVerti
         if (!kernel.fused && depth > 4) continue;
         fast::row_stream::StreamTessellator tessellator(mesh, {}, kernel);
         fast::DrawList<float> out;
-        const auto stats = tessellator.frame(std::vector<std::int32_t>(mesh.triangles.size(), depth), out);
+        const auto stats = tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), depth), out);
         EXPECT_EQ(stats.zero_normals, static_cast<std::int64_t>(mesh.positions.size())) << name;
         for (const auto& v : out.vertices) {
           ASSERT_TRUE(std::isfinite(v.position.x + v.position.y + v.position.z))

@@ -69,7 +69,7 @@ void add_edges(const Rewriting& mesh, int depth, const rs::Kernel& kernel, std::
   const fast::Adjacency adjacency(mesh.mesh);
   const rs::RowStream stream(mesh.mesh, adjacency, kernel);
   data::SplitMix64 random(seed);
-  const auto half_edges = shuffled(3 * mesh.mesh.triangles.size(), random);
+  const auto half_edges = shuffled(3 * mesh.mesh.faces.size(), random);
   const auto side = static_cast<std::size_t>(rs::side(depth));
   const int size = 1 << depth;
   constexpr std::size_t kTogether = 1000;

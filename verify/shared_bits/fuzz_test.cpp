@@ -91,7 +91,7 @@ TEST(SharedBitsFuzz, RandomMeshesDepthsAndPairingsGiveEqualBits) {
       const Form form = random.next() % 2 == 0 ? Form::kRows : Form::kWhole;
       add_pairs(other, depth, kernel, form, random.next(), bits);
       add_edges(other, depth, kernel, random.next(), bits);
-      const auto depths = random_depths(mesh.triangles.size(), -1, depth, random.next());
+      const auto depths = random_depths(mesh.faces.size(), -1, depth, random.next());
       constexpr const char* kForms[] = {"output=strips,repair=fan", "output=strips,repair=stitch",
                                         "output=indexed"};
       add_frame(other, depths, fmt::format("{},target={}", kForms[random.next() % 3], kernel.name),
@@ -115,7 +115,7 @@ TEST(SharedBitsFuzz, EveryVectorIsFiniteAndEveryNormalHasLengthOne) {
   for (std::uint64_t seed = s.first; seed < s.first + s.count; ++seed) {
     const auto mesh = fuzz_mesh(seed);
     Session session(*lc_subject_row_stream(), mesh);
-    const Tessellation t = session.tessellate(random_depths(mesh.triangles.size(), 0, 5, seed));
+    const Tessellation t = session.tessellate(random_depths(mesh.faces.size(), 0, 5, seed));
     for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
       const auto p = t.position(v), n = t.normal(v);
       ASSERT_TRUE(std::isfinite(p[0] + p[1] + p[2])) << "seed " << seed << " vertex " << v;
@@ -138,7 +138,7 @@ TEST(SharedBitsFuzz, TheAuditFindsNothingButTheNormalsOfSlivers) {
   for (std::uint64_t seed = s.first; seed < s.first + s.count; ++seed) {
     const auto mesh = fuzz_mesh(seed);
     const AuditMesh audited{fmt::format("seed {}", seed), mesh,
-                            random_depths(mesh.triangles.size(), -1, 4, seed)};
+                            random_depths(mesh.faces.size(), -1, 4, seed)};
     for (const Result& r : auditor.run({lc_subject_row_stream(), ""}, audited)) {
       if (r.check.starts_with("normals") || (r.check == "watertight" && overlaps(seed))) continue;
       EXPECT_NE(r.status, Status::kFinding) << r.mesh << " " << r.check << ": " << r.message;

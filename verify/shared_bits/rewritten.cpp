@@ -14,7 +14,7 @@ Rewriting rewrite(const data::ControlMesh& mesh, std::uint64_t seed) {
   if (seed == 0) return out;
   data::SplitMix64 random(seed);
   out.number_vertices(shuffled(mesh.positions.size(), random));
-  out.order_faces(shuffled(mesh.triangles.size(), random));
+  out.order_faces(shuffled(mesh.faces.size(), random));
   for (std::size_t f = 0; f < out.face.size(); ++f) out.turn_face(f, static_cast<int>(random.next() % 3));
   return out;
 }

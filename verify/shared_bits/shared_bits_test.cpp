@@ -100,7 +100,7 @@ void expect_equal_bits(const std::vector<std::pair<std::string, data::ControlMes
     std::uint64_t seed = 0;
     for (int depth = 0; depth <= deepest; ++depth) {
       for (const Kernel& kernel : kernels()) {
-        if (!kernel.fused && depth > 4 && mesh.triangles.size() > 200) continue;
+        if (!kernel.fused && depth > 4 && mesh.faces.size() > 200) continue;
         const Rewriting other = rewrite(mesh, seed);
         add_pairs(other, depth, kernel, Form::kRows, ++seed, bits);
         if (depth <= 4) add_pairs(other, depth, kernel, Form::kWhole, ++seed, bits);
@@ -147,7 +147,7 @@ TEST(SharedBits, AreEqualAcrossEdgesOfUnequalDepthsForAnyNumberOfThreads) {
         if (!kernel.fused && threads == 5) continue;
         for (const char* form :
              {"output=strips,repair=fan", "output=strips,repair=stitch", "output=indexed"}) {
-          const auto depth = random_depths(mesh.triangles.size(), -1, kernel.fused ? 6 : 4, ++seed);
+          const auto depth = random_depths(mesh.faces.size(), -1, kernel.fused ? 6 : 4, ++seed);
           add_frame(rewrite(mesh, seed), depth, fmt::format("{},target={}", form, kernel.name), threads,
                     bits);
         }

@@ -113,7 +113,7 @@ TEST(Targets, OnlyTheKernelAskedForIsSeenRunning) {
 TEST(Targets, OnlyTheTargetTheSubjectWasGivenIsSeenRunning) {
   const auto mesh = data::named_mesh("bumpy:200");
   // One depth: what repairs the edges between unequal ones is the four lanes of every target.
-  const std::vector<std::int32_t> depth(mesh.triangles.size(), 5);
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 5);
   for (const rs::Kernel& kernel : rs::kernels()) {
     Session session(*lc_subject_row_stream(), mesh, fmt::format("target={}", kernel.name));
     const auto work = [&] {

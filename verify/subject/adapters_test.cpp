@@ -39,7 +39,7 @@ const std::vector<Named> kAdapters{{"opensubdiv-far", ""},
 // counter-clockwise.
 void expect_full_lattice(const data::ControlMesh& mesh, const Tessellation& t,
                          const std::vector<int>& depth) {
-  std::vector<std::set<std::array<std::int64_t, 3>>> cells(mesh.triangles.size());
+  std::vector<std::set<std::array<std::int64_t, 3>>> cells(mesh.faces.size());
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     ASSERT_TRUE(t.triangle_ok(k));
     const auto face = t.triangle_face()[k];
@@ -75,7 +75,7 @@ TEST(Adapters, CoverEachFaceByItsLatticeOnceAndCounterClockwise) {
         EXPECT_TRUE(t.defects().empty());
         EXPECT_TRUE(t.overruns().empty());
         EXPECT_EQ(t.has_normals(), session.capabilities().normals == 1);
-        expect_full_lattice(session.mesh(), t, std::vector<int>(mesh.triangles.size(), depth));
+        expect_full_lattice(session.mesh(), t, std::vector<int>(mesh.faces.size(), depth));
         for (std::int64_t v = 0; v < t.vertex_count(); ++v) EXPECT_FALSE(t.position_unwritten(v));
       }
     }
@@ -119,7 +119,7 @@ TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
     Session vtk_session(*vtk, mesh);
     Session cgal_session(*lc_subject_cgal(), vtk_session.mesh());
     const Tessellation in_float = vtk_session.tessellate(3), exact = cgal_session.tessellate(3);
-    expect_full_lattice(mesh, in_float, std::vector<int>(mesh.triangles.size(), 3));
+    expect_full_lattice(mesh, in_float, std::vector<int>(mesh.faces.size(), 3));
     const auto expected = places(mesh, exact);
     for (const auto& [place, vertices] : places(mesh, in_float)) {
       EXPECT_EQ(vertices.size(), 1u);
@@ -204,7 +204,7 @@ TEST(OpenMesh, IsNotRunWhereItReadsOutOfBounds) {
 // 20000 faces of 4^10 triangles: 10^10 vertices, and 10^11 bytes that nobody asks for.
 TEST(SubjectAdapters, RefuseMoreVerticesThanIndicesNameBeforeTheyAllocate) {
   const auto mesh = data::named_mesh("sheet:100:100");
-  const std::vector<std::int32_t> depth(mesh.triangles.size(), 10);
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 10);
   for (const lc_subject* subject : {lc_subject_row_stream(), lc_subject_sliding_window()}) {
     for (const char* options : {"output=strips", "output=indexed"}) {
       Session session(*subject, mesh, options);

@@ -28,7 +28,7 @@ using namespace limitcheck::verify::test;
 std::set<std::int64_t> boundary_vertices_of_four_faces_or_more(const data::ControlMesh& mesh) {
   std::vector<int> faces(mesh.positions.size()), edges(mesh.positions.size());
   std::set<std::pair<int, int>> directed;
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : triangles_of(mesh)) {
     for (std::size_t k = 0; k < 3; ++k) {
       ++faces[t[k]];
       directed.emplace(t[k], t[(k + 1) % 3]);

@@ -25,13 +25,13 @@ using reference::Vec3;
 using Refined = reference::catmull_clark::RefinedMesh<double>;
 namespace Far = OpenSubdiv::Far;
 
-std::vector<Vec3<double>> positions_of(const data::PolygonMesh& mesh) {
+std::vector<Vec3<double>> positions_of(const data::ControlMesh& mesh) {
   std::vector<Vec3<double>> positions;
   for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
   return positions;
 }
 
-double largest_of(const data::PolygonMesh& mesh) {
+double largest_of(const data::ControlMesh& mesh) {
   double largest = 0;
   for (const auto& p : mesh.positions)
     largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
@@ -42,7 +42,7 @@ double largest_of(const data::PolygonMesh& mesh) {
 struct FarMesh {
   std::vector<Vec3<double>> refined, limits, normals;
 
-  FarMesh(const data::PolygonMesh& mesh, int depth) {
+  FarMesh(const data::ControlMesh& mesh, int depth) {
     std::vector<int> sizes;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       sizes.push_back(static_cast<int>(mesh.faces[f].size()));
@@ -98,8 +98,8 @@ struct FarMesh {
   }
 };
 
-std::vector<std::pair<std::string, data::PolygonMesh>> meshes() {
-  std::vector<std::pair<std::string, data::PolygonMesh>> all{{"cube", data::quad_cube()},
+std::vector<std::pair<std::string, data::ControlMesh>> meshes() {
+  std::vector<std::pair<std::string, data::ControlMesh>> all{{"cube", data::quad_cube()},
                                                              {"torus", data::quad_torus(6, 5)}};
   for (const int n : {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 50})
     all.emplace_back("wheel " + std::to_string(n), data::quad_wheel(n, 7));

@@ -15,7 +15,7 @@ inline data::ControlMesh control_mesh(const lc_mesh& mesh) {
   }
   for (std::int64_t f = 0; f < mesh.triangle_count; ++f) {
     const std::int32_t* t = mesh.triangles + 3 * f;
-    result.triangles.push_back({t[0], t[1], t[2]});
+    result.faces.push_back({t[0], t[1], t[2]});
   }
   return result;
 }

@@ -80,11 +80,11 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
       if (single) x = static_cast<double>(static_cast<float>(x));
       positions_.push_back(x);
     }
-  triangles_.reserve(3 * mesh_.triangles.size());
-  for (const auto& t : mesh_.triangles) triangles_.insert(triangles_.end(), t.begin(), t.end());
+  triangles_.reserve(3 * mesh_.faces.size());
+  for (const auto& t : triangles_of(mesh_)) triangles_.insert(triangles_.end(), t.begin(), t.end());
 
   const lc_mesh view{positions_.data(), static_cast<std::int64_t>(mesh_.positions.size()), triangles_.data(),
-                     static_cast<std::int64_t>(mesh_.triangles.size())};
+                     static_cast<std::int64_t>(mesh_.faces.size())};
   detail::call(subject_, "create", [&](const char** message) {
     return subject_.create(&view, text(options_), &instance_, message);
   });
@@ -111,12 +111,12 @@ std::string Session::label() const {
 }
 
 Tessellation Session::tessellate(int depth, int threads) {
-  const std::vector<std::int32_t> all(mesh_.triangles.size(), depth);
+  const std::vector<std::int32_t> all(mesh_.faces.size(), depth);
   return tessellate(all, threads);
 }
 
 Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int threads) {
-  if (face_depth.size() != mesh_.triangles.size() || threads < 1 ||
+  if (face_depth.size() != mesh_.faces.size() || threads < 1 ||
       std::any_of(face_depth.begin(), face_depth.end(), [](std::int32_t d) { return d < -1; })) {
     throw data::ArgumentError("tessellate: one depth >= -1 for each face, and one thread or more");
   }
@@ -134,7 +134,7 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   Tessellation result;
   result.memory_ = std::make_shared<detail::Memory>();
   result.precision_ = capabilities_.precision;
-  result.faces_ = static_cast<std::int64_t>(mesh_.triangles.size());
+  result.faces_ = static_cast<std::int64_t>(mesh_.faces.size());
   const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate};
   lc_tessellation out{};
   detail::call(subject_, "tessellate",
@@ -156,8 +156,8 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
       continue;
     if (changed++ == 0) first = static_cast<std::int64_t>(v);
   }
-  for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-    if (std::equal(mesh_.triangles[f].begin(), mesh_.triangles[f].end(),
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    if (std::equal(mesh_.faces[f].begin(), mesh_.faces[f].end(),
                    triangles_.begin() + 3 * static_cast<std::ptrdiff_t>(f)))
       continue;
     if (changed++ == 0) first = static_cast<std::int64_t>(f);

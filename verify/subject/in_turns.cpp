@@ -102,7 +102,7 @@ std::unique_ptr<Instance> instance_of(const data::ControlMesh& mesh, const std::
   std::vector<double> positions;
   std::vector<std::int32_t> triangles;
   for (const auto& p : mesh.positions) positions.insert(positions.end(), p.begin(), p.end());
-  for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  for (const auto& t : triangles_of(mesh)) triangles.insert(triangles.end(), t.begin(), t.end());
   return std::make_unique<Instance>(std::move(positions), std::move(triangles), options);
 }
 

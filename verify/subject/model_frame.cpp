@@ -128,7 +128,7 @@ void ModelFrame::fan(std::size_t f, const std::array<int, 3>& edge) {
   const auto centre = surface_->evaluate(static_cast<int>(f), third, third, reference::Order::kFirst);
   Vertex out{centre.position, centre.normal, {static_cast<std::int32_t>(f), 1, 1, 3}};
   const auto control = [&](int k) {
-    const auto& p = mesh_.control.positions[mesh_.control.triangles[f][k]];
+    const auto& p = mesh_.control.positions[triangles_of(mesh_.control)[f][k]];
     return V{p[0], p[1], p[2]};
   };
   const auto corner = [&](int k) {
@@ -180,7 +180,7 @@ std::uint32_t ModelFrame::put(std::size_t f, int i, int j, int d) {
   if (rules_.is("gap_1e-9") && border && odd) outwards(1e-9);
   if (rules_.is("by_face_number") && !border && odd) outwards(1e-9);
   if (rules_.is("by_first_corner") && !border) outwards(1e-9 * (n - i - j) / n);
-  if (rules_.is("last_face") && !border && f + 1 == mesh_.control.triangles.size()) outwards(1e-6);
+  if (rules_.is("last_face") && !border && f + 1 == mesh_.control.faces.size()) outwards(1e-6);
   if (rules_.is("bias_3e-6")) outwards(3e-6);
   if (rules_.is("right_half") && out.position.x > 0) out.position.y += 1e-9 * mesh_.size;
   if (rules_.is("along_z")) out.position.z *= 1 + 1e-9;
@@ -205,13 +205,14 @@ std::uint32_t ModelFrame::put(std::size_t f, int i, int j, int d) {
   if (rules_.is("normals_begun_in_face"))
     out.normal = rules_.normal(level_.mesh.topology(), level_.points, static_cast<std::int32_t>(v), f);
   if (rules_.is("faces_sorted")) {
-    const auto& corner = mesh_.control.triangles[f];
+    const auto& corner = triangles_of(mesh_.control)[f];
     const auto lowest = static_cast<int>(std::min_element(corner.begin(), corner.end()) - corner.begin());
     const FaceDomain::Point p = FaceDomain().moved({i, j}, n, {(3 - lowest) % 3});
     out.place.i = static_cast<std::uint32_t>(p.i);
     out.place.j = static_cast<std::uint32_t>(p.j);
   }
-  if (rules_.is("edges_sorted") && j == 0 && mesh_.control.triangles[f][0] > mesh_.control.triangles[f][1])
+  if (rules_.is("edges_sorted") && j == 0 &&
+      triangles_of(mesh_.control)[f][0] > triangles_of(mesh_.control)[f][1])
     out.place.i = out.place.denominator - out.place.i;
   vertices.push_back(out);
   return static_cast<std::uint32_t>(vertices.size() - 1);

@@ -137,8 +137,7 @@ class ModelSubject {
   // The state that mutants keep from one mesh to the next.
   void remember(data::ControlMesh& control) const {
     if (rules_.is("cache_by_count")) {
-      control =
-          cache_.try_emplace({control.positions.size(), control.triangles.size()}, control).first->second;
+      control = cache_.try_emplace({control.positions.size(), control.faces.size()}, control).first->second;
     }
     if (rules_.is("one_buffer")) {
       buffer_.resize(std::max(buffer_.size(), control.positions.size()));
@@ -147,7 +146,7 @@ class ModelSubject {
   }
 
   std::vector<std::int32_t> depths(const lc_request& request) const {
-    std::vector<std::int32_t> depth(request.face_depth, request.face_depth + mesh_->control.triangles.size());
+    std::vector<std::int32_t> depth(request.face_depth, request.face_depth + mesh_->control.faces.size());
     const std::int32_t first = depth[0];
     for (std::int32_t& d : depth) {
       if (d != first && rules_.is("depths_not_supported"))

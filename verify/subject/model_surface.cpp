@@ -35,8 +35,8 @@ void smooth(const reference::Topology& topology, std::vector<V>& limits) {
 }  // namespace
 
 ModelMesh::ModelMesh(const data::ControlMesh& given)
-    : control(given), topology(given.positions.size(), given.triangles) {
-  if (control.triangles.empty()) throw data::ArgumentError("the mesh has no faces");
+    : control(given), topology(given.positions.size(), given.faces) {
+  if (control.faces.empty()) throw data::ArgumentError("the mesh has no faces");
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double low = control.positions[0][axis], high = low;
     for (const auto& p : control.positions) {

@@ -153,7 +153,7 @@ class NaiveSubject {
       for (std::size_t f = 0; f < faces.size(); ++f)
         if (faces[f] != nullptr)
           for (Corner& corner : faces[f]->vertices)
-            if (on_border(mesh_.triangles[f], corner, depth[f], point)) body(point, corner);
+            if (on_border(triangles_of(mesh_)[f], corner, depth[f], point)) body(point, corner);
     };
     std::map<BorderPoint, Corner> chosen;
     each([&](const BorderPoint& point, const Corner& corner) {

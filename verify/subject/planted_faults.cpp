@@ -91,8 +91,8 @@ std::size_t split_off(Copy<Real>& out, const HalfFan& fan) {
 
 std::int32_t control_vertex(const data::ControlMesh& mesh, const lc_provenance& p) {
   const auto corner = FaceDomain().corner_at(point_of(p), p.denominator);
-  if (!corner || p.face < 0 || static_cast<std::size_t>(p.face) >= mesh.triangles.size()) return -1;
-  return mesh.triangles[p.face][*corner];
+  if (!corner || p.face < 0 || static_cast<std::size_t>(p.face) >= mesh.faces.size()) return -1;
+  return triangles_of(mesh)[p.face][*corner];
 }
 
 template <class Real>
@@ -239,7 +239,7 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
       {{"wrong_triangle_face", "one triangle names another control face"},
        [](Mesh mesh, Out out) {
          auto& face = out.triangle_face[some_triangle(out)];
-         face = (face + 1) % static_cast<std::int32_t>(mesh.triangles.size());
+         face = (face + 1) % static_cast<std::int32_t>(mesh.faces.size());
        }},
       {{"index_out_of_range", "one triangle names a vertex that does not exist"},
        [](Mesh, Out out) {

@@ -21,10 +21,11 @@ std::vector<std::int32_t> components(const data::ControlMesh& mesh) {
     while (root[v] != v) v = root[v];
     return static_cast<std::size_t>(v);
   };
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : triangles_of(mesh))
     for (std::size_t k = 1; k < 3; ++k) root[find(t[k])] = static_cast<std::int32_t>(find(t[0]));
   std::map<std::size_t, std::int32_t> number;
-  for (const auto& t : mesh.triangles) number.emplace(find(t[0]), static_cast<std::int32_t>(number.size()));
+  for (const auto& t : triangles_of(mesh))
+    number.emplace(find(t[0]), static_cast<std::int32_t>(number.size()));
   std::vector<std::int32_t> component(root.size(), -1);
   for (std::size_t v = 0; v < root.size(); ++v)
     if (const auto at = number.find(find(static_cast<std::int32_t>(v))); at != number.end())
@@ -34,7 +35,7 @@ std::vector<std::int32_t> components(const data::ControlMesh& mesh) {
 
 std::int32_t component_of(const data::ControlMesh& mesh, const std::vector<std::int32_t>& component,
                           const lc_provenance& place) {
-  return component[mesh.triangles[place.face][0]];
+  return component[triangles_of(mesh)[place.face][0]];
 }
 
 // Edges in the order in which the faces name them; points inside those beyond the first `room` lie half way
@@ -42,12 +43,12 @@ std::int32_t component_of(const data::ControlMesh& mesh, const std::vector<std::
 template <class Real>
 void forget_edges(const data::ControlMesh& mesh, std::size_t room, Copy<Real>& out) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> edges;
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : triangles_of(mesh))
     for (std::size_t k = 0; k < 3; ++k) edges.emplace(std::minmax(t[k], t[(k + 1) % 3]), edges.size());
   for (std::size_t v = 0; v < out.positions.size(); ++v) {
     const lc_provenance& p = out.provenance[v];
     if (control_vertex(mesh, p) >= 0) continue;
-    const auto& t = mesh.triangles[p.face];
+    const auto& t = triangles_of(mesh)[p.face];
     const auto place = FaceDomain().side_of(point_of(p), p.denominator);
     if (!place) continue;
     const std::int32_t a = t[place->side], b = t[FaceDomain().next(place->side)];
@@ -109,7 +110,7 @@ std::vector<PlantedFault<Real>> mesh_faults() {
       {{"edge_without_length", "divides by the lengths of edges: 0 / 0 at both ends"},
        [](Mesh mesh, Out out) {
          std::vector<bool> spoilt(mesh.positions.size(), false);
-         for (const auto& t : mesh.triangles)
+         for (const auto& t : triangles_of(mesh))
            for (std::size_t k = 0; k < 3; ++k) {
              const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
              if (mesh.positions[a] == mesh.positions[b]) spoilt[a] = spoilt[b] = true;

@@ -53,8 +53,8 @@ class RowStreamSubject {
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
-    deliver_frame<float>(*tessellator_, {request.face_depth, mesh_.triangles.size()}, settings_.indexed,
-                         request, out);
+    deliver_frame<float>(*tessellator_, {request.face_depth, mesh_.faces.size()}, settings_.indexed, request,
+                         out);
   }
 
  private:

@@ -61,7 +61,7 @@ class SlidingWindowSubject {
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
-    const std::span<const std::int32_t> depth(request.face_depth, mesh_.triangles.size());
+    const std::span<const std::int32_t> depth(request.face_depth, mesh_.faces.size());
     if (settings_.wide)
       deliver_frame<double>(*double_, depth, settings_.indexed, request, out);
     else

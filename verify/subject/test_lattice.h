@@ -37,7 +37,7 @@ inline std::vector<std::pair<std::string, data::ControlMesh>> shapes() {
 using Place = std::tuple<int, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
 
 inline Place place(const data::ControlMesh& mesh, const lc_provenance& p) {
-  const auto& corners = mesh.triangles[p.face];
+  const auto& corners = triangles_of(mesh)[p.face];
   const auto at = FaceDomain().side_of(point_of(p), p.denominator);
   if (!at) return {2, p.face, p.i, p.j, p.denominator};
   const auto a = corners[at->side], b = corners[FaceDomain().next(at->side)];
@@ -49,8 +49,8 @@ inline Place place(const data::ControlMesh& mesh, const lc_provenance& p) {
 /// (l0, l1, l2) of `p` on `face`, which it may name or only touch.
 inline std::optional<std::array<std::int64_t, 3>> on_face(const data::ControlMesh& mesh,
                                                           const lc_provenance& p, std::int32_t face) {
-  const auto& from = mesh.triangles[p.face];
-  const auto& to = mesh.triangles[face];
+  const auto& from = triangles_of(mesh)[p.face];
+  const auto& to = triangles_of(mesh)[face];
   const std::array<std::int64_t, 3> l{std::int64_t{p.denominator} - p.i - p.j, p.i, p.j};
   if (p.face == face) return l;
   std::array<std::int64_t, 3> result{0, 0, 0};

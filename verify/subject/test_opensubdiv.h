@@ -30,7 +30,7 @@ inline RefinedByOpenSubdiv refined_by_opensubdiv(const data::ControlMesh& mesh,
   RefinedByOpenSubdiv result;
   result.refiner =
       make_refiner({mesh.positions.front().data(), static_cast<std::int64_t>(mesh.positions.size()),
-                    mesh.triangles.front().data(), static_cast<std::int64_t>(mesh.triangles.size())},
+                    mesh.faces.corners().data(), static_cast<std::int64_t>(mesh.faces.size())},
                    type, boundary);
   Far::TopologyRefiner::UniformOptions uniform(steps);
   uniform.fullTopologyInLastLevel = true;

@@ -101,12 +101,13 @@ void cut_otherwise(DeliveredCopy<Real>& out) {
 template <class Real>
 void name_other_faces(const data::ControlMesh& mesh, DeliveredCopy<Real>& out) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::size_t>> edges;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k)
-      edges[{mesh.triangles[f][k], mesh.triangles[f][(k + 1) % 3]}] = {static_cast<std::int32_t>(f), k};
+      edges[{triangles_of(mesh)[f][k], triangles_of(mesh)[f][(k + 1) % 3]}] = {static_cast<std::int32_t>(f),
+                                                                               k};
   for (lc_provenance& p : out.provenance) {
     const std::array<std::uint32_t, 3> l{p.denominator - p.i - p.j, p.i, p.j};
-    const auto& t = mesh.triangles[p.face];
+    const auto& t = triangles_of(mesh)[p.face];
     for (std::size_t k = 0; k < 3; ++k) {
       if (l[(k + 2) % 3] != 0) continue;
       const auto beyond = edges.find({t[(k + 1) % 3], t[k]});

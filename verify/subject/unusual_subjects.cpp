@@ -126,7 +126,7 @@ class UnusualSubject {
 
   void refuse_boundaries() const {
     std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-    for (const auto& t : session_.mesh().triangles)
+    for (const auto& t : triangles_of(session_.mesh()))
       for (std::size_t k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
     std::sort(edges.begin(), edges.end());
     for (const auto& [a, b] : edges)
@@ -137,7 +137,7 @@ class UnusualSubject {
   // Each face as deep as its shallowest neighbour, if that is deeper: no neighbour gets a deeper edge by it.
   std::vector<std::int32_t> deeper(const std::vector<std::int32_t>& asked) const {
     std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> face_of;
-    const auto& triangles = session_.mesh().triangles;
+    const auto& triangles = triangles_of(session_.mesh());
     for (std::size_t f = 0; f < triangles.size(); ++f)
       for (std::size_t k = 0; k < 3; ++k) face_of[{triangles[f][k], triangles[f][(k + 1) % 3]}] = f;
     std::vector<std::int32_t> depth = asked;
@@ -155,8 +155,7 @@ class UnusualSubject {
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) {
-    std::vector<std::int32_t> depth(request.face_depth,
-                                    request.face_depth + session_.mesh().triangles.size());
+    std::vector<std::int32_t> depth(request.face_depth, request.face_depth + session_.mesh().faces.size());
     if (is("deeper_where_allowed")) depth = deeper(depth);
     DeliveredCopy<Real> copy;
     const auto work = [&] {

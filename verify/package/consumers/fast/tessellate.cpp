@@ -22,7 +22,7 @@ int main(int argc, char** argv) try {
   options.provenance = true;
   fast::row_stream::StreamTessellator tessellator(cage, options);
   fast::IndexedMesh<float> mesh;
-  std::vector<std::int32_t> depths(cage.triangles.size(), depth);
+  std::vector<std::int32_t> depths(cage.faces.size(), depth);
   const auto report = [&](const char* what, const fast::FrameStats& frame) {
     std::printf("%s: %lld faces, %lld triangles, %lld vertices, %lld fans\n", what,
                 static_cast<long long>(frame.faces), static_cast<long long>(frame.triangles),

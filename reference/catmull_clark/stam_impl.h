@@ -67,7 +67,9 @@ class FinerSector {
  public:
   explicit FinerSector(const TwoRingSector<N>& s) {
     const Vec3<N> c{};
-    const auto &e = s.e, &f = s.f, &p = s.p;
+    const auto& e = s.e;
+    const auto& f = s.f;
+    const auto& p = s.p;
     // Face points, then edge points between them, then vertices.
     put(1, 1) = face_point(c, e[2], f[2], e[3]);
     put(3, 1) = face_point(e[2], p[0], s.g, f[2]);

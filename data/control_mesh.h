@@ -20,7 +20,8 @@ struct ControlMesh {
   friend bool operator==(const ControlMesh&, const ControlMesh&) = default;
 };
 
-/// The faces of a mesh that has triangles only: the way in for everything that is Loop's alone. Refers to the mesh.
+/// The faces of a mesh that has triangles only: the way in for everything that is Loop's alone. Refers to the
+/// mesh.
 ///   throws   ArgumentError if a face is no triangle
 inline Triangles triangles_of(const ControlMesh& mesh) {
   return Triangles(mesh.faces);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Known answers for Catmull-Clark's surfaces, and Loop's with sharp edges: points, derivatives and normals to 42 digits,
-// each computed by two independent routes outside this project.
+// Known answers for Catmull-Clark's surfaces, and Loop's with sharp edges: points, derivatives and normals to
+// 42 digits, each computed by two independent routes outside this project.
 #pragma once
 
 #include <array>

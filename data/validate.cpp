@@ -138,8 +138,8 @@ class Validator {
     return -1;
   }
 
-  // The corners from the smallest on, towards the smaller of its neighbours: the same for a face and for the same face
-  // turned over.
+  // The corners from the smallest on, towards the smaller of its neighbours: the same for a face and for the
+  // same face turned over.
   std::vector<std::int32_t> canonical(std::int32_t face) const {
     const auto corners = mesh_.faces[face];
     const std::size_t n = corners.size();
@@ -298,8 +298,8 @@ class Validator {
     }
   }
 
-  // Marks the corners of one fan, both ways round from the corner at h. Returns the number of faces of a closed one, 0 of
-  // an open one.
+  // Marks the corners of one fan, both ways round from the corner at h. Returns the number of faces of a
+  // closed one, 0 of an open one.
   int walk(std::int32_t start, std::vector<bool>& reached) const {
     int count = 0;
     for (std::int32_t h = start; h >= 0; h = twin_[previous(h)]) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a control mesh is one that a scheme is defined on: an oriented 2-manifold, boundaries allowed; of triangles for
-// Loop's scheme, of any polygons for Catmull-Clark's.
+// Whether a control mesh is one that a scheme is defined on: an oriented 2-manifold, boundaries allowed; of
+// triangles for Loop's scheme, of any polygons for Catmull-Clark's.
 #pragma once
 
 #include <cstdint>
@@ -58,8 +58,8 @@ std::vector<MeshFinding> validate(const ControlMesh& mesh, Scheme scheme, const 
 /// The same for the scheme that the mesh is meant for, natural_scheme(mesh).
 std::vector<MeshFinding> validate(const ControlMesh& mesh, const Numbering& numbering = {});
 
-/// The finding kEmpty if there are no vertices or no faces, kTooLarge if 32-bit indices cannot name that many vertices or
-/// corners; else nothing.
+/// The finding kEmpty if there are no vertices or no faces, kTooLarge if 32-bit indices cannot name that many
+/// vertices or corners; else nothing.
 std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces, std::int64_t corners);
 
 }  // namespace limitcheck::data

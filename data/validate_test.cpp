@@ -206,7 +206,8 @@ bool valid_by_definition(const ControlMesh& mesh) {
     }
   }
   for (std::int32_t v = 0; v < vertices; ++v) {
-    // The faces at v must be connected through edges at v; if all these have two faces, there are three or more.
+    // The faces at v must be connected through edges at v; if all these have two faces, there are three or
+    // more.
     std::vector<std::size_t> at;
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (has(f, v)) at.push_back(f);

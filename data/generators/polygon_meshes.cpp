@@ -12,7 +12,7 @@
 namespace limitcheck::data {
 namespace {
 
-/// Two rings of quads in `sectors` sectors of a full turn or, if open, of 120 degrees for one and more for more.
+/// Two rings of quads around a vertex: a full turn or, if open, 81 degrees a sector, but at most 324 in all.
 ControlMesh two_rings(int sectors, bool open, std::uint64_t seed) {
   SplitMix64 random(seed);
   const auto varied = [&](double x) { return x + 0.3 * (2 * random.unit() - 1); };

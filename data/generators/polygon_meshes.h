@@ -18,8 +18,9 @@ ControlMesh quad_wheel(int n, std::uint64_t seed);
 ControlMesh quad_fan(int faces, std::uint64_t seed);
 /// A prism over an n-gon: two n-gons and n quads, n >= 3.
 ControlMesh polygon_prism(int n);
-/// The dual of a closed triangle mesh: a vertex in the middle of each triangle, a face of n corners around each vertex of
-/// valence n. Faces around a vertex are joined as they lie; every vertex of the dual has valence 3.
+/// The dual of a closed triangle mesh: a vertex in the middle of each triangle, a face of n corners around
+/// each vertex of valence n. Faces around a vertex are joined as they lie; every vertex of the dual has
+/// valence 3.
 ///   throws   ArgumentError: an edge that has not two faces in opposite directions
 ControlMesh dual(const ControlMesh& mesh);
 

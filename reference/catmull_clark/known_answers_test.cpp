@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every smooth known answer, to 39 digits with 100-digit arithmetic, by both evaluators; and exactly in rationals.
+// Every smooth known answer, to 39 digits with 100-digit arithmetic, by both evaluators; and exactly in
+// rationals.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,10 +2,11 @@
 // Catmull-Clark's masks: subdivision, limit position and tangents, at vertices inside and on the boundary.
 //
 // All are written as a point plus weighted differences, so that coincident points stay coincident in floating
-// point and a far-away origin does no harm. All weights but those of the tangents are rational at every valence.
+// point and a far-away origin does no harm. All weights but those of the tangents are rational at every
+// valence.
 //
-// The ring of a vertex c, counter-clockwise seen from outside: its neighbours e_i, and f_i, which lies opposite c
-// in the quad between e_i and e_{i+1}.
+// The ring of a vertex c, counter-clockwise seen from outside: its neighbours e_i, and f_i, which lies
+// opposite c in the quad between e_i and e_{i+1}.
 //
 //      f_1 --- e_1 --- f_0         inside     e_0 .. e_{n-1}, f_0 .. f_{n-1}
 //       |       |       |          boundary   e_0 .. e_K, f_0 .. f_{K-1}: a sector of K faces, e_0 and e_K
@@ -83,16 +84,16 @@ Vec3<N> boundary_limit(const Vec3<N>& c, const Vec3<N>& first, const Vec3<N>& la
   return c + ((first - c) + (last - c)) * (N(1) / N(6));
 }
 
-/// 4 lambda - 1 of the eigenvalue lambda = (5 + cos t + cos(t/2) sqrt(2 (9 + cos t))) / 16 of the first frequency:
-/// t = 2 pi / n inside (q = n), t = pi / K on the boundary (q = 2 K).
+/// 4 lambda - 1 of the eigenvalue lambda = (5 + cos t + cos(t/2) sqrt(2 (9 + cos t))) / 16 of the first
+/// frequency: t = 2 pi / n inside (q = n), t = pi / K on the boundary (q = 2 K).
 template <class N>
 N four_lambda_minus_one(long q) {
   const N c = NumberTraits<N>::cos_pi(2, q), half = NumberTraits<N>::cos_pi(1, q);
   return (N(1) + c + half * NumberTraits<N>::sqrt(N(2) * (N(9) + c))) * (N(1) / N(4));
 }
 
-/// C = sum 4 cos(i t) e_i + (cos(i t) + cos((i + 1) t)) / (4 lambda - 1) f_i and S with sines, t = 2 pi / n, taken
-/// from differences to c. C points towards e_0, S a quarter turn on.
+/// C = sum 4 cos(i t) e_i + (cos(i t) + cos((i + 1) t)) / (4 lambda - 1) f_i and S with sines, t = 2 pi / n,
+/// taken from differences to c. C points towards e_0, S a quarter turn on.
 template <class N>
 Tangents<N> interior_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges,
                               std::span<const Vec3<N>> faces) {
@@ -110,16 +111,16 @@ Tangents<N> interior_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges,
   return t;
 }
 
-/// Along the boundary, r_0 - r_K, and across it into the surface, for a sector of K faces with the ordinary edge
-/// rule on its inner edges. With t = pi / K, lambda as above and T = cot(t / 2):
+/// Along the boundary, r_0 - r_K, and across it into the surface, for a sector of K faces with the ordinary
+/// edge rule on its inner edges. With t = pi / K, lambda as above and T = cot(t / 2):
 ///
 ///   inner e_i   4 sin(i t)                   f_i   (sin(i t) + sin((i + 1) t)) / (4 lambda - 1)
 ///   ends        l0 = (4 lambda sin t - (8 lambda - 1) T) / (4 lambda - 1)^2
 ///   c           -2 l0 - T (16 lambda - 2) / (4 lambda - 1), which makes the sum zero
 ///   K = 1       (-2; 1, 1; 0)
 ///
-/// The mask of catmarkScheme.h in OpenSubdiv belongs to another edge rule (Biermann, Levin, Zorin 2000). For K = 4
-/// the surface takes the plane on like 1/k, for K >= 5 it has none.
+/// The mask of catmarkScheme.h in OpenSubdiv belongs to another edge rule (Biermann, Levin, Zorin 2000). For
+/// K = 4 the surface takes the plane on like 1/k, for K >= 5 it has none.
 template <class N>
 Tangents<N> boundary_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges,
                               std::span<const Vec3<N>> faces) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What makes a mask right, whatever its numbers: a step of subdivision leaves a limit where it is and shrinks a tangent by
-// its eigenvalue. And the numbers that are known.
+// What makes a mask right, whatever its numbers: a step of subdivision leaves a limit where it is and shrinks
+// a tangent by its eigenvalue. And the numbers that are known.
 #include <gtest/gtest.h>
 
 #include <cstdio>

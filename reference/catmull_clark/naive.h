@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of section 4 with Catmull-Clark's rules: every quad by itself, four sub-quads down to the
-// depth, limit point and normal at the leaves. Most points are computed several times; that is its point.  [C18, C21]
+// The recursive subdivider of section 4 with Catmull-Clark's rules: every quad by itself, four sub-quads down
+// to the depth, limit point and normal at the leaves. Most points are computed several times; that is its
+// point. [C18, C21]
 #pragma once
 
 #include <array>
@@ -42,9 +43,9 @@ class NaiveSubdivider {
 
   std::size_t face_count() const;
 
-  /// Subdivides a quad (corner 0), or the sub-quad at a corner of another face, and hands its leaves to `emit`, depth
-  /// first. A quad has 4^depth of them, 2^depth + 1 lattice points a side; a sub-quad is itself the result of a step and
-  /// is subdivided once less. Any number of threads may do so at once.
+  /// Subdivides a quad (corner 0), or the sub-quad at a corner of another face, and hands its leaves to
+  /// `emit`, depth first. A quad has 4^depth of them, 2^depth + 1 lattice points a side; a sub-quad is itself
+  /// the result of a step and is subdivided once less. Any number of threads may do so at once.
   ///   throws   data::ArgumentError: no such face or corner, depth < 0 or > 30, a face that is no quad at depth 0
   void tessellate(std::size_t face, std::size_t corner, int depth,
                   const std::function<void(const LeafQuad<N>&)>& emit) const;

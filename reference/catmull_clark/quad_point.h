@@ -19,19 +19,19 @@ inline constexpr bool kHasNormals = requires(N a) {
   NumberTraits<N>::sqrt(a);
 };
 
-/// A quad's sub-quad whose (u, v) is turned against the quad's: its u runs along the quad's direction u a + v b, with
-/// these for u and v of the sub-quad at corner k when that starts at the corner.
+/// How the parameters of a sub-quad that starts at corner k of its quad are turned against the quad's:
+/// its u is uu u + uv v and its v is vu u + vv v, up to constants.
 struct Turn {
-  int uu, uv, vu, vv;  ///< the sub-quad's u is uu u + uv v, its v is vu u + vv v, but for what is added
+  int uu, uv, vu, vv;
 };
-/// (u, v), (v, 1 - u), (1 - u, 1 - v), (1 - v, u).
+/// Of corner 0 to 3: (u, v), (v, 1 - u), (1 - u, 1 - v), (1 - v, u).
 constexpr Turn turn_of(std::size_t corner) {
   constexpr std::array<Turn, 4> turns{{{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}}};
   return turns[corner];
 }
 
-/// Sets the derivatives of `result` from those of a patch whose (u, v) is turned; `first`, `second` are positive
-/// factors.
+/// Sets the derivatives of `result` from those of a patch whose (u, v) is turned; `first`, `second` are
+/// positive factors.
 template <class N>
 void set_derivatives(SurfacePoint<N>& result, const PatchPoint<N>& p, const Turn& turn, const N& first,
                      const N& second, Order order) {
@@ -71,9 +71,10 @@ Vec3<N> area_of(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3
   return cross(c - a, d - b);
 }
 
-/// At an extraordinary corner itself: a vertex of valence other than four, or of other than two faces on the boundary.
-/// Towards it the derivatives of order d grow like (2^d lambda)^J, lambda as in masks.h: they vanish at valence 3 and
-/// have no limit above 4, so that none is said to exist there. What is given is the tangent plane:
+/// At an extraordinary corner itself: a vertex of valence other than four, or of other than two faces on the
+/// boundary. Towards it the derivatives of order d grow like (2^d lambda)^J, lambda as in masks.h: they
+/// vanish at valence 3 and have no limit above 4, so that none is said to exist there. What is given is the
+/// tangent plane:
 ///   interior   t1, t2 along the u and v of the quad, of the size of its edges
 ///   boundary   t1 along the boundary (r_0 - r_K) / 2, t2 across it into the surface
 ///   k          which corner of the quad it is

@@ -55,9 +55,9 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
   return refined;
 }
 
-/// The quads of that step, one for each corner of each face, in order. That of corner k has the vertex, the point of
-/// edge k, the face point and the point of edge k - 1. In a quad it begins where the directions of u and v stay those
-/// of the quad; in another face at the vertex.
+/// The quads of that step, one for each corner of each face, in order. That of corner k has the vertex, the
+/// point of edge k, the face point and the point of edge k - 1. In a quad it begins where the directions of u
+/// and v stay those of the quad; in another face at the vertex.
 inline data::Faces refined_faces(const Topology& topology) {
   const auto edges = static_cast<std::int32_t>(topology.vertex_count());
   const auto faces = edges + static_cast<std::int32_t>(topology.edges().size());
@@ -78,7 +78,8 @@ inline data::Faces refined_faces(const Topology& topology) {
   return refined;
 }
 
-/// A mesh of quads with the same limit surface: the mesh itself, or, if it has other faces, the mesh after one step.
+/// A mesh of quads with the same limit surface: the mesh itself, or, if it has other faces, the mesh after
+/// one step.
 template <class N>
 struct QuadMesh {
   Topology topology;
@@ -108,8 +109,8 @@ struct QuadParameter {
   bool halved;  ///< (u, v) = 2 (given - a corner): derivatives of order d have the factor 2^d
 };
 
-/// (u, v) on a face: on a quad itself; on another face on the sub-quad of `corner`, u from the corner along its edge to
-/// the next, v along the edge before.
+/// (u, v) on a face: on a quad itself; on another face on the sub-quad of `corner`, u from the corner along
+/// its edge to the next, v along the edge before.
 ///   throws   data::ArgumentError: no such face or corner (a quad has the corner 0 only), u or v outside 0 .. 1
 template <class N, class P>
 QuadParameter<P> locate(const QuadMesh<N>& mesh, int face, int corner, const P& u, const P& v) {

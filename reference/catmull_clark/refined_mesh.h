@@ -13,9 +13,9 @@
 
 namespace limitcheck::reference::catmull_clark {
 
-/// A mesh after `depth` steps. A quad has the lattice points (i, j), 0 <= i, j <= 2^depth, u = i / 2^depth and
-/// v = j / 2^depth. From one step on each corner of another face has a sub-quad of its own with 0 <= i, j <= 2^(depth-1).
-/// Vertices shared by faces appear once; the control vertices come first, in their order.
+/// A mesh after `depth` steps. A quad has the lattice points (i, j), 0 <= i, j <= 2^depth, u = i / 2^depth
+/// and v = j / 2^depth. From one step on each corner of another face has a sub-quad of its own with 0 <= i, j
+/// <= 2^(depth-1). Vertices shared by faces appear once; the control vertices come first, in their order.
 /// Built for double, Decimal50, Decimal100 and, without limits(), Rational.
 template <class N>
 class RefinedMesh {
@@ -23,7 +23,8 @@ class RefinedMesh {
   /// Depth 0: the mesh itself. Throws data::ArgumentError if it is not manifold (Topology).
   RefinedMesh(data::Faces faces, std::vector<Vec3<N>> positions);
 
-  /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a few times.
+  /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
+  /// few times.
   ///   throws   data::ArgumentError if the refined mesh would have more than 2^31 - 1 corners
   void refine();
 

@@ -34,7 +34,8 @@ std::int32_t RefinedMesh<N>::vertex(std::size_t face, std::size_t corner, int i,
   if (corner >= (is_quad ? 1 : given_[face].size())) refuse("no corner " + std::to_string(corner));
   const int side = 1 << depth;
   if (i < 0 || j < 0 || i > side || j > side) refuse("no lattice point");
-  // The cell that has the point as a corner, found bit by bit: the quads of a step follow in the order of the corners.
+  // The cell that has the point as a corner, found bit by bit: the quads of a step follow in the order of the
+  // corners.
   static constexpr int kCorner[2][2] = {{0, 1}, {3, 2}};
   const int x = i == side ? i - 1 : i, y = j == side ? j - 1 : j;
   std::size_t cell = is_quad ? face : given_.first_corner(face) + corner;

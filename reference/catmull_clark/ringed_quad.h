@@ -13,8 +13,8 @@
 
 namespace limitcheck::reference::catmull_clark {
 
-/// A corner of a quad with its ring (masks.h). The quad lies between the ring's edges `sector` and `sector` + 1,
-/// cyclically inside.
+/// A corner of a quad with its ring (masks.h). The quad lies between the ring's edges `sector` and `sector` +
+/// 1, cyclically inside.
 ///   Point   a Vec3, or the index of one
 template <class Point>
 struct RingedCorner {
@@ -25,8 +25,8 @@ struct RingedCorner {
 
   int valence() const { return static_cast<int>(edges.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
-  /// Neighbour i steps counter-clockwise from the quad's next corner: 0 is that corner, 1 the one before; i may be
-  /// negative.
+  /// Neighbour i steps counter-clockwise from the quad's next corner: 0 is that corner, 1 the one before; i
+  /// may be negative.
   const Point& edge(int i) const { return edges[slot(i, valence())]; }
   /// The far corner of the face after neighbour i: 0 is the corner opposite in the quad.
   const Point& face(int i) const { return faces[slot(i, face_count())]; }
@@ -72,8 +72,8 @@ struct RingedQuad {
            corner[3].is_regular();
   }
 
-  /// The sixteen points of a regular quad. A boundary vertex of two faces is completed by linear ghosts beyond the
-  /// boundary: ghost(on, inside) is twice the point on it minus the point inside.
+  /// The sixteen points of a regular quad. A boundary vertex of two faces is completed by linear ghosts
+  /// beyond the boundary: ghost(on, inside) is twice the point on it minus the point inside.
   template <class Ghost>
   std::array<Point, 16> patch(Ghost&& ghost) const {
     // Where neighbours 2 and 3 and far corners 1, 2, 3 of corner k lie in the patch.
@@ -141,9 +141,9 @@ Vec3<N> ghost_point(const Vec3<N>& on, const Vec3<N>& inside) {
   return on + (on - inside);
 }
 
-/// A quad's corners after one step, from which its four sub-quads are put together. Sub-quad k sits at corner k and
-/// keeps the directions of u and v: its corner k is the vertex, k + 1 the point of edge k, k + 2 the face point, k - 1
-/// the point of edge k - 1.
+/// A quad's corners after one step, from which its four sub-quads are put together. Sub-quad k sits at corner
+/// k and keeps the directions of u and v: its corner k is the vertex, k + 1 the point of edge k, k + 2 the
+/// face point, k - 1 the point of edge k - 1.
 template <class N>
 class SubdividedQuad {
  public:
@@ -174,8 +174,8 @@ class SubdividedQuad {
   }
 
  private:
-  /// The point of edge k: ahead lies corner k + 1, to the left the face point, behind corner k; on the other side of
-  /// the edge the face point of the neighbour, if there is one.
+  /// The point of edge k: ahead lies corner k + 1, to the left the face point, behind corner k; on the other
+  /// side of the edge the face point of the neighbour, if there is one.
   void make_edge_corner(std::size_t k) {
     const std::size_t next = (k + 1) % 4, before = (k + 3) % 4;
     const RingedCorner<Vec3<N>>&a = vertex_[k], &b = vertex_[next];

@@ -60,8 +60,8 @@ N power(N a, long e) {
   return result;
 }
 
-/// The points (x, y), -1 <= x, y <= 3, one step after a sector's two-ring, where c is (0, 0), e_i (2, 0) and e_{i+1}
-/// (0, 2). (-1, -1) has no point and is not needed.
+/// The points (x, y), -1 <= x, y <= 3, one step after a sector's two-ring, where c is (0, 0), e_i (2, 0) and
+/// e_{i+1} (0, 2). (-1, -1) has no point and is not needed.
 template <class N>
 class FinerSector {
  public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The points around an extraordinary vertex after any number of steps, without taking the steps.
 //
-// After one step all that is near a vertex c is regular but c itself. Its two-ring has six points a sector, seen in
-// the frame with c = (0, 0), e_i = (1, 0), e_{i+1} = (0, 1):
+// After one step all that is near a vertex c is regular but c itself. Its two-ring has six points a sector,
+// seen in the frame with c = (0, 0), e_i = (1, 0), e_{i+1} = (0, 1):
 //
 //      p_{i+1} --- h_i --- r_i        e   the neighbours of c        p   beyond them, (2, 0)
 //         |         |       |         f   opposite c, (1, 1)         r   beyond those, (2, 2)
@@ -27,8 +27,8 @@
 
 namespace limitcheck::reference::catmull_clark {
 
-/// The points around one sector that the next step's patches need, as differences from c, and c itself as difference
-/// from the limit. Outside an open sector they are zero, and `before`, `after` say so.
+/// The points around one sector that the next step's patches need, as differences from c, and c itself as
+/// difference from the limit. Outside an open sector they are zero, and `before`, `after` say so.
 template <class N>
 struct TwoRingSector {
   /// What lies on the other side of edge c - e_i (before) or c - e_{i+1} (after).

@@ -24,9 +24,9 @@ Tangents<N> limit_tangents(const RingedCorner<Vec3<N>>& c) {
                        : interior_tangents<N>(c.point, c.edge_span(), c.face_span());
 }
 
-/// The normal of a vertex from its tangents. Where they fail, that of the faces around after one to three steps,
-/// weighted by area, else of the control faces, else (0, 0, 1). [D12] A boundary vertex of four faces and more has no
-/// tangent plane, or takes it on like 1/k only: the mask's direction is given.
+/// The normal of a vertex from its tangents. Where they fail, that of the faces around after one to three
+/// steps, weighted by area, else of the control faces, else (0, 0, 1). [D12] A boundary vertex of four faces
+/// and more has no tangent plane, or takes it on like 1/k only: the mask's direction is given.
 template <class N>
 Normal<N> limit_normal(const RingedCorner<Vec3<N>>& corner, const Tangents<N>& tangents) {
   Normal<N> normal = unit_normal(tangents, Vec3<N>{});

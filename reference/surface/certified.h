@@ -62,8 +62,9 @@ class CertifiedEvaluator {
   ///            lost) is printed as 0 with its radius
   ///   throws   data::ArgumentError: digits or parameters out of range, no such face
   CertifiedPoint evaluate(int face, const Parameter& l1, const Parameter& l2, int digits) const;
-  /// The same with Catmull-Clark's parameters: (u, v) of a quad (corner 0), or of the sub-quad at a corner of another
-  /// face, see catmull_clark::SubdivisionEvaluator; d1 and d2 are by u and v. Loop's have the corner 0.
+  /// The same with Catmull-Clark's parameters: (u, v) of a quad (corner 0), or of the sub-quad at a corner of
+  /// another face, see catmull_clark::SubdivisionEvaluator; d1 and d2 are by u and v. Loop's have the corner
+  /// 0.
   CertifiedPoint evaluate(int face, int corner, const Parameter& u, const Parameter& v, int digits) const;
 
  private:

@@ -135,10 +135,11 @@ TEST_F(EvalCommand, HasWarrensWeightsToo) {
   EXPECT_EQ(run("eval octahedron 0 0 0 --weights hoppe").code, 2);
 }
 
+constexpr int kScale = 3000;
+
 // Every smooth known answer, at 45 digits; the answers have 42. A file holds no fractions: the control points are
-// 3000 times those of the answers, which makes integers of them.
+// kScale times those of the answers, which makes integers of them.
 TEST_F(EvalCommand, KnowsTheAnswersOfCatmullClarksSurface) {
-  static constexpr int kScale = 3000;
   int cases = 0, samples = 0;
   for (const data::QuadAnswer& a : data::load_quad_answers()) {
     if (a.scheme != "catmull-clark" || a.has_sharp || a.boundary != "edge" || a.triangles != "catmark")

@@ -133,7 +133,7 @@ int check(const Arguments& a) {
   const data::io::PolygonSoup soup = data::io::read_soup(a.file);
   const data::io::Examination found = data::io::examine(soup, read_options(a.mesh));
   const data::MeshSummary summary = data::summarise(found.mesh);
-  const MeshScheme chosen = scheme_of(found.mesh, found.cut, a.mesh);
+  const MeshScheme chosen{found.scheme, found.cut};
   if (a.json) {
     fmt::print("{}\n", to_json(a.file, chosen, soup, found, summary).dump(2));
   } else {

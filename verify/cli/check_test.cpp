@@ -93,6 +93,11 @@ TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
   EXPECT_EQ(json(" --scheme loop")["faults"].size(), 7U);
 }
 
+TEST_F(CheckCommand, ChoosesTheSchemeByFacesThatAreAtFaultToo) {
+  write("twice.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4 2\n");
+  EXPECT_TRUE(run("check twice.obj").out.starts_with("scheme: catmull-clark")) << run("check twice.obj").out;
+}
+
 TEST_F(CheckCommand, RefusesWhatIsNoMesh) {
   write("x.obj", "v 1 2\n");
   EXPECT_EQ(run("check x.obj").code, 2);

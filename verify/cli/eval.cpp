@@ -105,7 +105,7 @@ void run(const Request& request) {
           .evaluate(static_cast<int>(at.face), at.corner.value_or(0), u, v, request.digits);
   EvaluatedPoint evaluated{request.mesh,
                            scheme_line({opened.chosen}, request.options),
-                           opened.chosen.scheme,
+                           opened.chosen,
                            request.weights,
                            at.face,
                            at.corner,

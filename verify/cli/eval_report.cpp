@@ -47,9 +47,10 @@ double radius(const Enclosure& e) {
 void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
   nlohmann::ordered_json json, radii;
   json["mesh"] = at.mesh;
-  json["scheme"] = name_of(at.scheme);
+  json["scheme"] = name_of(at.chosen.scheme);
+  json["faces_cut"] = at.chosen.cut;
   json["face"] = at.face;
-  const bool loop = at.scheme == data::Scheme::kLoop;
+  const bool loop = at.chosen.scheme == data::Scheme::kLoop;
   if (!loop) json["corner"] = at.corner ? nlohmann::ordered_json(*at.corner) : nlohmann::ordered_json();
   json[loop ? "barycentric" : "parameters"] = at.parameters;
   json["digits"] = at.digits;
@@ -82,7 +83,7 @@ void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
 
 void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
   // How the derivatives by the two parameters are written.
-  const bool loop = at.scheme == data::Scheme::kLoop;
+  const bool loop = at.chosen.scheme == data::Scheme::kLoop;
   const std::string a = loop ? "l1" : "u", b = loop ? "l2" : "v";
   const std::string by_a = "d/d" + a, by_b = "d/d" + b;
   const std::string by_aa = fmt::format("d2/d{0}d{0}", a), by_ab = fmt::format("d2/d{}d{}", a, b),

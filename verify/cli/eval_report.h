@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "data/scheme.h"
 #include "reference/surface/certified.h"
+#include "verify/cli/mesh_options.h"
 
 namespace limitcheck::cli {
 
 /// Which point was evaluated, as the user meant it.
 struct EvaluatedPoint {
   std::string mesh, scheme_line;
-  data::Scheme scheme = data::Scheme::kLoop;
+  MeshScheme chosen;
   std::string weights;  // "loop", "warren"
   std::int64_t face = 0;
   std::optional<int> corner;            // Catmull-Clark, of a face that is no quad

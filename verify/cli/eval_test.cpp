@@ -209,6 +209,7 @@ TEST_F(EvalCommand, TakesACornerWhereAFaceIsNoQuad) {
   EXPECT_NE(text.find("d2/dudv "), std::string::npos) << text;
   EXPECT_TRUE(run("eval octahedron 0 0 0").out.starts_with("scheme: loop (all faces are triangles)\n"));
   EXPECT_EQ(nlohmann::json::parse(run("eval octahedron 0 0 0 --json").out)["scheme"], "loop");
+  EXPECT_EQ(nlohmann::json::parse(run("eval prism:5 0 0 0 --triangulate fan --json").out)["faces_cut"], 7);
 }
 
 TEST_F(EvalCommand, SaysWhatIsWrongWithAFaceAndItsParameters) {

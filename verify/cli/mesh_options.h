@@ -26,7 +26,7 @@ data::ReadOptions read_options(const MeshOptions& options);
 
 /// Which scheme a mesh was opened for, and at what price.
 struct MeshScheme {
-  data::Scheme scheme;
+  data::Scheme scheme = data::Scheme::kLoop;
   std::int64_t cut = 0;  // so many faces were cut into triangles
 };
 struct OpenedMesh {

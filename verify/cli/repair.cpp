@@ -25,7 +25,7 @@ int repair(const Arguments& a) {
   const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
   const data::io::Examination mesh = data::io::examine(repaired.soup, read_options(a.mesh));
   data::write_mesh(a.output, mesh.mesh);
-  fmt::print("{}\n", scheme_line({scheme_of(mesh.mesh, mesh.cut, a.mesh)}, a.mesh));
+  fmt::print("{}\n", scheme_line({{mesh.scheme, mesh.cut}}, a.mesh));
   for (const std::string& change : repaired.changes) fmt::print("{}\n", change);
   if (repaired.changes.empty()) fmt::print("nothing had to be changed\n");
   fmt::print("{}: {} vertices, {} faces\n", a.output, mesh.mesh.positions.size(), mesh.mesh.faces.size());

@@ -51,7 +51,7 @@ double angle(const verify::Vector& a, const verify::Vector& b) {
 
 void print_line(verify::Session& session, const reference::StamEvaluator<double>& limit, int depth) {
   const auto faces = static_cast<std::int64_t>(session.mesh().faces.size());
-  const std::int64_t each = verify::FaceDomain().point_count(std::int64_t{1} << depth);
+  const std::int64_t each = verify::FaceDomain::triangle().point_count(std::int64_t{1} << depth);
   const std::int64_t sampled = std::clamp<std::int64_t>(kMostPoints / each, 1, faces);
   std::vector<std::int32_t> depths(faces, -1);
   for (std::int64_t s = 0; s < sampled; ++s) depths[s * faces / sampled] = depth;

@@ -23,8 +23,8 @@
 namespace limitcheck::verify {
 namespace {
 
-bool has_boundary(const data::ControlMesh& mesh) {
-  const Lattice lattice(mesh, 0);
+bool has_boundary(const AuditMesh& audited) {
+  const Lattice lattice(audited.mesh, audited.scheme(), 0);
   return std::any_of(lattice.edges().begin(), lattice.edges().end(),
                      [](const Lattice::Edge& edge) { return edge.on_boundary(); });
 }
@@ -40,12 +40,17 @@ std::string contradicts_capabilities(const std::exception& error, const AuditSub
     return {};
   double size = 0, triangles = 0;
   for (const Vector& p : mesh.mesh.positions) size = std::max(size, largest(p));
-  for (const std::int32_t depth : asked) triangles += depth < 0 ? 0 : std::ldexp(1.0, 2 * depth);
+  for (std::size_t f = 0; f < asked.size(); ++f) {
+    const auto corners = static_cast<double>(mesh.mesh.faces[f].size());
+    const double of_face = mesh.scheme() == data::Scheme::kLoop ? 1 : corners / 2;  // at depth 0
+    triangles += asked[f] < 0 ? 0 : std::ldexp(of_face, 2 * asked[f]);
+  }
   constexpr double kIndexed = 4294967295.0 / 6;  // halfedges included
   if (size < std::ldexp(1.0, -40) || size > std::ldexp(1.0, 40) || triangles > kIndexed) return {};
   try {
-    const lc_capabilities c = capabilities(*audited.subject, audited.options);
-    if (!has_boundary(mesh.mesh)) return "its capabilities do not exclude this";
+    const lc_capabilities c = capabilities(*audited.subject, audited.options, mesh.scheme());
+    if (!does(c, mesh.scheme())) return {};
+    if (!has_boundary(mesh)) return "its capabilities do not exclude this";
     if (c.boundary != LC_BOUNDARY_NONE) return "its capabilities say that it takes open meshes";
   } catch (const SubjectError&) {  // then there is nothing to hold it to
   }
@@ -119,15 +124,14 @@ bool Auditor::related(const AuditMesh& mesh, std::size_t faces) const {
          (level_ == Level::kThorough || (level_ == Level::kStandard && faces <= kRelationFaces));
 }
 
-ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, int depth,
+ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
                                      const lc_capabilities& capabilities) {
   const reference::Weights weights = family(capabilities.weights);
   for (const auto& kept : cache_)
     if (kept->points() == capabilities.points && kept->weights() == weights &&
-        kept->lattice().depth() == depth && kept->mesh().positions == rounded.positions &&
-        triangles_of(kept->mesh()) == triangles_of(rounded))
+        kept->lattice().scheme() == scheme && kept->lattice().depth() == depth && kept->mesh() == rounded)
       return *kept;
-  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, depth, capabilities.points, weights));
+  cache_.push_back(std::make_unique<ReferenceSurface>(rounded, scheme, depth, capabilities.points, weights));
   return *cache_.back();
 }
 
@@ -189,7 +193,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   std::optional<Tessellation> tessellation;
   try {
     step(rows.subject, mesh.name, "tessellates");
-    session.emplace(*audited.subject, mesh.mesh, audited.options);
+    session.emplace(*audited.subject, mesh.mesh, audited.options, Session::Input::kValid, mesh.scheme());
     tessellation.emplace(session->tessellate(asked, threads_));
     rows.add("tessellates", Status::kHeld, "");
     results.back().of = 1;
@@ -215,7 +219,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
 
   const lc_capabilities& capabilities = session->capabilities();
   step(rows.subject, mesh.name, "reference");
-  ReferenceSurface& truth = reference(judged, depth_of(mesh), capabilities);
+  ReferenceSurface& truth = reference(judged, mesh.scheme(), depth_of(mesh), capabilities);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
   const std::string no_reference = prepare(truth, points);
   double magnitude = 0;  // of the whole
@@ -229,7 +233,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.faces.size())) {
     const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
-    for (Result& r : check_relations(audited, evidence, threads_, refusals_[rows.subject], told))
+    for (Result& r : check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))
       results.push_back(std::move(r));
   }
 }

@@ -68,7 +68,7 @@ class Auditor {
   // Whether the relations belong to an audit of so many faces.
   bool related(const AuditMesh& mesh, std::size_t faces) const;
   int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
-  ReferenceSurface& reference(const data::ControlMesh& rounded, int depth,
+  ReferenceSurface& reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
                               const lc_capabilities& capabilities);
   void step(const std::string& subject, const std::string& mesh, std::string_view check);
 
@@ -77,7 +77,7 @@ class Auditor {
   Level level_;
   std::size_t done_ = 0, total_ = 1;
   bool gave_up_ = false, out_of_memory_ = false;
-  std::map<std::string, std::vector<Refusal>> refusals_;  // of each subject, found once
+  std::map<std::pair<std::string, data::Scheme>, std::vector<Refusal>> refusals_;  // of each subject, once
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>>
       cache_;  // of one mesh: by precision, kind of points and weights

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/scheme.h"
 #include "verify/audit/sample.h"
 #include "verify/subject/subject.h"
 
@@ -22,6 +24,9 @@ struct AuditMesh {
   int depth = -1;                                      // of the deepest face; -1: the auditor's
   std::string depths{};   // how the depths were chosen, as --depths takes it (face_depths.h); may be empty
   bool relations = true;  // whether the relations are checked, if the auditor's level includes them
+  std::optional<data::Scheme> asked_scheme = {};  // empty: the one that the mesh is meant for
+
+  data::Scheme scheme() const { return asked_scheme.value_or(data::natural_scheme(mesh)); }
 };
 
 /// A subject under options, which are part of its name in tables and reports.

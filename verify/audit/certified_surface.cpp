@@ -39,10 +39,15 @@ const ExactPoint* CertifiedSurface::at(Lattice::Id id) const {
   const auto [place, is_new] = state_->kept.try_emplace(id);
   std::optional<ExactPoint>& point = place->second;
   if (is_new) try {
-      if (!state_->evaluator) state_->evaluator.emplace(lattice_.mesh(), weights_);
-      const lc_provenance p = lattice_.provenance(id);
+      if (!state_->evaluator) {
+        if (lattice_.scheme() == data::Scheme::kLoop)
+          state_->evaluator.emplace(lattice_.mesh(), weights_);
+        else
+          state_->evaluator.emplace(lattice_.mesh(), lattice_.scheme());
+      }
+      const Place p = lattice_.place(id);
       const auto exact =
-          state_->evaluator->evaluate(p.face, reference::Parameter::fraction(p.i, p.denominator),
+          state_->evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
                                       reference::Parameter::fraction(p.j, p.denominator), kDigits);
       point = {rounded(exact.position), rounded(exact.normal), digits(exact.position), digits(exact.normal),
                exact.normal_kind == reference::NormalKind::kRegular};

@@ -39,9 +39,9 @@ struct Verdict {
 // two shorter ones (`t-vertices` reports T-vertices).
 void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::int64_t scale, Verdict& v) {
   struct Step {
-    std::int64_t i, j, di, dj;  // canonical direction
+    Lattice::Coordinates from, to;  // from < to
     std::int32_t times;
-    auto key() const { return std::tie(i, j, di, dj); }
+    auto key() const { return std::tie(from.part, from.i, from.j, to.part, to.i, to.j); }
   };
   // The scale is fine enough for the centre; without it everything is a multiple of a larger unit.
   const std::int64_t large = domain.centre_denominator();
@@ -52,15 +52,21 @@ void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::in
   const std::int64_t unit = plain ? large : 1;
   std::vector<Step> steps;
   steps.reserve(3 * triangles.size());
-  const auto add = [&](Lattice::Coordinates p, Lattice::Coordinates q, std::int32_t times) {
-    if (p.i > q.i || (p.i == q.i && p.j > q.j)) std::swap(p, q), times = -times;
-    const std::int64_t pieces = std::gcd(q.i - p.i, q.j - p.j) / unit;
-    const std::int64_t di = (q.i - p.i) / pieces, dj = (q.j - p.j) / pieces;
-    for (std::int64_t k = 0; k < pieces; ++k) steps.push_back({p.i + k * di, p.j + k * dj, di, dj, times});
+  const auto add = [&](const Lattice::Coordinates& p, const Lattice::Coordinates& q, std::int32_t times) {
+    domain.for_each_step(p, q, scale, unit, [&](const auto& from, const auto& to) {
+      Step step{domain.canonical(from, scale), domain.canonical(to, scale), times};
+      if (std::tie(step.to.part, step.to.i, step.to.j) <
+          std::tie(step.from.part, step.from.i, step.from.j)) {
+        std::swap(step.from, step.to);
+        step.times = -times;
+      }
+      steps.push_back(step);
+    });
   };
   for (Corners c : triangles) {
-    if (area(c) == 0) continue;
-    if (area(c) < 0) std::swap(c[1], c[2]);
+    const double area = domain.area(c, scale);
+    if (area == 0) continue;
+    if (area < 0) std::swap(c[1], c[2]);
     for (int k = 0; k < 3; ++k) add(c[k], c[(k + 1) % 3], 1);
   }
   for (int k = 0; k < domain.corners(); ++k)
@@ -71,15 +77,19 @@ void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::in
     std::size_t end = k;
     std::int64_t sum = 0;
     for (; end < steps.size() && steps[end].key() == steps[k].key(); ++end) sum += steps[end].times;
-    if (sum != 0) v.note(v.holes, {steps[k].i, steps[k].j});
+    if (sum != 0) v.note(v.holes, steps[k].from);
     k = end;
   }
   // The sum of the areas tells whether it is a hole, an overlap or both.
   if (!v.holes) return;
-  std::int64_t covered = 0;
-  for (const Corners& c : triangles) covered += std::abs(area(c));
-  v.overlaps = covered >= domain.area(scale);
-  v.holes = covered <= domain.area(scale);
+  // Twice the area that the outline has, seen from a corner.
+  double covered = 0, whole = 0;
+  for (const Corners& c : triangles) covered += std::abs(domain.area(c, scale));
+  for (int k = 1; k + 1 < domain.corners(); ++k)
+    whole += domain.area({domain.corner_point(0, scale), domain.corner_point(k, scale),
+                          domain.corner_point(k + 1, scale)}, scale);
+  v.overlaps = covered >= whole;
+  v.holes = covered <= whole;
 }
 
 // Every lattice point of the face's depth is a corner.
@@ -89,19 +99,19 @@ void judge_points(std::span<const Corners> triangles, FaceDomain domain, std::in
   std::vector<bool> met(domain.point_count(n), false);
   bool fan = true;
   for (const Corners& c : triangles) {
-    if (area(c) == 0) continue;
+    if (domain.area(c, scale) == 0) continue;
     bool at_centre = false;
     for (const auto& p : c) {
       at_centre = at_centre || domain.is_centre(p, scale);
       if (p.i % step == 0 && p.j % step == 0)
-        met[domain.number({p.i / step, p.j / step}, n)] = true;
+        met[domain.number({p.i / step, p.j / step, p.part}, n)] = true;
       else if (plain)
         v.note(v.finer, p);
     }
     fan = fan && at_centre;
   }
   domain.for_each_point(n, [&](FaceDomain::Point p) {
-    if (!met[domain.number(p, n)]) v.note(v.coarser, {p.i * step, p.j * step});
+    if (!met[domain.number(p, n)]) v.note(v.coarser, {p.i * step, p.j * step, p.part});
   });
   v.fan = v.coarser && fan && !triangles.empty();
 }
@@ -186,10 +196,8 @@ std::vector<Result> check_coverage(const Evidence& e) {
     r.witness->face = f;
     r.witness->triangle = v.triangle;
     if (v.at.i < 0) continue;
-    r.witness->l1 =
-        fraction(static_cast<std::uint64_t>(v.at.i), static_cast<std::uint64_t>(e.lattice.scale()));
-    r.witness->l2 =
-        fraction(static_cast<std::uint64_t>(v.at.j), static_cast<std::uint64_t>(e.lattice.scale()));
+    r.witness = e.at(e.lattice.place(f, v.at));
+    r.witness->triangle = v.triangle;
   }
   const auto tell = [&](bool Verdict::*fault, const char* what) {
     const auto count =

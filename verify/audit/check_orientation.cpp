@@ -21,7 +21,8 @@ Verdict judge(const Evidence& e, std::int64_t triangle, double slack) {
   if (!e.place(triangle, c)) return Verdict::kNotPlaced;
 
   // On the lattice this is exact; where the facet is nearly degenerate in space, nothing else is judged.
-  const std::int64_t on_lattice = area(c);
+  const double on_lattice =
+      e.lattice.domain(e.tessellation.triangle_face()[triangle]).area(c, e.lattice.scale());
   if (on_lattice < 0) return Verdict::kClockwise;
   if (on_lattice == 0) return Verdict::kGood;  // no orientation; `watertight` counts it
 

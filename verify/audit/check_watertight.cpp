@@ -26,14 +26,12 @@ Lattice::Id point_inside(const Evidence& e, const OpenEdge& edge, Lattice::Id fr
   const std::int32_t face = e.tessellation.triangle_face()[edge.triangle];
   const auto p = e.lattice.in_face(from, face), q = e.lattice.in_face(to, face);
   if (!p || !q) return Lattice::kNone;
-  const std::int64_t di = q->i - p->i, dj = q->j - p->j, pieces = std::gcd(di, dj);
-  for (std::int64_t k = 1; k < pieces; ++k) {
-    const std::int64_t i = p->i + di / pieces * k, j = p->j + dj / pieces * k;
-    const Lattice::Id id = e.lattice.id({face, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
-                                         static_cast<std::uint32_t>(e.lattice.scale())});
-    if (id != Lattice::kNone && named[id]) return id;
-  }
-  return Lattice::kNone;
+  Lattice::Id inside = Lattice::kNone;
+  e.lattice.domain(face).for_each_step(*p, *q, e.lattice.scale(), 1, [&](const auto&, const auto& end) {
+    const Lattice::Id id = e.lattice.id(face, end, e.lattice.scale());
+    if (inside == Lattice::kNone && id != to && id != Lattice::kNone && named[id]) inside = id;
+  });
+  return inside;
 }
 
 // What our own count and CGAL find on the welded surface.
@@ -257,7 +255,7 @@ std::vector<Result> check_watertight(const Evidence& e) {
     if (count > 0) say(surface, fmt::format("the control mesh has {} {}", count, what));
   };
   mention(coincident_boundary_edges(e), "coincident boundary edges");
-  mention(triangles_without_area(e), "triangles without area");
+  mention(faces_without_area(e), "faces without area");
   if (const std::int64_t count = not_finite(e.tessellation); count > 0)
     say(surface,
         fmt::format("{} vertices that are not finite go with the others of their lattice points", count));

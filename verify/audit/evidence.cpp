@@ -16,18 +16,15 @@ Result Evidence::result(std::string check) const {
   r.check = std::move(check);
   r.depth = lattice.depth();
   r.in_float = capabilities.precision == LC_FLOAT32;
+  r.scheme = lattice.scheme();
   r.weights = reference.weights();
   r.status = Status::kHeld;
   return r;
 }
 
 Witness Evidence::at_vertex(std::int64_t vertex) const {
-  const lc_provenance& p = tessellation.provenance()[vertex];
-  Witness w;
+  Witness w = at(tessellation.place(vertex));
   w.vertex = vertex;
-  w.face = p.face;
-  w.l1 = fraction(p.i, p.denominator);
-  w.l2 = fraction(p.j, p.denominator);
   return w;
 }
 
@@ -38,9 +35,13 @@ double Evidence::normal_bound_at(Lattice::Id id) const {
 }
 
 Witness Evidence::at_point(Lattice::Id id) const {
-  const lc_provenance p = lattice.provenance(id);
+  return at(lattice.place(id));
+}
+
+Witness Evidence::at(const Place& p) const {
   Witness w;
   w.face = p.face;
+  if (p.face >= 0 && p.face < lattice.face_count() && lattice.domain(p.face).parts() > 1) w.corner = p.corner;
   w.l1 = fraction(p.i, p.denominator);
   w.l2 = fraction(p.j, p.denominator);
   return w;
@@ -57,6 +58,7 @@ bool Evidence::place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>&
     if (!coordinates) return false;
     corners[k] = *coordinates;
   }
+  lattice.domain(face).share_part(corners, lattice.scale());
   return true;
 }
 
@@ -80,8 +82,9 @@ std::int64_t not_finite(const Tessellation& t) {
 
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice) {
   std::vector<Lattice::Id> ids(tessellation.vertex_count());
-  const auto provenance = tessellation.provenance();
-  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t v) { ids[v] = lattice.id(provenance[v]); });
+  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t v) {
+    ids[v] = lattice.id(tessellation.place(static_cast<std::int64_t>(v)));
+  });
   return ids;
 }
 

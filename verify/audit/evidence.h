@@ -34,10 +34,12 @@ struct Evidence {
   /// How far a normal at a point that has one may be from the exact one, in degrees: normal_bound, or more
   /// where the surface is ill-conditioned (bounds.h).
   double normal_bound_at(Lattice::Id id) const;
-  /// The witness for a lattice point.
+  /// The witness for a lattice point, and for a point of a face.
   Witness at_point(Lattice::Id id) const;
+  Witness at(const Place& p) const;
   /// The lattice coordinates of the corners of a triangle in the face that it names; false if an index or the
-  /// face is out of range, or a corner does not lie in that face.
+  /// face is out of range, or a corner does not lie in that face. Where a part of the face
+  /// has all three, they are named by it.
   bool place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>& corners) const;
 };
 

@@ -35,15 +35,21 @@ FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
   const double away = 2 * norm(high - low) / norm(Vector{1, 2, 3});
   const Vector eye = 0.5 * (low + high) + away * Vector{1, 2, 3};
   FaceDepths depths;
-  for (const auto& t : triangles_of(mesh)) {
-    std::array<Vector, 3> p{};
-    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.positions.at(t[k]);
-    const Vector to_eye = eye - (1. / 3) * (p[0] + p[1] + p[2]);
-    if (dot(cross(p[1] - p[0], p[2] - p[0]), to_eye) <= 0) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto corners = mesh.faces[f];
+    const auto p = [&](std::size_t k) -> const Vector& { return mesh.positions.at(corners[k % corners.size()]); };
+    Vector sum{}, area{};
+    double edge = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      sum = sum + p(k);
+      area = area + cross(p(k) - p(0), p(k + 1) - p(0));
+      edge = std::max(edge, norm(p(k + 1) - p(k)));
+    }
+    const Vector to_eye = eye - (1. / static_cast<double>(corners.size())) * sum;
+    if (dot(area, to_eye) <= 0) {
       depths.push_back(-1);
       continue;
     }
-    double edge = std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
     int depth = 0;
     for (; depth < deepest && edge > kEdge * norm(to_eye); ++depth) edge /= 2;
     depths.push_back(depth);

@@ -36,6 +36,7 @@ Json witness(const Result& r, const std::string& level) {
   const std::optional<Witness>& w = r.witness;
   if (!w) return nullptr;
   return {{"face", index(w->face)},
+          {"corner", index(w->corner)},
           {"l1", text(w->l1)},
           {"l2", text(w->l2)},
           {"vertex", index(w->vertex)},
@@ -78,7 +79,7 @@ std::string to_json(const Report& report, const std::string& level) {
   out["subjects"] = report.subjects;
   out["meshes"] = Json::array();
   for (const auto& m : report.meshes)
-    out["meshes"].push_back({{"name", m.name}, {"vertices", m.vertices}, {"faces", m.faces}});
+    out["meshes"].push_back({{"name", m.name}, {"vertices", m.vertices}, {"faces", m.faces}, {"scheme", data::name_of(m.scheme)}});
   out["results"] = Json::array();
   for (const Result& r : report.results)
     out["results"].push_back({{"subject", r.subject},
@@ -86,6 +87,7 @@ std::string to_json(const Report& report, const std::string& level) {
                               {"depth", r.depth},
                               {"depths", text(r.depths)},
                               {"sample", text(r.sample)},
+                              {"scheme", data::name_of(r.scheme)},
                               {"precision", r.in_float ? "float" : "double"},
                               {"check", r.check},
                               {"status", word(r.status)},

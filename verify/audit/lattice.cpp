@@ -10,8 +10,9 @@
 
 namespace limitcheck::verify {
 
-Lattice::Lattice(const data::ControlMesh& mesh, int depth)
+Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth)
     : mesh_(mesh),
+      scheme_(scheme),
       depth_(depth),
       n_(std::int64_t{1} << depth),
       first_edge_(static_cast<Id>(mesh.positions.size())) {
@@ -26,58 +27,75 @@ Lattice::Lattice(const data::ControlMesh& mesh, int depth)
   sides.reserve(corner_count());
   vertex_face_.assign(mesh.positions.size(), -1);
   for (std::int32_t f = 0; f < face_count(); ++f)
-    for (int k = 0; k < domain_.corners(); ++k) {
-      const std::int32_t from = vertex(f, k), to = vertex(f, domain_.next(k));
+    for (int k = 0; k < domain(f).corners(); ++k) {
+      const std::int32_t from = vertex(f, k), to = vertex(f, domain(f).next(k));
       sides.push_back({std::min(from, to), std::max(from, to), f, k});
       if (vertex_face_[from] < 0) vertex_face_[from] = f;
     }
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
     return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
   });
-  face_edges_.resize(mesh.faces.size());
+  corner_edge_.resize(corner_count());
   for (const Side& s : sides) {
     if (edges_.empty() || edges_.back().a != s.a || edges_.back().b != s.b)
       edges_.push_back({s.a, s.b, {-1, -1}, {0, 0}});
     Edge& edge = edges_.back();
     const int slot = edge.face[0] < 0 ? 0 : 1;
     edge.face[slot] = s.face;
-    edge.corner[slot] = static_cast<std::int8_t>(s.corner);
-    face_edges_[s.face][s.corner] = static_cast<std::int32_t>(edges_.size() - 1);
+    edge.corner[slot] = s.corner;
+    corner_edge_[corner_number(s.face, s.corner)] = static_cast<std::int32_t>(edges_.size() - 1);
   }
-  first_interior_ = first_edge_ + (n_ - 1) * static_cast<Id>(edges_.size());
 
-  row_start_.assign(static_cast<std::size_t>(n_) + 1, 0);
-  for (std::int64_t j = 1; j < n_; ++j)
-    row_start_[j + 1] = row_start_[j] + domain_.inner_points_in_row(j, n_);
-  face_points_ = row_start_[n_] + 1;  // and the centre
+  first_inner_.reserve(mesh.faces.size() + 1);
+  first_inner_.push_back(first_edge_ + (n_ - 1) * static_cast<Id>(edges_.size()));
+  for (std::int32_t f = 0; f < face_count(); ++f) {
+    const bool bare = n_ % domain(f).centre_denominator() != 0;
+    first_inner_.push_back(first_inner_.back() + domain(f).inner_count(n_) + bare);
+  }
 }
 
-Lattice::Id Lattice::id(const lc_provenance& p) const {
+Lattice::Id Lattice::id(const Place& p) const {
   if (p.face < 0 || p.face >= face_count() || p.denominator == 0) return kNone;
-  const std::int64_t denominator = p.denominator;
-  if (!domain_.contains(point_of(p), denominator)) return kNone;
-  const Id first = first_interior_ + face_points_ * p.face;
-  if ((p.i * n_) % denominator != 0 || (p.j * n_) % denominator != 0)
-    return domain_.is_centre(point_of(p), denominator) ? first + face_points_ - 1 : kNone;
-  const Coordinates at{p.i * n_ / denominator, p.j * n_ / denominator};
-  const auto place = domain_.side_of(at, n_);
-  if (!place) return first + row_start_[at.j] + at.i - 1;
-  const auto [side, along] = *place;
-  const std::int32_t from = vertex(p.face, side), to = vertex(p.face, domain_.next(side));
+  return id(p.face, point_of(p), domain(p.face).steps(p.denominator));
+}
+
+Lattice::Id Lattice::id(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const {
+  const FaceDomain its = domain(face);
+  if (!its.contains(p, steps)) return kNone;
+  if ((p.i * n_) % steps != 0 || (p.j * n_) % steps != 0)
+    return its.is_centre(p, steps) ? first_inner_[face + 1] - 1 : kNone;
+  const Coordinates at{p.i * n_ / steps, p.j * n_ / steps, p.part};
+  const auto on_side = its.side_of(at, n_);
+  if (!on_side) return first_inner_[face] + its.inner_number(at, n_);
+  const auto [side, along] = *on_side;
+  const std::int32_t from = vertex(face, side), to = vertex(face, its.next(side));
   if (along == 0) return from;
   const std::int64_t from_smaller = from < to ? along : n_ - along;
-  return first_edge_ + (n_ - 1) * face_edges_[p.face][side] + from_smaller - 1;
+  return first_edge_ + (n_ - 1) * corner_edge_[corner_number(face, side)] + from_smaller - 1;
 }
 
 std::optional<int> Lattice::corner_of(std::int32_t face, Id id) const {
-  for (int k = 0; k < domain_.corners(); ++k)
+  for (int k = 0; k < domain(face).corners(); ++k)
     if (vertex(face, k) == id) return k;
   return std::nullopt;
 }
 
+std::int32_t Lattice::face_of_inner(Id id) const {
+  return static_cast<std::int32_t>(std::upper_bound(first_inner_.begin(), first_inner_.end(), id) -
+                                   first_inner_.begin()) -
+         1;
+}
+
+bool Lattice::is_bare_centre(Id id) const {
+  if (is_shared(id)) return false;
+  const std::int32_t face = face_of_inner(id);
+  return id - first_inner_[face] == domain(face).inner_count(n_);
+}
+
 std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) const {
-  const std::int64_t thirds = domain_.centre_denominator();
-  const auto on_side = [&](int k, std::int64_t along) { return domain_.on_side(k, thirds * along, scale()); };
+  const FaceDomain its = domain(face);
+  const std::int64_t finer = scale() / n_;
+  const auto on_side = [&](int k, std::int64_t along) { return its.on_side(k, finer * along, scale()); };
   if (is_vertex(id)) {
     const auto k = corner_of(face, id);
     return k ? std::optional(on_side(*k, 0)) : std::nullopt;
@@ -85,32 +103,32 @@ std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) c
   if (is_shared(id)) {
     const auto edge = static_cast<std::int32_t>((id - first_edge_) / (n_ - 1));
     const std::int64_t from_smaller = (id - first_edge_) % (n_ - 1) + 1;
-    for (int k = 0; k < domain_.corners(); ++k)
-      if (face_edges_[face][k] == edge)
+    for (int k = 0; k < its.corners(); ++k)
+      if (corner_edge_[corner_number(face, k)] == edge)
         return on_side(k, vertex(face, k) == edges_[edge].a ? from_smaller : n_ - from_smaller);
     return std::nullopt;
   }
-  if ((id - first_interior_) / face_points_ != face) return std::nullopt;
-  if (is_centre(id)) return Coordinates{n_, n_};
-  const Id within = (id - first_interior_) % face_points_;
-  const auto row = std::upper_bound(row_start_.begin() + 1, row_start_.begin() + n_, within) - 1;
-  const std::int64_t j = row - row_start_.begin();
-  return Coordinates{thirds * (within - *row + 1), thirds * j};
+  if (id < first_inner_[face] || id >= first_inner_[face + 1]) return std::nullopt;
+  const Id within = id - first_inner_[face];
+  if (within == its.inner_count(n_)) {
+    const std::int64_t middle = scale() / its.centre_denominator();
+    return Coordinates{middle, middle};
+  }
+  const FaceDomain::Point p = its.inner_point(within, n_);
+  return Coordinates{finer * p.i, finer * p.j, p.part};
 }
 
-lc_provenance Lattice::provenance(Id id) const {
-  std::int32_t face = 0;
-  if (is_vertex(id)) {
-    face = vertex_face_[id];
-  } else if (is_shared(id)) {
-    face = edges_[(id - first_edge_) / (n_ - 1)].face[0];
-  } else {
-    face = static_cast<std::int32_t>((id - first_interior_) / face_points_);
-  }
-  const Coordinates c = *in_face(id, face);
-  const std::int64_t divisor = std::gcd(std::gcd(c.i, c.j), scale());
-  return {face, static_cast<std::uint32_t>(c.i / divisor), static_cast<std::uint32_t>(c.j / divisor),
-          static_cast<std::uint32_t>(scale() / divisor)};
+Place Lattice::place(Id id) const {
+  const std::int32_t face = is_vertex(id)   ? vertex_face_[id]
+                            : is_shared(id) ? edges_[(id - first_edge_) / (n_ - 1)].face[0]
+                                            : face_of_inner(id);
+  return place(face, *in_face(id, face));
+}
+
+Place Lattice::place(std::int32_t face, Coordinates at) const {
+  const std::int64_t whole = domain(face).denominator(scale()), divisor = std::gcd(std::gcd(at.i, at.j), whole);
+  const auto number = [&](std::int64_t k) { return static_cast<std::uint32_t>(k / divisor); };
+  return {face, number(at.i), number(at.j), number(whole), at.part};
 }
 
 std::string fraction(std::uint64_t numerator, std::uint64_t denominator) {

@@ -47,7 +47,7 @@ TEST(Lattice, GivesBackTheCoordinatesOfEveryFaceThatTouchesAPoint) {
 TEST(Lattice, ProvenanceRoundTrips) {
   const data::ControlMesh mesh = data::bipyramid(7);
   const Lattice lattice(mesh, 3);
-  for (Lattice::Id id = 0; id < lattice.size(); ++id) EXPECT_EQ(lattice.id(lattice.provenance(id)), id);
+  for (Lattice::Id id = 0; id < lattice.size(); ++id) EXPECT_EQ(lattice.id(lattice.place(id)), id);
 }
 
 TEST(Lattice, KnowsTheCentreAndNoOtherThirds) {

@@ -53,7 +53,9 @@ std::string origin_of_normals(std::span<const DeliveredNormal> normals, const da
   for (std::size_t v = 0; v < of_control.size(); ++v) of_control[v] = static_cast<std::int32_t>(v);
   const FacetMeans of_vertices(triangles, own, positions);
   const FacetMeans of_points(triangles, point_of, positions);
-  const FacetMeans of_cage(triangles_of(control), of_control, control.positions);
+  std::vector<std::array<std::int32_t, 3>> cage;  // of triangles alone: other faces have no one normal
+  if (control.faces.are_triangles()) cage = triangles_of(control).to_vector();
+  const FacetMeans of_cage(cage, of_control, control.positions);
 
   const auto against = std::count_if(normals.begin(), normals.end(), [](const DeliveredNormal& n) {
     return dot(n.direction, n.expected) < 0;
@@ -70,27 +72,26 @@ std::string origin_of_normals(std::span<const DeliveredNormal> normals, const da
     return std::sqrt(sum / static_cast<double>(normals.size()));
   };
   const auto corner = [&](const DeliveredNormal& n, int k) {
-    return unit(of_cage.by_area[triangles_of(control)[n.face][k]]);
+    return unit(of_cage.by_area[cage[n.face][k]]);
   };
-  const std::vector<std::pair<const char*, Guess>> guesses{
+  std::vector<std::pair<const char*, Guess>> guesses{
       {"averages of the facets around, weighted by area",
        [&](const auto& n) { return of_points.by_area[point_of[n.vertex]]; }},
       {"averages of the facets around, all alike",
        [&](const auto& n) { return of_points.alike[point_of[n.vertex]]; }},
       {"averages of the facets around, weighted by angle",
        [&](const auto& n) { return of_points.by_angle[point_of[n.vertex]]; }},
-      {"the normals of single facets", [&](const auto& n) { return of_vertices.by_area[n.vertex]; }},
-      {"the normals of the control mesh's faces",
-       [&](const auto& n) {
-         const auto& t = triangles_of(control)[n.face];
-         return cross(control.positions[t[1]] - Vector(control.positions[t[0]]),
-                      control.positions[t[2]] - Vector(control.positions[t[0]]));
-       }},
-      {"the normals of the control mesh's vertices, interpolated",
-       [&](const auto& n) {
-         return (1 - n.l1 - n.l2) * corner(n, 0) + n.l1 * corner(n, 1) + n.l2 * corner(n, 2);
-       }},
-  };
+      {"the normals of single facets", [&](const auto& n) { return of_vertices.by_area[n.vertex]; }}};
+  if (!cage.empty()) {
+    guesses.emplace_back("the normals of the control mesh's faces", [&](const auto& n) {
+      const auto& t = cage[n.face];
+      return cross(control.positions[t[1]] - Vector(control.positions[t[0]]),
+                   control.positions[t[2]] - Vector(control.positions[t[0]]));
+    });
+    guesses.emplace_back("the normals of the control mesh's vertices, interpolated", [&](const auto& n) {
+      return (1 - n.l1 - n.l2) * corner(n, 0) + n.l1 * corner(n, 1) + n.l2 * corner(n, 2);
+    });
+  }
   std::string text = turned ? "most of them point the other way" : "";
   const double wrong = apart([](const DeliveredNormal& n) { return n.expected; });
   double least = kNearer * wrong;

@@ -19,10 +19,9 @@ Outline::Outline(const Evidence& e) : lattice_(e.lattice) {
     const int k = edge.corner[which];
     sides_.push_back({face, k, e.face_depth[face], deepest_near(e, face)});
     for (int depth = sides_.back().least; depth <= sides_.back().most; ++depth) {
-      const std::uint32_t n = std::uint32_t{1} << depth;
+      const std::int64_t n = std::int64_t{1} << depth;
       const auto at = [&](std::int64_t along) {
-        const FaceDomain::Point p = lattice_.domain(face).on_side(k, along, n);
-        return lattice_.id({face, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j), n});
+        return lattice_.id(face, lattice_.domain(face).on_side(k, along, n), n);
       };
       for (std::int64_t along = 0; along < n; ++along)
         steps_.push_back({at(along), at(along + 1), side, depth});

@@ -57,20 +57,26 @@ std::string origin_of_points(const Evidence& e) {
     bool limit;
     const char* remark;
   };
-  const std::vector<Guess> guesses{
+  const bool loop = e.lattice.scheme() == data::Scheme::kLoop;
+  const char* no_loop = "; this is not Loop subdivision at all";
+  std::vector<Guess> guesses{
       {Scheme::kLoop, false, wants_limit ? "; what is missing is the last step, the limit mask" : ""},
       {Scheme::kLoop, true, wants_limit ? "" : "; the capabilities should name them so"},
       {Scheme::kWarren, false, "; Warren's is another surface"},
       {Scheme::kWarren, true, "; Warren's is another surface"},
       {Scheme::kLinear, false, "; nothing was subdivided"},
-      {Scheme::kCatmullClark, false, "; this is not Loop subdivision at all"},
-      {Scheme::kCatmullClark, true, "; this is not Loop subdivision at all"},
+      {Scheme::kCatmullClark, false, no_loop},
+      {Scheme::kCatmullClark, true, no_loop},
   };
+  if (!loop)
+    guesses = {
+        {Scheme::kCatmullClark, false, wants_limit ? "; what is missing is the last step, the limit mask" : ""},
+        {Scheme::kCatmullClark, true, wants_limit ? "" : "; the capabilities should name them so"}};
   std::string text;
   double least = std::numeric_limits<double>::infinity();
   for (const Guess& guess : guesses) {
-    if (guess.scheme == Scheme::kCatmullClark && steps == 0) continue;  // the control mesh again
-    const Apart a = apart(e, placed_scheme_points(e.mesh, guess.scheme, steps, guess.limit));
+    if (loop && guess.scheme == Scheme::kCatmullClark && steps == 0) continue;  // the control mesh again
+    const Apart a = apart(e, placed_scheme_points(e.mesh, guess.scheme, steps, guess.limit, e.lattice.scheme()));
     if (a.points < kFewest || !(kTimesNearer * a.from_guess < a.from_truth) || !(a.from_guess < least))
       continue;
     least = a.from_guess;

@@ -4,11 +4,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
-#include "reference/loop/refine.h"
-#include "reference/loop/stam.h"
+#include "reference/surface/surface.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {
@@ -24,25 +24,30 @@ double condition(const reference::SurfacePoint<double>& p) {
   return (norm(scaled(t1)) + norm(scaled(t2))) / area / unit;
 }
 
-// The middle of the side opposite a corner of the face, in the lattice's triangle there.
-std::array<double, 2> beside_corner(FaceDomain domain, int k, std::int64_t n) {
-  const FaceDomain::Point p = domain.on_side(k, 1, n), q = domain.on_side(domain.previous(k), n - 1, n);
-  const double half = 0.5 / static_cast<double>(n);
-  return {static_cast<double>(p.i + q.i) * half, static_cast<double>(p.j + q.j) * half};
+// Of a triangle the middle of the side opposite a corner, in the lattice's triangle there; of other faces the
+// middle of the lattice's quad there.
+std::array<double, 2> beside_corner(const Lattice& lattice, const Place& corner, int k) {
+  const FaceDomain domain = lattice.domain(corner.face);
+  const std::int64_t n = lattice.scale(), step = std::min(n / lattice.n(), domain.denominator(n));
+  const FaceDomain::Point c = domain.corner_point(k, n), p = domain.on_side(k, step, n);
+  // The other neighbour, as the part of corner k names it.
+  const FaceDomain::Point q = *domain.in_part(domain.on_side(domain.previous(k), n - step, n), c.part, n);
+  const double whole = 2.0 * static_cast<double>(domain.denominator(n));
+  return {static_cast<double>(p.i + q.i) / whole, static_cast<double>(p.j + q.j) / whole};
 }
 
 }  // namespace
 
 // The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
 struct ReferenceSurface::Evaluator {
-  std::unique_ptr<reference::StamEvaluator<double>> limit;
-  std::unique_ptr<reference::RefinedMesh<double>> refined;
+  std::unique_ptr<reference::Surface> limit;
+  std::unique_ptr<reference::RefinedSurface> refined;
 };
 
-ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
-                                   reference::Weights weights)
+ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth,
+                                   lc_points points, reference::Weights weights)
     : mesh_(mesh),
-      lattice_(mesh_, depth),
+      lattice_(mesh_, scheme, depth),
       points_(points),
       weights_(weights),
       evaluator_(std::make_unique<Evaluator>()),
@@ -70,27 +75,27 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
 
   if (points_ == LC_POINTS_LIMIT) {
     if (!evaluator_->limit)
-      evaluator_->limit = std::make_unique<reference::StamEvaluator<double>>(mesh_, weights_);
+      evaluator_->limit = std::make_unique<reference::Surface>(mesh_, lattice_.scheme(), weights_);
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
       end_if_interrupted();
       const Lattice::Id id = wanted[k];
-      const lc_provenance p = lattice_.provenance(id);
+      const Place p = lattice_.place(id);
       // Dyadic fractions are exact doubles; thirds are not.
       const auto& limit = *evaluator_->limit;
-      const auto point =
-          !lattice_.is_centre(id)
-              ? limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
-                               static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
-              : limit.evaluate(p.face, reference::Parameter::fraction(p.i, p.denominator),
-                               reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
+      const auto point = std::has_single_bit(p.denominator)
+                             ? limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
+                                              static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
+                             : limit.evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                                              reference::Parameter::fraction(p.j, p.denominator),
+                                              reference::Order::kFirst);
       position_[id] = vector_of(point.position);
       normal_[id] = vector_of(point.normal);
       state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
       condition_[id] = condition(point);
       if (lattice_.is_vertex(id)) {
-        const auto [l1, l2] =
-            beside_corner(lattice_.domain(p.face), *lattice_.corner_of(p.face, id), lattice_.n());
-        const double near = condition(limit.evaluate(p.face, l1, l2, reference::Order::kFirst));
+        const auto at = beside_corner(lattice_, p, *lattice_.corner_of(p.face, id));
+        const double near =
+            condition(limit.evaluate(p.face, p.corner, at[0], at[1], reference::Order::kFirst));
         condition_[id] = std::isfinite(condition_[id]) ? std::max(condition_[id], near) : near;
       }
     });
@@ -98,16 +103,19 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   }
 
   if (!evaluator_->refined)
-    evaluator_->refined = std::make_unique<reference::RefinedMesh<double>>(
-        reference::refine<double>(mesh_, lattice_.depth(), weights_));
+    evaluator_->refined = std::make_unique<reference::RefinedSurface>(mesh_, lattice_.scheme(),
+                                                                      lattice_.depth(), weights_);
   for (const Lattice::Id id : wanted) {
-    const lc_provenance p = lattice_.provenance(id);
-    const auto scale = lattice_.n() / p.denominator;
     state_[id] = State::kNoNormal;
-    position_[id] = lattice_.is_centre(id)  // which is no vertex of a refined mesh
-                        ? Vector{}
-                        : vector_of(evaluator_->refined->positions()[evaluator_->refined->vertex(
-                              p.face, static_cast<int>(p.i * scale), static_cast<int>(p.j * scale))]);
+    if (lattice_.is_bare_centre(id)) continue;  // which is no vertex of a refined mesh
+    if (lattice_.is_vertex(id) && lattice_.depth() == 0) {
+      position_[id] = mesh_.positions[id];
+      continue;
+    }
+    const Place p = lattice_.place(id);
+    const auto finer = lattice_.domain(p.face).denominator(lattice_.n()) / p.denominator;
+    position_[id] = vector_of(evaluator_->refined->position(p.face, p.corner, static_cast<int>(p.i * finer),
+                                                            static_cast<int>(p.j * finer)));
   }
 }
 

@@ -22,9 +22,13 @@ namespace limitcheck::verify {
 /// findings are confirmed by certified().
 class ReferenceSurface {
  public:
-  /// `mesh` is copied. `depth` is that of the lattice.
-  ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
+  /// `mesh` is copied. `depth` is that of the lattice; `weights` are those of Loop's scheme.
+  ReferenceSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth, lc_points points,
                    reference::Weights weights = reference::Weights::kLoop);
+  /// Of the scheme that the mesh is meant for.
+  ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
+                   reference::Weights weights = reference::Weights::kLoop)
+      : ReferenceSurface(mesh, data::natural_scheme(mesh), depth, points, weights) {}
   ~ReferenceSurface();
 
   const data::ControlMesh& mesh() const { return mesh_; }
@@ -36,17 +40,17 @@ class ReferenceSurface {
   /// same time as anything else.
   void prepare(std::span<const Lattice::Id> ids);
 
-  /// All functions below are for prepared points only. The position is a double; reference/loop/stam.h states
-  /// its error.
+  /// All functions below are for prepared points only. The position is a double; reference/surface/surface.h says
+  /// where its error is stated.
   const Vector& position(Lattice::Id id) const { return position_[id]; }
   /// Unit normal; limit points only.
   const Vector& normal(Lattice::Id id) const { return normal_[id]; }
   /// False where the surface has no normal (D12: zero by the
   /// masks; D5: boundary vertices without a tangent plane).
   bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
-  /// Where there is a normal: (|t1| + |t2|) / |t1 x t2|, t1 and t2 the derivatives by l1 and l2. An error of
+  /// Where there is a normal: (|t1| + |t2|) / |t1 x t2|, t1 and t2 the derivatives by l1 and l2, or by u and v. An error of
   /// e in both tangents turns the normal by e times this, in radians. Infinite if t1 x t2 vanishes in double.
-  /// At a control vertex, that of the middle of the opposite side of the finest facet if it is larger, and in
+  /// At a control vertex, that of the middle of the finest facet there if it is larger, and in
   /// any case where the derivatives vanish: a control vertex that is extraordinary need not have any.
   double normal_condition(Lattice::Id id) const { return condition_[id]; }
 

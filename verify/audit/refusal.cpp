@@ -36,16 +36,17 @@ const std::vector<BrokenMesh>& broken_meshes() {
   return meshes;
 }
 
-std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, int threads) {
+std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, data::Scheme scheme, int threads) {
   std::vector<Refusal> refusals;
   for (const BrokenMesh& broken : broken_meshes())
-    refusals.push_back(ask_for_refusal(subject, broken.mesh, threads));
+    refusals.push_back(ask_for_refusal(subject, broken.mesh, scheme, threads));
   return refusals;
 }
 
-Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, int threads) {
+Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, data::Scheme scheme,
+                        int threads) {
   try {
-    Session session(*subject.subject, mesh, subject.options, Session::Input::kAsItIs);
+    Session session(*subject.subject, mesh, subject.options, Session::Input::kAsItIs, scheme);
     const Tessellation t = session.tessellate(std::min(1, session.capabilities().max_depth), threads);
     session.close();
     if (mesh.faces.empty() && t.triangle_count() == 0) return {};  // nothing of nothing
@@ -87,7 +88,7 @@ std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
   std::vector<Result> results;
   for (const AuditSubject& s : subjects)
     for (const AuditMesh& m : meshes) {
-      Refusal refusal = ask_for_refusal(s, m.mesh, threads);
+      Refusal refusal = ask_for_refusal(s, m.mesh, m.scheme(), threads);
       Result r;
       r.subject = s.label();
       r.mesh = m.name;

@@ -27,10 +27,11 @@ struct Refusal {
 };
 
 /// What a subject made of each of broken_meshes().
-std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, int threads);
+std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, data::Scheme scheme, int threads);
 
 /// Hands `mesh` to the subject as it is. Never throws for what the subject does.
-Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, int threads);
+Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, data::Scheme scheme,
+                        int threads);
 
 /// A broken mesh from a file, as it is; polygons are cut into fans. Throws data::InputError: the file cannot
 /// be read, or an index has more than 32 bits; data::ArgumentError: nothing is wrong with the mesh.

@@ -19,11 +19,9 @@ struct Placed {
 };
 
 // Where a vertex lies on the original mesh: its point, and that point together with the face that names it.
-Placed place(const Evidence& e, const Variant& v, const lc_provenance& p) {
-  if (p.face < 0 || p.face >= e.lattice.face_count() || p.denominator == 0 ||
-      !e.lattice.domain(p.face).contains(point_of(p), p.denominator))
-    return {};
-  const lc_provenance q = v.original(p);
+Placed place(const Evidence& e, const Variant& v, const Tessellation& t, std::int64_t vertex) {
+  if (!t.provenance_ok(vertex)) return {};
+  const Place q = v.original(t.place(vertex));
   const Lattice::Id id = e.lattice.id(q);
   if (id == Lattice::kNone) return {};
   return {id * static_cast<Key>(v.face.size()) + q.face, id};
@@ -44,7 +42,7 @@ Compared::Compared(const Evidence& e)
       })) {
   const Variant same = identity(e);
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
-    const Placed at = place(e, same, e.tessellation.provenance()[v]);
+    const Placed at = place(e, same, e.tessellation, v);
     if (at.id == Lattice::kNone) continue;
     by_face_.emplace(*at.face_and_point, v);
     by_point_.emplace(at.id, v);
@@ -67,7 +65,7 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.witness->got = {got.begin(), got.end()};
   };
   for (std::int64_t k = 0; k < t.vertex_count(); ++k) {
-    const Placed at = place(e_, v, t.provenance()[k]);
+    const Placed at = place(e_, v, t, k);
     if (at.id == Lattice::kNone) continue;
     const auto exact = by_face_.find(*at.face_and_point);
     const auto any = by_point_.find(at.id);

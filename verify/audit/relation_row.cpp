@@ -47,7 +47,7 @@ void RelationRow::ask(const std::string& what, const data::ControlMesh& mesh,
 void RelationRow::ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
                       const std::function<void(Session&)>& work) {
   try {
-    Session session(*subject.subject, mesh, subject.options);
+    Session session(*subject.subject, mesh, subject.options, Session::Input::kValid, e_.lattice.scheme());
     work(session);
     session.close();
   } catch (const std::bad_alloc&) {

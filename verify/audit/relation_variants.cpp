@@ -13,7 +13,7 @@ namespace limitcheck::verify {
 
 Variant identity(const Evidence& e) {
   Variant v;
-  static_cast<Rewriting&>(v) = Rewriting(e.mesh);
+  static_cast<Rewriting&>(v) = Rewriting(e.mesh, e.lattice.scheme());
   v.name = "as it was";
   v.face_depth.assign(e.face_depth.begin(), e.face_depth.end());
   v.position = v.normal = [](const Vector& p) { return p; };
@@ -46,7 +46,10 @@ Variant corner_rotation(const Evidence& e) {
   Variant v = identity(e);
   v.name = "with its faces begun at other corners";
   data::SplitMix64 random(3);
-  for (std::size_t f = 0; f < v.face.size(); ++f) v.turn_face(f, 1 + static_cast<int>(random.next() % 2));
+  for (std::size_t f = 0; f < v.face.size(); ++f) {
+    const auto others = static_cast<std::uint64_t>(v.mesh.faces[f].size()) - 1;
+    v.turn_face(f, 1 + static_cast<int>(random.next() % others));
+  }
   v.same_numbers = true;
   return v;
 }

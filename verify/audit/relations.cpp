@@ -96,7 +96,7 @@ class Relations {
 
   Result rejected_inputs(std::vector<Refusal>& refusals) const {
     RelationRow row = begin("rejected-inputs", "meshes", 0);
-    if (refusals.empty()) refusals = ask_for_refusals(subject_, threads_);
+    if (refusals.empty()) refusals = ask_for_refusals(subject_, e_.lattice.scheme(), threads_);
     for (std::size_t k = 0; k < refusals.size(); ++k) {
       const Refusal& refusal = refusals[k];
       row.count(refusal.status != Status::kHeld, 1);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/scheme.h"
 #include "reference/loop/weights.h"
 
 namespace limitcheck::verify {
@@ -33,11 +34,17 @@ std::string_view word(Status status);
 /// Where to look. Whatever does not apply is -1 or empty.
 struct Witness {
   std::int64_t face = -1;      // control face, from 0 in file order
-  std::string l1, l2;          // exact fractions: "3/32"
+  std::string l1, l2;          // exact fractions: "3/32"; of Catmull-Clark's scheme u and v
   std::int64_t vertex = -1;    // of the tessellation
   std::int64_t triangle = -1;  // of the tessellation
   std::vector<double> expected, got;
   std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
+  int corner = -1;  // of a face that is cut into quads, the one whose quad l1 and l2 are of
+
+  /// "FACE" or, of a face that is cut into quads, "FACE:CORNER": as `limitcheck eval` takes it.
+  std::string where() const {
+    return std::to_string(face) + (corner < 0 ? "" : ":" + std::to_string(corner));
+  }
 };
 
 /// The points of a row that have a bound of their own, because the surface's tangents there are so short or
@@ -54,6 +61,7 @@ struct Result {
   int depth = 0;               // of the deepest face
   std::string depths, sample;  // how the depths were chosen, and "FACES:SEED": as --depths, --sample take it
   bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
+  data::Scheme scheme = data::Scheme::kLoop;
   reference::Weights weights = reference::Weights::kLoop;  // the family that the subject declares
   Status status = Status::kNotRun;
   std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
@@ -77,6 +85,7 @@ struct Report {
   struct Mesh {
     std::string name;
     std::int64_t vertices = 0, faces = 0;
+    data::Scheme scheme = data::Scheme::kLoop;
   };
   std::string version;
   int depth = 0;                      // the largest

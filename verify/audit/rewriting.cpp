@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/rewriting.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -24,7 +25,8 @@ std::vector<std::int32_t> shuffled(std::size_t count, data::SplitMix64& random) 
   return order;
 }
 
-Rewriting::Rewriting(data::ControlMesh original) : mesh(std::move(original)) {
+Rewriting::Rewriting(data::ControlMesh original, data::Scheme of_scheme)
+    : mesh(std::move(original)), scheme(of_scheme) {
   face.resize(mesh.faces.size());
   std::iota(face.begin(), face.end(), 0);
   symmetry.resize(face.size());
@@ -38,25 +40,30 @@ void Rewriting::number_vertices(const std::vector<std::int32_t>& number) {
 }
 
 void Rewriting::order_faces(const std::vector<std::int32_t>& order) {
-  mesh.faces = data::Faces(in_order(triangles_of(mesh).to_vector(), order));
+  data::Faces faces;
+  for (const std::int32_t f : order) faces.push_back(std::as_const(mesh.faces)[f]);
+  mesh.faces = std::move(faces);
   face = in_order(face, order);
   symmetry = in_order(symmetry, order);
 }
 
 void Rewriting::turn_face(std::size_t f, int first) {
-  const auto before = triangles_of(mesh)[f];
-  for (int k = 0; k < 3; ++k) mesh.faces[f][k] = before[(k + first) % 3];
-  symmetry[f].first = FaceDomain().corner(first, symmetry[f]);
+  const auto corners = mesh.faces[f];
+  std::rotate(corners.begin(), corners.begin() + first, corners.end());
+  symmetry[f].first = FaceDomain(scheme, static_cast<int>(corners.size())).corner(first, symmetry[f]);
 }
 
 void Rewriting::mirror_faces() {
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    std::reverse(mesh.faces[f].begin() + 1, mesh.faces[f].end());
   for (auto& s : symmetry) s.mirrored = !s.mirrored;
 }
 
-lc_provenance Rewriting::original(const lc_provenance& p) const {
-  const FaceDomain::Point at = FaceDomain().moved(point_of(p), p.denominator, symmetry[p.face]);
-  return {face[p.face], static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j), p.denominator};
+Place Rewriting::original(const Place& p) const {
+  const FaceDomain domain(scheme, static_cast<int>(mesh.faces[p.face].size()));
+  const FaceDomain::Point at = domain.moved(point_of(p), domain.steps(p.denominator), symmetry[p.face]);
+  return {face[p.face], static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j), p.denominator,
+          at.part};
 }
 
 }  // namespace limitcheck::verify

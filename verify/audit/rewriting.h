@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/scheme.h"
 #include "data/splitmix64.h"
 #include "verify/subject/face_domain.h"
 
@@ -18,12 +19,13 @@ std::vector<std::int32_t> shuffled(std::size_t count, data::SplitMix64& random);
 /// before.
 struct Rewriting {
   data::ControlMesh mesh;
+  data::Scheme scheme = data::Scheme::kLoop;
   std::vector<std::int32_t> face;              // of the original, for each face
   std::vector<FaceDomain::Symmetry> symmetry;  // how each face lies on that one
 
   Rewriting() = default;
   /// The mesh as it is.
-  explicit Rewriting(data::ControlMesh original);
+  Rewriting(data::ControlMesh original, data::Scheme of_scheme);
 
   void number_vertices(const std::vector<std::int32_t>& number);  // vertex v becomes number[v]
   void order_faces(const std::vector<std::int32_t>& order);       // face f becomes the one that was order[f]
@@ -31,7 +33,7 @@ struct Rewriting {
   void mirror_faces();                                            // corners in the opposite order
 
   /// The place on the original of a place on this mesh, which lies in its face.
-  lc_provenance original(const lc_provenance& p) const;
+  Place original(const Place& p) const;
 };
 
 }  // namespace limitcheck::verify

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
 #include "verify/subject/face_domain.h"
@@ -30,7 +32,7 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
   SchemePoints result = points_of(refined, limit);
   const std::uint32_t n = 1U << steps;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    FaceDomain().for_each_point(n, [&](FaceDomain::Point p) {
+    FaceDomain::triangle().for_each_point(n, [&](FaceDomain::Point p) {
       const std::int32_t v = refined.vertex(f, static_cast<int>(p.i), static_cast<int>(p.j));
       result.place[v] = {static_cast<std::int32_t>(f), number(p.i), number(p.j), n};
       if (scheme != Scheme::kLinear) return;
@@ -42,24 +44,29 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
   return result;
 }
 
-// After the first step a face is three quads, one at each corner, with n / 2 steps a side. Only the points on
-// control edges are points of the lattice, but for a few of no interest.
-SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit) {
+// After the first step a face is a quad at each corner. Of Loop's lattice only the points on control edges are
+// among them, but for a few of no interest.
+SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit, data::Scheme lattice) {
   reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
   for (int step = 0; step < steps; ++step) refined.refine();
   SchemePoints result = points_of(refined, limit);
-  const FaceDomain domain;
   const int n = 1 << steps;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto put = [&](std::int32_t vertex, FaceDomain::Point p) {
-      result.place[vertex] = {static_cast<std::int32_t>(f), number(p.i), number(p.j), number(n)};
-    };
-    for (int k = 0; k < domain.corners(); ++k)
-      for (int along = 0; along <= n / 2; ++along) {
-        const auto corner = static_cast<std::size_t>(k);
-        put(refined.vertex(f, corner, along, 0), domain.on_side(k, along, n));
-        put(refined.vertex(f, corner, 0, along), domain.on_side(domain.previous(k), n - along, n));
+    const auto corners = static_cast<int>(mesh.faces[f].size());
+    const FaceDomain quads(data::Scheme::kCatmullClark, corners), its(lattice, corners);
+    quads.for_each_point(n, [&](FaceDomain::Point p) {
+      const std::int32_t vertex =
+          steps == 0 ? mesh.faces[f][*quads.corner_at(p, n)]
+                     : refined.vertex(f, static_cast<std::size_t>(p.part), static_cast<int>(p.i),
+                                      static_cast<int>(p.j));
+      if (lattice == data::Scheme::kLoop) {
+        const auto at = quads.side_of(p, n);
+        if (!at) return;
+        p = its.on_side(at->side, at->along, n);
       }
+      result.place[vertex] = {static_cast<std::int32_t>(f), number(p.i), number(p.j),
+                              number(std::max<std::int64_t>(its.denominator(n), 1)), p.part};
+    });
   }
   return result;
 }
@@ -70,10 +77,10 @@ std::vector<Vector> scheme_points(const data::ControlMesh& mesh, Scheme scheme, 
   return placed_scheme_points(mesh, scheme, steps, limit).position;
 }
 
-SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit) {
+SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit,
+                                  data::Scheme lattice) {
   if (scheme != Scheme::kCatmullClark) return triangle_points(mesh, scheme, steps, limit);
-  if (steps == 0) return triangle_points(mesh, Scheme::kLinear, 0, false);  // the control mesh
-  return catmull_clark_points(mesh, steps, limit);
+  return catmull_clark_points(mesh, steps, limit, lattice);
 }
 
 std::string describe(Scheme scheme, int steps, bool limit) {

@@ -8,7 +8,7 @@
 
 #include "data/control_mesh.h"
 #include "verify/audit/vector.h"
-#include "verify/subject/subject.h"
+#include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {
 
@@ -21,16 +21,18 @@ enum class Scheme {
 
 /// Vertices after `steps` steps, `limit`: moved to the limit surface of that scheme, but for Catmull-Clark
 /// after zero steps. Boundaries by the cubic B-spline (Linear: midpoints). The mesh is valid
-/// (data/validate.h). Computed by the reference.
+/// (data/validate.h); all but Catmull-Clark need triangles. Computed by the reference.
 std::vector<Vector> scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit);
 
 /// The same points with their places on the control mesh: the lattice of depth `steps` has them. A vertex
-/// that is none of its points (Catmull and Clark's inside of faces) has denominator 0.
+/// that is none of its points (Catmull and Clark's inside of Loop's faces) has denominator 0.
 struct SchemePoints {
   std::vector<Vector> position;
-  std::vector<lc_provenance> place;
+  std::vector<Place> place;
 };
-SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit);
+///   lattice  of which scheme the places are
+SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit,
+                                  data::Scheme lattice = data::Scheme::kLoop);
 
 /// "the limit points of Loop's rule with Warren's simplified weights (1 step)"
 std::string describe(Scheme scheme, int steps, bool limit);

@@ -53,7 +53,7 @@ TEST(Schemes, PointsKnowTheirPlaces) {
   const auto points = placed_scheme_points(mesh, Scheme::kLoop, kSteps, false);
   ASSERT_EQ(points.place.size(), refined.positions().size());
   for (std::size_t k = 0; k < points.place.size(); ++k) {
-    const lc_provenance& p = points.place[k];
+    const Place& p = points.place[k];
     ASSERT_EQ(p.denominator, 1U << kSteps);
     const auto& q = refined.positions()[refined.vertex(p.face, static_cast<int>(p.i), static_cast<int>(p.j))];
     ASSERT_LE(norm(points.position[k] - Vector{q.x, q.y, q.z}), 1e-14) << k;
@@ -65,7 +65,7 @@ TEST(Schemes, PointsKnowTheirPlaces) {
   const auto quads = placed_scheme_points(flat, Scheme::kCatmullClark, 1, false);
   std::size_t placed = 0;
   for (std::size_t k = 0; k < quads.place.size(); ++k) {
-    const lc_provenance& p = quads.place[k];
+    const Place& p = quads.place[k];
     if (p.denominator == 0) continue;
     ++placed;
     const bool corner = p.i == p.denominator || p.j == p.denominator || p.i + p.j == 0;
@@ -88,7 +88,7 @@ TEST(Schemes, CatmullClarksAndLoopsPointsOnTheBoundaryAreTheSame) {
       if (quads.place[k].denominator != 0) at[lattice.id(quads.place[k])] = quads.position[k];
     std::size_t compared = 0;
     for (std::size_t k = 0; k < loop.place.size(); ++k) {
-      const lc_provenance& p = loop.place[k];
+      const Place& p = loop.place[k];
       const FaceDomain domain = lattice.domain(p.face);
       const auto place = domain.side_of(point_of(p), p.denominator);
       if (!place || lattice.across(p.face, place->side) >= 0) continue;

@@ -19,6 +19,7 @@ using Faces = std::vector<std::int32_t>;  // of the mesh being shrunk, ascending
 AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   data::CutOut cut = data::cut_out(whole.mesh.faces, faces);
   AuditMesh out{whole.name, {cut.of(whole.mesh.positions), std::move(cut.faces)}};
+  out.asked_scheme = whole.asked_scheme;
   if (!whole.face_depth.empty())
     for (const std::int32_t f : faces) out.face_depth.push_back(whole.face_depth[f]);
   return out;
@@ -27,12 +28,17 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
 // Vertex b is merged into a, and faces with both vanish. The result may be invalid; the caller checks.
 AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
   AuditMesh out = whole;
+  data::Faces faces;
   Faces left;
-  for (std::size_t f = 0; f < out.mesh.faces.size(); ++f) {
-    const auto t = out.mesh.faces[f];
-    std::replace(t.begin(), t.end(), b, a);
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) left.push_back(static_cast<std::int32_t>(f));
+  for (std::size_t f = 0; f < whole.mesh.faces.size(); ++f) {
+    std::vector<std::int32_t> corners(whole.mesh.faces[f].begin(), whole.mesh.faces[f].end());
+    std::replace(corners.begin(), corners.end(), b, a);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    faces.push_back(corners);
+    if (corners.size() > 2) left.push_back(static_cast<std::int32_t>(f));
   }
+  out.mesh.faces = std::move(faces);
   return part(out, left);
 }
 
@@ -47,6 +53,7 @@ class Shrinker {
                  std::chrono::duration<double>(seconds))) {
     best_.mesh.depth = -1;  // the one that is tried
     best_.mesh.depths.clear();
+    best_.mesh.asked_scheme = mesh.scheme();
   }
 
   Shrunk run(std::int64_t face) {
@@ -68,7 +75,7 @@ class Shrinker {
   bool late() const { return std::chrono::steady_clock::now() >= end_; }
 
   bool take(AuditMesh candidate) {
-    if (late() || candidate.mesh.faces.empty() || !data::validate(candidate.mesh).empty()) return false;
+    if (late() || candidate.mesh.faces.empty() || !data::validate(candidate.mesh, *candidate.asked_scheme).empty()) return false;
     ++best_.attempts;
     if (!fails_(candidate, best_.depth)) return false;
     best_.mesh = std::move(candidate);
@@ -132,9 +139,10 @@ class Shrinker {
   bool collapse_edges() {
     bool any = false;
     for (std::size_t f = 0; f < best_.mesh.mesh.faces.size() && !late(); ++f) {
-      const auto t = triangles_of(best_.mesh.mesh)[f];
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!take(collapsed(best_.mesh, t[k], t[(k + 1) % 3]))) continue;
+      const auto corners = std::as_const(best_.mesh.mesh.faces)[f];
+      const std::vector<std::int32_t> its(corners.begin(), corners.end());
+      for (std::size_t k = 0; k < its.size(); ++k) {
+        if (!take(collapsed(best_.mesh, its[k], its[(k + 1) % its.size()]))) continue;
         any = true;
         break;
       }

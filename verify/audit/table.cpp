@@ -238,16 +238,22 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+// A mesh of triangles is taken for one of Loop's, unless it is said otherwise.
+static std::string scheme_option(const Result& result) {
+  return result.scheme == data::Scheme::kLoop ? "" : fmt::format(" --scheme {}", data::name_of(result.scheme));
+}
+
 std::string eval_command(const Result& result) {
   if (!result.witness || result.witness->face < 0 || result.witness->l1.empty()) return "";
-  return fmt::format("limitcheck eval {} {} {} {}{}{}", quoted(result.mesh), result.witness->face,
-                     result.witness->l1, result.witness->l2, result.in_float ? " --precision float" : "",
+  return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
+                     result.witness->l1, result.witness->l2, scheme_option(result),
+                     result.in_float ? " --precision float" : "",
                      result.weights == reference::Weights::kWarren ? " --weights warren" : "");
 }
 
 std::string audit_command(const Result& result, const std::string& level) {
   std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
-                                    quoted(result.mesh), result.depth);
+                                    quoted(result.mesh), result.depth) + scheme_option(result);
   if (level != "standard") command += fmt::format(" --level {}", level);
   if (!result.depths.empty() && result.depths != "uniform")
     command += fmt::format(" --depths {}", quoted(result.depths));

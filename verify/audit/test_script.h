@@ -134,7 +134,7 @@ inline Script exact_script(const data::ControlMesh& mesh, int depth) {
     s.faces.resize(s.triangles.size(), face);
   }
   for (const lc_provenance& p : s.points) {
-    const Lattice::Id id = surface.lattice().id(p);
+    const Lattice::Id id = surface.lattice().id(place_of(p));
     surface.prepare({&id, 1});
     s.positions.push_back(surface.position(id));
     s.normals.push_back(surface.normal(id));

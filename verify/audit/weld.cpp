@@ -57,11 +57,17 @@ std::int64_t coincident_boundary_edges(const Evidence& e) {
   return count;
 }
 
-std::int64_t triangles_without_area(const Evidence& e) {
-  return std::count_if(triangles_of(e.mesh).begin(), triangles_of(e.mesh).end(), [&](const auto& t) {
-    const Vector &a = e.mesh.positions[t[0]], &b = e.mesh.positions[t[1]], &c = e.mesh.positions[t[2]];
-    return largest(cross(b - a, c - a)) == 0;
-  });
+std::int64_t faces_without_area(const Evidence& e) {
+  std::int64_t count = 0;
+  for (std::size_t f = 0; f < e.mesh.faces.size(); ++f) {
+    const auto corner = e.mesh.faces[f];
+    const auto& a = e.mesh.positions;
+    Vector area{};  // twice, of a fan from the first corner
+    for (std::size_t k = 1; k + 1 < corner.size(); ++k)
+      area = area + cross(a[corner[k]] - a[corner[0]], a[corner[k + 1]] - a[corner[0]]);
+    count += largest(area) == 0;
+  }
+  return count;
 }
 
 }  // namespace limitcheck::verify

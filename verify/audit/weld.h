@@ -27,7 +27,7 @@ Welded weld(const Evidence& e);
 /// seams.
 std::int64_t coincident_boundary_edges(const Evidence& e);
 
-/// Control triangles whose corners lie on a line.
-std::int64_t triangles_without_area(const Evidence& e);
+/// Control faces whose area vector vanishes: triangles whose corners lie on a line.
+std::int64_t faces_without_area(const Evidence& e);
 
 }  // namespace limitcheck::verify

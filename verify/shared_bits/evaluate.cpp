@@ -81,7 +81,7 @@ void add_edges(const Rewriting& mesh, int depth, const rs::Kernel& kernel, std::
     stream.edges(some, depth, workspace, out.data());
     for (std::size_t e = 0; e < some.size(); ++e) {
       for (int t = 0; t <= size; ++t) {
-        const FaceDomain::Point at = FaceDomain().on_side(some[e] % 3, t, size);
+        const FaceDomain::Point at = FaceDomain::triangle().on_side(some[e] % 3, t, size);
         sink.add({some[e] / 3, static_cast<std::uint32_t>(at.i), static_cast<std::uint32_t>(at.j),
                   static_cast<std::uint32_t>(size)},
                  out[e * side + t]);

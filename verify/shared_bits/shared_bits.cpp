@@ -33,7 +33,7 @@ SharedBits::Level& SharedBits::level(int depth) {
 }
 
 void SharedBits::add(const lc_provenance& at, const float* vertex) {
-  const auto place = FaceDomain().side_of(point_of(at), at.denominator);
+  const auto place = FaceDomain::triangle().side_of(point_of(at), at.denominator);
   if (!place) return;
   // A control vertex has the same bits at every depth: all of them go into the first table.
   Level& here = level(place->along == 0 ? 0 : std::countr_zero(at.denominator));

@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 
+#include "verify/subject/lent_mesh.h"
 #include "verify/subject/options.h"
 #include "verify/subject/subject.h"
 #include "verify/subject/subject_error.h"
@@ -23,11 +24,14 @@ struct Output {
   lc_provenance* provenance;
   std::uint32_t* triangles;  // 3 * triangles
   std::int32_t* triangle_face;
+  std::int32_t* corner;  // vertices, or nullptr
 };
 
 /// Refuses what does not fit in 32-bit indices when each triangle becomes 4^depth, halfedges included.
 inline void refuse_too_many_triangles(const lc_mesh& mesh, int depth) {
-  if (mesh.triangle_count > (std::int64_t{UINT32_MAX} / 6 >> (2 * depth))) {
+  // A face of n corners has no more than n quads after a step, each of two triangles; a triangle of Loop's is one.
+  const std::int64_t triangles = mesh.scheme == LC_SCHEME_LOOP ? mesh.face_count : 2 * mesh.corner_count;
+  if (triangles > (std::int64_t{UINT32_MAX} / 6 >> (2 * depth))) {
     throw SubjectError(LC_NOT_SUPPORTED, "more triangles at this depth than 32-bit indices can name");
   }
 }
@@ -37,21 +41,22 @@ inline void refuse_too_many_triangles(const lc_mesh& mesh, int depth) {
 inline void refuse_unusable(const lc_mesh& mesh) {
   for (std::int64_t k = 0; k < 3 * mesh.vertex_count; ++k)
     if (!std::isfinite(mesh.positions[k])) throw SubjectError(LC_INVALID_INPUT, "a coordinate is not finite");
-  for (std::int64_t k = 0; k < 3 * mesh.triangle_count; ++k)
-    if (mesh.triangles[k] < 0 || mesh.triangles[k] >= mesh.vertex_count)
-      throw SubjectError(LC_INVALID_INPUT, "a triangle names a vertex that does not exist");
+  for (std::int64_t k = 0; k < mesh.corner_count; ++k)
+    if (mesh.corners[k] < 0 || mesh.corners[k] >= mesh.vertex_count)
+      throw SubjectError(LC_INVALID_INPUT, "a face names a vertex that does not exist");
 }
 
 /// The depth of a request that has one for all faces; 0 where there are no faces.
 inline int uniform_depth(const lc_request& request, const lc_mesh& mesh) {
-  return mesh.triangle_count > 0 ? request.face_depth[0] : 0;
+  return mesh.face_count > 0 ? request.face_depth[0] : 0;
 }
 
 /// Allocates from the host and announces the arrays in `out`. Throws SubjectError if the host has no memory,
 /// or the vertices outnumber 32-bit indices.
+///   corners  the provenance names corners of faces that are no quads
 template <class Real>
 Output<Real> allocate_output(const lc_request& request, lc_tessellation& out, std::int64_t vertices,
-                             std::int64_t triangles, bool normals) {
+                             std::int64_t triangles, bool normals, bool corners = false) {
   if (vertices > std::int64_t{UINT32_MAX})
     throw SubjectError(LC_NOT_SUPPORTED, "more vertices than 32-bit indices");
   const auto get = [&](std::int64_t elements, std::size_t size) {
@@ -66,8 +71,9 @@ Output<Real> allocate_output(const lc_request& request, lc_tessellation& out, st
   out.provenance = static_cast<lc_provenance*>(get(vertices, sizeof(lc_provenance)));
   out.triangles = static_cast<std::uint32_t*>(get(triangles, 3 * sizeof(std::uint32_t)));
   out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
+  out.corner = corners ? static_cast<std::int32_t*>(get(vertices, sizeof(std::int32_t))) : nullptr;
   return {static_cast<Real*>(out.positions), static_cast<Real*>(out.normals), out.provenance, out.triangles,
-          out.triangle_face};
+          out.triangle_face, out.corner};
 }
 
 namespace detail {
@@ -93,10 +99,27 @@ lc_status guarded(const char** message, Work&& work) noexcept {
   return LC_FAILED;
 }
 
+/// What T says of itself, with the schemes that it has.
+template <class T>
+lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
+  lc_capabilities result{};
+  if constexpr (requires { T::capabilities(options, scheme); }) {
+    result = T::capabilities(options, scheme);
+    result.schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
+  } else {
+    result = T::capabilities(options);
+    result.schemes = LC_DOES_LOOP;
+  }
+  result.size = sizeof result;
+  result.scheme = scheme;
+  return result;
+}
+
 }  // namespace detail
 
 /// The function table of the adapter class T, which has
-///   static lc_capabilities capabilities(Options&)
+///   static lc_capabilities capabilities(Options&)              if it does Loop's scheme alone
+///   static lc_capabilities capabilities(Options&, lc_scheme)   if it does both
 ///   T(const lc_mesh&, Options&)
 ///   void tessellate(const lc_request&, lc_tessellation&)    all memory from the request
 /// Options that T does not read are refused.
@@ -110,15 +133,17 @@ lc_subject make_subject(const char* name, const char* description, const char* o
   subject.capabilities = [](const char* text, lc_capabilities* out, const char** message) {
     return detail::guarded(message, [&] {
       Options options(text);
-      *out = T::capabilities(options);
+      *out = detail::capabilities_of<T>(options, out->scheme);
       options.finish();
     });
   };
   subject.create = [](const lc_mesh* mesh, const char* text, void** instance, const char** message) {
     return detail::guarded(message, [&] {
       Options options(text);
-      (void)T::capabilities(options);
+      const lc_capabilities has = detail::capabilities_of<T>(options, mesh->scheme);
       options.finish();
+      if (!does(has, scheme_of(mesh->scheme)))
+        throw SubjectError(LC_NOT_SUPPORTED, "does not do this scheme");
       refuse_unusable(*mesh);
       *instance = new T(*mesh, options);
     });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "data/control_mesh.h"
 #include "verify/subject/subject.h"
 
@@ -13,9 +15,11 @@ inline data::ControlMesh control_mesh(const lc_mesh& mesh) {
     const double* p = mesh.positions + 3 * v;
     result.positions.push_back({p[0], p[1], p[2]});
   }
-  for (std::int64_t f = 0; f < mesh.triangle_count; ++f) {
-    const std::int32_t* t = mesh.triangles + 3 * f;
-    result.faces.push_back({t[0], t[1], t[2]});
+  const std::int32_t* corner = mesh.corners;
+  for (std::int64_t f = 0; f < mesh.face_count; ++f) {
+    const auto size = static_cast<std::size_t>(mesh.face_sizes[f]);
+    result.faces.push_back(std::span(corner, size));
+    corner += size;
   }
   return result;
 }

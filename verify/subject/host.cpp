@@ -42,18 +42,37 @@ std::string impossible(const lc_capabilities& c) {
                                {"exact_lattice", c.exact_lattice}})
     if (choice.value != 0 && choice.value != 1)
       return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
+  if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
+    return fmt::format("schemes is {}", c.schemes);
   if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
   return {};
 }
 
+// What a subject did to the mesh that it was lent.
+std::string changes(const LentMesh& before, const LentMesh& after) {
+  std::int64_t changed = 0;
+  const auto count = [&](const auto& a, const auto& b, std::size_t together) {
+    for (std::size_t k = 0; k < a.size(); k += together)
+      changed += !std::equal(a.begin() + static_cast<std::ptrdiff_t>(k),
+                             a.begin() + static_cast<std::ptrdiff_t>(k + together),
+                             b.begin() + static_cast<std::ptrdiff_t>(k));
+  };
+  count(before.positions, after.positions, 3);
+  count(before.corners, after.corners, 1);
+  count(before.face_sizes, after.face_sizes, 1);
+  return fmt::format("the subject changed {} vertices or corners of the control mesh", changed);
+}
+
 }  // namespace
 
-lc_capabilities capabilities(const lc_subject& subject, const std::string& options) {
-  if (subject.abi != LC_SUBJECT_ABI) {
+lc_capabilities capabilities(const lc_subject& subject, const std::string& options, data::Scheme scheme) {
+  if (subject.abi < 1 || subject.abi > LC_SUBJECT_ABI) {
     throw NotAsked(fmt::format("the subject was built for interface {}, this program has {}", subject.abi,
                                LC_SUBJECT_ABI));
   }
   lc_capabilities result{};
+  result.size = sizeof result;
+  result.scheme = scheme_of(scheme);
   detail::call(subject, "capabilities",
                [&](const char** message) { return subject.capabilities(text(options), &result, message); });
   if (const std::string wrong = impossible(result); !wrong.empty())
@@ -62,11 +81,13 @@ lc_capabilities capabilities(const lc_subject& subject, const std::string& optio
   return result;
 }
 
-Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options, Input input)
-    : subject_(subject),
-      options_(std::move(options)),
-      capabilities_(verify::capabilities(subject, options_)),
-      mesh_(mesh) {
+Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options, Input input,
+                 std::optional<data::Scheme> asked)
+    : subject_(subject), options_(std::move(options)), mesh_(mesh) {
+  const data::Scheme scheme = asked.value_or(data::natural_scheme(mesh));
+  capabilities_ = verify::capabilities(subject, options_, scheme);
+  if (!does(capabilities_, scheme))
+    throw NotAsked(fmt::format("{}: does no {} surfaces", subject.name, data::name_of(scheme)));
   const bool single = capabilities_.precision == LC_FLOAT32;
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
@@ -74,17 +95,12 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
         throw SubjectError(LC_INVALID_INPUT, fmt::format("vertex {} has no finite position", v));
     if (const std::string reason = out_of_range(mesh_, !single); !reason.empty()) throw NotAsked(reason);
   }
-  positions_.reserve(3 * mesh_.positions.size());
-  for (auto& position : mesh_.positions)
-    for (double& x : position) {
-      if (single) x = static_cast<double>(static_cast<float>(x));
-      positions_.push_back(x);
-    }
-  triangles_.reserve(3 * mesh_.faces.size());
-  for (const auto& t : triangles_of(mesh_)) triangles_.insert(triangles_.end(), t.begin(), t.end());
+  if (single)
+    for (auto& position : mesh_.positions)
+      for (double& x : position) x = static_cast<double>(static_cast<float>(x));
+  lent_ = LentMesh(mesh_, scheme);
 
-  const lc_mesh view{positions_.data(), static_cast<std::int64_t>(mesh_.positions.size()), triangles_.data(),
-                     static_cast<std::int64_t>(mesh_.faces.size())};
+  const lc_mesh view = lent_.view();
   detail::call(subject_, "create", [&](const char** message) {
     return subject_.create(&view, text(options_), &instance_, message);
   });
@@ -134,9 +150,12 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   Tessellation result;
   result.memory_ = std::make_shared<detail::Memory>();
   result.precision_ = capabilities_.precision;
-  result.faces_ = static_cast<std::int64_t>(mesh_.faces.size());
-  const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate};
+  result.scheme_ = lent_.scheme;
+  result.face_sizes_ = lent_.face_sizes;
+  const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate,
+                           sizeof(lc_request)};
   lc_tessellation out{};
+  out.size = sizeof out;
   detail::call(subject_, "tessellate",
                [&](const char** message) { return subject_.tessellate(instance_, &request, &out, message); });
 
@@ -149,24 +168,8 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   }
   result.inspect(delivered, capabilities_.normals != 0);
 
-  std::int64_t changed = 0, first = -1;
-  for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-    if (std::equal(mesh_.positions[v].begin(), mesh_.positions[v].end(),
-                   positions_.begin() + 3 * static_cast<std::ptrdiff_t>(v)))
-      continue;
-    if (changed++ == 0) first = static_cast<std::int64_t>(v);
-  }
-  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
-    if (std::equal(mesh_.faces[f].begin(), mesh_.faces[f].end(),
-                   triangles_.begin() + 3 * static_cast<std::ptrdiff_t>(f)))
-      continue;
-    if (changed++ == 0) first = static_cast<std::int64_t>(f);
-  }
-  if (changed > 0) {
-    result.defects_.push_back(
-        {Defect::Kind::kMeshModified, "mesh", changed, first,
-         fmt::format("the subject changed {} vertices or faces of the control mesh", changed)});
-  }
+  if (const LentMesh before(mesh_, lent_.scheme); !(before == lent_))
+    result.defects_.push_back({Defect::Kind::kMeshModified, "mesh", 1, -1, changes(before, lent_)});
   return result;
 }
 

@@ -7,11 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "verify/subject/face_domain.h"
+#include "verify/subject/lent_mesh.h"
 #include "verify/subject/subject.h"
 #include "verify/subject/subject_error.h"
 
@@ -28,12 +31,12 @@ struct Defect {
     kOverlappingArrays,  // two arrays share memory
     kIndexOutOfRange,    // a triangle names a vertex that does not exist
     kFaceOutOfRange,     // triangle_face names a control face that does not exist
-    kProvenanceOutOfRange,  // face does not exist, denominator 0, or i + j > denominator
+    kProvenanceOutOfRange,  // face or corner does not exist, denominator 0, or a point outside the face
     kMeshModified,          // the subject wrote to the control mesh
     kThrew,                 // release() let an exception through
   };
   Kind kind;
-  std::string array;        // "positions", "normals", "provenance", "triangles", "triangle_face", "mesh", ""
+  std::string array;        // "positions", "normals", "provenance", "triangles", "triangle_face", "corner", "mesh", ""
   std::int64_t count = 0;   // elements concerned
   std::int64_t first = -1;  // the first of them, or -1
   std::string message;      // the whole in one sentence
@@ -86,6 +89,12 @@ class Tessellation {
   std::span<const lc_provenance> provenance() const {
     return {provenance_, static_cast<std::size_t>(vertices_)};
   }
+  /// Of each vertex the corner whose quad its provenance is of; empty if none was delivered.
+  std::span<const std::int32_t> corners() const {
+    return {corner_, corner_ == nullptr ? 0 : static_cast<std::size_t>(vertices_)};
+  }
+  /// Both together.
+  Place place(std::int64_t v) const { return place_of(provenance_[v], corner_ == nullptr ? 0 : corner_[v]); }
   std::span<const std::array<std::uint32_t, 3>> triangles() const {
     return {indices_, static_cast<std::size_t>(triangles_)};
   }
@@ -122,19 +131,23 @@ class Tessellation {
 
   std::shared_ptr<detail::Memory> memory_;
   lc_precision precision_ = LC_FLOAT32;
-  std::int64_t faces_ = 0, vertices_ = 0, triangles_ = 0;
+  data::Scheme scheme_ = data::Scheme::kLoop;
+  std::vector<std::int32_t> face_sizes_;
+  std::int64_t vertices_ = 0, triangles_ = 0;
   const void* positions_ = nullptr;
   const void* normals_ = nullptr;
   lc_provenance* provenance_ = nullptr;
   const std::array<std::uint32_t, 3>* indices_ = nullptr;
   std::int32_t* triangle_face_ = nullptr;
+  const std::int32_t* corner_ = nullptr;
   std::vector<Defect> defects_;
   std::vector<Overrun> overruns_;
 };
 
-/// The capabilities of a subject under these options. Throws SubjectError; SubjectDied (kProtocol) if it
+/// The capabilities of a subject under these options for one scheme. Throws SubjectError; SubjectDied (kProtocol) if it
 /// declares what means nothing.
-lc_capabilities capabilities(const lc_subject& subject, const std::string& options = {});
+lc_capabilities capabilities(const lc_subject& subject, const std::string& options = {},
+                             data::Scheme scheme = data::Scheme::kLoop);
 
 /// One control mesh in the hands of one subject: create() ... destroy().
 class Session {
@@ -144,9 +157,10 @@ class Session {
 
   /// Rounds the positions to the subject's precision and calls create().
   /// Throws SubjectError: the subject refuses; of valid input, a coordinate is not finite, or
-  /// coordinate_range.h refuses (NotAsked).
+  /// coordinate_range.h refuses (NotAsked); NotAsked if the subject does not do the scheme.
+  ///   scheme  by default the one that the mesh is meant for
   Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {},
-          Input input = Input::kValid);
+          Input input = Input::kValid, std::optional<data::Scheme> scheme = {});
   ~Session();
   /// destroy(), once. Throws SubjectError: the subject breaks down while it cleans up.
   void close();
@@ -159,6 +173,7 @@ class Session {
   std::string label() const;
   /// The mesh as the subject got it: the reference takes these rounded positions as exact.
   const data::ControlMesh& mesh() const { return mesh_; }
+  data::Scheme scheme() const { return lent_.scheme; }
 
   /// Tessellates.
   ///   face_depth   one per control face: 0..max_depth, or -1 (culled)
@@ -176,8 +191,7 @@ class Session {
   lc_capabilities capabilities_{};
   data::ControlMesh mesh_;
   // The subject's copy, so that a subject that writes to it is found out and does not spoil the reference's.
-  std::vector<double> positions_;
-  std::vector<std::int32_t> triangles_;
+  LentMesh lent_;
   void* instance_ = nullptr;
   bool closed_ = false;
 };

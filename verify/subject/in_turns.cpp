@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/shapes.h"
+#include "verify/subject/lent_mesh.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -35,8 +36,7 @@ struct Scratch {
 // One mesh in the hands of the inner subject.
 class Instance {
  public:
-  Instance(std::vector<double> positions, std::vector<std::int32_t> triangles, std::string options)
-      : positions_(std::move(positions)), triangles_(std::move(triangles)), options_(std::move(options)) {}
+  Instance(LentMesh mesh, std::string options) : mesh_(std::move(mesh)), options_(std::move(options)) {}
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
   ~Instance() {
@@ -47,8 +47,7 @@ class Instance {
   }
 
   lc_status create(const char** message) {
-    const lc_mesh mesh{positions_.data(), static_cast<std::int64_t>(positions_.size() / 3), triangles_.data(),
-                       faces()};
+    const lc_mesh mesh = mesh_.view();
     const lc_status status =
         inner->create(&mesh, options_.empty() ? nullptr : options_.c_str(), &made_, message);
     alive_ = status == LC_OK;
@@ -68,43 +67,33 @@ class Instance {
   lc_status disturb(std::int32_t depth, const char** message) {
     Scratch scratch;
     const std::vector<std::int32_t> depths(faces(), depth);
-    const lc_request request{depths.data(), 1, &scratch, &Scratch::allocate};
+    const lc_request request{depths.data(), 1, &scratch, &Scratch::allocate, sizeof(lc_request)};
     lc_tessellation out{};
+    out.size = sizeof out;
     const lc_status status = tessellate(request, &out, message);
     if (status == LC_OK) release(&out);
     return status;
   }
 
-  std::int64_t faces() const { return static_cast<std::int64_t>(triangles_.size() / 3); }
-  std::int64_t vertices() const { return static_cast<std::int64_t>(positions_.size() / 3); }
+  std::int64_t faces() const { return mesh_.faces(); }
   const std::string& options() const { return options_; }
 
   /// As many vertices and faces, each vertex with another number and, times two, at another place.
   std::unique_ptr<Instance> look_alike() const {
-    std::vector<double> positions(positions_.size());
-    const auto last = static_cast<std::size_t>(vertices()) - 1;
+    LentMesh other = mesh_;
+    const auto last = static_cast<std::size_t>(mesh_.vertices()) - 1;
     for (std::size_t v = 0; v <= last; ++v)
-      for (std::size_t k = 0; k < 3; ++k) positions[3 * (last - v) + k] = 2 * positions_[3 * v + k];
-    std::vector<std::int32_t> triangles = triangles_;
-    for (std::int32_t& v : triangles) v = static_cast<std::int32_t>(last) - v;
-    return std::make_unique<Instance>(std::move(positions), std::move(triangles), options_);
+      for (std::size_t k = 0; k < 3; ++k) other.positions[3 * (last - v) + k] = 2 * mesh_.positions[3 * v + k];
+    for (std::int32_t& v : other.corners) v = static_cast<std::int32_t>(last) - v;
+    return std::make_unique<Instance>(std::move(other), options_);
   }
 
  private:
-  std::vector<double> positions_;
-  std::vector<std::int32_t> triangles_;
+  LentMesh mesh_;
   std::string options_;
   void* made_ = nullptr;
   bool alive_ = false;
 };
-
-std::unique_ptr<Instance> instance_of(const data::ControlMesh& mesh, const std::string& options) {
-  std::vector<double> positions;
-  std::vector<std::int32_t> triangles;
-  for (const auto& p : mesh.positions) positions.insert(positions.end(), p.begin(), p.end());
-  for (const auto& t : triangles_of(mesh)) triangles.insert(triangles.end(), t.begin(), t.end());
-  return std::make_unique<Instance>(std::move(positions), std::move(triangles), options);
-}
 
 // The mesh that is asked for, and those in between.
 struct Turns {
@@ -166,16 +155,17 @@ InTurns::InTurns(const lc_subject& of) : subject_(of) {
   inner = &of;
   subject_.create = [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
     lc_capabilities capabilities{};
+    capabilities.size = sizeof capabilities;
+    capabilities.scheme = mesh->scheme;
     lc_status status = inner->capabilities(options, &capabilities, message);
     if (status != LC_OK) return status;
     auto turns = std::make_unique<Turns>();
     turns->max_depth = capabilities.max_depth;
     const std::string given = options != nullptr ? options : "";
-    turns->mine = std::make_unique<Instance>(
-        std::vector<double>(mesh->positions, mesh->positions + 3 * mesh->vertex_count),
-        std::vector<std::int32_t>(mesh->triangles, mesh->triangles + 3 * mesh->triangle_count), given);
+    turns->mine = std::make_unique<Instance>(LentMesh(*mesh), given);
     turns->alike = turns->mine->look_alike();
-    turns->other = instance_of(mesh->vertex_count == 6 ? data::icosahedron() : data::octahedron(), given);
+    const data::ControlMesh other = mesh->vertex_count == 6 ? data::icosahedron() : data::octahedron();
+    turns->other = std::make_unique<Instance>(LentMesh(other, scheme_of(mesh->scheme)), given);
     status = turns->create(message);
     if (status == LC_OK) *instance = turns.release();
     return status;

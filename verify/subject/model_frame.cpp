@@ -76,7 +76,7 @@ void ModelFrame::repeat_tile_of(std::size_t t) {
 void ModelFrame::at_depth_steps() {
   for (Vertex& v : vertices) {
     const auto f = static_cast<std::size_t>(v.place.face);
-    const auto at = FaceDomain().side_of(point_of(v.place), v.place.denominator);
+    const auto at = FaceDomain::triangle().side_of(point_of(v.place), v.place.denominator);
     if (!at || at->along == 0) continue;
     const int other = mesh_.neighbour_depth(depth_, f, at->side);
     if (other >= depth_[f]) continue;
@@ -92,7 +92,7 @@ void ModelFrame::at_depth_steps() {
 
 ModelRules::V ModelFrame::border_point(std::size_t f, int k, int s, int d) const {
   const int depth = level_.mesh.depth();
-  const FaceDomain::Point p = FaceDomain().on_side(k, s << (depth - d), std::int64_t{1} << depth);
+  const FaceDomain::Point p = FaceDomain::triangle().on_side(k, s << (depth - d), std::int64_t{1} << depth);
   return level_.limits[level_.mesh.vertex(f, static_cast<int>(p.i), static_cast<int>(p.j))];
 }
 
@@ -207,7 +207,7 @@ std::uint32_t ModelFrame::put(std::size_t f, int i, int j, int d) {
   if (rules_.is("faces_sorted")) {
     const auto& corner = triangles_of(mesh_.control)[f];
     const auto lowest = static_cast<int>(std::min_element(corner.begin(), corner.end()) - corner.begin());
-    const FaceDomain::Point p = FaceDomain().moved({i, j}, n, {(3 - lowest) % 3});
+    const FaceDomain::Point p = FaceDomain::triangle().moved({i, j}, n, {(3 - lowest) % 3});
     out.place.i = static_cast<std::uint32_t>(p.i);
     out.place.j = static_cast<std::uint32_t>(p.j);
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of the paper's section 4 (reference/loop/naive.h) in double. It delivers single
-// triangles and rounds differently in each. Of the values of one point the first in the order of their bits
-// is taken, so that neither the triangles of a face nor faces of one depth have cracks of one ulp. Faces
-// share no vertices. [C18]
+// The recursive subdivider of the paper's section 4 in double, with Loop's rules (reference/loop/naive.h) or
+// Catmull and Clark's (reference/catmull_clark/naive.h). It delivers single triangles and quads and rounds
+// differently in each. Of the values of one point the first in the order of their bits is taken, so that
+// neither the triangles of a face nor faces of one depth have cracks of one ulp. Faces share no vertices. A
+// quad is cut along its diagonal from (0, 0). [C18, C21]
 //
 //   options   weights=loop|warren (default loop)
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -13,9 +15,12 @@
 #include <span>
 #include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "reference/catmull_clark/naive.h"
 #include "reference/loop/naive.h"
+#include "reference/loop/refine.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/face_domain.h"
@@ -27,13 +32,20 @@ namespace {
 
 using namespace limitcheck;
 using namespace limitcheck::verify;
-using Corner = reference::LeafCorner<double>;
+using Loop = reference::NaiveSubdivider<double>;
+using CatmullClark = reference::catmull_clark::NaiveSubdivider<double>;
+using Vec3 = reference::Vec3<double>;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
+struct Corner {
+  Vec3 position, normal;
+  FaceDomain::Point at;
+};
+
 // In the order of their bits.
-bool before(const reference::Vec3<double>& a, const reference::Vec3<double>& b) {
-  const auto bits = [](const reference::Vec3<double>& p) {
+bool before(const Vec3& a, const Vec3& b) {
+  const auto bits = [](const Vec3& p) {
     return std::array{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
                       std::bit_cast<std::uint64_t>(p.z)};
   };
@@ -47,31 +59,50 @@ void agree(Corner& a, const Corner& b) {
 }
 
 // The vertices, one for each lattice point, and the triangles of one face.
-struct Face {
+class Face {
+ public:
   std::vector<Corner> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into vertices
 
-  Face(const reference::NaiveSubdivider<double>& subdivider, std::int64_t face, int depth) {
-    const std::size_t row = (std::size_t{1} << depth) + 1;
-    std::vector<std::uint32_t> vertex(row * row, kNone);
-    vertices.reserve(row * (row + 1) / 2);
-    triangles.reserve(std::size_t{1} << (2 * depth));
-    subdivider.tessellate(
-        static_cast<std::size_t>(face), depth, [&](const reference::LeafTriangle<double>& leaf) {
-          auto& triangle = triangles.emplace_back();
-          for (std::size_t k = 0; k < 3; ++k) {
-            const Corner& corner = leaf[k];
-            std::uint32_t& at =
-                vertex[static_cast<std::size_t>(corner.i) * row + static_cast<std::size_t>(corner.j)];
-            if (at == kNone) {
-              at = static_cast<std::uint32_t>(vertices.size());
-              vertices.push_back(corner);
-            }
-            agree(vertices[at], corner);
-            triangle[k] = at;
-          }
-        });
+  Face(FaceDomain domain, int depth)
+      : domain_(domain), n_(std::int64_t{1} << depth), vertex_(domain.point_count(n_), kNone) {}
+
+  void subdivide(const Loop& subdivider, std::size_t face, int depth) {
+    subdivider.tessellate(face, depth, [&](const reference::LeafTriangle<double>& leaf) {
+      triangles.push_back({add(leaf[0]), add(leaf[1]), add(leaf[2])});
+    });
   }
+  void subdivide(const CatmullClark& subdivider, std::size_t face, int depth) {
+    using Leaf = reference::catmull_clark::LeafQuad<double>;
+    const bool corners_only = domain_.parts() > 1 && depth == 0;
+    for (int part = 0; part < domain_.parts(); ++part)
+      subdivider.tessellate(face, static_cast<std::size_t>(part), corners_only ? 1 : depth, [&](const Leaf& leaf) {
+        if (corners_only) {  // of its first quad
+          add(leaf[0], part);
+          return;
+        }
+        const std::array at{add(leaf[0], part), add(leaf[1], part), add(leaf[2], part), add(leaf[3], part)};
+        triangles.push_back({at[0], at[1], at[2]});
+        triangles.push_back({at[0], at[2], at[3]});
+      });
+    for (std::uint32_t k = 1; corners_only && k + 1 < vertices.size(); ++k) triangles.push_back({0, k, k + 1});
+  }
+
+ private:
+  std::uint32_t add(const auto& leaf, std::int32_t part = 0) {
+    const Corner corner{leaf.position, leaf.normal, domain_.canonical({leaf.i, leaf.j, part}, n_)};
+    std::uint32_t& at = vertex_[domain_.number(corner.at, n_)];
+    if (at == kNone) {
+      at = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(corner);
+    }
+    agree(vertices[at], corner);
+    return at;
+  }
+
+  FaceDomain domain_;
+  std::int64_t n_;
+  std::vector<std::uint32_t> vertex_;  // of each lattice point
 };
 
 // A point on a control edge: its ends, the smaller number first, and the way from there in 2^-31 of it. A
@@ -79,11 +110,12 @@ struct Face {
 using BorderPoint = std::array<std::int64_t, 3>;
 
 // Sets `point` and returns true, or returns false for a point inside the face.
-bool on_border(const std::array<std::int32_t, 3>& face, const Corner& corner, int depth, BorderPoint& point) {
+bool on_border(std::span<const std::int32_t> face, FaceDomain domain, const Corner& corner, int depth,
+               BorderPoint& point) {
   const std::int64_t n = std::int64_t{1} << depth, unit = std::int64_t{1} << (31 - depth);
-  const auto place = FaceDomain().side_of({corner.i, corner.j}, n);
+  const auto place = domain.side_of(corner.at, n);
   if (!place) return false;
-  std::int64_t a = face[place->side], b = face[FaceDomain().next(place->side)], way = place->along;
+  std::int64_t a = face[place->side], b = face[domain.next(place->side)], way = place->along;
   if (way == 0) b = a;
   if (a > b) std::swap(a, b), way = n - way;
   point = {a, b, way * unit};
@@ -92,24 +124,28 @@ bool on_border(const std::array<std::int32_t, 3>& face, const Corner& corner, in
 
 class NaiveSubject {
  public:
-  static lc_capabilities capabilities(Options& options) {
+  static lc_capabilities capabilities(Options& options, lc_scheme) {
     return {LC_FLOAT64, weights_option(options), LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 1};
   }
 
   NaiveSubject(const lc_mesh& mesh, Options& options)
-      : mesh_(control_mesh(mesh)), subdivider_(mesh_, family(weights_option(options))) {}
+      : mesh_(control_mesh(mesh)),
+        scheme_(scheme_of(mesh.scheme)),
+        subdivider_(make_subdivider(mesh_, scheme_, family(weights_option(options)))) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
-    const auto count = static_cast<std::int64_t>(subdivider_.face_count());
-    const std::span depth(request.face_depth, subdivider_.face_count());
+    const auto count = static_cast<std::int64_t>(mesh_.faces.size());
+    const std::span depth(request.face_depth, mesh_.faces.size());
 
     // The number of vertices of a face is known only when it is done, so all faces come first, then the
     // arrays.
-    std::vector<std::unique_ptr<Face>> faces(subdivider_.face_count());
+    std::vector<std::unique_ptr<Face>> faces(mesh_.faces.size());
     faces_in_parallel(count, request.threads, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t f = begin; f < end; ++f) {
         const auto k = static_cast<std::size_t>(f);
-        if (depth[k] >= 0) faces[k] = std::make_unique<Face>(subdivider_, f, depth[k]);
+        if (depth[k] < 0) continue;
+        faces[k] = std::make_unique<Face>(domain(k), depth[k]);
+        std::visit([&](const auto& subdivider) { faces[k]->subdivide(subdivider, k, depth[k]); }, subdivider_);
       }
     });
     agree_on_borders(faces, depth);
@@ -119,21 +155,25 @@ class NaiveSubject {
       vertices += static_cast<std::int64_t>(face->vertices.size());
       triangles += static_cast<std::int64_t>(face->triangles.size());
     }
-    const auto output = allocate_output<double>(request, out, vertices, triangles, /*normals=*/true);
+    const auto output = allocate_output<double>(request, out, vertices, triangles, /*normals=*/true,
+                                                /*corners=*/scheme_ == data::Scheme::kCatmullClark);
 
     std::int64_t v = 0, t = 0;
     for (std::size_t k = 0; k < faces.size(); ++k) {
       if (faces[k] == nullptr) continue;
       const auto face = static_cast<std::int32_t>(k);
       const auto base = static_cast<std::uint32_t>(v);
+      const auto denominator =
+          static_cast<std::uint32_t>(std::max<std::int64_t>(1, domain(k).denominator(std::int64_t{1} << depth[k])));
       for (const Corner& corner : faces[k]->vertices) {
         const auto& [position, normal] = std::tie(corner.position, corner.normal);
         for (std::int64_t c = 0; const double x : {position.x, position.y, position.z})
           output.positions[3 * v + c++] = x;
         for (std::int64_t c = 0; const double x : {normal.x, normal.y, normal.z})
           output.normals[3 * v + c++] = x;
-        output.provenance[v++] = {face, static_cast<std::uint32_t>(corner.i),
-                                  static_cast<std::uint32_t>(corner.j), std::uint32_t{1} << depth[k]};
+        if (output.corner != nullptr) output.corner[v] = corner.at.part;
+        output.provenance[v++] = {face, static_cast<std::uint32_t>(corner.at.i),
+                                  static_cast<std::uint32_t>(corner.at.j), denominator};
       }
       for (const auto& triangle : faces[k]->triangles) {
         for (std::int64_t c = 0; const std::uint32_t corner : triangle)
@@ -145,6 +185,13 @@ class NaiveSubject {
   }
 
  private:
+  using Subdivider = std::variant<Loop, CatmullClark>;
+  static Subdivider make_subdivider(const data::ControlMesh& mesh, data::Scheme scheme, reference::Weights weights) {
+    if (scheme == data::Scheme::kLoop) return Loop(mesh, weights);
+    return CatmullClark(mesh.faces, reference::positions_of<double>(mesh));
+  }
+  FaceDomain domain(std::size_t face) const { return {scheme_, static_cast<int>(mesh_.faces[face].size())}; }
+
   // Position and normal of each point on control edges, whatever the order of faces.
   void agree_on_borders(std::vector<std::unique_ptr<Face>>& faces,
                         std::span<const std::int32_t> depth) const {
@@ -153,7 +200,7 @@ class NaiveSubject {
       for (std::size_t f = 0; f < faces.size(); ++f)
         if (faces[f] != nullptr)
           for (Corner& corner : faces[f]->vertices)
-            if (on_border(triangles_of(mesh_)[f], corner, depth[f], point)) body(point, corner);
+            if (on_border(mesh_.faces[f], domain(f), corner, depth[f], point)) body(point, corner);
     };
     std::map<BorderPoint, Corner> chosen;
     each([&](const BorderPoint& point, const Corner& corner) {
@@ -166,14 +213,15 @@ class NaiveSubject {
   }
 
   const data::ControlMesh mesh_;
-  const reference::NaiveSubdivider<double> subdivider_;
+  const data::Scheme scheme_;
+  const Subdivider subdivider_;
 };
 
 }  // namespace
 
 extern "C" const lc_subject* lc_subject_naive() {
   static const lc_subject subject = make_subject<NaiveSubject>(
-      "naive", "our own recursive subdivider, as the paper's section 4 lists it, in double",
+      "naive", "our own recursive subdivider, as the paper's section 4 lists it, in double; both schemes",
       "weights=loop|warren (default loop)");
   return &subject;
 }

@@ -90,7 +90,7 @@ std::size_t split_off(Copy<Real>& out, const HalfFan& fan) {
 }  // namespace
 
 std::int32_t control_vertex(const data::ControlMesh& mesh, const lc_provenance& p) {
-  const auto corner = FaceDomain().corner_at(point_of(p), p.denominator);
+  const auto corner = FaceDomain::triangle().corner_at(point_of(p), p.denominator);
   if (!corner || p.face < 0 || static_cast<std::size_t>(p.face) >= mesh.faces.size()) return -1;
   return triangles_of(mesh)[p.face][*corner];
 }

@@ -49,9 +49,9 @@ void forget_edges(const data::ControlMesh& mesh, std::size_t room, Copy<Real>& o
     const lc_provenance& p = out.provenance[v];
     if (control_vertex(mesh, p) >= 0) continue;
     const auto& t = triangles_of(mesh)[p.face];
-    const auto place = FaceDomain().side_of(point_of(p), p.denominator);
+    const auto place = FaceDomain::triangle().side_of(point_of(p), p.denominator);
     if (!place) continue;
-    const std::int32_t a = t[place->side], b = t[FaceDomain().next(place->side)];
+    const std::int32_t a = t[place->side], b = t[FaceDomain::triangle().next(place->side)];
     if (edges.at(std::minmax(a, b)) < room) continue;
     for (std::size_t c = 0; c < 3; ++c)
       out.positions[v][c] = static_cast<Real>((mesh.positions[a][c] + mesh.positions[b][c]) / 2);

@@ -16,8 +16,18 @@
  * A *message is a text without a line end that explains a status other than LC_OK. It stays valid until the
  * subject is called again; NULL if there is nothing to say.
  *
- * Conventions: faces counter-clockwise seen from outside; corners c0, c1, c2; barycentric l0 = 1 - l1 - l2 at
- * c0, l1 at c1, l2 at c2; normals of unit length along ds/dl1 x ds/dl2.
+ * Conventions: faces counter-clockwise seen from outside, corners c0, c1, c2 ...; normals of unit length,
+ * outward.
+ *   Loop          every face is a triangle: barycentric l0 = 1 - l1 - l2 at c0, l1 at c1, l2 at c2; the normal
+ *                 is along ds/dl1 x ds/dl2
+ *   Catmull-Clark a quad has (u, v): c0 at (0, 0), c1 at (1, 0), c2 at (1, 1), c3 at (0, 1); the normal is along
+ *                 ds/du x ds/dv. Any other face, a triangle too, is cut by the first step into one quad for each
+ *                 corner k: from c_k to the middle of the side to c_k+1, to the middle of the face, to the middle
+ *                 of the side from c_k-1. Each has a (u, v) of its own, (0, 0) at c_k.
+ *
+ * Versions: what interface 2 added stands at the end of each structure, behind what interface 1 has, so that
+ * a subject built for 1 is called as it always was; it is asked for Loop's scheme on triangles alone. The
+ * members `size` say how many bytes the host knows: a subject built for a later interface may not touch more.
  */
 #ifndef LIMITCHECK_SUBJECT_H
 #define LIMITCHECK_SUBJECT_H
@@ -32,7 +42,7 @@ extern "C" {
 #endif
 
 /* The version of this interface. */
-#define LC_SUBJECT_ABI 1u
+#define LC_SUBJECT_ABI 2u
 
 /* How a call went. */
 typedef enum lc_status {
@@ -42,10 +52,16 @@ typedef enum lc_status {
   LC_FAILED = 3         /* it tried and could not */
 } lc_status;
 
+/* Which subdivision scheme. */
+typedef enum lc_scheme { LC_SCHEME_LOOP = 0, LC_SCHEME_CATMULL_CLARK = 1 } lc_scheme;
+
+/* Sets of schemes, to be or-ed. */
+enum { LC_DOES_LOOP = 1, LC_DOES_CATMULL_CLARK = 2 };
+
 /* Of positions and normals. */
 typedef enum lc_precision { LC_FLOAT32 = 0, LC_FLOAT64 = 1 } lc_precision;
 
-/* Which family of vertex weights; they give different surfaces. */
+/* Which family of vertex weights of Loop's scheme; they give different surfaces. Catmull-Clark has one. */
 typedef enum lc_weights {
   LC_WEIGHTS_LOOP = 0,  /* Loop 1987: a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64 */
   LC_WEIGHTS_WARREN = 1 /* Warren: 3/(8n), 3/16 at n = 3. Another surface. */
@@ -73,19 +89,32 @@ typedef struct lc_capabilities {
   int32_t normals;        /* 1: delivers unit normals */
   int32_t per_face_depth; /* 1: accepts another depth for each face, and -1 (culled) */
   int32_t exact_lattice;  /* 1: claims to be exact at lattice points; 0: documented as an approximation */
+
+  /* Interface 2. The host sets the first two beforehand; all else is 0. */
+  uint32_t size;    /* of this structure, as the host knows it */
+  lc_scheme scheme; /* what is asked about: the answer may differ by the scheme */
+  int32_t schemes;  /* which there are, LC_DOES_LOOP | LC_DOES_CATMULL_CLARK; 0: Loop's alone */
 } lc_capabilities;
 
 /* A valid control mesh: an oriented 2-manifold, boundaries allowed. The arrays are the host's. */
 typedef struct lc_mesh {
   const double* positions; /* 3 * vertex_count, representable in the subject's precision */
   int64_t vertex_count;
-  const int32_t* triangles; /* 3 * triangle_count */
+  const int32_t* triangles; /* 3 * triangle_count; NULL and 0 if some face is no triangle */
   int64_t triangle_count;
+
+  /* Interface 2. All faces, triangles or not. */
+  uint32_t size; /* of this structure, as the host knows it */
+  lc_scheme scheme;
+  const int32_t* corners; /* corner_count vertices: the corners of all faces, one face after the other */
+  int64_t corner_count;
+  const int32_t* face_sizes; /* face_count numbers of corners, 3 or more */
+  int64_t face_count;
 } lc_mesh;
 
 /* One tessellation that is asked for. */
 typedef struct lc_request {
-  const int32_t* face_depth; /* triangle_count entries: 0..max_depth, or -1 for a culled face. A face may be
+  const int32_t* face_depth; /* one for each face: 0..max_depth, or -1 for a culled face. A face may be
                                 displayed deeper than asked for, but not deeper than a visible neighbour.
                                 Every lattice point of the depth asked for is a corner of the face's
                                 triangles, in whichever way they tile it. */
@@ -93,10 +122,18 @@ typedef struct lc_request {
   void* host;
   void* (*allocate)(void* host,
                     size_t bytes); /* NULL if refused; aligned to 64 bytes; never freed by the subject */
+
+  /* Interface 2. */
+  uint32_t size; /* of this structure, as the host knows it */
 } lc_request;
 
-/* Where a vertex lies: l1 = i / denominator, l2 = j / denominator on control face `face`.
- * Lattice points of depth d have denominator 2^d; the centre of a face is i = j = 1, denominator 3. */
+/* Where a vertex lies on control face `face`. Lattice points of depth d are the vertices of the control mesh
+ * refined d times, moved to the limit surface.
+ *   Loop            l1 = i / denominator, l2 = j / denominator; lattice points have denominator 2^d, the centre
+ *                   of a face is i = j = 1, denominator 3
+ *   Catmull-Clark   u = i / denominator, v = j / denominator; lattice points have denominator 2^d on a quad and
+ *                   2^(d-1) on the quads of another face, which lc_tessellation.corner tells apart. At depth
+ *                   0 such a face has its corners only. */
 typedef struct lc_provenance {
   int32_t face;
   uint32_t i, j;
@@ -113,23 +150,28 @@ typedef struct lc_tessellation {
   uint32_t* triangles;       /* 3 * triangle_count vertex indices, counter-clockwise from outside */
   int32_t* triangle_face;    /* triangle_count: the control face each triangle is part of */
   void* owner;               /* the subject's own; untouched by the host */
+
+  /* Interface 2. */
+  uint32_t size;   /* of this structure, as the host knows it; set beforehand */
+  int32_t* corner; /* vertex_count: the corner whose quad i and j are of; 0 on quads and triangles of Loop's.
+                      NULL if all are 0 */
 } lc_tessellation;
 
 /* The table of functions that a subject consists of. */
 typedef struct lc_subject {
-  uint32_t abi; /* LC_SUBJECT_ABI */
+  uint32_t abi; /* LC_SUBJECT_ABI of the header it was built with */
   const char* name;
   const char* description; /* one line: what it is, and of which version */
   const char* options;     /* help text for the options of create(), or NULL */
 
   /* What the subject can do under these options ("key=value,key=value", or NULL). An unknown option or value:
-   * LC_INVALID_INPUT. */
+   * LC_INVALID_INPUT. A scheme that it does not do is no error: it fills in `schemes`. */
   lc_status (*capabilities)(const char* options, lc_capabilities* out, const char** message);
 
   /* Prepares a mesh. The mesh arrays stay valid and unchanged until destroy(). On failure *instance is not
    * used, and destroy() is not called. */
   lc_status (*create)(const lc_mesh* mesh, const char* options, void** instance, const char** message);
-  /* *out is zeroed beforehand. */
+  /* *out is zeroed beforehand, but for `size`. */
   lc_status (*tessellate)(void* instance, const lc_request* request, lc_tessellation* out,
                           const char** message);
   /* Frees what the subject itself keeps for `out` (its owner); the arrays belong to the host. */
@@ -139,8 +181,9 @@ typedef struct lc_subject {
 
 /*
  * A shared library exports one function. `abi` is the interface the host speaks, LC_SUBJECT_ABI of its own
- * copy of this header; NULL if the subject cannot serve it. The table stays valid while the library is
- * loaded. LC_EXPORT makes the function visible whatever the default visibility is.
+ * copy of this header; NULL if the subject cannot serve it. The host asks for the latest interface first, then
+ * for earlier ones. The table stays valid while the library is loaded. LC_EXPORT makes the function visible
+ * whatever the default visibility is.
  *
  *   const lc_subject* lc_subject_get(uint32_t abi) { return abi == LC_SUBJECT_ABI ? &my_table : NULL; }
  */

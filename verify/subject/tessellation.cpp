@@ -37,7 +37,7 @@ void count_bad(std::vector<Defect>& defects, Defect::Kind kind, const char* arra
   }
 }
 
-using Arrays = std::array<Array, 5>;
+using Arrays = std::array<Array, 6>;
 using Kind = Defect::Kind;
 
 void note(std::vector<Defect>& defects, Kind kind, const char* array, std::string message) {
@@ -70,7 +70,7 @@ bool counts_usable(const lc_tessellation& out, std::vector<Defect>& defects) {
   return usable;
 }
 
-// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals may be missing.
+// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals and corners may be missing.
 bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vector<Defect>& defects) {
   bool usable = true;
   for (const Array& a : arrays) {
@@ -146,7 +146,7 @@ bool Tessellation::indices_ok(std::int64_t t) const {
 }
 
 bool Tessellation::face_ok(std::int64_t t) const {
-  return triangle_face_[t] >= 0 && triangle_face_[t] < faces_;
+  return triangle_face_[t] >= 0 && triangle_face_[t] < std::ssize(face_sizes_);
 }
 
 bool Tessellation::triangle_ok(std::int64_t t) const {
@@ -159,18 +159,22 @@ void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t
   };
   for (std::int64_t v = 0; v < vertices_; ++v) renumber(provenance_[v].face);
   for (std::int64_t t = 0; t < triangles_; ++t) renumber(triangle_face_[t]);
-  faces_ = count;
+  std::vector<std::int32_t> sizes(static_cast<std::size_t>(count));
+  for (std::size_t f = 0; f < to.size(); ++f)
+    if (to[f] >= 0) sizes[to[f]] = face_sizes_[f];
+  face_sizes_ = std::move(sizes);
 }
 
 bool Tessellation::provenance_ok(std::int64_t v) const {
-  const lc_provenance& p = provenance_[v];
-  return p.face >= 0 && p.face < faces_ && p.denominator > 0 &&
-         FaceDomain().contains(point_of(p), p.denominator);
+  const Place p = place(v);
+  if (p.face < 0 || p.face >= std::ssize(face_sizes_) || p.denominator == 0) return false;
+  const FaceDomain domain(scheme_, face_sizes_[p.face]);
+  return domain.contains(point_of(p), domain.steps(p.denominator));
 }
 
 void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
   const std::size_t real = coordinate_size();
-  const std::array<Array, 5> arrays{{
+  const Arrays arrays{{
       {"positions", out.positions, out.vertex_count, 3 * real, real, true},
       {"normals", out.normals, out.vertex_count, 3 * real, real, promises_normals},
       {"provenance", out.provenance, out.vertex_count, sizeof(lc_provenance), alignof(lc_provenance), true},
@@ -178,6 +182,7 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
        true},
       {"triangle_face", out.triangle_face, out.triangle_count, sizeof(std::int32_t), alignof(std::int32_t),
        true},
+      {"corner", out.corner, out.vertex_count, sizeof(std::int32_t), alignof(std::int32_t), false},
   }};
   find_overruns(*memory_, arrays, overruns_);  // they are meaningful whatever else is wrong
   if (!counts_usable(out, defects_) || !memory_usable(*memory_, arrays, defects_) ||
@@ -191,6 +196,7 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
   provenance_ = out.provenance;
   indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
   triangle_face_ = out.triangle_face;
+  corner_ = out.corner;
   inspect_contents();
 }
 

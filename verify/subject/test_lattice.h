@@ -38,9 +38,9 @@ using Place = std::tuple<int, std::int64_t, std::int64_t, std::int64_t, std::int
 
 inline Place place(const data::ControlMesh& mesh, const lc_provenance& p) {
   const auto& corners = triangles_of(mesh)[p.face];
-  const auto at = FaceDomain().side_of(point_of(p), p.denominator);
+  const auto at = FaceDomain::triangle().side_of(point_of(p), p.denominator);
   if (!at) return {2, p.face, p.i, p.j, p.denominator};
-  const auto a = corners[at->side], b = corners[FaceDomain().next(at->side)];
+  const auto a = corners[at->side], b = corners[FaceDomain::triangle().next(at->side)];
   if (at->along == 0) return {0, a, 0, 0, 0};
   return a < b ? Place{1, a, b, at->along, p.denominator}
                : Place{1, b, a, p.denominator - at->along, p.denominator};

@@ -28,12 +28,15 @@ const lc_subject& load_subject(const std::string& file) {
   const auto entry = reinterpret_cast<Entry>(dlsym(library, LC_SUBJECT_ENTRY));
   if (entry == nullptr)
     refuse("does not export " LC_SUBJECT_ENTRY "(); <limitcheck/subject.h> says what it must return");
-  const lc_subject* subject = entry(LC_SUBJECT_ABI);
+  // The latest interface that both have.
+  const lc_subject* subject = nullptr;
+  std::uint32_t abi = LC_SUBJECT_ABI;
+  for (; abi >= 1 && subject == nullptr; --abi) subject = entry(abi);
   if (subject == nullptr)
-    refuse(fmt::format("does not offer interface {}, the one of this program: " LC_SUBJECT_ENTRY
-                       "({}) is NULL",
-                       LC_SUBJECT_ABI, LC_SUBJECT_ABI));
-  if (subject->abi != LC_SUBJECT_ABI)
+    refuse(fmt::format("offers no interface from 1 to {}, those of this program: " LC_SUBJECT_ENTRY
+                       "() is NULL for each",
+                       LC_SUBJECT_ABI));
+  if (subject->abi != abi + 1)
     refuse(fmt::format("was built for interface {}, this program has {}", subject->abi, LC_SUBJECT_ABI));
   if (subject->name == nullptr || subject->capabilities == nullptr || subject->create == nullptr ||
       subject->tessellate == nullptr || subject->release == nullptr || subject->destroy == nullptr)

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <type_traits>
 
 #include "verify/subject/isolation/header.h"
+#include "verify/subject/lent_mesh.h"
 
 static_assert(std::endian::native == std::endian::little, "payloads are little-endian and sent as they lie");
 
@@ -83,6 +85,7 @@ void read_rows(Source& source, const lc_tessellation& out) {
     p.i = row.next<std::uint32_t>();
     p.j = row.next<std::uint32_t>();
     p.denominator = row.next<std::uint32_t>();
+    if (out.corner != nullptr) out.corner[v] = row.next<std::int32_t>();
     row.finish();
   }
   for (std::int64_t t = 0; t < out.triangle_count; ++t) {
@@ -91,6 +94,17 @@ void read_rows(Source& source, const lc_tessellation& out) {
     out.triangle_face[t] = row.next<std::int32_t>();
     row.finish();
   }
+}
+
+std::int32_t schemes_of(const Header& header) {
+  const nlohmann::json& list = header.at("schemes");
+  std::int32_t schemes = 0;
+  for (const auto& [name, bit] :
+       {std::pair{"loop", std::int32_t{LC_DOES_LOOP}}, {"catmull-clark", LC_DOES_CATMULL_CLARK}})
+    if (std::find(list.begin(), list.end(), name) != list.end()) schemes |= bit;
+  if (!list.is_array() || schemes == 0)
+    throw Error(R"("schemes" is no list with "loop" or "catmull-clark")");
+  return schemes;
 }
 
 std::size_t real_size(const Capabilities& capabilities) {
@@ -112,29 +126,52 @@ std::string printable(std::string_view text, std::size_t longest) {
   return text.size() > longest ? out + "..." : out;
 }
 
-std::string ask_capabilities(const std::string& options) {
-  return to_line({{"limitcheck", kVersion}, {"request", "capabilities"}, {"options", options}});
+std::string_view name_of(lc_scheme scheme) {
+  return data::name_of(scheme_of(scheme));
 }
 
-std::string ask_create(const lc_mesh& mesh, const std::string& options, Payload payload) {
-  std::string text = to_line({{"request", "create"},
-                              {"options", options},
-                              {"vertices", mesh.vertex_count},
-                              {"triangles", mesh.triangle_count}});
-  if (payload == Payload::kText) {
-    append_rows(text, mesh.positions, mesh.vertex_count, 3);
-    append_rows(text, mesh.triangles, mesh.triangle_count, 3);
+// Each question says version 1, as programs of that version expect it, and which is the latest.
+std::string ask_capabilities(const std::string& options, lc_scheme scheme) {
+  return to_line({{"limitcheck", 1},
+                  {"latest", kVersion},
+                  {"request", "capabilities"},
+                  {"scheme", name_of(scheme)},
+                  {"options", options}});
+}
+
+std::string ask_create(const lc_mesh& mesh, const std::string& options, const Capabilities& capabilities) {
+  const bool polygons = capabilities.version > 1;
+  nlohmann::json question{{"request", "create"}, {"options", options}, {"vertices", mesh.vertex_count}};
+  if (polygons) {
+    question["scheme"] = name_of(mesh.scheme);
+    question["faces"] = mesh.face_count;
+    question["corners"] = mesh.corner_count;
   } else {
-    append(text, mesh.positions, 3 * sizeof(double) * static_cast<std::size_t>(mesh.vertex_count));
-    append(text, mesh.triangles, 3 * sizeof(std::int32_t) * static_cast<std::size_t>(mesh.triangle_count));
+    question["triangles"] = mesh.triangle_count;
   }
+  std::string text = to_line(question);
+  if (capabilities.payload == Payload::kText) {
+    append_rows(text, mesh.positions, mesh.vertex_count, 3);
+    const std::int32_t* corner = mesh.corners;
+    for (std::int64_t f = 0; f < mesh.face_count; corner += mesh.face_sizes[f++])
+      append_rows(text, corner, 1, mesh.face_sizes[f]);
+    return text;
+  }
+  const auto array = [&](const auto* data, std::int64_t count) {
+    append(text, data, sizeof(*data) * static_cast<std::size_t>(count));
+  };
+  array(mesh.positions, 3 * mesh.vertex_count);
+  if (polygons) array(mesh.face_sizes, mesh.face_count);
+  array(mesh.corners, mesh.corner_count);
   return text;
 }
 
-std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads, Payload payload) {
-  std::string text =
-      to_line({{"request", "tessellate"}, {"threads", threads}, {"triangles", face_depth.size()}});
-  if (payload == Payload::kText) {
+std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads,
+                           const Capabilities& capabilities) {
+  std::string text = to_line({{"request", "tessellate"},
+                              {"threads", threads},
+                              {capabilities.version > 1 ? "faces" : "triangles", face_depth.size()}});
+  if (capabilities.payload == Payload::kText) {
     append_rows(text, face_depth.data(), static_cast<std::int64_t>(face_depth.size()), 1);
   } else {
     append(text, face_depth.data(), face_depth.size_bytes());
@@ -150,13 +187,14 @@ Capabilities read_capabilities(Source& source) {
   const Header header = read_header(source);
   if (!header.has("limitcheck")) throw Error(R"(the first answer does not say "limitcheck": 1)");
   const std::int64_t version = header.integer("limitcheck", INT64_MIN, INT64_MAX);
-  if (version != kVersion)
-    throw Error(
-        fmt::format("it speaks version {} of the protocol, this program speaks {}", version, kVersion));
+  if (version < 1 || version > kVersion)
+    throw Error(fmt::format("it speaks version {} of the protocol, this program speaks 1 to {}", version,
+                            kVersion));
   header.refuse_unless_ok();
   if (header.has("impossible")) throw Error(header.text("impossible"));  // the worker has seen it
 
   Capabilities result;
+  result.version = static_cast<int>(version);
   lc_capabilities& c = result.values;
   c.precision = header.choice("precision", {"float32", "float64"}) == 0 ? LC_FLOAT32 : LC_FLOAT64;
   c.weights = header.choice("weights", {"loop", "warren"}) == 0 ? LC_WEIGHTS_LOOP : LC_WEIGHTS_WARREN;
@@ -166,6 +204,7 @@ Capabilities read_capabilities(Source& source) {
   c.normals = header.flag("normals");
   c.per_face_depth = header.flag("per_face_depth");
   c.exact_lattice = header.flag("exact_lattice");
+  c.schemes = version == 1 ? std::int32_t{LC_DOES_LOOP} : schemes_of(header);
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
   return result;
@@ -192,7 +231,7 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   const std::size_t point = 3 * real_size(capabilities);
   const bool normals = capabilities.values.normals != 0;
   const double bytes =
-      static_cast<double>(vertices) * static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance)) +
+      static_cast<double>(vertices) * static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance) + sizeof(std::int32_t)) +
       static_cast<double>(triangles) * 16.0;
   if (bytes > static_cast<double>(most_bytes))
     throw Error(fmt::format("it announces {} vertices and {} triangles, {:.3g} MiB; {} MiB are allowed",
@@ -209,6 +248,7 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   out.provenance = static_cast<lc_provenance*>(get(vertices, sizeof(lc_provenance)));
   out.triangles = static_cast<std::uint32_t*>(get(triangles, 3 * sizeof(std::uint32_t)));
   out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
+  if (capabilities.version > 1) out.corner = static_cast<std::int32_t*>(get(vertices, sizeof(std::int32_t)));
 
   if (capabilities.payload == Payload::kText) {
     if (capabilities.values.precision == LC_FLOAT32) {
@@ -225,6 +265,7 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   fill(out.positions, vertices, point);
   fill(out.normals, vertices, point);
   fill(out.provenance, vertices, sizeof(lc_provenance));
+  fill(out.corner, vertices, sizeof(std::int32_t));
   fill(out.triangles, triangles, 3 * sizeof(std::uint32_t));
   fill(out.triangle_face, triangles, sizeof(std::int32_t));
 }

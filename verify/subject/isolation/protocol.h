@@ -15,7 +15,7 @@
 
 namespace limitcheck::verify::protocol {
 
-inline constexpr int kVersion = 1;
+inline constexpr int kVersion = 2;  // the latest; programs of version 1 are still understood
 inline constexpr std::size_t kLongestHeader = std::size_t{64} << 10;
 inline constexpr std::size_t kLongestLine = 1024;  // of a text payload
 
@@ -45,12 +45,14 @@ enum class Payload { kBinary, kText };
 struct Capabilities {
   lc_capabilities values{};
   Payload payload = Payload::kBinary;  // of everything after this answer, both ways
+  int version = kVersion;              // likewise
 };
 
 /// Requests, ready to be sent.
-std::string ask_capabilities(const std::string& options);
-std::string ask_create(const lc_mesh& mesh, const std::string& options, Payload payload);
-std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads, Payload payload);
+std::string ask_capabilities(const std::string& options, lc_scheme scheme);
+std::string ask_create(const lc_mesh& mesh, const std::string& options, const Capabilities& capabilities);
+std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads,
+                           const Capabilities& capabilities);
 /// Of the worker only: destroy(), and to end.
 std::string ask_end();
 
@@ -76,6 +78,9 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
 /// the subject wrote to it. So the host judges what it would have seen without the process in between.
 Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh,
                       const lc_request& request, lc_tessellation& out);
+
+/// "loop", "catmull-clark": as questions and answers name them.
+std::string_view name_of(lc_scheme scheme);
 
 /// A text for a message: at most `longest` bytes, nothing a terminal would act on.
 std::string printable(std::string_view text, std::size_t longest);

@@ -79,15 +79,19 @@ struct RemoteCalls {
     s.waiting_.reset();
     auto child = s.start();
     const lc_status status = answer(s, *child, message, input(s, given), [&] {
-      child->ask(protocol::ask_capabilities(given));
+      child->ask(protocol::ask_capabilities(given, out->scheme));
       s.capabilities_ = protocol::read_capabilities(*child);
+      const lc_scheme scheme = out->scheme;
       *out = s.capabilities_.values;
+      out->size = sizeof *out;
+      out->scheme = scheme;
     });
     s.has_answered_ = s.has_answered_ || !child->not_started();
     s.containment_ = child->containment();
     if (status == LC_OK) {
       s.waiting_ = std::move(child);
       s.waiting_options_ = given;
+      s.waiting_scheme_ = out->scheme;
     }
     return status;
   }
@@ -95,8 +99,9 @@ struct RemoteCalls {
   static lc_status create(RemoteSubject& s, const lc_mesh* mesh, const char* options, void** instance,
                           const char** message) {
     const std::string given = options != nullptr ? options : "";
-    if (s.waiting_ == nullptr || s.waiting_options_ != given) {
+    if (s.waiting_ == nullptr || s.waiting_options_ != given || s.waiting_scheme_ != mesh->scheme) {
       lc_capabilities ignored{};
+      ignored.scheme = mesh->scheme;
       if (const lc_status status = capabilities(s, options, &ignored, message); status != LC_OK)
         return status;
     }
@@ -105,7 +110,7 @@ struct RemoteCalls {
     Input in = input(s, given);
     in.mesh = mesh;
     const lc_status status = answer(s, *made->child, message, in, [&] {
-      made->child->ask(protocol::ask_create(*mesh, given, made->capabilities.payload));
+      made->child->ask(protocol::ask_create(*mesh, given, made->capabilities));
       protocol::read_created(*made->child);
     });
     if (status == LC_OK) *instance = made.release();
@@ -115,13 +120,13 @@ struct RemoteCalls {
   static lc_status tessellate(void* instance, const lc_request* request, lc_tessellation* out,
                               const char** message) {
     auto& i = *static_cast<Instance*>(instance);
-    const std::span depth(request->face_depth, static_cast<std::size_t>(i.mesh.triangle_count));
+    const std::span depth(request->face_depth, static_cast<std::size_t>(i.mesh.face_count));
     const std::uint64_t most = i.subject.settings_.limits.memory_bytes();
     Input in = input(i.subject, i.options);
     in.mesh = &i.mesh;
     in.face_depth = depth;
     return answer(i.subject, *i.child, message, in, [&] {
-      i.child->ask(protocol::ask_tessellate(depth, request->threads, i.capabilities.payload));
+      i.child->ask(protocol::ask_tessellate(depth, request->threads, i.capabilities));
       if (i.subject.kind_ == RemoteSubject::Kind::kProgram) {
         protocol::read_tessellation(*i.child, i.capabilities, most, *request, *out);
       } else {

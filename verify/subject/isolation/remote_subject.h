@@ -54,6 +54,7 @@ class RemoteSubject {
   // Started for capabilities(), and used by the create() that follows.
   std::unique_ptr<ChildProcess> waiting_;
   std::string waiting_options_;
+  lc_scheme waiting_scheme_ = LC_SCHEME_LOOP;
   protocol::Capabilities capabilities_;
   bool has_answered_ = false;
   std::optional<Containment> containment_;

@@ -18,6 +18,7 @@
 #include "verify/subject/host.h"
 #include "verify/subject/host_memory.h"
 #include "verify/subject/isolation/header.h"
+#include "verify/subject/lent_mesh.h"
 #include "verify/subject/subject_call.h"
 
 namespace limitcheck::verify {
@@ -76,17 +77,28 @@ class Connection final : public protocol::Source {
 struct Loaded {
   const lc_subject& subject;
   std::string options;
-  std::vector<double> positions;
-  std::vector<std::int32_t> triangles;
+  LentMesh mesh;
   void* instance = nullptr;
 
   const char* option_text() const { return options.empty() ? nullptr : options.c_str(); }
 };
 
-nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options) {
+data::Scheme asked_scheme(const Header& header) {
+  return header.choice("scheme", {"loop", "catmull-clark"}) == 0 ? data::Scheme::kLoop
+                                                                 : data::Scheme::kCatmullClark;
+}
+
+nlohmann::json scheme_names(const lc_capabilities& c) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+    if (does(c, scheme)) names.push_back(data::name_of(scheme));
+  return names;
+}
+
+nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options, data::Scheme scheme) {
   lc_capabilities c{};
   try {
-    c = capabilities(subject, options);
+    c = capabilities(subject, options, scheme);
   } catch (const SubjectDied& wrong) {
     return {{"limitcheck", protocol::kVersion}, {"status", "ok"}, {"impossible", wrong.what()}};
   }
@@ -96,6 +108,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"weights", c.weights == LC_WEIGHTS_LOOP ? "loop" : "warren"},
           {"boundary", c.boundary == LC_BOUNDARY_SPLINE ? "spline" : "none"},
           {"points", c.points == LC_POINTS_LIMIT ? "limit" : "refined"},
+          {"schemes", scheme_names(c)},
           {"max_depth", c.max_depth},
           {"normals", c.normals != 0},
           {"per_face_depth", c.per_face_depth != 0},
@@ -111,14 +124,14 @@ nlohmann::json place(const Memory& memory, const void* pointer) {
 }
 
 void tessellate(Loaded& loaded, const Header& header, Connection& host) {
-  const std::vector<std::int32_t> depth = host.array<std::int32_t>(header.integer("triangles", 0, INT32_MAX));
-  const std::vector<double> positions = loaded.positions;
-  const std::vector<std::int32_t> triangles = loaded.triangles;
+  const std::vector<std::int32_t> depth = host.array<std::int32_t>(header.integer("faces", 0, INT32_MAX));
+  const LentMesh before = loaded.mesh;
 
   Memory memory;
   const lc_request request{depth.data(), static_cast<std::int32_t>(header.integer("threads", 1, INT32_MAX)),
-                           &memory, &Memory::allocate};
+                           &memory, &Memory::allocate, sizeof(lc_request)};
   lc_tessellation out{};
+  out.size = sizeof out;
   detail::call(loaded.subject, "tessellate", [&](const char** message) {
     return loaded.subject.tessellate(loaded.instance, &request, &out, message);
   });
@@ -133,11 +146,7 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
   std::vector<std::array<std::int64_t, 3>> blocks;
   for (const Memory::Block& b : memory.blocks())
     blocks.push_back({static_cast<std::int64_t>(b.size), memory.written_before(b), memory.written_behind(b)});
-  // By bytes: what a subject writes there may be a NaN.
-  const auto same = [](const auto& a, const auto& b) {
-    return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
-  };
-  const bool mesh_changed = !same(positions, loaded.positions) || !same(triangles, loaded.triangles);
+  const bool mesh_changed = !(before == loaded.mesh);
   host.write({{"status", "ok"},
               {"vertices", delivered.vertex_count},
               {"triangles", delivered.triangle_count},
@@ -147,13 +156,15 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
               {"provenance", place(memory, delivered.provenance)},
               {"triangle_corners", place(memory, delivered.triangles)},
               {"triangle_face", place(memory, delivered.triangle_face)},
+              {"corner", place(memory, delivered.corner)},
               {"mesh_changed", mesh_changed},
               {"release_threw", release_threw}});
   host.write(std::as_bytes(std::span(blocks)));
   for (const Memory::Block& b : memory.blocks()) host.write({b.data, b.size});
   if (mesh_changed) {
-    host.write(std::as_bytes(std::span(loaded.positions)));
-    host.write(std::as_bytes(std::span(loaded.triangles)));
+    host.write(std::as_bytes(std::span(loaded.mesh.positions)));
+    host.write(std::as_bytes(std::span(loaded.mesh.corners)));
+    host.write(std::as_bytes(std::span(loaded.mesh.face_sizes)));
   }
 }
 
@@ -170,13 +181,15 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
             Connection& host) {
   const std::string request = header.text("request");
   if (request == "capabilities") {
-    host.write(capabilities_answer(subject, header.text("options")));
+    host.write(capabilities_answer(subject, header.text("options"), asked_scheme(header)));
   } else if (request == "create") {
-    loaded.emplace(Loaded{subject, header.text("options"), {}, {}});
-    loaded->positions = host.array<double>(3 * header.integer("vertices", 0, INT32_MAX));
-    loaded->triangles = host.array<std::int32_t>(3 * header.integer("triangles", 0, INT32_MAX));
-    const lc_mesh mesh{loaded->positions.data(), static_cast<std::int64_t>(loaded->positions.size() / 3),
-                       loaded->triangles.data(), static_cast<std::int64_t>(loaded->triangles.size() / 3)};
+    loaded.emplace(Loaded{subject, header.text("options"), {}});
+    LentMesh& lent = loaded->mesh;
+    lent.scheme = asked_scheme(header);
+    lent.positions = host.array<double>(3 * header.integer("vertices", 0, INT32_MAX));
+    lent.face_sizes = host.array<std::int32_t>(header.integer("faces", 0, INT32_MAX));
+    lent.corners = host.array<std::int32_t>(header.integer("corners", 0, INT32_MAX));
+    const lc_mesh mesh = lent.view();
     detail::call(subject, "create", [&](const char** message) {
       return subject.create(&mesh, loaded->option_text(), &loaded->instance, message);
     });

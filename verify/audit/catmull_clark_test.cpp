@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The audit of Catmull-Clark's surfaces: what is right has no finding, on every kind of face and boundary.
+#include <gtest/gtest.h>
+
+#include "data/generators/bumpy_sphere.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/shapes.h"
+#include "verify/audit/audit.h"
+#include "verify/audit/face_depths.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+namespace {
+
+struct Named {
+  std::string name;
+  data::ControlMesh mesh;
+};
+
+std::vector<Named> meshes() {
+  std::vector<Named> all{{"quad cube", data::quad_cube()}, {"quad torus", data::quad_torus(4, 3)}};
+  for (const int n : {3, 5, 6, 8, 12}) all.push_back({"wheel " + std::to_string(n), data::quad_wheel(n, 1)});
+  for (int k = 1; k <= 6; ++k) all.push_back({"fan " + std::to_string(k), data::quad_fan(k, 1)});
+  for (const int n : {3, 5, 7}) all.push_back({"prism " + std::to_string(n), data::polygon_prism(n)});
+  all.push_back({"triangles", data::octahedron()});
+  all.push_back({"dual", data::dual(data::bumpy_sphere(40, 1))});
+  return all;
+}
+
+void expect_held(const std::vector<Result>& results, const std::string& what) {
+  EXPECT_FALSE(results.empty());
+  for (const Result& r : results)
+    EXPECT_TRUE(r.status == Status::kHeld || r.status == Status::kQualityWarning || r.status == Status::kNotRun)
+        << what << ", " << r.check << ": " << word(r.status) << ", " << r.bad << " of " << r.of << ", worst "
+        << r.worst.value_or(-1) << ", bound " << r.bound.value_or(-1) << ": " << r.message << " at "
+        << (r.witness ? r.witness->where() + " " + r.witness->l1 + " " + r.witness->l2 : "");
+}
+
+TEST(CatmullClarkAudit, TheNaiveSubdividerHasNoFinding) {
+  for (const Named& m : meshes())
+    for (const int depth : {0, 1, 2, 3}) {
+      AuditMesh mesh{m.name, m.mesh};
+      mesh.asked_scheme = data::Scheme::kCatmullClark;
+      Auditor auditor(depth, 1, {}, depth == 2 ? Level::kThorough : Level::kQuick);
+      expect_held(auditor.run({lc_subject_naive(), ""}, mesh), m.name + " at depth " + std::to_string(depth));
+    }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// A control mesh in the arrays in which subjects get it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "data/scheme.h"
+#include "verify/subject/subject.h"
+
+namespace limitcheck::verify {
+
+constexpr lc_scheme scheme_of(data::Scheme scheme) {
+  return scheme == data::Scheme::kLoop ? LC_SCHEME_LOOP : LC_SCHEME_CATMULL_CLARK;
+}
+constexpr data::Scheme scheme_of(lc_scheme scheme) {
+  return scheme == LC_SCHEME_LOOP ? data::Scheme::kLoop : data::Scheme::kCatmullClark;
+}
+/// The schemes that capabilities declare.
+constexpr bool does(const lc_capabilities& c, data::Scheme scheme) {
+  const std::int32_t schemes = c.schemes == 0 ? std::int32_t{LC_DOES_LOOP} : c.schemes;
+  return (schemes & (scheme == data::Scheme::kLoop ? LC_DOES_LOOP : LC_DOES_CATMULL_CLARK)) != 0;
+}
+
+/// A copy, which a subject may write to without spoiling anybody else's.
+struct LentMesh {
+  std::vector<double> positions;
+  std::vector<std::int32_t> corners, face_sizes;
+  data::Scheme scheme = data::Scheme::kLoop;
+
+  LentMesh() = default;
+  LentMesh(const data::ControlMesh& mesh, data::Scheme of_scheme) : scheme(of_scheme) {
+    positions.reserve(3 * mesh.positions.size());
+    for (const auto& p : mesh.positions) positions.insert(positions.end(), p.begin(), p.end());
+    corners.assign(mesh.faces.corners().begin(), mesh.faces.corners().end());
+    face_sizes.reserve(mesh.faces.size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      face_sizes.push_back(static_cast<std::int32_t>(mesh.faces[f].size()));
+  }
+  /// A copy of a mesh that somebody else lent.
+  explicit LentMesh(const lc_mesh& mesh)
+      : positions(mesh.positions, mesh.positions + 3 * mesh.vertex_count),
+        corners(mesh.corners, mesh.corners + mesh.corner_count),
+        face_sizes(mesh.face_sizes, mesh.face_sizes + mesh.face_count),
+        scheme(scheme_of(mesh.scheme)) {}
+
+  std::int64_t vertices() const { return static_cast<std::int64_t>(positions.size() / 3); }
+  std::int64_t faces() const { return static_cast<std::int64_t>(face_sizes.size()); }
+
+  /// It refers to the arrays.
+  lc_mesh view() const {
+    const bool triangles = std::all_of(face_sizes.begin(), face_sizes.end(), [](auto n) { return n == 3; });
+    return {positions.data(),
+            vertices(),
+            triangles ? corners.data() : nullptr,
+            triangles ? faces() : 0,
+            sizeof(lc_mesh),
+            scheme_of(scheme),
+            corners.data(),
+            static_cast<std::int64_t>(corners.size()),
+            face_sizes.data(),
+            faces()};
+  }
+
+  /// By bytes: what a subject writes may be a NaN.
+  friend bool operator==(const LentMesh& a, const LentMesh& b) {
+    const auto same = [](const auto& x, const auto& y) {
+      return x.size() == y.size() &&
+             (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0);
+    };
+    return same(a.positions, b.positions) && same(a.corners, b.corners) && same(a.face_sizes, b.face_sizes);
+  }
+};
+
+}  // namespace limitcheck::verify

@@ -236,18 +236,20 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-}  // namespace
-
-// A mesh of triangles is taken for one of Loop's, unless it is said otherwise.
-static std::string scheme_option(const Result& result) {
-  return result.scheme == data::Scheme::kLoop ? ""
-                                              : fmt::format(" --scheme {}", data::name_of(result.scheme));
+// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said otherwise.
+std::string mesh_options(const Result& result) {
+  std::string text;
+  if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));
+  if (!result.triangulated.empty()) text += fmt::format(" --triangulate {}", result.triangulated);
+  return text;
 }
+
+}  // namespace
 
 std::string eval_command(const Result& result) {
   if (!result.witness || result.witness->face < 0 || result.witness->l1.empty()) return "";
   return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
-                     result.witness->l1, result.witness->l2, scheme_option(result),
+                     result.witness->l1, result.witness->l2, mesh_options(result),
                      result.in_float ? " --precision float" : "",
                      result.weights == reference::Weights::kWarren ? " --weights warren" : "");
 }
@@ -255,7 +257,7 @@ std::string eval_command(const Result& result) {
 std::string audit_command(const Result& result, const std::string& level) {
   std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
                                     quoted(result.mesh), result.depth) +
-                        scheme_option(result);
+                        mesh_options(result);
   if (level != "standard") command += fmt::format(" --level {}", level);
   if (!result.depths.empty() && result.depths != "uniform")
     command += fmt::format(" --depths {}", quoted(result.depths));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every command that takes a control mesh chooses the scheme by the mesh, says so first, and cuts no polygon unless
-// it is told to.
+// Every command that takes a control mesh chooses the scheme by the mesh, says so first, and cuts no polygon
+// unless it is told to.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -92,6 +92,15 @@ TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
   EXPECT_EQ(cut["meshes"][0]["faces"], 16);
 }
 
+TEST_F(Scheme, OfASubjectThatDoesLoopsOnlyLeadsToTriangulate) {
+  const Outcome o = run("audit row-stream quad-cube --depth 1 --level quick");
+  EXPECT_EQ(o.code, 2) << o.out;
+  EXPECT_NE(o.out.find("does Loop's scheme only needs --triangulate"), std::string::npos) << o.out;
+  EXPECT_EQ(run("audit row-stream quad-cube --depth 1 --level quick --triangulate fan").code, 0);
+  EXPECT_EQ(run("audit row-stream quad-cube cube --depth 1 --level quick").code, 0)
+      << "one of them is judged";
+}
+
 TEST_F(Scheme, OfBrokenMeshesIsChosenLikewise) {
   write("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 2 3 4 1\n");
   const Outcome o = run("audit naive twice.obj --must-refuse");

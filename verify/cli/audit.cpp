@@ -133,11 +133,15 @@ struct Meshes {
   std::string scheme_line;
 };
 
-Meshes planned(const Arguments& a) {
-  Meshes result{verify::default_plan(level(a.output)), {}};
+Meshes planned(const Arguments& a, const std::vector<verify::AuditSubject>& audited) {
+  const std::optional<data::Scheme> asked = read_options(a.mesh).scheme;
+  Meshes result{
+      asked ? verify::default_plan(level(a.output)) : verify::default_plan(level(a.output), audited), {}};
+  if (asked == data::Scheme::kLoop)
+    std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
   std::vector<MeshScheme> chosen;
   for (verify::AuditMesh& m : result.list) {
-    m.asked_scheme = read_options(a.mesh).scheme;
+    m.asked_scheme = asked;
     chosen.push_back({m.scheme(), 0});
   }
   result.scheme_line = scheme_line(chosen, a.mesh);
@@ -286,7 +290,7 @@ int audit(const Job& job) {
   SubjectLoader loader(a.from);
   const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  const Meshes asked = a.plan ? planned(a) : meshes_asked_for(a, job.depths, job.sampling, progress);
+  const Meshes asked = a.plan ? planned(a, audited) : meshes_asked_for(a, job.depths, job.sampling, progress);
   const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
 

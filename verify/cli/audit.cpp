@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -139,11 +140,13 @@ Meshes planned(const Arguments& a, const std::vector<verify::AuditSubject>& audi
       asked ? verify::default_plan(level(a.output)) : verify::default_plan(level(a.output), audited), {}};
   if (asked == data::Scheme::kLoop)
     std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
-  std::vector<MeshScheme> chosen;
+  std::map<std::string, MeshScheme> by_name;  // the plan has a mesh at several depths
   for (verify::AuditMesh& m : result.list) {
     m.asked_scheme = asked;
-    chosen.push_back({m.scheme(), 0});
+    by_name[m.name] = {m.scheme(), 0};
   }
+  std::vector<MeshScheme> chosen;
+  for (const auto& [name, scheme] : by_name) chosen.push_back(scheme);
   result.scheme_line = scheme_line(chosen, a.mesh);
   return result;
 }

@@ -126,8 +126,7 @@ class FaceDomain {
     if (shape_ == Shape::kTriangle) {
       const std::array<std::int64_t, 3> from{n - p.i - p.j, p.i, p.j};
       std::array<std::int64_t, 3> to{};
-      for (int k = 0; k < 3; ++k)
-        to[static_cast<std::size_t>(corner(k, s))] = from[static_cast<std::size_t>(k)];
+      for (int k = 0; k < 3; ++k) to[static_cast<std::size_t>(corner(k, s))] = from[static_cast<std::size_t>(k)];
       return {to[1], to[2]};
     }
     const Point q = s.mirrored ? Point{p.j, p.i} : Point{p.i, p.j};
@@ -287,8 +286,7 @@ class FaceDomain {
   // exp(2 pi i k / corners).
   std::array<double, 2> flat(Point p, std::int64_t n) const {
     const double turn = 2 * std::numbers::pi / corners_;
-    const auto to_next = static_cast<double>(n - 2 * p.j) / 2,
-               to_previous = static_cast<double>(n - 2 * p.i) / 2;
+    const auto to_next = static_cast<double>(n - 2 * p.j) / 2, to_previous = static_cast<double>(n - 2 * p.i) / 2;
     return {to_next * std::cos(turn * p.part) + to_previous * std::cos(turn * (p.part - 1)),
             to_next * std::sin(turn * p.part) + to_previous * std::sin(turn * (p.part - 1))};
   }

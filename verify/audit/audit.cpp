@@ -233,7 +233,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.faces.size())) {
     const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
-    for (Result& r : check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))
+    for (Result& r :
+         check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))
       results.push_back(std::move(r));
   }
 }

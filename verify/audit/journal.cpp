@@ -35,10 +35,12 @@ std::vector<double> numbers_of(const Json& json) {
 // The structured binding names all members: with a new one this does not compile until it is written, too.
 Json to_json(const Witness& w) {
   const auto& [face, l1, l2, vertex, triangle, expected, got, digits, corner] = w;
-  return Json::array({face, l1, l2, vertex, triangle, Json(numbers(expected)), Json(numbers(got)), digits, corner});
+  return Json::array(
+      {face, l1, l2, vertex, triangle, Json(numbers(expected)), Json(numbers(got)), digits, corner});
 }
 Witness witness(const Json& j) {
-  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), numbers_of(j.at(5)), numbers_of(j.at(6)), j.at(7), j.at(8)};
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), numbers_of(j.at(5)), numbers_of(j.at(6)),
+          j.at(7), j.at(8)};
 }
 Json to_json(const IllConditioned& c) {
   const auto& [count, bound, worst] = c;
@@ -48,8 +50,8 @@ IllConditioned ill_conditioned(const Json& j) {
   return {j.at(0), number_of(j.at(1)), number_of(j.at(2))};
 }
 Json to_json(const Result& r) {
-  const auto& [subject, mesh, check, depth, depths, sample, in_float, scheme, weights, status, bad, of, worst, bound,
-               rms, p99, unit, absolute, ulps, ill, place, message] = r;
+  const auto& [subject, mesh, check, depth, depths, sample, in_float, scheme, weights, status, bad, of, worst,
+               bound, rms, p99, unit, absolute, ulps, ill, place, message] = r;
   return Json::array({subject,
                       mesh,
                       check,

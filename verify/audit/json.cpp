@@ -79,7 +79,10 @@ std::string to_json(const Report& report, const std::string& level) {
   out["subjects"] = report.subjects;
   out["meshes"] = Json::array();
   for (const auto& m : report.meshes)
-    out["meshes"].push_back({{"name", m.name}, {"vertices", m.vertices}, {"faces", m.faces}, {"scheme", data::name_of(m.scheme)}});
+    out["meshes"].push_back({{"name", m.name},
+                             {"vertices", m.vertices},
+                             {"faces", m.faces},
+                             {"scheme", data::name_of(m.scheme)}});
   out["results"] = Json::array();
   for (const Result& r : report.results)
     out["results"].push_back({{"subject", r.subject},

@@ -240,7 +240,8 @@ std::string quoted(const std::string& text) {
 
 // A mesh of triangles is taken for one of Loop's, unless it is said otherwise.
 static std::string scheme_option(const Result& result) {
-  return result.scheme == data::Scheme::kLoop ? "" : fmt::format(" --scheme {}", data::name_of(result.scheme));
+  return result.scheme == data::Scheme::kLoop ? ""
+                                              : fmt::format(" --scheme {}", data::name_of(result.scheme));
 }
 
 std::string eval_command(const Result& result) {
@@ -253,7 +254,8 @@ std::string eval_command(const Result& result) {
 
 std::string audit_command(const Result& result, const std::string& level) {
   std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
-                                    quoted(result.mesh), result.depth) + scheme_option(result);
+                                    quoted(result.mesh), result.depth) +
+                        scheme_option(result);
   if (level != "standard") command += fmt::format(" --level {}", level);
   if (!result.depths.empty() && result.depths != "uniform")
     command += fmt::format(" --depths {}", quoted(result.depths));

@@ -51,16 +51,21 @@ std::string impossible(const lc_capabilities& c) {
 // What a subject did to the mesh that it was lent.
 std::string changes(const LentMesh& before, const LentMesh& after) {
   std::int64_t changed = 0;
-  const auto count = [&](const auto& a, const auto& b, std::size_t together) {
-    for (std::size_t k = 0; k < a.size(); k += together)
-      changed += !std::equal(a.begin() + static_cast<std::ptrdiff_t>(k),
-                             a.begin() + static_cast<std::ptrdiff_t>(k + together),
-                             b.begin() + static_cast<std::ptrdiff_t>(k));
+  const auto compare = [&](const auto& a, const auto& b, std::size_t begin, std::size_t count) {
+    const auto from = a.begin() + static_cast<std::ptrdiff_t>(begin);
+    return std::equal(from, from + static_cast<std::ptrdiff_t>(count),
+                      b.begin() + static_cast<std::ptrdiff_t>(begin));
   };
-  count(before.positions, after.positions, 3);
-  count(before.corners, after.corners, 1);
-  count(before.face_sizes, after.face_sizes, 1);
-  return fmt::format("the subject changed {} vertices or corners of the control mesh", changed);
+  for (std::size_t k = 0; k < before.positions.size(); k += 3)
+    changed += !compare(before.positions, after.positions, k, 3);
+  std::size_t corner = 0;
+  for (std::size_t f = 0; f < before.face_sizes.size(); ++f) {
+    const auto size = static_cast<std::size_t>(before.face_sizes[f]);
+    changed +=
+        before.face_sizes[f] != after.face_sizes[f] || !compare(before.corners, after.corners, corner, size);
+    corner += size;
+  }
+  return fmt::format("the subject changed {} vertices or faces of the control mesh", changed);
 }
 
 }  // namespace

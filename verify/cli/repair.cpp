@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "data/io/write.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_report.h"
 
@@ -20,7 +21,7 @@ struct Arguments {
 
 int repair(const Arguments& a) {
   const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
-  data::io::write_soup(a.output, repaired.soup);
+  data::write_mesh(a.output, data::io::examine(repaired.soup, {}).mesh);
   for (const std::string& change : repaired.changes) fmt::print("{}\n", change);
   if (repaired.changes.empty()) fmt::print("nothing had to be changed\n");
   fmt::print("{}: {} vertices, {} faces\n", a.output, repaired.soup.positions.size(),

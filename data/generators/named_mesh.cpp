@@ -185,22 +185,25 @@ ControlMesh named_mesh(const std::string& specification) {
                    "no mesh is called \"" + parts[0] + "\"; \"limitcheck generate --list\" names them all");
 }
 
+OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& options) {
+  ControlMesh mesh = named_mesh(specification);
+  Triangulated triangles = triangulate(mesh, options.polygons);
+  if (triangles.cut > 0) mesh.faces = std::move(triangles.faces);
+  if (triangles.cut > 0 || options.scheme)
+    if (const auto faults = validate(mesh, options.scheme.value_or(natural_scheme(mesh))); !faults.empty())
+      throw InputError(std::string(code(faults[0].fault)), specification, 0, faults[0].message);
+  return {std::move(mesh), triangles.cut};
+}
+
 OpenedMesh open_mesh(const std::string& file_or_name, const ReadOptions& options) {
   // What looks like a file is taken for one, so that a mistyped path is called a missing file, not
   // an unknown name.
   std::error_code ignored;
   const std::filesystem::path file = file_or_name;
-  if (std::filesystem::exists(file, ignored) || file.has_extension() || file.has_parent_path()) {
-    io::Examination found = io::require_valid(io::read_soup(file), file_or_name, options);
-    return {std::move(found.mesh), found.cut};
-  }
-  ControlMesh mesh = named_mesh(file_or_name);
-  Triangulated triangles = triangulate(mesh, options.polygons);
-  if (triangles.cut > 0) mesh.faces = std::move(triangles.faces);
-  if (triangles.cut > 0 || options.scheme)
-    if (const auto faults = validate(mesh, options.scheme.value_or(natural_scheme(mesh))); !faults.empty())
-      throw InputError(std::string(code(faults[0].fault)), file_or_name, 0, faults[0].message);
-  return {std::move(mesh), triangles.cut};
+  if (!std::filesystem::exists(file, ignored) && !file.has_extension() && !file.has_parent_path())
+    return open_named_mesh(file_or_name, options);
+  io::Examination found = io::require_valid(io::read_soup(file), file_or_name, options);
+  return {std::move(found.mesh), found.cut};
 }
 
 std::vector<NamedMesh> named_meshes() {

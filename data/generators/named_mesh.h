@@ -36,5 +36,7 @@ struct OpenedMesh {
 /// What a user may write where a mesh is expected: an existing file is read, anything else is a
 /// specification. Throws InputError as read_mesh and named_mesh do.
 OpenedMesh open_mesh(const std::string& file_or_name, const ReadOptions& options = {});
+/// The same for a name only.
+OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& options = {});
 
 }  // namespace limitcheck::data

@@ -19,6 +19,15 @@ std::int64_t line_of(const std::vector<std::int64_t>& lines, std::int64_t elemen
   return element >= 0 && static_cast<std::size_t>(element) < lines.size() ? lines[element] : 0;
 }
 
+bool has_larger_polygons(const PolygonSoup& soup) {
+  std::size_t begin = 0;
+  for (const std::size_t end : soup.polygon_end) {
+    if (end - begin > 3) return true;
+    begin = end;
+  }
+  return false;
+}
+
 // Before triangulation, which would hide both: every index exists, and no corner occurs twice.
 class PolygonChecker {
  public:
@@ -56,6 +65,8 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   Examination result;
   const std::size_t polygons = soup.polygon_end.size();
   const bool keep = options.polygons == Triangulation::kKeep;
+  result.scheme =
+      options.scheme.value_or(keep && has_larger_polygons(soup) ? Scheme::kCatmullClark : Scheme::kLoop);
   const auto faces = static_cast<std::int64_t>(polygons),
              corners = static_cast<std::int64_t>(soup.corners.size());
   const auto too_many = validate_counts(static_cast<std::int64_t>(soup.positions.size()), faces,
@@ -99,8 +110,7 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   }
 
   // All of them together.
-  for (MeshFinding& finding :
-       validate(mesh, options.scheme.value_or(natural_scheme(mesh)), {soup.first, polygon_of})) {
+  for (MeshFinding& finding : validate(mesh, result.scheme, {soup.first, polygon_of})) {
     const bool entailed =
         (finding.fault == MeshFault::kBowtieVertex || finding.fault == MeshFault::kIsolatedVertex) &&
         of_a_bad_polygon[finding.vertex];

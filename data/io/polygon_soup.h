@@ -51,8 +51,10 @@ struct SoupFault {
 
 /// The mesh of a file, and everything that is wrong with it.
 struct Examination {
-  ControlMesh mesh;               // without the polygons that are at fault by themselves
-  std::int64_t cut = 0;           // so many polygons became triangles
+  ControlMesh mesh;      // without the polygons that are at fault by themselves
+  std::int64_t cut = 0;  // so many polygons became triangles
+  // What the mesh was validated for: as asked; else as data/scheme.h chooses, by all polygons of the file.
+  Scheme scheme = Scheme::kLoop;
   std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
 };
 

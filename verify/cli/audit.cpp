@@ -27,6 +27,7 @@
 #include "verify/cli/audit_output.h"
 #include "verify/cli/audit_resume.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/cli/progress.h"
 #include "verify/cli/subject_loader.h"
 #include "verify/interrupt/interrupt.h"
@@ -42,6 +43,7 @@ constexpr const char* kReportFile = "build/report/audit.json";
 struct Arguments {
   std::string subject;
   std::vector<std::string> meshes, options;
+  MeshOptions mesh;
   int depth = 4;
   std::string depths = "uniform";
   std::string sample;
@@ -125,9 +127,23 @@ void check_json(const std::string& json) {
         json));
 }
 
+// What is looked at, and the line that says for which scheme.
+struct Meshes {
+  std::vector<verify::AuditMesh> list;
+  std::string scheme_line;
+};
+
+Meshes planned(const Arguments& a) {
+  Meshes result{verify::default_plan(level(a.output)), {}};
+  std::vector<MeshScheme> chosen;
+  for (const verify::AuditMesh& m : result.list) chosen.push_back(scheme_of(m.mesh, 0, a.mesh));
+  result.scheme_line = scheme_line(chosen, a.mesh);
+  return result;
+}
+
 // The meshes of the command line, or the default ones, at the depths that it says.
-std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify::Depths& depths,
-                                                const std::optional<Sampling>& sampling, Progress& progress) {
+Meshes meshes_asked_for(const Arguments& a, const verify::Depths& depths,
+                        const std::optional<Sampling>& sampling, Progress& progress) {
   std::vector<std::string> names = a.meshes;
   if (names.empty()) {
     if (a.output.level != "quick") names = data::worst_case_meshes();
@@ -135,9 +151,18 @@ std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify
     for (std::string& shape : data::stock_shapes()) names.push_back(std::move(shape));
   }
   std::vector<verify::AuditMesh> meshes;
+  std::vector<MeshScheme> chosen;
   for (const std::string& name : names) {
     progress.show(0, 1, "mesh " + name);
-    verify::AuditMesh m{name, a.must_refuse ? verify::read_broken_mesh(name) : data::open_mesh(name)};
+    OpenedMesh opened;
+    if (a.must_refuse) {
+      opened = {verify::read_broken_mesh(name), {}};
+    } else {
+      opened = open_mesh(name, a.mesh);
+      require_loop(name, opened, "limitcheck audit");
+    }
+    chosen.push_back(opened.chosen);
+    verify::AuditMesh m{name, std::move(opened.mesh)};
     m.depth = a.depth;
     m.depths = depths.text();
     if (!a.must_refuse) {
@@ -148,7 +173,7 @@ std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify
     }
     meshes.push_back(std::move(m));
   }
-  return meshes;
+  return {std::move(meshes), scheme_line(chosen, a.mesh)};
 }
 
 // The header of the report.
@@ -204,10 +229,12 @@ std::string incomplete(const verify::Auditor& auditor, const verify::Report& rep
   return "";
 }
 
-void print(const Arguments& a, const verify::Report& report) {
+void print(const Arguments& a, const verify::Report& report, const std::string& scheme_line) {
   const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
-  fmt::print("{}", a.json == "-" ? verify::to_json(report, a.output.level)
-                                 : verify::to_table(report, colour, a.each_mesh));
+  if (a.json == "-")
+    fmt::print("{}", verify::to_json(report, a.output.level));
+  else
+    fmt::print("{}\n{}", scheme_line, verify::to_table(report, colour, a.each_mesh));
 }
 
 int exit_code_of(const verify::Auditor& auditor, const verify::Report& report, int signal, bool judged) {
@@ -246,9 +273,8 @@ int audit(const Job& job) {
   SubjectLoader loader(a.from);
   const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  const std::vector<verify::AuditMesh> meshes = a.plan
-                                                    ? verify::default_plan(level(a.output))
-                                                    : meshes_asked_for(a, job.depths, job.sampling, progress);
+  const Meshes asked = a.plan ? planned(a) : meshes_asked_for(a, job.depths, job.sampling, progress);
+  const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
 
   // Look.
@@ -275,7 +301,7 @@ int audit(const Job& job) {
 
   const bool done = signal == 0 && !auditor.out_of_memory();
   const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
-  print(a, report);
+  print(a, report, asked.scheme_line);
   if (not_written) std::rethrow_exception(not_written);
   return exit_code_of(auditor, report, signal, judged);
 }
@@ -296,6 +322,7 @@ void add_audit(CLI::App& app, int& exit_code) {
       "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "
       "bumpy:800 and the stock shapes; where no depth is given either, at depths 0, 1 and 4, and small "
       "meshes at other depths, at unequal ones and with culled faces)");
+  add_mesh_options(*command, a->mesh);
   CLI::Option* depth =
       command
           ->add_option("--depth", a->depth,
@@ -352,7 +379,7 @@ void add_audit(CLI::App& app, int& exit_code) {
     check_json(a->json);
     a->plan = depth->count() + depths->count() + sample->count() == 0;
     if (files->given())
-      exit_code = audit_files(*files, a->json, a->threads);
+      exit_code = audit_files(*files, a->mesh, a->json, a->threads);
     else
       exit_code = explained(a->output) ? kHeld : audit(settle(*a));
   });

@@ -60,6 +60,8 @@ const std::vector<Named>& meshes() {
       result.push_back({"prism " + std::to_string(n), data::polygon_prism(n)});
       result.push_back({"polygon " + std::to_string(n), polygon(n)});
     }
+    // The largest faces that Embree has.
+    result.push_back({"prism 15", data::polygon_prism(15)});
     return result;
   }();
   return all;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Embree: rtcInterpolate on a subdivision geometry, a limit surface of Catmull-Clark's in float with its first
-// derivatives. The documentation promises no accuracy; irregular vertices are covered by Gregory patches beyond
-// the depth at which its search for a regular patch ends.
+// derivatives. Its documentation promises no accuracy; verify/subject/README.md says what was measured.
 //
-// Two traps: it reads each vertex as 16 bytes, and Debian's build asserts on the fourth float, so that it must be
-// padded; and it keeps the face around a vertex in arrays of a fixed size without looking at the valence.
+// Debian's build asserts, and an assertion ends the process: on the fourth float of a vertex, which it reads as 16
+// bytes, and on the sizes of its arrays. So vertices are padded, and what it has no room for is refused.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -105,7 +104,7 @@ class EmbreeSubject {
   }
 
   void refuse_beyond_its_arrays() const {
-    constexpr int kMostCorners = 16, kMostFaces = 64;
+    constexpr int kMostCorners = 15, kMostFaces = 64;
     std::vector<int> faces(static_cast<std::size_t>(mesh_.vertex_count));
     for (std::int64_t k = 0; k < mesh_.corner_count; ++k) {
       if (++faces[static_cast<std::size_t>(mesh_.corners[k])] > kMostFaces)
@@ -113,7 +112,7 @@ class EmbreeSubject {
     }
     for (std::int64_t f = 0; f < mesh_.face_count; ++f)
       if (mesh_.face_sizes[f] > kMostCorners)
-        throw SubjectError(LC_NOT_SUPPORTED, "Embree has no faces of more than 16 corners");
+        throw SubjectError(LC_NOT_SUPPORTED, "Embree has no faces of more than 15 corners");
   }
 
   const lc_mesh mesh_;

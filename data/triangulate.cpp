@@ -16,6 +16,8 @@ double squared_distance(const std::array<double, 3>& a, const std::array<double,
 std::size_t apex(const ControlMesh& mesh, std::span<const std::int32_t> face, Triangulation rule) {
   if (rule != Triangulation::kShortestDiagonal || face.size() != 4) return 0;
   const auto& p = mesh.positions;
+  for (const std::int32_t v : face)
+    if (v < 0 || static_cast<std::size_t>(v) >= p.size()) return 0;
   return squared_distance(p[face[1]], p[face[3]]) < squared_distance(p[face[0]], p[face[2]]) ? 1 : 0;
 }
 

@@ -24,8 +24,8 @@ struct Triangulated {
   std::int64_t cut = 0;            ///< so many faces were cut
 };
 
-/// The faces name vertices that exist; nothing else is checked, and the triangles may form no manifold although
-/// the polygons do: two polygons that share two opposite corners may both be cut between them.
+/// Takes any faces; a quad that names a vertex which does not exist is cut as kFan. The triangles of a manifold
+/// may be none: two polygons that share two opposite corners may both be cut between them.
 Triangulated triangulate(const ControlMesh& mesh, Triangulation rule);
 
 }  // namespace limitcheck::data

@@ -20,6 +20,12 @@ TEST(Triangulate, EveryTriangleNamesTheFaceThatItWasCutFrom) {
     EXPECT_EQ(cut.faces[t][0], prism.faces[0][0]) << "a fan starts at the first corner";
 }
 
+TEST(Triangulate, TakesQuadsThatNameVerticesWhichDoNotExist) {
+  const ControlMesh mesh{quad_cube().positions, {{0, 1, 99, 3}, {0, -1, 2, 3}}};
+  EXPECT_EQ(triangulate(mesh, Triangulation::kShortestDiagonal).faces,
+            (Faces{{0, 1, 99}, {0, 99, 3}, {0, -1, 2}, {0, 2, 3}}));
+}
+
 TEST(Triangulate, TrianglesAndWhatIsToBeKeptStayWhatTheyAre) {
   for (const Triangulation rule : {Triangulation::kFan, Triangulation::kShortestDiagonal}) {
     const Triangulated same = triangulate(octahedron(), rule);

@@ -158,6 +158,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   for (Result& r : results) {
     r.depth = depth_of(mesh);
     r.depths = mesh.depths;
+    r.scheme = mesh.scheme();
+    r.triangulated = mesh.triangulated;
     if (mesh.sample) r.sample = mesh.sample->text();
   }
   return results;

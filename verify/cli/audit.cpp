@@ -133,12 +133,24 @@ struct Meshes {
   std::string scheme_line;
 };
 
-Meshes planned(const Arguments& a) {
-  Meshes result{verify::default_plan(level(a.output)), {}};
+Meshes planned(const Arguments& a, const std::vector<verify::AuditSubject>& audited) {
+  const std::optional<data::Scheme> asked = read_options(a.mesh).scheme;
+  Meshes result{
+      asked ? verify::default_plan(level(a.output)) : verify::default_plan(level(a.output), audited), {}};
+  if (asked == data::Scheme::kLoop)
+    std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
   std::vector<MeshScheme> chosen;
-  for (const verify::AuditMesh& m : result.list) chosen.push_back(scheme_of(m.mesh, 0, a.mesh));
+  for (verify::AuditMesh& m : result.list) {
+    m.asked_scheme = asked;
+    chosen.push_back({m.scheme(), 0});
+  }
   result.scheme_line = scheme_line(chosen, a.mesh);
   return result;
+}
+
+OpenedMesh open_broken_mesh(const std::string& file, const MeshOptions& options) {
+  data::io::Examination found = verify::read_broken_mesh(file, read_options(options));
+  return {std::move(found.mesh), {found.scheme, found.cut}};
 }
 
 // The meshes of the command line, or the default ones, at the depths that it says.
@@ -154,15 +166,11 @@ Meshes meshes_asked_for(const Arguments& a, const verify::Depths& depths,
   std::vector<MeshScheme> chosen;
   for (const std::string& name : names) {
     progress.show(0, 1, "mesh " + name);
-    OpenedMesh opened;
-    if (a.must_refuse) {
-      opened = {verify::read_broken_mesh(name), {}};
-    } else {
-      opened = open_mesh(name, a.mesh);
-      require_loop(name, opened, "limitcheck audit");
-    }
+    OpenedMesh opened = a.must_refuse ? open_broken_mesh(name, a.mesh) : open_mesh(name, a.mesh);
     chosen.push_back(opened.chosen);
     verify::AuditMesh m{name, std::move(opened.mesh)};
+    m.asked_scheme = opened.chosen.scheme;
+    if (opened.chosen.cut > 0) m.triangulated = a.mesh.triangulate;
     m.depth = a.depth;
     m.depths = depths.text();
     if (!a.must_refuse) {
@@ -192,7 +200,7 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
     if (std::none_of(report.meshes.begin(), report.meshes.end(),
                      [&](const auto& before) { return before.name == m.name; }))
       report.meshes.push_back({m.name, static_cast<std::int64_t>(m.mesh.positions.size()),
-                               static_cast<std::int64_t>(m.mesh.faces.size())});
+                               static_cast<std::int64_t>(m.mesh.faces.size()), m.scheme(), m.triangulated});
   }
   return report;
 }
@@ -273,7 +281,7 @@ int audit(const Job& job) {
   SubjectLoader loader(a.from);
   const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  const Meshes asked = a.plan ? planned(a) : meshes_asked_for(a, job.depths, job.sampling, progress);
+  const Meshes asked = a.plan ? planned(a, audited) : meshes_asked_for(a, job.depths, job.sampling, progress);
   const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
 

@@ -98,7 +98,8 @@ int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std:
   report.version = LIMITCHECK_VERSION;
   report.depths = "file";
   report.meshes.push_back({files.control, static_cast<std::int64_t>(control.positions.size()),
-                           static_cast<std::int64_t>(control.faces.size())});
+                           static_cast<std::int64_t>(control.faces.size()), opened.chosen.scheme,
+                           opened.chosen.cut > 0 ? mesh.triangulate : ""});
   report.subjects.push_back(files.tessellation);
   report.results = audit.results;
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));

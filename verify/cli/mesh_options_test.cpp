@@ -70,6 +70,41 @@ TEST_F(Scheme, CommandsThatKnowLoopsOnlyRefuseWhatHasAnotherAndNameTheWayOut) {
   EXPECT_NE(o.err.find("knows Loop's scheme only"), std::string::npos) << o.err;
 }
 
+TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
+  ASSERT_EQ(run("generate prism:5 -o prism.off").code, 0);
+  const std::string subject = "audit naive --depth 2 --level quick ";
+  const Outcome polygons = run(subject + "quad-cube prism.off");
+  EXPECT_EQ(polygons.code, 0) << polygons.out << polygons.err;
+  EXPECT_EQ(first_line(polygons.out), "scheme: catmull-clark (not all faces are triangles)");
+  EXPECT_EQ(first_line(run(subject + "octahedron prism.off cube").out),
+            "scheme: loop (2 of 3 meshes, whose faces are all triangles), catmull-clark (1)");
+  EXPECT_EQ(first_line(run(subject + "octahedron --scheme catmull-clark").out),
+            "scheme: catmull-clark (--scheme)");
+
+  const auto json = nlohmann::json::parse(run(subject + "octahedron prism.off --json").out);
+  EXPECT_EQ(json["meshes"][0]["scheme"], "loop");
+  EXPECT_EQ(json["meshes"][1]["scheme"], "catmull-clark");
+  for (const auto& row : json["results"])
+    EXPECT_EQ(row["scheme"], row["mesh"] == "octahedron" ? "loop" : "catmull-clark") << row["check"];
+  EXPECT_TRUE(json["meshes"][1]["triangulated"].is_null());
+  const auto cut = nlohmann::json::parse(run(subject + "prism.off --triangulate fan --json").out);
+  EXPECT_EQ(cut["meshes"][0]["triangulated"], "fan");
+  EXPECT_EQ(cut["meshes"][0]["faces"], 16);
+}
+
+TEST_F(Scheme, OfBrokenMeshesIsChosenLikewise) {
+  write("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 2 3 4 1\n");
+  const Outcome o = run("audit naive twice.obj --must-refuse");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_EQ(first_line(o.out), "scheme: catmull-clark (not all faces are triangles)");
+  const Outcome cut = run("audit naive twice.obj --must-refuse --triangulate shortest-diagonal");
+  EXPECT_EQ(cut.code, 0) << cut.out << cut.err;
+  EXPECT_EQ(first_line(cut.out), "scheme: loop (--triangulate shortest-diagonal cut 2 faces into triangles)");
+  ASSERT_EQ(run("generate quad-cube -o cube.obj").code, 0);
+  EXPECT_EQ(run("audit naive cube.obj --must-refuse").code, 2) << "nothing is wrong with it";
+  EXPECT_EQ(run("audit naive cube.obj --must-refuse --scheme loop").code, 0) << "no mesh for Loop's scheme";
+}
+
 // As polygons this is a disc; cut from their first corners the two quads both get the edge 1-3.
 TEST_F(Scheme, WhatIsNoManifoldOnceItIsCutIsRefused) {
   write("book.obj",

@@ -92,7 +92,7 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   const data::Scheme scheme = asked.value_or(data::natural_scheme(mesh));
   capabilities_ = verify::capabilities(subject, options_, scheme);
   if (!does(capabilities_, scheme))
-    throw NotAsked(fmt::format("{}: does no {} surfaces", subject.name, data::name_of(scheme)));
+    throw NotAsked(fmt::format("{}: does not subdivide by {}", subject.name, data::name_of(scheme)));
   const bool single = capabilities_.precision == LC_FLOAT32;
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)

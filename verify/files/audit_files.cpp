@@ -48,8 +48,8 @@ std::string per_vertex(const FileEvidence& e) {
                        angle[v] < 0 ? std::string() : fmt::format("{}", angle[v]));
     const auto at = e.surface.surface().control_point(foot.at);
     out += loop ? fmt::format("{},{},{}\n", foot.at.face, foot.at.l[1], foot.at.l[2])
-                : fmt::format("{},{},{},{}\n", at.face, at.corner < 0 ? std::string() : std::to_string(at.corner),
-                              at.first, at.second);
+                : fmt::format("{},{},{},{}\n", at.face,
+                              at.corner < 0 ? std::string() : std::to_string(at.corner), at.first, at.second);
   }
   return out;
 }

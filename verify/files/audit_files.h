@@ -15,10 +15,10 @@
 namespace limitcheck::verify {
 
 struct FilesOptions {
-  double tolerance = 1e-6;          // of positions, in diagonals of the control mesh's bounding box
-  std::optional<double> hausdorff;  // likewise, of the two-sided distance; without: what one polygon per
-                                    // face has, and the tolerance
-  bool needs_normals = false;       // a file without normals is a finding
+  double tolerance = 1e-6;               // of positions, in diagonals of the control mesh's bounding box
+  std::optional<double> hausdorff;       // likewise, of the two-sided distance; without: what one polygon per
+                                         // face has, and the tolerance
+  bool needs_normals = false;            // a file without normals is a finding
   std::optional<data::Scheme> scheme{};  // of the control mesh; without: the one that it is meant for
   Fit fit = Fit::kNone;
 };

@@ -102,10 +102,10 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
     cover.rms = std::sqrt(sum / static_cast<double>(share.size()));
     if (cover.bad > 0) {
       cover.status = Status::kFinding;
-      cover.message = fmt::format("{} {} are not wholly covered, {} more than once", less,
-                                  e.surface.surface().has_control_faces() ? "control faces"
-                                                                          : "quads at the corners of control faces",
-                                  more);
+      cover.message = fmt::format(
+          "{} {} are not wholly covered, {} more than once", less,
+          e.surface.surface().has_control_faces() ? "control faces" : "quads at the corners of control faces",
+          more);
     }
     return {facing, cover};
   }

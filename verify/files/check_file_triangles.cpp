@@ -62,7 +62,8 @@ std::vector<Result> check_file_triangles(const FileEvidence& e) {
     r.message = "the file has no faces";
     return {r};
   }
-  const double faces = static_cast<double>(e.surface.domain().face_count()) * e.surface.domain().chart().area();
+  const double faces =
+      static_cast<double>(e.surface.domain().face_count()) * e.surface.domain().chart().area();
   const double spacing = std::min(1., std::sqrt(faces / static_cast<double>(t.triangles.size())));
   std::int64_t joints = 0, thin = 0;
   for (std::size_t k = 0; k < t.triangles.size(); ++k) {

@@ -145,7 +145,9 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
         for (int k = 0; unfold && k < chart.corners() && !all; ++k) {
           const std::int32_t next = domain.across(face, k);
           FacePoint there;
-          if (next < 0 || !domain.express(at, next, there)) continue;
+          // Around the middle of a control face there are as many quads as it has corners: no plane has them.
+          if (next < 0 || !e.surface.surface().on_control_edge(face, k)) continue;
+          if (!domain.express(at, next, there)) continue;
           l[c] = domain.unfolded(next, domain.side_across(face, k), there.l);
           all = true;
         }

@@ -25,8 +25,8 @@ std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
 }
 
 // Whether the surface over a piece may be nearer to p than `distance`, as far as so many cuts tell.
-bool may_be_nearer(const SurfaceLattice& lattice, const LimitSurface& surface, const Piece& piece, const Vector& p,
-                   double distance, int& cuts) {
+bool may_be_nearer(const SurfaceLattice& lattice, const LimitSurface& surface, const Piece& piece,
+                   const Vector& p, double distance, int& cuts) {
   if (closest_on_triangle(p, piece.corner).distance - piece.deviation >= distance) return false;
   if (cuts-- <= 0) return true;
   const auto children = lattice.split(piece, surface);

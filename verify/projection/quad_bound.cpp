@@ -32,7 +32,8 @@ int corner_of(std::span<const std::int32_t> quad, std::int32_t vertex) {
 // [2][1] and the one before at [1][2]. Linear ghosts complete those of a boundary vertex.
 using Nine = std::array<std::array<Point, 3>, 3>;
 
-bool gather(const Topology& topology, std::span<const Point> positions, const Quad& quad, int corner, Nine& nine) {
+bool gather(const Topology& topology, std::span<const Point> positions, const Quad& quad, int corner,
+            Nine& nine) {
   const std::int32_t v = quad[static_cast<std::size_t>(corner)];
   const Sector sector = topology.sector(v);
   if (sector.faces.size() != (sector.closed ? 4U : 2U)) return false;
@@ -45,9 +46,8 @@ bool gather(const Topology& topology, std::span<const Point> positions, const Qu
   const Point& centre = positions[v];
   nine[1][1] = centre;
   if (sector.closed) {
-    const auto at =
-        static_cast<std::size_t>(std::find(sector.neighbours.begin(), sector.neighbours.end(), next) -
-                                 sector.neighbours.begin());
+    const auto at = static_cast<std::size_t>(
+        std::find(sector.neighbours.begin(), sector.neighbours.end(), next) - sector.neighbours.begin());
     nine[2][1] = neighbour(at), nine[1][2] = neighbour((at + 1) % 4);
     nine[0][1] = neighbour((at + 2) % 4), nine[1][0] = neighbour((at + 3) % 4);
     nine[2][2] = opposite(at), nine[0][2] = opposite((at + 1) % 4);
@@ -69,7 +69,8 @@ bool gather(const Topology& topology, std::span<const Point> positions, const Qu
 
 }  // namespace
 
-std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions, const Quad& quad) {
+std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
+                                    const Quad& quad) {
   std::array<std::array<Point, 4>, 4> p;  // [i][j], i along u, the quad's corners at 1 and 2
   constexpr std::array<std::array<int, 2>, 4> kCorner{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
   for (int k = 0; k < 4; ++k) {
@@ -131,7 +132,8 @@ Surroundings surroundings(const Topology& topology, std::span<const Point> posit
 
 }  // namespace
 
-CornerBounds quad_corner_bounds(const Topology& topology, std::span<const Point> positions, std::int32_t vertex) {
+CornerBounds quad_corner_bounds(const Topology& topology, std::span<const Point> positions,
+                                std::int32_t vertex) {
   Surroundings now = surroundings(topology, positions, vertex);
   std::vector<Point> limits = RefinedMesh<double>(now.quads, now.positions).limits().positions;
   CornerBounds bounds;

@@ -157,7 +157,7 @@ Piece SurfaceLattice::piece(std::size_t index) const {
   p.face = static_cast<std::int32_t>(static_cast<std::int64_t>(index) / (n * n));
   const auto at = [&](std::int64_t a, std::int64_t b) {
     return Chart::Affine{static_cast<double>(n - a - b) * s, static_cast<double>(a) * s,
-                                 static_cast<double>(b) * s};
+                         static_cast<double>(b) * s};
   };
   if (within < upright)
     p.at = {at(i, j), at(i + 1, j), at(i, j + 1)};

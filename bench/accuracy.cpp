@@ -83,9 +83,9 @@ int run(const std::vector<std::string>& arguments) {
   std::vector<std::string> subjects(arguments.begin() + std::min<std::ptrdiff_t>(2, std::ssize(arguments)),
                                     arguments.end());
   if (subjects.empty()) subjects = {"row-stream:output=indexed", "sliding-window:output=indexed"};
-  const data::ControlMesh mesh = data::open_mesh(name);
+  const data::ControlMesh mesh = data::open_mesh(name, {.scheme = data::Scheme::kLoop}).mesh;
   fmt::print(
-      "{}\n\n| subject | depth | points | position, diagonals: median | 99.9 % | worst "
+      "{}, scheme: loop\n\n| subject | depth | points | position, diagonals: median | 99.9 % | worst "
       "| normal, rad: median | 99.9 % | worst |\n|---|---|---|---|---|---|---|---|---|\n",
       name);
   for (const std::string& text : subjects) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "data/shapes.h"
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "data/error.h"
+#include "data/rounded.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::data {
@@ -16,15 +16,6 @@ constexpr std::int64_t kMostFaces = 10'000'000;
 
 void require(bool condition, const std::string& message) {
   if (!condition) throw InputError("NAME_BAD_PARAMETER", "", 0, message);
-}
-
-// The nearest float (ties to even). It also hides the last bits in which the sines of two C libraries may
-// differ. By integers, because g++ 12 at -O2 drops a conversion to float and back where it
-// vectorises the two.
-double rounded(double x) {
-  auto bits = std::bit_cast<std::uint64_t>(x);
-  bits += 0x0fffffff + (bits >> 29 & 1);
-  return std::bit_cast<double>(bits & ~std::uint64_t{0x1fffffff});
 }
 
 std::array<double, 2> on_circle(double turns) {

@@ -16,7 +16,7 @@ nlohmann::ordered_json shapes(const std::vector<std::string>& names) {
   Json list = Json::object();
   for (const std::string& name : names) {
     try {
-      const data::ControlMesh mesh = data::open_mesh(name);
+      const data::ControlMesh mesh = data::open_mesh(name).mesh;
       fast::DepthOptions depth;
       depth.strategy = fast::Strategy::kUniform;
       for (depth.depth = 0; depth.depth < 4 && mesh.faces.size() << 2 * (depth.depth + 1) <= kTriangles;)

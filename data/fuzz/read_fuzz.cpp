@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target, one for each format: any bytes are either refused by an InputError or give a mesh that
 // the writers and readers carry unchanged.
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -13,8 +14,9 @@
 using namespace limitcheck::data;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  // Both rules for polygons get their share; the seeds stay ordinary files.
-  const ReadOptions options{size % 2 == 0 ? Triangulation::kFan : Triangulation::kShortestDiagonal};
+  // Every rule for polygons gets its share; the seeds stay ordinary files.
+  const ReadOptions options{
+      std::array{Triangulation::kKeep, Triangulation::kFan, Triangulation::kShortestDiagonal}[size % 3]};
   ControlMesh mesh;
   try {
     mesh = read_mesh(std::string_view(reinterpret_cast<const char*>(bytes), size),

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
 
 #include "data/error.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/mixed_mesh.h"
 #include "data/generators/named_mesh.h"
+#include "data/generators/polygon_meshes.h"
 #include "data/generators/test_hash.h"
 #include "data/io/write.h"
 #include "data/shapes.h"
+#include "data/summary.h"
 #include "data/validate.h"
 
 namespace limitcheck::data {
@@ -107,15 +112,68 @@ TEST(NamedMesh, ParametersFollowBehindColons) {
   EXPECT_EQ(hash(named_mesh("bumpy-vertices:402")), hash(bumpy_sphere(800, 1)));
   EXPECT_EQ(hash(named_mesh("wheel:7")), hash(wheel(7, 3)));
   EXPECT_EQ(hash(named_mesh("wheel:7:1")), hash(wheel(7, 1)));
+  EXPECT_EQ(hash(named_mesh("quad-cube")), hash(quad_cube()));
+  EXPECT_EQ(hash(named_mesh("cube-quads")), hash(quad_cube()));
+  EXPECT_EQ(hash(named_mesh("quad-torus")), hash(quad_torus(12, 6)));
+  EXPECT_EQ(hash(named_mesh("quad-torus:5:4")), hash(quad_torus(5, 4)));
+  EXPECT_EQ(hash(named_mesh("quad-wheel:7")), hash(quad_wheel(7, 1)));
+  EXPECT_EQ(hash(named_mesh("quad-fan:3:9")), hash(quad_fan(3, 9)));
+  EXPECT_EQ(hash(named_mesh("prism:5")), hash(polygon_prism(5)));
+  EXPECT_EQ(hash(named_mesh("pawn")), hash(pawn(8)));
+  EXPECT_EQ(hash(named_mesh("mixed-pawn:9")), hash(mixed_pawn(9)));
+  EXPECT_EQ(hash(named_mesh("mixed:4")), hash(mixed_mesh(4)));
+  EXPECT_EQ(hash(named_mesh("mixed:4:1000")), hash(mixed_mesh(4, {.faces = 1000})));
+}
+
+TEST(NamedMesh, TheDualIsThatOfAnyClosedMesh) {
+  EXPECT_EQ(hash(named_mesh("dual:bumpy:4000")), hash(dual(bumpy_sphere(4000, 1))));
+  EXPECT_EQ(hash(named_mesh("dual:cube-quads")), hash(dual(quad_cube())));
+  EXPECT_EQ(hash(named_mesh("dual:dual:pawn:5")), hash(dual(dual(pawn(5)))));
+  int made = 0, open = 0;
+  for (int seed = 0; seed < 50; ++seed) {
+    const std::string random = "random:" + std::to_string(seed);
+    const bool closed = summarise(named_mesh(random)).boundary_edges == 0;
+    EXPECT_EQ(code_of("dual:" + random), closed ? "made" : "NAME_BAD_PARAMETER") << random;
+    if (closed) {
+      EXPECT_TRUE(validate(named_mesh("dual:" + random)).empty()) << random;
+    }
+    ++(closed ? made : open);
+  }
+  EXPECT_GT(std::min(made, open), 10);
+  for (const char* name : {"dual", "dual:", "dual:triangle", "dual:wheel", "dual:dual:"})
+    EXPECT_EQ(code_of(name), "NAME_BAD_PARAMETER") << name;
+  EXPECT_EQ(code_of("dual:nope"), "NAME_UNKNOWN");
 }
 
 TEST(NamedMesh, WhatCannotBeMadeIsAnError) {
   for (const char* name : {"", "nope", "Bumpy:800", "bumpy 800"})
     EXPECT_EQ(code_of(name), "NAME_UNKNOWN") << name;
-  for (const char* name :
-       {"bumpy", "bumpy:", "bumpy:801", "bumpy:2", "bumpy:-4", "bumpy:8e2", "bumpy:800:1:2", "bumpy:800:x",
-        "wheel:2", "wheel", "wheel:99999999999999999999", "wheel:4294967299", "tetrahedron:1",
-        "bumpy:18446744073709551615", "bumpy-vertices:3", "fan:0", "sheet:0:1"}) {
+  for (const char* name : {"bumpy",
+                           "bumpy:",
+                           "bumpy:801",
+                           "bumpy:2",
+                           "bumpy:-4",
+                           "bumpy:8e2",
+                           "bumpy:800:1:2",
+                           "bumpy:800:x",
+                           "wheel:2",
+                           "wheel",
+                           "wheel:99999999999999999999",
+                           "wheel:4294967299",
+                           "tetrahedron:1",
+                           "bumpy:18446744073709551615",
+                           "bumpy-vertices:3",
+                           "fan:0",
+                           "sheet:0:1",
+                           "quad-torus:2:5",
+                           "quad-wheel:2",
+                           "quad-fan:0",
+                           "quad-cube:1",
+                           "prism",
+                           "prism:2",
+                           "pawn:2",
+                           "mixed",
+                           "mixed:1:0"}) {
     EXPECT_EQ(code_of(name), "NAME_BAD_PARAMETER") << name;
   }
 }
@@ -130,13 +188,31 @@ TEST(NamedMesh, EveryListedNameExists) {
 TEST(OpenMesh, TakesAFileOrAName) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "open_mesh.obj";
   write_mesh(file, icosahedron());
-  EXPECT_EQ(hash(open_mesh(file.string())), hash(icosahedron()));
-  EXPECT_EQ(hash(open_mesh("icosahedron")), hash(icosahedron()));
+  EXPECT_EQ(hash(open_mesh(file.string()).mesh), hash(icosahedron()));
+  EXPECT_EQ(hash(open_mesh("icosahedron").mesh), hash(icosahedron()));
   try {
     open_mesh("missing.obj");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.code(), "FILE_CANNOT_OPEN");
+  }
+}
+
+TEST(OpenMesh, CutsPolygonsOfFilesAndNamesAlikeIfItIsAskedTo) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "open_prism.obj";
+  write_mesh(file, polygon_prism(5));
+  for (const std::string& name : {file.string(), std::string("prism:5")}) {
+    EXPECT_EQ(open_mesh(name).mesh, polygon_prism(5)) << name;
+    EXPECT_EQ(open_mesh(name).cut, 0) << name;
+    const OpenedMesh cut = open_mesh(name, {Triangulation::kFan, Scheme::kLoop});
+    EXPECT_EQ(cut.cut, 7) << name;
+    EXPECT_EQ(cut.mesh.faces.size(), 16U) << name;
+    try {
+      open_mesh(name, {Triangulation::kKeep, Scheme::kLoop});
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.code(), "MESH_POLYGON");
+    }
   }
 }
 

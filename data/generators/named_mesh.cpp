@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "data/generators/named_mesh.h"
 
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "data/error.h"
 #include "data/generators/awkward_meshes.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
-#include "data/io/read.h"
+#include "data/io/polygon_soup.h"
+#include "data/scheme.h"
 #include "data/shapes.h"
+#include "data/summary.h"
+#include "data/triangulate.h"
+#include "data/validate.h"
 
 namespace limitcheck::data {
 namespace {
@@ -83,6 +93,26 @@ const std::vector<Entry>& entries() {
        [](Parameters) { return far_box(); }},
       {"tiny-box", "tiny-box", "a cube of about 1e-25", 0, 0, [](Parameters) { return tiny_box(); }},
       {"huge-box", "huge-box", "a cube of about 1e20", 0, 0, [](Parameters) { return huge_box(); }},
+      {"quad-cube", "quad-cube", "a cube of six quads; also called cube-quads", 0, 0,
+       [](Parameters) { return quad_cube(); }},
+      {"quad-torus", "quad-torus[:AROUND:ACROSS]", "a regular torus of quads, 12 x 6 unless given", 0, 2,
+       [](Parameters p) {
+         return quad_torus(p.empty() ? 12 : as_int(p[0]), p.size() < 2 ? 6 : as_int(p[1]));
+       }},
+      {"quad-wheel", "quad-wheel:N[:SEED]", "an interior vertex of valence N amid two rings of quads", 1, 2,
+       [](Parameters p) { return quad_wheel(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
+      {"quad-fan", "quad-fan:K[:SEED]", "a boundary vertex with K quads amid two half rings of quads", 1, 2,
+       [](Parameters p) { return quad_fan(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
+      {"prism", "prism:N", "two faces of N corners and N quads", 1, 1,
+       [](Parameters p) { return polygon_prism(as_int(p[0])); }},
+      {"pawn", "pawn[:N]", "a chess pawn of quads, its poles of valence N, 8 unless given", 0, 1,
+       [](Parameters p) { return pawn(p.empty() ? 8 : as_int(p[0])); }},
+      {"mixed-pawn", "mixed-pawn[:N]",
+       "the same with N triangles at the head and a face of N corners at the foot, 16 unless given", 0, 1,
+       [](Parameters p) { return mixed_pawn(p.empty() ? 16 : as_int(p[0])); }},
+      {"mixed", "mixed:SEED[:FACES]",
+       "triangles, quads and faces of up to 8 corners: random:SEED[:FACES] with edges dissolved", 1, 2,
+       [](Parameters p) { return mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}); }},
       {"crowd", "crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number", 1,
        1, [](Parameters p) { return crowd(as_int(p[0])); }},
   };
@@ -91,6 +121,30 @@ const std::vector<Entry>& entries() {
 
 [[noreturn]] void bad_parameter(const Entry& entry, const std::string& why) {
   throw InputError("NAME_BAD_PARAMETER", "", 0, why + " (" + entry.usage + ")");
+}
+
+// Another name that users know a mesh by.
+std::string without_alias(const std::string& name) {
+  return name == "cube-quads" ? "quad-cube" : name;
+}
+
+// "dual:NAME...": the one specification that contains another.
+constexpr std::string_view kDual = "dual:";
+
+ControlMesh dual_of(const std::string& name) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError("NAME_BAD_PARAMETER", "", 0, "dual:" + name + ": " + why);
+  };
+  if (name.empty()) refuse("the name of a mesh is missing (dual:NAME...)");
+  const ControlMesh mesh = named_mesh(name);
+  const MeshSummary summary = summarise(mesh);
+  if (summary.boundary_edges > 0)
+    refuse("the dual is for closed meshes, and " + name + " has " + std::to_string(summary.boundary_edges) +
+           " boundary edges");
+  ControlMesh result = dual(mesh);
+  if (const auto faults = validate(result); !faults.empty())
+    refuse("two faces of " + name + " share more than one edge: " + faults[0].message);
+  return result;
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -108,7 +162,10 @@ std::vector<std::string> split(const std::string& text) {
 }  // namespace
 
 ControlMesh named_mesh(const std::string& specification) {
-  const std::vector<std::string> parts = split(specification);
+  if (specification == "dual" || specification.starts_with(kDual))
+    return dual_of(specification.substr(std::min(kDual.size(), specification.size())));
+  std::vector<std::string> parts = split(specification);
+  parts[0] = without_alias(parts[0]);
   for (const Entry& entry : entries()) {
     if (parts[0] != entry.name) continue;
     std::vector<std::uint64_t> parameters;
@@ -128,19 +185,31 @@ ControlMesh named_mesh(const std::string& specification) {
                    "no mesh is called \"" + parts[0] + "\"; \"limitcheck generate --list\" names them all");
 }
 
-ControlMesh open_mesh(const std::string& file_or_name) {
+OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& options) {
+  ControlMesh mesh = named_mesh(specification);
+  Triangulated triangles = triangulate(mesh, options.polygons);
+  if (triangles.cut > 0) mesh.faces = std::move(triangles.faces);
+  if (triangles.cut > 0 || options.scheme)
+    if (const auto faults = validate(mesh, options.scheme.value_or(natural_scheme(mesh))); !faults.empty())
+      throw InputError(std::string(code(faults[0].fault)), specification, 0, faults[0].message);
+  return {std::move(mesh), triangles.cut};
+}
+
+OpenedMesh open_mesh(const std::string& file_or_name, const ReadOptions& options) {
   // What looks like a file is taken for one, so that a mistyped path is called a missing file, not
   // an unknown name.
   std::error_code ignored;
   const std::filesystem::path file = file_or_name;
-  if (std::filesystem::exists(file, ignored) || file.has_extension() || file.has_parent_path())
-    return read_mesh(file);
-  return named_mesh(file_or_name);
+  if (!std::filesystem::exists(file, ignored) && !file.has_extension() && !file.has_parent_path())
+    return open_named_mesh(file_or_name, options);
+  io::Examination found = io::require_valid(io::read_soup(file), file_or_name, options);
+  return {std::move(found.mesh), found.cut};
 }
 
 std::vector<NamedMesh> named_meshes() {
   std::vector<NamedMesh> list;
   for (const Entry& entry : entries()) list.push_back({entry.usage, entry.description});
+  list.push_back({"dual:NAME...", "the dual of a closed mesh: dual:bumpy:800 has a face around each vertex"});
   return list;
 }
 

@@ -2,15 +2,34 @@
 #include "data/generators/polygon_meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 #include <utility>
 
+#include "data/error.h"
+#include "data/rounded.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::data {
 namespace {
+
+constexpr std::int64_t kMostFaces = 10'000'000;
+
+void require(std::int64_t faces, int number, int least, const char* what) {
+  if (number < least)
+    throw InputError("NAME_BAD_PARAMETER", "", 0,
+                     std::string(what) + " must be " + std::to_string(least) + " or more");
+  if (faces > kMostFaces) throw InputError("NAME_BAD_PARAMETER", "", 0, "more than 10 million faces");
+}
+
+ControlMesh with_rounded_positions(ControlMesh mesh) {
+  for (auto& p : mesh.positions)
+    for (double& x : p) x = rounded(x);
+  return mesh;
+}
 
 /// Two rings of quads around a vertex: a full turn or, if open, 81 degrees a sector, but at most 324 in all.
 ControlMesh two_rings(int sectors, bool open, std::uint64_t seed) {
@@ -35,6 +54,39 @@ ControlMesh two_rings(int sectors, bool open, std::uint64_t seed) {
     for (const auto& quad : {std::array{0, e, f, e1}, {e, p, g, f}, {f, g, r, h}, {e1, f, h, p1}})
       mesh.faces.push_back(quad);
   }
+  return with_rounded_positions(std::move(mesh));
+}
+
+// Profile of a pawn from the foot to the head: radius and height of each ring.
+constexpr std::array<std::array<double, 2>, 13> kPawn{{{.55, 0},
+                                                       {1, 0},
+                                                       {1, .25},
+                                                       {.8, .4},
+                                                       {.6, .55},
+                                                       {.4, 1},
+                                                       {.32, 1.5},
+                                                       {.6, 1.65},
+                                                       {.6, 1.75},
+                                                       {.34, 1.85},
+                                                       {.5, 2.15},
+                                                       {.5, 2.45},
+                                                       {.28, 2.7}}};
+constexpr int kRings = static_cast<int>(kPawn.size());
+constexpr double kTop = 2.78;
+
+// The rings of a pawn and the quads between them: vertex r * columns + i is in ring r.
+ControlMesh lathe(int columns) {
+  ControlMesh mesh;
+  for (const auto& [radius, height] : kPawn)
+    for (int i = 0; i < columns; ++i) {
+      const double t = 2 * std::numbers::pi * i / columns;
+      mesh.positions.push_back({radius * std::cos(t), radius * std::sin(t), height});
+    }
+  for (int r = 0; r + 1 < kRings; ++r)
+    for (int i = 0; i < columns; ++i) {
+      const int a = r * columns + i, b = r * columns + (i + 1) % columns;
+      mesh.faces.push_back(std::array{a, b, b + columns, a + columns});
+    }
   return mesh;
 }
 
@@ -51,6 +103,7 @@ ControlMesh quad_cube() {
 }
 
 ControlMesh quad_torus(int around, int across) {
+  require(std::int64_t{around} * across, std::min(around, across), 3, "both numbers of quads");
   ControlMesh mesh;
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j) {
@@ -62,18 +115,21 @@ ControlMesh quad_torus(int around, int across) {
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j)
       mesh.faces.push_back(std::array{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-  return mesh;
+  return with_rounded_positions(std::move(mesh));
 }
 
 ControlMesh quad_wheel(int n, std::uint64_t seed) {
+  require(std::int64_t{4} * n, n, 3, "the valence");
   return two_rings(n, false, seed);
 }
 
 ControlMesh quad_fan(int faces, std::uint64_t seed) {
+  require(std::int64_t{4} * faces, faces, 1, "the number of faces");
   return two_rings(faces, true, seed);
 }
 
 ControlMesh polygon_prism(int n) {
+  require(n, n, 3, "the number of sides");
   ControlMesh mesh;
   for (int i = 0; i < 2 * n; ++i) {
     const double t = 2 * std::numbers::pi * (i % n) / n;
@@ -84,21 +140,22 @@ ControlMesh polygon_prism(int n) {
   mesh.faces.push_back(bottom);
   mesh.faces.push_back(top);
   for (int i = 0; i < n; ++i) mesh.faces.push_back(std::array{i, (i + 1) % n, n + (i + 1) % n, n + i});
-  return mesh;
+  return with_rounded_positions(std::move(mesh));
 }
 
 ControlMesh dual(const ControlMesh& mesh) {
   ControlMesh result;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> face_of;  // of each directed edge
-  const Triangles triangles = triangles_of(mesh);
   std::vector<std::int32_t> some_edge(mesh.positions.size(), -1);  // the vertex that an edge from v leads to
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto t = triangles[f];
+    const auto face = mesh.faces[f];
+    const std::size_t n = face.size();
     std::array<double, 3> middle{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      face_of[{t[k], t[(k + 1) % 3]}] = static_cast<std::int32_t>(f);
-      some_edge[static_cast<std::size_t>(t[k])] = t[(k + 1) % 3];
-      for (std::size_t c = 0; c < 3; ++c) middle[c] += mesh.positions[static_cast<std::size_t>(t[k])][c] / 3;
+    for (std::size_t k = 0; k < n; ++k) {
+      face_of[{face[k], face[(k + 1) % n]}] = static_cast<std::int32_t>(f);
+      some_edge[static_cast<std::size_t>(face[k])] = face[(k + 1) % n];
+      for (std::size_t c = 0; c < 3; ++c)
+        middle[c] += mesh.positions[static_cast<std::size_t>(face[k])][c] / static_cast<double>(n);
     }
     result.positions.push_back(middle);
   }
@@ -108,15 +165,46 @@ ControlMesh dual(const ControlMesh& mesh) {
     std::vector<std::int32_t> corners;
     std::int32_t to = some_edge[v];
     do {
-      const auto face = face_of.find({from, to});
-      if (face == face_of.end()) throw ArgumentError("the dual is for closed meshes");
-      corners.push_back(face->second);
-      const auto t = triangles[static_cast<std::size_t>(face->second)];
-      to = t[0] == from ? t[2] : t[1] == from ? t[0] : t[1];
+      const auto found = face_of.find({from, to});
+      if (found == face_of.end()) throw ArgumentError("the dual is for closed meshes");
+      corners.push_back(found->second);
+      const auto face = mesh.faces[static_cast<std::size_t>(found->second)];
+      const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), from) - face.begin());
+      to = face[(at + face.size() - 1) % face.size()];
     } while (to != some_edge[v]);
     result.faces.push_back(corners);
   }
-  return result;
+  return with_rounded_positions(std::move(result));
+}
+
+ControlMesh pawn(int n) {
+  require(std::int64_t{2} * n * kRings, n, 3, "the valence of the poles");
+  const int columns = 2 * n, last = (kRings - 1) * columns;
+  ControlMesh mesh = lathe(columns);
+  const auto foot = static_cast<std::int32_t>(mesh.positions.size()), head = foot + 1;
+  mesh.positions.push_back({0, 0, 0});
+  mesh.positions.push_back({0, 0, kTop});
+  for (int i = 0; i < columns; i += 2) {
+    const int middle = i + 1, next = (i + 2) % columns;
+    mesh.faces.push_back(std::array{foot, next, middle, i});
+    mesh.faces.push_back(std::array{head, last + i, last + middle, last + next});
+  }
+  return with_rounded_positions(std::move(mesh));
+}
+
+ControlMesh mixed_pawn(int n) {
+  require(std::int64_t{n} * kRings, n, 3, "the valence of the pole");
+  const int last = (kRings - 1) * n;
+  ControlMesh mesh = lathe(n);
+  const auto head = static_cast<std::int32_t>(mesh.positions.size());
+  mesh.positions.push_back({0, 0, kTop});
+  std::vector<std::int32_t> foot;
+  for (int i = 0; i < n; ++i) {
+    foot.push_back(n - 1 - i);
+    mesh.faces.push_back(std::array{head, last + i, last + (i + 1) % n});
+  }
+  mesh.faces.push_back(foot);
+  return with_rounded_positions(std::move(mesh));
 }
 
 }  // namespace limitcheck::data

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Small meshes of quads and other polygons, for any valence and boundary.
+// Meshes of quads and other polygons, for any valence and boundary. Every coordinate is exact in float. All throw
+// InputError NAME_BAD_PARAMETER where a number is out of range.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,16 @@ ControlMesh quad_wheel(int n, std::uint64_t seed);
 ControlMesh quad_fan(int faces, std::uint64_t seed);
 /// A prism over an n-gon: two n-gons and n quads, n >= 3.
 ControlMesh polygon_prism(int n);
-/// The dual of a closed triangle mesh: a vertex in the middle of each triangle, a face of n corners around
-/// each vertex of valence n. Faces around a vertex are joined as they lie; every vertex of the dual has
-/// valence 3.
+/// The dual of a closed mesh: a vertex in the middle of each face, a face of n corners around each vertex of
+/// valence n. The vertices around a face become the faces around a vertex, so the dual of triangles has the
+/// valence 3 everywhere.
 ///   throws   ArgumentError: an edge that has not two faces in opposite directions
 ControlMesh dual(const ControlMesh& mesh);
+
+/// A chess pawn, which a modeller would turn on a lathe: 2n columns of quads, and at each pole n quads around a
+/// vertex of valence n; n >= 3. The other end of each second column has the valence 3.
+ControlMesh pawn(int n);
+/// The same with n columns: at the head n triangles around a vertex of valence n, at the foot one n-gon.
+ControlMesh mixed_pawn(int n);
 
 }  // namespace limitcheck::data

@@ -3,47 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <map>
 #include <set>
-#include <utility>
 
 #include "data/error.h"
+#include "data/generators/test_census.h"
 #include "data/generators/test_hash.h"
 #include "data/validate.h"
 
 namespace limitcheck::data {
 namespace {
-
-// Counted from the triangles, without the generator's help.
-struct Census {
-  std::set<int> interior_valences, boundary_faces;
-  bool open = false;
-};
-
-Census census(const ControlMesh& mesh) {
-  std::map<std::int32_t, int> faces;
-  std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
-  std::set<std::int32_t> boundary;
-  for (const auto& t : triangles_of(mesh)) {
-    for (int k = 0; k < 3; ++k) {
-      ++faces[t[k]];
-      ++edges[std::minmax(t[k], t[(k + 1) % 3])];
-    }
-  }
-  for (const auto& [e, count] : edges) {
-    if (count == 1) boundary.insert(e.first), boundary.insert(e.second);
-  }
-  Census c;
-  c.open = !boundary.empty();
-  for (const auto& [v, count] : faces) {
-    if (boundary.contains(v))
-      c.boundary_faces.insert(count);
-    else
-      c.interior_valences.insert(count);
-  }
-  return c;
-}
 
 TEST(RandomMesh, IsValidWhateverTheSeed) {
   std::int64_t faces = 0;
@@ -60,22 +28,22 @@ TEST(RandomMesh, IsValidWhateverTheSeed) {
 }
 
 TEST(RandomMesh, HasAllValencesAndBoundariesAmongAHundredSeeds) {
-  Census all;
+  std::set<int> interior_valences, boundary_faces;
   int open = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Census c = census(random_mesh(seed));
-    open += c.open;
-    all.interior_valences.insert(c.interior_valences.begin(), c.interior_valences.end());
-    all.boundary_faces.insert(c.boundary_faces.begin(), c.boundary_faces.end());
+    open += !c.boundary_faces.empty();
+    for (const auto& [n, count] : c.interior_valences) interior_valences.insert(n);
+    for (const auto& [k, count] : c.boundary_faces) boundary_faces.insert(k);
   }
-  for (int n = 3; n <= 20; ++n) EXPECT_TRUE(all.interior_valences.contains(n)) << n;
-  EXPECT_GE(*all.interior_valences.begin(), 3);
-  EXPECT_GT(*all.interior_valences.rbegin(), 40);
-  EXPECT_LE(*all.interior_valences.rbegin(), 50);
-  for (int k = 1; k <= 9; ++k) EXPECT_TRUE(all.boundary_faces.contains(k)) << k;
+  for (int n = 3; n <= 20; ++n) EXPECT_TRUE(interior_valences.contains(n)) << n;
+  EXPECT_GE(*interior_valences.begin(), 3);
+  EXPECT_GT(*interior_valences.rbegin(), 40);
+  EXPECT_LE(*interior_valences.rbegin(), 50);
+  for (int k = 1; k <= 9; ++k) EXPECT_TRUE(boundary_faces.contains(k)) << k;
   EXPECT_GT(open, 30);
   EXPECT_LT(open, 80);
-  RecordProperty("largest_valence", *all.interior_valences.rbegin());
+  RecordProperty("largest_valence", *interior_valences.rbegin());
   RecordProperty("open", open);
 }
 

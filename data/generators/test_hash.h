@@ -9,7 +9,7 @@
 
 namespace limitcheck::data {
 
-/// FNV-1a over the bits of all positions and indices.
+/// FNV-1a over the bits of all positions and indices, and over the faces' sizes unless all are triangles.
 inline std::uint64_t hash(const ControlMesh& mesh) {
   std::uint64_t value = 0xcbf29ce484222325u;
   const auto add = [&](std::uint64_t word) {
@@ -18,8 +18,9 @@ inline std::uint64_t hash(const ControlMesh& mesh) {
   for (const auto& p : mesh.positions) {
     for (const double x : p) add(std::bit_cast<std::uint64_t>(x));
   }
-  for (const auto& t : triangles_of(mesh)) {
-    for (const std::int32_t v : t) add(static_cast<std::uint32_t>(v));
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.faces.are_triangles()) add(mesh.faces[f].size());
+    for (const std::int32_t v : mesh.faces[f]) add(static_cast<std::uint32_t>(v));
   }
   return value;
 }

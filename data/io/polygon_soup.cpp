@@ -7,6 +7,7 @@
 #include <span>
 
 #include "data/error.h"
+#include "data/triangulate.h"
 #include "data/validate.h"
 
 namespace limitcheck::data::io {
@@ -18,17 +19,13 @@ std::int64_t line_of(const std::vector<std::int64_t>& lines, std::int64_t elemen
   return element >= 0 && static_cast<std::size_t>(element) < lines.size() ? lines[element] : 0;
 }
 
-double squared_distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-  return x * x + y * y + z * z;
-}
-
-// The corner from which the fan of a polygon starts.
-std::size_t fan_apex(const PolygonSoup& soup, Corners polygon, Triangulation rule) {
-  if (rule != Triangulation::kShortestDiagonal || polygon.size() != 4) return 0;
-  const auto& p = soup.positions;
-  return squared_distance(p[polygon[1]], p[polygon[3]]) < squared_distance(p[polygon[0]], p[polygon[2]]) ? 1
-                                                                                                         : 0;
+bool has_larger_polygons(const PolygonSoup& soup) {
+  std::size_t begin = 0;
+  for (const std::size_t end : soup.polygon_end) {
+    if (end - begin > 3) return true;
+    begin = end;
+  }
+  return false;
 }
 
 // Before triangulation, which would hide both: every index exists, and no corner occurs twice.
@@ -68,6 +65,8 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   Examination result;
   const std::size_t polygons = soup.polygon_end.size();
   const bool keep = options.polygons == Triangulation::kKeep;
+  result.scheme =
+      options.scheme.value_or(keep && has_larger_polygons(soup) ? Scheme::kCatmullClark : Scheme::kLoop);
   const auto faces = static_cast<std::int64_t>(polygons),
              corners = static_cast<std::int64_t>(soup.corners.size());
   const auto too_many = validate_counts(static_cast<std::int64_t>(soup.positions.size()), faces,
@@ -91,11 +90,6 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
     const auto number = static_cast<std::int64_t>(i);
     const Corners polygon(soup.corners.data() + begin, soup.polygon_end[i] - begin);
     auto [fault, message] = checker.fault(polygon, number);
-    if (fault.empty() && polygon.size() > 3 && options.polygons == Triangulation::kNone) {
-      fault = "MESH_POLYGON";
-      message = fmt::format("face {} has {} corners, only triangles are accepted", number + soup.first,
-                            polygon.size());
-    }
     if (!fault.empty()) {
       result.faults.push_back(
           {std::move(fault), line_of(soup.polygon_lines, number), std::move(message), -1});
@@ -103,25 +97,20 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
         if (v >= 0 && v < static_cast<std::int64_t>(of_a_bad_polygon.size())) of_a_bad_polygon[v] = true;
       continue;
     }
-    if (keep || polygon.size() == 3) {
-      face.assign(polygon.begin(), polygon.end());
-      mesh.faces.push_back(face);
-      polygon_of.push_back(number);
-      continue;
-    }
-    ++result.cut;
-    const std::size_t apex = fan_apex(soup, polygon, options.polygons), n = polygon.size();
-    for (std::size_t k = 1; k + 1 < n; ++k) {
-      mesh.faces.push_back({static_cast<std::int32_t>(polygon[apex]),
-                            static_cast<std::int32_t>(polygon[(apex + k) % n]),
-                            static_cast<std::int32_t>(polygon[(apex + k + 1) % n])});
-      polygon_of.push_back(number);
-    }
+    face.assign(polygon.begin(), polygon.end());
+    mesh.faces.push_back(face);
+    polygon_of.push_back(number);
+  }
+  if (!keep) {
+    Triangulated triangles = triangulate(mesh, options.polygons);
+    mesh.faces = std::move(triangles.faces);
+    for (std::int64_t& f : triangles.face) f = polygon_of[f];
+    polygon_of = std::move(triangles.face);
+    result.cut = triangles.cut;
   }
 
   // All of them together.
-  for (MeshFinding& finding :
-       validate(mesh, options.scheme.value_or(natural_scheme(mesh)), {soup.first, polygon_of})) {
+  for (MeshFinding& finding : validate(mesh, result.scheme, {soup.first, polygon_of})) {
     const bool entailed =
         (finding.fault == MeshFault::kBowtieVertex || finding.fault == MeshFault::kIsolatedVertex) &&
         of_a_bad_polygon[finding.vertex];
@@ -134,9 +123,9 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   return result;
 }
 
-ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const ReadOptions& options) {
+Examination require_valid(const PolygonSoup& soup, const std::string& name, const ReadOptions& options) {
   Examination found = examine(soup, options);
-  if (found.faults.empty()) return std::move(found.mesh);
+  if (found.faults.empty()) return found;
   const SoupFault& first = found.faults[0];
   const std::string more =
       found.faults.size() == 1 ? "" : fmt::format("; {} more faults", found.faults.size() - 1);

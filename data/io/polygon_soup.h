@@ -41,12 +41,9 @@ PolygonSoup read_stl(std::string_view content, const std::string& name);
 /// with a FILE_ code.
 PolygonSoup read_soup(const std::filesystem::path& file);
 
-/// Writes vertices and polygons as they are, whatever is wrong with them; otherwise as write_mesh (write.h).
-void write_soup(const std::filesystem::path& file, const PolygonSoup& soup);
-
 /// One thing that is wrong with the mesh of a file.
 struct SoupFault {
-  std::string code;     // as in data/validate.h, or MESH_POLYGON
+  std::string code;     // as in data/validate.h
   std::int64_t line;    // 0 where the format has no lines
   std::string message;  // numbers its elements as the format does
   std::int64_t vertex;  // from 0, if the fault is that of one vertex; else -1
@@ -54,8 +51,10 @@ struct SoupFault {
 
 /// The mesh of a file, and everything that is wrong with it.
 struct Examination {
-  ControlMesh mesh;               // without the polygons that are at fault by themselves
-  std::int64_t cut = 0;           // so many polygons became triangles
+  ControlMesh mesh;      // without the polygons that are at fault by themselves
+  std::int64_t cut = 0;  // so many polygons became triangles
+  // What the mesh was validated for: as asked; else as data/scheme.h chooses, by all polygons of the file.
+  Scheme scheme = Scheme::kLoop;
   std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
 };
 
@@ -63,7 +62,7 @@ struct Examination {
 /// is no fault of its own.
 Examination examine(const PolygonSoup& soup, const ReadOptions& options);
 
-/// Checks, triangulates and validates. Throws InputError: the first fault that `examine` finds.
-ControlMesh control_mesh(const PolygonSoup& soup, const std::string& name, const ReadOptions& options);
+/// The same for a mesh without faults. Throws InputError: the first fault that `examine` finds.
+Examination require_valid(const PolygonSoup& soup, const std::string& name, const ReadOptions& options);
 
 }  // namespace limitcheck::data::io

@@ -36,7 +36,7 @@ ControlMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opti
 
 ControlMesh read_mesh(std::string_view content, FileFormat format, const std::string& name,
                       const ReadOptions& options) {
-  return io::control_mesh(parse(content, format, name), name, options);
+  return io::require_valid(parse(content, format, name), name, options).mesh;
 }
 
 }  // namespace limitcheck::data

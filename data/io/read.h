@@ -8,7 +8,6 @@
 //   FILE_UNSUPPORTED      a part of the format that this program does not read, and that cannot be ignored
 //   FILE_SYNTAX           not of the form the format prescribes
 //   FILE_TRUNCATED        ends before what it announced
-//   MESH_POLYGON          a face with more than three corners, and ReadOptions refuses those
 // A file is taken whole and as it is, or refused: there is no repair and no partial result. The readers skip
 // what the formats have beside positions and faces (normals, texture, colours, groups).
 #pragma once
@@ -20,21 +19,15 @@
 
 #include "data/control_mesh.h"
 #include "data/scheme.h"
+#include "data/triangulate.h"
 
 namespace limitcheck::data {
 
-/// What becomes of a face of more than three corners. Cut into triangles it has another limit surface. [C09]
-enum class Triangulation {
-  kKeep,              ///< it stays what it is
-  kFan,               ///< from its first corner: (0, 1, 2), (0, 2, 3), ...
-  kShortestDiagonal,  ///< quads along the shorter diagonal, 0-2 if equal; larger faces as kFan
-  kNone               ///< refused: MESH_POLYGON
-};
-
 /// Choices for reading a file.
 struct ReadOptions {
-  Triangulation polygons = Triangulation::kFan;
-  /// The scheme that the mesh is validated for; by default the one that it is meant for, natural_scheme().
+  Triangulation polygons = Triangulation::kKeep;
+  /// The scheme that the mesh is validated for, after triangulation; by default the one that it is meant for,
+  /// natural_scheme().
   std::optional<Scheme> scheme{};
 };
 

@@ -138,10 +138,10 @@ TEST(Read, TheLocaleDoesNotMatter) {
             "cage.obj:1: FILE_SYNTAX: x is not a number: \"0,5\"");
 }
 
-TEST(Read, PolygonsAreFansFromTheirFirstCornerByDefaultOrStayWhatTheyAre) {
-  EXPECT_EQ(read_mesh(wellformed("pentagon.v5.f3.obj")).faces, (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
-  EXPECT_EQ(read_mesh(wellformed("pentagon.v5.f3.obj"), {Triangulation::kKeep}).faces,
-            (Faces{{0, 1, 2, 3, 4}}));
+TEST(Read, PolygonsStayWhatTheyAreUnlessTheyAreToBeCut) {
+  EXPECT_EQ(read_mesh(wellformed("pentagon.v5.f1.obj")).faces, (Faces{{0, 1, 2, 3, 4}}));
+  EXPECT_EQ(read_mesh(wellformed("pentagon.v5.f1.obj"), {Triangulation::kFan}).faces,
+            (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
 }
 
 TEST(Read, PolygonsAreRefusedForLoopsSchemeUnlessTheyAreCut) {
@@ -165,12 +165,15 @@ TEST(Read, QuadsAreCutAlongTheShorterDiagonalOnRequest) {
   EXPECT_EQ(cut("1"), (Faces{{0, 1, 2}, {0, 2, 3}}));    // equal
 }
 
-TEST(Read, PolygonsAreRefusedOnRequest) {
-  const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-  EXPECT_EQ(error_of(quad, FileFormat::kObj, {Triangulation::kNone}),
-            "cage.obj:5: MESH_POLYGON: face 1 has 4 corners, only triangles are accepted (numbers from 1)");
-  EXPECT_EQ(error_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", FileFormat::kObj, {Triangulation::kNone}),
-            "accepted");
+// Two quads that share two opposite corners, 1 and 3, with two triangles between them. Cut from their first
+// corners both meet in the edge 1-3.
+TEST(Read, WhatIsValidAsPolygonsIsValidatedAgainWhenItIsCut) {
+  const std::string text =
+      "v 0 0 0\nv 1 -1 0\nv 2 0 0\nv 1 1 0\nv 1 1 1\nv 1 -1 1\n"
+      "f 1 2 3 4\nf 1 5 3 6\nf 1 4 5\nf 4 3 5\n";
+  EXPECT_EQ(error_of(text), "accepted");
+  EXPECT_EQ(error_of(text, FileFormat::kObj, {Triangulation::kFan}),
+            "cage.obj:8: MESH_NONMANIFOLD_EDGE: edge 1–3 has 4 faces (1, 1, 2, 2) (numbers from 1)");
 }
 
 TEST(Read, AFileThatIsNotOneCannotBeOpened) {

@@ -10,43 +10,34 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <functional>
 #include <iterator>
-#include <span>
 #include <vector>
 
 #include "data/error.h"
 #include "data/io/format.h"
-#include "data/io/polygon_soup.h"
 
 namespace limitcheck::data {
 namespace {
 
-// Positions and faces of any number of corners, counted from 0.
-struct Polygons {
-  const std::vector<std::array<double, 3>>& positions;
-  std::size_t count;
-  std::function<std::span<const std::int64_t>(std::size_t)> corners;  // valid until the next call
-};
-
-void append_obj(std::string& text, const Polygons& mesh) {
+void append_obj(std::string& text, const ControlMesh& mesh) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p[0], p[1], p[2]);
-  for (std::size_t f = 0; f < mesh.count; ++f) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     text += 'f';
-    for (const std::int64_t v : mesh.corners(f)) fmt::format_to(std::back_inserter(text), " {}", v + 1);
+    for (const std::int32_t v : mesh.faces[f])
+      fmt::format_to(std::back_inserter(text), " {}", std::int64_t{v} + 1);
     text += '\n';
   }
 }
 
 // The body of OFF and of ascii PLY.
-void append_lines(std::string& text, const Polygons& mesh) {
+void append_lines(std::string& text, const ControlMesh& mesh) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "{} {} {}\n", p[0], p[1], p[2]);
-  for (std::size_t f = 0; f < mesh.count; ++f) {
-    const auto corners = mesh.corners(f);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto corners = mesh.faces[f];
     fmt::format_to(std::back_inserter(text), "{}", corners.size());
-    for (const std::int64_t v : corners) fmt::format_to(std::back_inserter(text), " {}", v);
+    for (const std::int32_t v : corners) fmt::format_to(std::back_inserter(text), " {}", v);
     text += '\n';
   }
 }
@@ -56,14 +47,15 @@ void append_little_endian(std::string& bytes, Integer bits) {
   for (std::size_t i = 0; i < sizeof(Integer); ++i) bytes += static_cast<char>(bits >> 8 * i & 0xff);
 }
 
-void append_ply(std::string& text, const Polygons& mesh, bool ascii) {
+void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
   std::size_t most = 0;
-  for (std::size_t f = 0; f < mesh.count; ++f) most = std::max(most, mesh.corners(f).size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) most = std::max(most, mesh.faces[f].size());
   const bool small = most < 256;
   text += fmt::format(
       "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
       "element face {}\nproperty list {} int vertex_indices\nend_header\n",
-      ascii ? "ascii" : "binary_little_endian", mesh.positions.size(), mesh.count, small ? "uchar" : "uint");
+      ascii ? "ascii" : "binary_little_endian", mesh.positions.size(), mesh.faces.size(),
+      small ? "uchar" : "uint");
   if (ascii) {
     append_lines(text, mesh);
     return;
@@ -71,33 +63,14 @@ void append_ply(std::string& text, const Polygons& mesh, bool ascii) {
   for (const auto& p : mesh.positions) {
     for (const double x : p) append_little_endian(text, std::bit_cast<std::uint64_t>(x));
   }
-  for (std::size_t f = 0; f < mesh.count; ++f) {
-    const auto corners = mesh.corners(f);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto corners = mesh.faces[f];
     if (small)
       text += static_cast<char>(corners.size());
     else
       append_little_endian(text, static_cast<std::uint32_t>(corners.size()));
-    for (const std::int64_t v : corners) append_little_endian(text, static_cast<std::uint32_t>(v));
+    for (const std::int32_t v : corners) append_little_endian(text, static_cast<std::uint32_t>(v));
   }
-}
-
-std::string content_of(const Polygons& mesh, FileFormat format, const WriteOptions& options) {
-  std::string text;
-  switch (format) {
-    case FileFormat::kObj:
-      append_obj(text, mesh);
-      break;
-    case FileFormat::kOff:
-      text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.count);
-      append_lines(text, mesh);
-      break;
-    case FileFormat::kPly:
-      append_ply(text, mesh, options.ascii_ply);
-      break;
-    case FileFormat::kStl:
-      throw InputError("FILE_UNSUPPORTED", "", 0, "STL is read, not written: it has no vertices");
-  }
-  return text;
 }
 
 // Empty, or the system's reason why the content could not be written.
@@ -143,25 +116,26 @@ void write_content(const std::filesystem::path& name, const std::string& content
 }  // namespace
 
 std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options) {
-  std::vector<std::int64_t> corners;
-  return content_of({mesh.positions, mesh.faces.size(),
-                     [&](std::size_t f) {
-                       corners.assign(mesh.faces[f].begin(), mesh.faces[f].end());
-                       return std::span<const std::int64_t>(corners);
-                     }},
-                    format, options);
+  std::string text;
+  switch (format) {
+    case FileFormat::kObj:
+      append_obj(text, mesh);
+      break;
+    case FileFormat::kOff:
+      text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.faces.size());
+      append_lines(text, mesh);
+      break;
+    case FileFormat::kPly:
+      append_ply(text, mesh, options.ascii_ply);
+      break;
+    case FileFormat::kStl:
+      throw InputError("FILE_UNSUPPORTED", "", 0, "STL is read, not written: it has no vertices");
+  }
+  return text;
 }
 
 void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options) {
   write_content(file, mesh_content(mesh, io::format_of(file), options));
-}
-
-void io::write_soup(const std::filesystem::path& file, const PolygonSoup& soup) {
-  const Polygons polygons{soup.positions, soup.polygon_end.size(), [&](std::size_t f) {
-                            const std::size_t begin = f == 0 ? 0 : soup.polygon_end[f - 1];
-                            return std::span(soup.corners).subspan(begin, soup.polygon_end[f] - begin);
-                          }};
-  write_content(file, content_of(polygons, format_of(file), {}));
 }
 
 }  // namespace limitcheck::data

@@ -29,7 +29,8 @@ class Surface {
                                 Order order = Order::kSecond) const {
     if (const auto* loop = std::get_if<StamEvaluator<double>>(&evaluator_))
       return loop->evaluate(face, first, second, order);
-    return std::get<catmull_clark::StamEvaluator<double>>(evaluator_).evaluate(face, corner, first, second, order);
+    return std::get<catmull_clark::StamEvaluator<double>>(evaluator_)
+        .evaluate(face, corner, first, second, order);
   }
 
  private:

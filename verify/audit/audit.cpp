@@ -158,6 +158,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   for (Result& r : results) {
     r.depth = depth_of(mesh);
     r.depths = mesh.depths;
+    r.scheme = mesh.scheme();
+    r.triangulated = mesh.triangulated;
     if (mesh.sample) r.sample = mesh.sample->text();
   }
   return results;
@@ -233,7 +235,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.faces.size())) {
     const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
-    for (Result& r : check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))
+    for (Result& r :
+         check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))
       results.push_back(std::move(r));
   }
 }

@@ -25,6 +25,8 @@ struct AuditMesh {
   std::string depths{};   // how the depths were chosen, as --depths takes it (face_depths.h); may be empty
   bool relations = true;  // whether the relations are checked, if the auditor's level includes them
   std::optional<data::Scheme> asked_scheme = {};  // empty: the one that the mesh is meant for
+  std::string
+      triangulated{};  // how larger faces of what `name` means were cut, as --triangulate takes it; or empty
 
   data::Scheme scheme() const { return asked_scheme.value_or(data::natural_scheme(mesh)); }
 };

@@ -2,11 +2,15 @@
 // The audit of Catmull-Clark's surfaces: what is right has no finding, on every kind of face and boundary.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/face_depths.h"
+#include "verify/audit/relations.h"
+#include "verify/subject/quad_model_rules.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -27,10 +31,17 @@ std::vector<Named> meshes() {
   return all;
 }
 
+AuditMesh audited(const Named& m) {
+  AuditMesh mesh{m.name, m.mesh};
+  mesh.asked_scheme = data::Scheme::kCatmullClark;
+  return mesh;
+}
+
 void expect_held(const std::vector<Result>& results, const std::string& what) {
   EXPECT_FALSE(results.empty());
   for (const Result& r : results)
-    EXPECT_TRUE(r.status == Status::kHeld || r.status == Status::kQualityWarning || r.status == Status::kNotRun)
+    EXPECT_TRUE(r.status == Status::kHeld || r.status == Status::kQualityWarning ||
+                r.status == Status::kNotRun)
         << what << ", " << r.check << ": " << word(r.status) << ", " << r.bad << " of " << r.of << ", worst "
         << r.worst.value_or(-1) << ", bound " << r.bound.value_or(-1) << ": " << r.message << " at "
         << (r.witness ? r.witness->where() + " " + r.witness->l1 + " " + r.witness->l2 : "");
@@ -39,11 +50,45 @@ void expect_held(const std::vector<Result>& results, const std::string& what) {
 TEST(CatmullClarkAudit, TheNaiveSubdividerHasNoFinding) {
   for (const Named& m : meshes())
     for (const int depth : {0, 1, 2, 3}) {
-      AuditMesh mesh{m.name, m.mesh};
-      mesh.asked_scheme = data::Scheme::kCatmullClark;
+      const AuditMesh mesh = audited(m);
       Auditor auditor(depth, 1, {}, depth == 2 ? Level::kThorough : Level::kQuick);
       expect_held(auditor.run({lc_subject_naive(), ""}, mesh), m.name + " at depth " + std::to_string(depth));
     }
+}
+
+TEST(CatmullClarkAudit, AStitchedTessellatorHasNoFindingAtUnequalDepths) {
+  for (const Named& m : meshes())
+    for (const std::uint64_t seed : {1, 2, 3})
+      for (const int least : {-1, 0}) {
+        AuditMesh mesh = audited(m);
+        mesh.face_depth = random_depths(m.mesh.faces.size(), least, 4, seed);
+        mesh.depth = 4;
+        Auditor auditor(4, 1, {}, seed == 1 ? Level::kThorough : Level::kQuick);
+        expect_held(auditor.run({lc_subject_quad_model(), ""}, mesh), m.name + " at unequal depths");
+      }
+}
+
+TEST(CatmullClarkAudit, EachMutantIsFoundByTheCheckMeantForIt) {
+  std::vector<AuditMesh> cases;
+  for (const Named& m : meshes()) {
+    cases.push_back(audited(m));
+    cases.back().depth = 2;
+    AuditMesh unequal = audited(m);
+    unequal.face_depth = random_depths(m.mesh.faces.size(), -1, 3, 1);
+    unequal.depth = 3;
+    cases.push_back(unequal);
+  }
+  const auto& relations = relation_rows();
+  for (const Mutation& mutation : quad_mutations().subspan(1)) {
+    bool found = false;
+    const bool relation = std::find(relations.begin(), relations.end(), mutation.check) != relations.end();
+    Auditor auditor(2, 2, {}, relation ? Level::kThorough : Level::kQuick);
+    for (std::size_t k = 0; k < cases.size() && !found; ++k)
+      for (const Result& r :
+           auditor.run({lc_subject_quad_model(), "mutation=" + std::string(mutation.name)}, cases[k]))
+        found = found || (r.check == mutation.check && is_bad(r));
+    EXPECT_TRUE(found) << mutation.name << " was not found by " << mutation.check;
+  }
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::in
   const auto add = [&](const Lattice::Coordinates& p, const Lattice::Coordinates& q, std::int32_t times) {
     domain.for_each_step(p, q, scale, unit, [&](const auto& from, const auto& to) {
       Step step{domain.canonical(from, scale), domain.canonical(to, scale), times};
-      if (std::tie(step.to.part, step.to.i, step.to.j) <
-          std::tie(step.from.part, step.from.i, step.from.j)) {
+      if (std::tie(step.to.part, step.to.i, step.to.j) < std::tie(step.from.part, step.from.i, step.from.j)) {
         std::swap(step.from, step.to);
         step.times = -times;
       }
@@ -86,8 +85,9 @@ void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::in
   double covered = 0, whole = 0;
   for (const Corners& c : triangles) covered += std::abs(domain.area(c, scale));
   for (int k = 1; k + 1 < domain.corners(); ++k)
-    whole += domain.area({domain.corner_point(0, scale), domain.corner_point(k, scale),
-                          domain.corner_point(k + 1, scale)}, scale);
+    whole += domain.area(
+        {domain.corner_point(0, scale), domain.corner_point(k, scale), domain.corner_point(k + 1, scale)},
+        scale);
   v.overlaps = covered >= whole;
   v.holes = covered <= whole;
 }

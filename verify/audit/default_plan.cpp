@@ -2,11 +2,14 @@
 #include "verify/audit/default_plan.h"
 
 #include <algorithm>
+#include <exception>
+#include <set>
 #include <string>
 
 #include "data/generators/named_mesh.h"
 #include "data/worst_cases.h"
 #include "verify/audit/face_depths.h"
+#include "verify/subject/host.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -54,6 +57,33 @@ const std::vector<Case>& small_cases() {
       {"far-box", 3},
       {"tiny-box", 3},
       {"huge-box", 3},
+      // Quads and other polygons: every valence class and boundary situation, every kind of face.
+      {"quad-cube", 4, "uniform", true},
+      {"quad-cube", 1},
+      {"quad-cube", 0},
+      {"quad-cube", 2, "face0-culled"},
+      {"quad-torus:4:3", 2},
+      {"quad-wheel:3", 3},
+      {"quad-wheel:5", 3},
+      {"quad-wheel:6", 5},
+      {"quad-wheel:8", 3},
+      {"quad-wheel:12", 3},
+      {"quad-wheel:50", 2},
+      {"quad-fan:1", 3},
+      {"quad-fan:2", 3},
+      {"quad-fan:3", 3},
+      {"quad-fan:4", 3},
+      {"quad-fan:5", 3},
+      {"quad-fan:6", 3},
+      {"prism:3", 3, "uniform", true},
+      {"prism:5", 4},
+      {"prism:5", 0},
+      {"prism:5", 2, "all-culled"},
+      {"prism:8", 1},
+      {"dual:bumpy:60", 3, "random:1", true},
+      {"mixed:1:60", 3, "random:2"},
+      {"mixed:1:60", 3, "view"},
+      {"mixed-pawn", 2},
   };
   return all;
 }
@@ -88,6 +118,19 @@ std::vector<AuditMesh> default_plan(Level level) {
   AuditMesh large = made({"crowd:18000", 2});
   large.sample = std::make_shared<MeshSample>(large.mesh, 100, 1);
   plan.push_back(std::move(large));
+  return plan;
+}
+
+std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>& subjects) {
+  std::set<data::Scheme> wanted;
+  for (const auto scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+    for (const AuditSubject& s : subjects) try {
+        if (does(capabilities(*s.subject, s.options, scheme), scheme)) wanted.insert(scheme);
+      } catch (const std::exception&) {  // the audit will say why
+        wanted.insert(scheme);
+      }
+  std::vector<AuditMesh> plan = default_plan(level);
+  std::erase_if(plan, [&](const AuditMesh& m) { return !wanted.contains(m.scheme()); });
   return plan;
 }
 

@@ -18,4 +18,7 @@ namespace limitcheck::verify {
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
 
+/// The cases of a scheme that some of the subjects does; all of them if a subject does not say.
+std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>& subjects);
+
 }  // namespace limitcheck::verify

@@ -44,7 +44,7 @@ TEST(DefaultPlan, ItsCasesAreValidTypeableAndAreAskedForOnce) {
   const auto plan = default_plan(Level::kStandard);
   EXPECT_EQ(asked(plan).size(), plan.size());
   for (const AuditMesh& m : plan) {
-    EXPECT_TRUE(data::validate(m.mesh).empty()) << m.name;
+    EXPECT_TRUE(data::validate(m.mesh, m.scheme()).empty()) << m.name;
     // What a user types gives the same.
     EXPECT_EQ(data::named_mesh(m.name).positions, m.mesh.positions) << m.name;
     EXPECT_EQ(face_depths(parse_depths(m.depths), m.mesh, m.depth), m.face_depth) << m.name;

@@ -37,7 +37,9 @@ FaceDepths view_depths(const data::ControlMesh& mesh, int deepest) {
   FaceDepths depths;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto corners = mesh.faces[f];
-    const auto p = [&](std::size_t k) -> const Vector& { return mesh.positions.at(corners[k % corners.size()]); };
+    const auto p = [&](std::size_t k) -> const Vector& {
+      return mesh.positions.at(corners[k % corners.size()]);
+    };
     Vector sum{}, area{};
     double edge = 0;
     for (std::size_t k = 0; k < corners.size(); ++k) {

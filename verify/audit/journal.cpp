@@ -35,10 +35,12 @@ std::vector<double> numbers_of(const Json& json) {
 // The structured binding names all members: with a new one this does not compile until it is written, too.
 Json to_json(const Witness& w) {
   const auto& [face, l1, l2, vertex, triangle, expected, got, digits, corner] = w;
-  return Json::array({face, l1, l2, vertex, triangle, Json(numbers(expected)), Json(numbers(got)), digits, corner});
+  return Json::array(
+      {face, l1, l2, vertex, triangle, Json(numbers(expected)), Json(numbers(got)), digits, corner});
 }
 Witness witness(const Json& j) {
-  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), numbers_of(j.at(5)), numbers_of(j.at(6)), j.at(7), j.at(8)};
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), numbers_of(j.at(5)), numbers_of(j.at(6)),
+          j.at(7), j.at(8)};
 }
 Json to_json(const IllConditioned& c) {
   const auto& [count, bound, worst] = c;
@@ -48,8 +50,8 @@ IllConditioned ill_conditioned(const Json& j) {
   return {j.at(0), number_of(j.at(1)), number_of(j.at(2))};
 }
 Json to_json(const Result& r) {
-  const auto& [subject, mesh, check, depth, depths, sample, in_float, scheme, weights, status, bad, of, worst, bound,
-               rms, p99, unit, absolute, ulps, ill, place, message] = r;
+  const auto& [subject, mesh, check, depth, depths, sample, in_float, scheme, cut, weights, status, bad, of,
+               worst, bound, rms, p99, unit, absolute, ulps, ill, place, message] = r;
   return Json::array({subject,
                       mesh,
                       check,
@@ -58,6 +60,7 @@ Json to_json(const Result& r) {
                       sample,
                       in_float,
                       static_cast<int>(scheme),
+                      cut,
                       static_cast<int>(weights),
                       static_cast<int>(status),
                       bad,
@@ -82,20 +85,21 @@ Result result(const Json& j) {
           j.at(5),
           j.at(6),
           static_cast<data::Scheme>(j.at(7).get<int>()),
-          static_cast<reference::Weights>(j.at(8).get<int>()),
-          static_cast<Status>(j.at(9).get<int>()),
-          j.at(10),
+          j.at(8),
+          static_cast<reference::Weights>(j.at(9).get<int>()),
+          static_cast<Status>(j.at(10).get<int>()),
           j.at(11),
-          maybe(j.at(12)),
+          j.at(12),
           maybe(j.at(13)),
           maybe(j.at(14)),
           maybe(j.at(15)),
-          j.at(16),
-          maybe(j.at(17)),
+          maybe(j.at(16)),
+          j.at(17),
           maybe(j.at(18)),
-          j.at(19).is_null() ? std::nullopt : std::optional(ill_conditioned(j.at(19))),
-          j.at(20).is_null() ? std::nullopt : std::optional(witness(j.at(20))),
-          j.at(21)};
+          maybe(j.at(19)),
+          j.at(20).is_null() ? std::nullopt : std::optional(ill_conditioned(j.at(20))),
+          j.at(21).is_null() ? std::nullopt : std::optional(witness(j.at(21))),
+          j.at(22)};
 }
 
 }  // namespace

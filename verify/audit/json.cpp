@@ -79,7 +79,11 @@ std::string to_json(const Report& report, const std::string& level) {
   out["subjects"] = report.subjects;
   out["meshes"] = Json::array();
   for (const auto& m : report.meshes)
-    out["meshes"].push_back({{"name", m.name}, {"vertices", m.vertices}, {"faces", m.faces}, {"scheme", data::name_of(m.scheme)}});
+    out["meshes"].push_back({{"name", m.name},
+                             {"vertices", m.vertices},
+                             {"faces", m.faces},
+                             {"scheme", data::name_of(m.scheme)},
+                             {"triangulated", text(m.triangulated)}});
   out["results"] = Json::array();
   for (const Result& r : report.results)
     out["results"].push_back({{"subject", r.subject},
@@ -88,6 +92,7 @@ std::string to_json(const Report& report, const std::string& level) {
                               {"depths", text(r.depths)},
                               {"sample", text(r.sample)},
                               {"scheme", data::name_of(r.scheme)},
+                              {"triangulated", text(r.triangulated)},
                               {"precision", r.in_float ? "float" : "double"},
                               {"check", r.check},
                               {"status", word(r.status)},

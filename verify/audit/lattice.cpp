@@ -126,7 +126,8 @@ Place Lattice::place(Id id) const {
 }
 
 Place Lattice::place(std::int32_t face, Coordinates at) const {
-  const std::int64_t whole = domain(face).denominator(scale()), divisor = std::gcd(std::gcd(at.i, at.j), whole);
+  const std::int64_t whole = domain(face).denominator(scale()),
+                     divisor = std::gcd(std::gcd(at.i, at.j), whole);
   const auto number = [&](std::int64_t k) { return static_cast<std::uint32_t>(k / divisor); };
   return {face, number(at.i), number(at.j), number(whole), at.part};
 }

@@ -24,7 +24,7 @@ TEST(Lattice, CountsEveryPointOfAClosedMeshOnce) {
     const data::ControlMesh mesh = data::icosahedron();
     const Lattice lattice(mesh, depth);
     std::set<Lattice::Id> seen;
-    for_each_point(lattice, [&](const lc_provenance& p) { seen.insert(lattice.id(p)); });
+    for_each_point(lattice, [&](const lc_provenance& p) { seen.insert(lattice.id(place_of(p))); });
     EXPECT_EQ(seen.size(), 10U * lattice.n() * lattice.n() + 2)
         << "Euler: V = F n^2 / 2 + 2 at depth " << depth;
     EXPECT_EQ(lattice.size(), static_cast<Lattice::Id>(seen.size()) + 20) << "and the 20 centres";
@@ -36,7 +36,7 @@ TEST(Lattice, GivesBackTheCoordinatesOfEveryFaceThatTouchesAPoint) {
   for (const data::ControlMesh& mesh : {data::tetrahedron(), data::fan(5, 2), data::torus(3, 4)}) {
     const Lattice lattice(mesh, 3);
     for_each_point(lattice, [&](const lc_provenance& p) {
-      const auto c = lattice.in_face(lattice.id(p), p.face);
+      const auto c = lattice.in_face(lattice.id(place_of(p)), p.face);
       ASSERT_TRUE(c.has_value());
       EXPECT_EQ(c->i, 3 * p.i);
       EXPECT_EQ(c->j, 3 * p.j);

@@ -71,9 +71,7 @@ std::string origin_of_normals(std::span<const DeliveredNormal> normals, const da
     }
     return std::sqrt(sum / static_cast<double>(normals.size()));
   };
-  const auto corner = [&](const DeliveredNormal& n, int k) {
-    return unit(of_cage.by_area[cage[n.face][k]]);
-  };
+  const auto corner = [&](const DeliveredNormal& n, int k) { return unit(of_cage.by_area[cage[n.face][k]]); };
   std::vector<std::pair<const char*, Guess>> guesses{
       {"averages of the facets around, weighted by area",
        [&](const auto& n) { return of_points.by_area[point_of[n.vertex]]; }},

@@ -69,14 +69,15 @@ std::string origin_of_points(const Evidence& e) {
       {Scheme::kCatmullClark, true, no_loop},
   };
   if (!loop)
-    guesses = {
-        {Scheme::kCatmullClark, false, wants_limit ? "; what is missing is the last step, the limit mask" : ""},
-        {Scheme::kCatmullClark, true, wants_limit ? "" : "; the capabilities should name them so"}};
+    guesses = {{Scheme::kCatmullClark, false,
+                wants_limit ? "; what is missing is the last step, the limit mask" : ""},
+               {Scheme::kCatmullClark, true, wants_limit ? "" : "; the capabilities should name them so"}};
   std::string text;
   double least = std::numeric_limits<double>::infinity();
   for (const Guess& guess : guesses) {
     if (loop && guess.scheme == Scheme::kCatmullClark && steps == 0) continue;  // the control mesh again
-    const Apart a = apart(e, placed_scheme_points(e.mesh, guess.scheme, steps, guess.limit, e.lattice.scheme()));
+    const Apart a =
+        apart(e, placed_scheme_points(e.mesh, guess.scheme, steps, guess.limit, e.lattice.scheme()));
     if (a.points < kFewest || !(kTimesNearer * a.from_guess < a.from_truth) || !(a.from_guess < least))
       continue;
     least = a.from_guess;

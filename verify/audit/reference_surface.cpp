@@ -82,12 +82,12 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
       const Place p = lattice_.place(id);
       // Dyadic fractions are exact doubles; thirds are not.
       const auto& limit = *evaluator_->limit;
-      const auto point = std::has_single_bit(p.denominator)
-                             ? limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
-                                              static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
-                             : limit.evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
-                                              reference::Parameter::fraction(p.j, p.denominator),
-                                              reference::Order::kFirst);
+      const auto point =
+          std::has_single_bit(p.denominator)
+              ? limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
+                               static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
+              : limit.evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                               reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
       position_[id] = vector_of(point.position);
       normal_[id] = vector_of(point.normal);
       state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
@@ -103,8 +103,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   }
 
   if (!evaluator_->refined)
-    evaluator_->refined = std::make_unique<reference::RefinedSurface>(mesh_, lattice_.scheme(),
-                                                                      lattice_.depth(), weights_);
+    evaluator_->refined =
+        std::make_unique<reference::RefinedSurface>(mesh_, lattice_.scheme(), lattice_.depth(), weights_);
   for (const Lattice::Id id : wanted) {
     state_[id] = State::kNoNormal;
     if (lattice_.is_bare_centre(id)) continue;  // which is no vertex of a refined mesh

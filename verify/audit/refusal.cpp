@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "data/error.h"
-#include "data/io/polygon_soup.h"
+#include "data/triangulate.h"
 #include "data/validate.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/vector.h"
@@ -60,27 +60,33 @@ Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& me
   }
 }
 
-data::ControlMesh read_broken_mesh(const std::string& file) {
+data::io::Examination read_broken_mesh(const std::string& file, const data::ReadOptions& options) {
   const data::io::PolygonSoup soup = data::io::read_soup(file);
-  data::ControlMesh mesh;
+  data::io::Examination result;
+  data::ControlMesh& mesh = result.mesh;
   mesh.positions = soup.positions;
+  std::vector<std::int32_t> face;
   std::size_t begin = 0;
   for (const std::size_t end : soup.polygon_end) {
-    const auto corner = [&](std::size_t k) {
+    face.clear();
+    for (std::size_t k = begin; k < end; ++k) {
       if (!std::in_range<std::int32_t>(soup.corners[k]))
         throw data::InputError(
             "MESH_INDEX_OUT_OF_RANGE", file, 0,
             fmt::format("a face names vertex {}: 32 bits do not name it", soup.corners[k]));
-      return static_cast<std::int32_t>(soup.corners[k]);
-    };
-    for (std::size_t k = begin + 1; k + 1 < end; ++k)
-      mesh.faces.push_back({corner(begin), corner(k), corner(k + 1)});
+      face.push_back(static_cast<std::int32_t>(soup.corners[k]));
+    }
+    if (face.size() > 2) mesh.faces.push_back(face);
     begin = end;
   }
-  if (data::validate(mesh).empty())
+  data::Triangulated triangles = data::triangulate(mesh, options.polygons);
+  mesh.faces = std::move(triangles.faces);
+  result.cut = triangles.cut;
+  result.scheme = options.scheme.value_or(data::natural_scheme(mesh));
+  if (data::validate(mesh, result.scheme).empty())
     throw data::ArgumentError(
         fmt::format("--must-refuse: nothing is wrong with {}, so no subject must refuse it", file));
-  return mesh;
+  return result;
 }
 
 std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
@@ -92,6 +98,8 @@ std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
       Result r;
       r.subject = s.label();
       r.mesh = m.name;
+      r.scheme = m.scheme();
+      r.triangulated = m.triangulated;
       r.check = "rejected-inputs";
       r.status = refusal.status;
       r.unit = "meshes";

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "data/io/polygon_soup.h"
 #include "verify/audit/audit_case.h"
 #include "verify/audit/result.h"
 
@@ -33,9 +34,11 @@ std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, data::Scheme 
 Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, data::Scheme scheme,
                         int threads);
 
-/// A broken mesh from a file, as it is; polygons are cut into fans. Throws data::InputError: the file cannot
-/// be read, or an index has more than 32 bits; data::ArgumentError: nothing is wrong with the mesh.
-data::ControlMesh read_broken_mesh(const std::string& file);
+/// A broken mesh from a file, as it is, but for faces of fewer than three corners, which no interface takes.
+///   options  how larger faces are cut, if they are, and the scheme by which something is wrong with the mesh
+///   throws   data::InputError: the file cannot be read, or an index has more than 32 bits;
+///            data::ArgumentError: nothing is wrong with the mesh
+data::io::Examination read_broken_mesh(const std::string& file, const data::ReadOptions& options);
 
 /// One row `rejected-inputs` for each subject and mesh: whether the subject refuses the mesh.
 std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,

@@ -23,8 +23,8 @@ bool same(std::span<const T> a, std::span<const T> b) {
 bool same_arrays(const Tessellation& a, const Tessellation& b) {
   return same(a.positions_f32(), b.positions_f32()) && same(a.positions_f64(), b.positions_f64()) &&
          same(a.normals_f32(), b.normals_f32()) && same(a.normals_f64(), b.normals_f64()) &&
-         same(a.provenance(), b.provenance()) && same(a.corners(), b.corners()) && same(a.triangles(), b.triangles()) &&
-         same(a.triangle_face(), b.triangle_face());
+         same(a.provenance(), b.provenance()) && same(a.corners(), b.corners()) &&
+         same(a.triangles(), b.triangles()) && same(a.triangle_face(), b.triangle_face());
 }
 
 }  // namespace

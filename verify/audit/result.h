@@ -62,6 +62,8 @@ struct Result {
   std::string depths, sample;  // how the depths were chosen, and "FACES:SEED": as --depths, --sample take it
   bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
   data::Scheme scheme = data::Scheme::kLoop;
+  std::string
+      triangulated;  // how larger faces of the mesh were cut, as --triangulate takes it; empty: they were not
   reference::Weights weights = reference::Weights::kLoop;  // the family that the subject declares
   Status status = Status::kNotRun;
   std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
@@ -86,6 +88,7 @@ struct Report {
     std::string name;
     std::int64_t vertices = 0, faces = 0;
     data::Scheme scheme = data::Scheme::kLoop;
+    std::string triangulated;  // as in Result
   };
   std::string version;
   int depth = 0;                      // the largest

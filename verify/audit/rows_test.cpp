@@ -46,7 +46,7 @@ Vector turned(const Vector& n, double radians) {
 std::size_t copy_of(const Script& s, std::size_t of) {
   const Lattice lattice(mesh(), 1);
   for (std::size_t v = 0; v < s.points.size(); ++v)
-    if (v != of && lattice.id(s.points[v]) == lattice.id(s.points[of])) return v;
+    if (v != of && lattice.id(place_of(s.points[v])) == lattice.id(place_of(s.points[of]))) return v;
   return of;
 }
 
@@ -178,7 +178,7 @@ TEST(Rows, NormalsAgainstPositionsExpectTheMeanOfTheFacets) {
   Vector sum{};
   for (const auto& t : s.triangles)
     for (const std::uint32_t v : t)
-      if (lattice.id(s.points[v]) == lattice.id(s.points[0]))
+      if (lattice.id(place_of(s.points[v])) == lattice.id(place_of(s.points[0])))
         sum = sum + cross(s.positions[t[1]] - s.positions[t[0]], s.positions[t[2]] - s.positions[t[0]]);
   const Result r = row(look(s, 0), "normals-against-positions");
   ASSERT_TRUE(r.witness.has_value());

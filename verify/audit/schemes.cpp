@@ -46,7 +46,8 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
 
 // After the first step a face is a quad at each corner. Of Loop's lattice only the points on control edges are
 // among them, but for a few of no interest.
-SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit, data::Scheme lattice) {
+SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit,
+                                  data::Scheme lattice) {
   reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
   for (int step = 0; step < steps; ++step) refined.refine();
   SchemePoints result = points_of(refined, limit);
@@ -55,10 +56,9 @@ SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool
     const auto corners = static_cast<int>(mesh.faces[f].size());
     const FaceDomain quads(data::Scheme::kCatmullClark, corners), its(lattice, corners);
     quads.for_each_point(n, [&](FaceDomain::Point p) {
-      const std::int32_t vertex =
-          steps == 0 ? mesh.faces[f][*quads.corner_at(p, n)]
-                     : refined.vertex(f, static_cast<std::size_t>(p.part), static_cast<int>(p.i),
-                                      static_cast<int>(p.j));
+      const std::int32_t vertex = steps == 0 ? mesh.faces[f][*quads.corner_at(p, n)]
+                                             : refined.vertex(f, static_cast<std::size_t>(p.part),
+                                                              static_cast<int>(p.i), static_cast<int>(p.j));
       if (lattice == data::Scheme::kLoop) {
         const auto at = quads.side_of(p, n);
         if (!at) return;

@@ -185,7 +185,7 @@ TEST(Seams, AreNamed) {
   // each pole.
   EXPECT_EQ(
       said({"uv-sphere", uv_sphere(6, 5, false)}),
-      "the control mesh has 22 coincident boundary edges; the control mesh has 12 triangles without area");
+      "the control mesh has 22 coincident boundary edges; the control mesh has 12 faces without area");
   EXPECT_EQ(said({"tetrahedron", data::tetrahedron()}), "");
 }
 

@@ -75,7 +75,9 @@ class Shrinker {
   bool late() const { return std::chrono::steady_clock::now() >= end_; }
 
   bool take(AuditMesh candidate) {
-    if (late() || candidate.mesh.faces.empty() || !data::validate(candidate.mesh, *candidate.asked_scheme).empty()) return false;
+    if (late() || candidate.mesh.faces.empty() ||
+        !data::validate(candidate.mesh, *candidate.asked_scheme).empty())
+      return false;
     ++best_.attempts;
     if (!fails_(candidate, best_.depth)) return false;
     best_.mesh = std::move(candidate);

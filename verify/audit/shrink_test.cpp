@@ -13,6 +13,7 @@
 #include "data/io/read.h"
 #include "data/validate.h"
 #include "reference/mesh/topology.h"
+#include "reference/surface/certified.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/witness_files.h"
 #include "verify/subject/registry.h"
@@ -103,6 +104,41 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
   EXPECT_NE(json["audit"].get<std::string>().find("control.obj --depth " + std::to_string(small.depth) +
                                                   " --level quick"),
             std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+// What a finding on a pentagon is written as: the mesh with its polygons, and the exact point in the quad at the
+// corner.
+TEST(WitnessFiles, KeepPolygonsAndNameTheCorner) {
+  AuditMesh mesh{"prism:5", data::named_mesh("prism:5")};
+  Result finding;
+  finding.subject = "mine";
+  finding.mesh = mesh.name;
+  finding.check = "positions";
+  finding.status = Status::kFinding;
+  finding.scheme = mesh.scheme();
+  finding.depth = 2;
+  finding.witness.emplace();
+  finding.witness->face = 0;
+  finding.witness->corner = 2;
+  finding.witness->l1 = "1/2";
+  finding.witness->l2 = "1";
+  finding.witness->expected = finding.witness->got = {0, 0, 0};
+
+  const auto folder = std::filesystem::temp_directory_path() / "limitcheck-witness-of-polygons";
+  std::filesystem::remove_all(folder);
+  const auto place = write_witness(folder, {}, finding, mesh, "standard");
+  EXPECT_EQ(data::read_mesh(place / "control.obj"), mesh.mesh);
+  const auto json = nlohmann::json::parse(std::ifstream(place / "witness.json"));
+  EXPECT_EQ(json["scheme"], "catmull-clark");
+  EXPECT_EQ(json["corner"], 2);
+  const std::string eval = json["eval"];
+  EXPECT_NE(eval.find("control.obj 0:2 1/2 1 --scheme catmull-clark"), std::string::npos) << eval;
+  const auto exact =
+      reference::CertifiedEvaluator(mesh.mesh, data::Scheme::kCatmullClark)
+          .evaluate(0, 2, reference::Parameter::parse("1/2"), reference::Parameter::parse("1"), 40);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    EXPECT_EQ(json["limit_position"][axis], exact.position[axis].value);
   std::filesystem::remove_all(folder);
 }
 

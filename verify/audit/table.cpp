@@ -138,7 +138,7 @@ std::string where(const Report& report, const Result& r) {
   if (!r.witness) return "";
   const std::string mesh = case_name(report, r);
   if (!r.witness->l1.empty())
-    return fmt::format("{} face {} ({}, {})", mesh, r.witness->face, r.witness->l1, r.witness->l2);
+    return fmt::format("{} face {} ({}, {})", mesh, r.witness->where(), r.witness->l1, r.witness->l2);
   if (r.witness->triangle >= 0) return fmt::format("{} triangle {}", mesh, r.witness->triangle);
   return mesh;
 }
@@ -189,8 +189,10 @@ void add_finding(std::string& out, const Report& report, int number, const Line&
   if (!r.witness) return;
   const Witness& w = *r.witness;
   std::vector<std::string> place;
-  if (w.face >= 0) place.push_back(fmt::format("face {}", w.face));
-  if (!w.l1.empty()) place.push_back(fmt::format("l1 = {}, l2 = {}", w.l1, w.l2));
+  if (w.face >= 0) place.push_back(fmt::format("face {}", w.where()));
+  if (!w.l1.empty())
+    place.push_back(r.scheme == data::Scheme::kLoop ? fmt::format("l1 = {}, l2 = {}", w.l1, w.l2)
+                                                    : fmt::format("u = {}, v = {}", w.l1, w.l2));
   if (w.vertex >= 0) place.push_back(fmt::format("vertex {}", w.vertex));
   if (w.triangle >= 0) place.push_back(fmt::format("triangle {}", w.triangle));
   if (!place.empty()) out += fmt::format("     witness   {}\n", fmt::join(place, ", "));
@@ -236,24 +238,28 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-}  // namespace
-
-// A mesh of triangles is taken for one of Loop's, unless it is said otherwise.
-static std::string scheme_option(const Result& result) {
-  return result.scheme == data::Scheme::kLoop ? "" : fmt::format(" --scheme {}", data::name_of(result.scheme));
+// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said otherwise.
+std::string mesh_options(const Result& result) {
+  std::string text;
+  if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));
+  if (!result.triangulated.empty()) text += fmt::format(" --triangulate {}", result.triangulated);
+  return text;
 }
+
+}  // namespace
 
 std::string eval_command(const Result& result) {
   if (!result.witness || result.witness->face < 0 || result.witness->l1.empty()) return "";
   return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
-                     result.witness->l1, result.witness->l2, scheme_option(result),
+                     result.witness->l1, result.witness->l2, mesh_options(result),
                      result.in_float ? " --precision float" : "",
                      result.weights == reference::Weights::kWarren ? " --weights warren" : "");
 }
 
 std::string audit_command(const Result& result, const std::string& level) {
   std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
-                                    quoted(result.mesh), result.depth) + scheme_option(result);
+                                    quoted(result.mesh), result.depth) +
+                        mesh_options(result);
   if (level != "standard") command += fmt::format(" --level {}", level);
   if (!result.depths.empty() && result.depths != "uniform")
     command += fmt::format(" --depths {}", quoted(result.depths));
@@ -307,10 +313,17 @@ std::string to_table(const Report& report, bool colour, bool all) {
 
   std::vector<Line> findings;
   for (const std::string& subject : report.subjects) {
-    out += "\n" + subject + "\n" +
-           row("check", "verdict", plan ? "cases" : "meshes", "bad/looked at", "worst", "bound", "99 %",
+    std::vector<Line> lines = lines_of(report, subject);
+    out += "\n" + subject + "\n";
+    const std::string why_not = reasons(report, subject);
+    if (!why_not.empty() &&
+        std::none_of(lines.begin(), lines.end(), [](const Line& l) { return l.looked_at > 0; })) {
+      out += why_not;
+      continue;
+    }
+    out += row("check", "verdict", plan ? "cases" : "meshes", "bad/looked at", "worst", "bound", "99 %",
                "unit", plan ? "depths    " : "", "where");
-    for (Line& line : lines_of(report, subject)) {
+    for (Line& line : lines) {
       if (all)
         for (const Result* r : line.results)
           add_line(out, report, *r, r->status == Status::kHeld ? "1/1" : "0/1", depths({&r, 1}), colour);
@@ -321,7 +334,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
       if (line.bad_meshes > 0) findings.push_back(std::move(line));
     }
     if (plan) out += fmt::format("  depths looked at: {}\n", depths_in_full(report, subject));
-    out += reasons(report, subject);
+    out += why_not;
   }
   if (!findings.empty())
     out += fmt::format(

@@ -33,10 +33,12 @@ void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
     for (auto& p : mesh.positions)
       for (double& x : p) x = static_cast<double>(static_cast<float>(x));
   constexpr int kDigits = 40;
-  const auto point =
-      reference::CertifiedEvaluator(mesh, r.weights)
-          .evaluate(static_cast<int>(r.witness->face), reference::Parameter::parse(r.witness->l1),
-                    reference::Parameter::parse(r.witness->l2), kDigits);
+  const reference::CertifiedEvaluator evaluator = r.scheme == data::Scheme::kLoop
+                                                      ? reference::CertifiedEvaluator(mesh, r.weights)
+                                                      : reference::CertifiedEvaluator(mesh, r.scheme);
+  const auto point = evaluator.evaluate(static_cast<int>(r.witness->face), std::max(r.witness->corner, 0),
+                                        reference::Parameter::parse(r.witness->l1),
+                                        reference::Parameter::parse(r.witness->l2), kDigits);
   const auto vector = [](const auto& v) { return Json{v[0].value, v[1].value, v[2].value}; };
   json["limit_position"] = vector(point.position);
   json["limit_normal"] = vector(point.normal);
@@ -77,6 +79,7 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
   data::write_mesh(partial.folder() / "control.obj", mesh.mesh);
   Result here = result;
   here.mesh = control.string();
+  here.triangulated.clear();  // the file has the triangles
   if (!mesh.face_depth.empty()) {
     std::string lines;
     for (const std::int32_t depth : mesh.face_depth) lines += std::to_string(depth) + "\n";
@@ -89,6 +92,7 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
             {"status", word(result.status)},
             {"mesh", result.mesh},
             {"control", "control.obj"},
+            {"scheme", data::name_of(result.scheme)},
             {"precision", result.in_float ? "float" : "double"},
             {"count", result.bad},
             {"of", result.of},
@@ -99,6 +103,7 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
   if (result.witness) {
     const Witness& w = *result.witness;
     json["face"] = w.face >= 0 ? Json(w.face) : Json(nullptr);
+    json["corner"] = w.corner >= 0 ? Json(w.corner) : Json(nullptr);
     json["l1"] = w.l1.empty() ? Json(nullptr) : Json(w.l1);
     json["l2"] = w.l2.empty() ? Json(nullptr) : Json(w.l2);
     json["expected"] = numbers(w.expected);

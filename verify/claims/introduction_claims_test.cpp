@@ -14,6 +14,7 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
+#include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
 #include "verify/picture/canvas.h"
 #include "verify/subject/host.h"
@@ -51,6 +52,16 @@ TEST(Sec1_Growth, IsFourfoldForTrianglesAndForPolygonsFromTheSecondStepOn) {
   int faces = 7 + 7 + 7 * 4;
   for (int step = 1; step <= 3; ++step, faces *= 4)
     EXPECT_EQ(refiner->GetLevel(step).GetNumFaces(), faces) << "step " << step;
+  // The same by our own rules, also where triangles, quads and larger faces meet.
+  for (const char* name : {"prism:7", "quad-cube", "mixed:1:60", "dual:bumpy:60"}) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
+    std::size_t quads = mesh.faces.corners().size();
+    for (int step = 1; step <= 3; ++step, quads *= 4) {
+      refined.refine();
+      EXPECT_EQ(refined.topology().faces().size(), quads) << name << ", step " << step;
+    }
+  }
 }
 
 TEST(Sec1_Triangles, PerControlTriangleAre64To1024AtDepthsThreeToFive) {

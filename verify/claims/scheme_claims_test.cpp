@@ -19,6 +19,7 @@
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
 #include "reference/number/number_exact.h"
+#include "verify/audit/audit.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
@@ -63,6 +64,15 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
       for (std::size_t k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
     open += 2 * edges.size() > 3 * mesh.faces.size();
   }
+  // Catmull-Clark on manifolds of triangles, quads and larger faces, closed and open.
+  for (std::uint64_t seed = 1; seed <= kRandom; ++seed) {
+    const auto mesh = data::named_mesh(fmt::format("mixed:{}:60", seed));
+    ASSERT_TRUE(data::validate(mesh, data::Scheme::kCatmullClark).empty()) << seed;
+    const auto t = Session(*lc_subject_naive(), mesh, "", Session::Input::kValid, data::Scheme::kCatmullClark)
+                       .tessellate(1);
+    EXPECT_EQ(t.triangle_count(), static_cast<std::int64_t>(2 * mesh.faces.corners().size())) << seed;
+    EXPECT_TRUE(t.defects().empty()) << seed;
+  }
   RecordProperty("random_manifolds", kRandom);
   RecordProperty("of_them_with_boundary", open);
   EXPECT_GT(open, 0);
@@ -77,6 +87,27 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
   fin.faces.push_back({common[0], common[1], static_cast<std::int32_t>(fin.positions.size()) - 1});
   EXPECT_FALSE(data::validate(fin).empty());
   EXPECT_THROW(reference::refine<double>(fin, 1), data::ArgumentError);
+}
+
+TEST(Sec4_Recursion, ServesBothSchemesByOtherRules) {
+  RecordProperty("claim", "C21");
+  // The recursion of section 4, once with each scheme's rules: no point beyond a few roundings of the exact
+  // surface, of which neither run knows anything. (The audit's bounds: verify/audit/bounds.h.)
+  struct Case {
+    const char* mesh;
+    data::Scheme scheme;
+  };
+  for (const Case& c :
+       {Case{"bumpy:60", data::Scheme::kLoop}, Case{"ragged-disc", data::Scheme::kLoop},
+        Case{"bumpy:60", data::Scheme::kCatmullClark}, Case{"quad-cube", data::Scheme::kCatmullClark},
+        Case{"dual:bumpy:60", data::Scheme::kCatmullClark},
+        Case{"mixed:1:60", data::Scheme::kCatmullClark}}) {
+    AuditMesh mesh{c.mesh, data::named_mesh(c.mesh)};
+    mesh.asked_scheme = c.scheme;
+    const std::vector<Result> rows = Auditor(3, 1).run({lc_subject_naive(), ""}, mesh);
+    EXPECT_GT(rows.size(), 10U);
+    for (const Result& r : rows) EXPECT_FALSE(is_bad(r)) << c.mesh << ", " << r.check << ": " << r.message;
+  }
 }
 
 TEST(Sec3_SubFaces, ShareNoCornerPositionWithTheirParentUnlessAVertexIsTheMeanOfItsRing) {

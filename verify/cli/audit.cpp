@@ -27,6 +27,7 @@
 #include "verify/cli/audit_output.h"
 #include "verify/cli/audit_resume.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/cli/progress.h"
 #include "verify/cli/subject_loader.h"
 #include "verify/interrupt/interrupt.h"
@@ -42,6 +43,7 @@ constexpr const char* kReportFile = "build/report/audit.json";
 struct Arguments {
   std::string subject;
   std::vector<std::string> meshes, options;
+  MeshOptions mesh;
   int depth = 4;
   std::string depths = "uniform";
   std::string sample;
@@ -125,9 +127,35 @@ void check_json(const std::string& json) {
         json));
 }
 
+// What is looked at, and the line that says for which scheme.
+struct Meshes {
+  std::vector<verify::AuditMesh> list;
+  std::string scheme_line;
+};
+
+Meshes planned(const Arguments& a, const std::vector<verify::AuditSubject>& audited) {
+  const std::optional<data::Scheme> asked = read_options(a.mesh).scheme;
+  Meshes result{
+      asked ? verify::default_plan(level(a.output)) : verify::default_plan(level(a.output), audited), {}};
+  if (asked == data::Scheme::kLoop)
+    std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
+  std::vector<MeshScheme> chosen;
+  for (verify::AuditMesh& m : result.list) {
+    m.asked_scheme = asked;
+    chosen.push_back({m.scheme(), 0});
+  }
+  result.scheme_line = scheme_line(chosen, a.mesh);
+  return result;
+}
+
+OpenedMesh open_broken_mesh(const std::string& file, const MeshOptions& options) {
+  data::io::Examination found = verify::read_broken_mesh(file, read_options(options));
+  return {std::move(found.mesh), {found.scheme, found.cut}};
+}
+
 // The meshes of the command line, or the default ones, at the depths that it says.
-std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify::Depths& depths,
-                                                const std::optional<Sampling>& sampling, Progress& progress) {
+Meshes meshes_asked_for(const Arguments& a, const verify::Depths& depths,
+                        const std::optional<Sampling>& sampling, Progress& progress) {
   std::vector<std::string> names = a.meshes;
   if (names.empty()) {
     if (a.output.level != "quick") names = data::worst_case_meshes();
@@ -135,9 +163,14 @@ std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify
     for (std::string& shape : data::stock_shapes()) names.push_back(std::move(shape));
   }
   std::vector<verify::AuditMesh> meshes;
+  std::vector<MeshScheme> chosen;
   for (const std::string& name : names) {
     progress.show(0, 1, "mesh " + name);
-    verify::AuditMesh m{name, a.must_refuse ? verify::read_broken_mesh(name) : data::open_mesh(name)};
+    OpenedMesh opened = a.must_refuse ? open_broken_mesh(name, a.mesh) : open_mesh(name, a.mesh);
+    chosen.push_back(opened.chosen);
+    verify::AuditMesh m{name, std::move(opened.mesh)};
+    m.asked_scheme = opened.chosen.scheme;
+    if (opened.chosen.cut > 0) m.triangulated = a.mesh.triangulate;
     m.depth = a.depth;
     m.depths = depths.text();
     if (!a.must_refuse) {
@@ -148,7 +181,7 @@ std::vector<verify::AuditMesh> meshes_asked_for(const Arguments& a, const verify
     }
     meshes.push_back(std::move(m));
   }
-  return meshes;
+  return {std::move(meshes), scheme_line(chosen, a.mesh)};
 }
 
 // The header of the report.
@@ -167,7 +200,7 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
     if (std::none_of(report.meshes.begin(), report.meshes.end(),
                      [&](const auto& before) { return before.name == m.name; }))
       report.meshes.push_back({m.name, static_cast<std::int64_t>(m.mesh.positions.size()),
-                               static_cast<std::int64_t>(m.mesh.faces.size())});
+                               static_cast<std::int64_t>(m.mesh.faces.size()), m.scheme(), m.triangulated});
   }
   return report;
 }
@@ -204,10 +237,12 @@ std::string incomplete(const verify::Auditor& auditor, const verify::Report& rep
   return "";
 }
 
-void print(const Arguments& a, const verify::Report& report) {
+void print(const Arguments& a, const verify::Report& report, const std::string& scheme_line) {
   const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
-  fmt::print("{}", a.json == "-" ? verify::to_json(report, a.output.level)
-                                 : verify::to_table(report, colour, a.each_mesh));
+  if (a.json == "-")
+    fmt::print("{}", verify::to_json(report, a.output.level));
+  else
+    fmt::print("{}\n{}", scheme_line, verify::to_table(report, colour, a.each_mesh));
 }
 
 int exit_code_of(const verify::Auditor& auditor, const verify::Report& report, int signal, bool judged) {
@@ -246,9 +281,8 @@ int audit(const Job& job) {
   SubjectLoader loader(a.from);
   const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  const std::vector<verify::AuditMesh> meshes = a.plan
-                                                    ? verify::default_plan(level(a.output))
-                                                    : meshes_asked_for(a, job.depths, job.sampling, progress);
+  const Meshes asked = a.plan ? planned(a, audited) : meshes_asked_for(a, job.depths, job.sampling, progress);
+  const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
 
   // Look.
@@ -275,7 +309,7 @@ int audit(const Job& job) {
 
   const bool done = signal == 0 && !auditor.out_of_memory();
   const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
-  print(a, report);
+  print(a, report, asked.scheme_line);
   if (not_written) std::rethrow_exception(not_written);
   return exit_code_of(auditor, report, signal, judged);
 }
@@ -296,6 +330,7 @@ void add_audit(CLI::App& app, int& exit_code) {
       "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "
       "bumpy:800 and the stock shapes; where no depth is given either, at depths 0, 1 and 4, and small "
       "meshes at other depths, at unequal ones and with culled faces)");
+  add_mesh_options(*command, a->mesh);
   CLI::Option* depth =
       command
           ->add_option("--depth", a->depth,
@@ -352,7 +387,7 @@ void add_audit(CLI::App& app, int& exit_code) {
     check_json(a->json);
     a->plan = depth->count() + depths->count() + sample->count() == 0;
     if (files->given())
-      exit_code = audit_files(*files, a->json, a->threads);
+      exit_code = audit_files(*files, a->mesh, a->json, a->threads);
     else
       exit_code = explained(a->output) ? kHeld : audit(settle(*a));
   });

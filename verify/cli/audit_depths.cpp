@@ -4,11 +4,12 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 #include "data/error.h"
+#include "verify/subject/face_domain.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -23,9 +24,12 @@ void refuse_too_many_points(const verify::AuditMesh& mesh) {
   if (depths.empty()) depths.assign(mesh.mesh.faces.size(), mesh.depth);
   if (mesh.sample) depths = mesh.sample->depths_of_part(mesh.sample->cull(std::move(depths)));
   double points = 0;
-  for (const std::int32_t depth : depths) {
-    const double rows = std::ldexp(1, depth) + 1;
-    if (depth >= 0) points += rows * (rows + 1) / 2;
+  const data::ControlMesh& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
+  for (std::size_t f = 0; f < depths.size(); ++f) {
+    const verify::FaceDomain domain(mesh.scheme(), static_cast<int>(judged.faces[f].size()));
+    // A polygon has points inside from depth 1 on.
+    if (depths[f] >= 0)
+      points += static_cast<double>(domain.point_count(std::int64_t{1} << std::max(depths[f], 1)));
   }
   const double needed = points * kBytesPerPoint;
   const double there =

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <exception>
 
-#include "data/generators/named_mesh.h"
 #include "verify/audit/json.h"
 #include "verify/audit/table.h"
 #include "verify/cli/audit_output.h"
@@ -61,13 +60,15 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
                           "Write distance, normal angle and parameter of every vertex to this CSV file"));
 }
 
-int audit_files(const FilesArguments& files, const std::string& json, int threads) {
+int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std::string& json, int threads) {
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()));
   refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}});
   const auto start = std::chrono::steady_clock::now();
-  const data::ControlMesh control = data::open_mesh(files.control);
+  const OpenedMesh opened = open_mesh(files.control, mesh);
+  require_loop(files.control, opened, "the audit of finished files");
+  const data::ControlMesh& control = opened.mesh;
   verify::require_range(files.control, control, true);
   verify::FileTessellation tessellation = verify::read_tessellation(files.tessellation);
   std::vector<verify::ProvenanceRow> provenance;
@@ -97,7 +98,8 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
   report.version = LIMITCHECK_VERSION;
   report.depths = "file";
   report.meshes.push_back({files.control, static_cast<std::int64_t>(control.positions.size()),
-                           static_cast<std::int64_t>(control.faces.size())});
+                           static_cast<std::int64_t>(control.faces.size()), opened.chosen.scheme,
+                           opened.chosen.cut > 0 ? mesh.triangulate : ""});
   report.subjects.push_back(files.tessellation);
   report.results = audit.results;
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
@@ -115,6 +117,7 @@ int audit_files(const FilesArguments& files, const std::string& json, int thread
     fmt::print("{}", verify::to_json(report));
   } else {
     const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+    fmt::print("{}\n", scheme_line({opened.chosen}, mesh));
     for (const std::string& note : audit.notes) fmt::print("{}\n", note);
     fmt::print("{}{}", audit.notes.empty() ? "" : "\n", verify::to_table(report, colour, false));
   }

@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "verify/cli/mesh_options.h"
+
 namespace limitcheck::cli {
 
 struct FilesArguments {
@@ -20,6 +22,6 @@ struct FilesArguments {
 void add_files_options(CLI::App& audit, FilesArguments& files);
 
 /// Runs it. `json` as in the audit command; returns the exit code.
-int audit_files(const FilesArguments& files, const std::string& json, int threads);
+int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std::string& json, int threads);
 
 }  // namespace limitcheck::cli

@@ -30,6 +30,10 @@ std::string_view bytes(const List& list) {
 std::string content(const verify::AuditMesh& m) {
   std::uint64_t hash = fnv1a(bytes(m.mesh.positions), 0xcbf29ce484222325ULL);
   hash = fnv1a(bytes(m.face_depth), fnv1a(bytes(m.mesh.faces.corners()), hash));
+  for (std::size_t f = 0; f < m.mesh.faces.size(); ++f) {
+    const std::size_t end = m.mesh.faces.first_corner(f + 1);
+    hash = fnv1a({reinterpret_cast<const char*>(&end), sizeof end}, hash);
+  }
   return fmt::format("{:016x}", hash);
 }
 
@@ -62,7 +66,8 @@ std::unique_ptr<verify::Journal> open_journal(const std::string& json, bool resu
                       {"level", level},
                       {"subjects", report.subjects}};
   for (const auto& s : subjects) what["stamps"].push_back(stamp(*s.subject));
-  for (const auto& m : meshes) what["meshes"].push_back({m.name, content(m), m.depth, m.depths});
+  for (const auto& m : meshes)
+    what["meshes"].push_back({m.name, content(m), m.depth, m.depths, name_of(m.scheme())});
   const fs::path file = json + "l";
   if (file.has_parent_path()) fs::create_directories(file.parent_path());
   return std::make_unique<verify::Journal>(

@@ -19,6 +19,7 @@ class Resume : public CommandTest {
   // is `go`.
   void SetUp() override {
     CommandTest::SetUp();
+    write("m.off", kVertices + "4 0 1 2 3\n4 4 5 6 7\n");
     write("fails.sh",
           "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", "
           "\"weights\": "
@@ -32,11 +33,13 @@ class Resume : public CommandTest {
                          "break; sleep 0.05; done\nkill -KILL $!\nwait $!\ntouch go\n");
     (void)std::system(("cd '" + folder_.string() + "' && bash kill.sh 2> /dev/null").c_str());
   }
+  static inline const std::string kVertices =
+      "OFF\n8 2 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n-1 1 1\n5 0 0\n5 1 0\n";
   static constexpr const char* kArguments =
-      "audit --program 'bash fails.sh' tetrahedron octahedron --depth 1 --level quick --json r.json ";
+      "audit --program 'bash fails.sh' tetrahedron octahedron m.off --depth 1 --level quick --json r.json ";
   static constexpr const char* kAudit =
       "'" LIMITCHECK_PROGRAM
-      "' audit --program 'bash fails.sh' tetrahedron octahedron --depth 1 --level quick --json r.json ";
+      "' audit --program 'bash fails.sh' tetrahedron octahedron m.off --depth 1 --level quick --json r.json ";
 };
 
 TEST_F(Resume, AnAuditThatWasKilledGoesOnWhereItWas) {
@@ -70,6 +73,10 @@ TEST_F(Resume, AnotherAuditIsNotResumed) {
     EXPECT_EQ(o.code, 2) << other;
     EXPECT_NE(o.err.find("--resume: r.jsonl is of another audit"), std::string::npos) << o.err;
   }
+  write("m.off", kVertices + "3 0 1 2\n5 3 4 5 6 7\n");  // the same corners in faces of other sizes
+  const Outcome o = run(std::string(kArguments) + "--resume");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("--resume: r.jsonl is of another audit"), std::string::npos) << o.err;
   EXPECT_NE(run("audit naive tetrahedron --resume").err.find("--resume needs --json"), std::string::npos);
   EXPECT_NE(run("audit naive tetrahedron --json none.json --resume").err.find("there is no none.jsonl"),
             std::string::npos);

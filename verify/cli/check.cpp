@@ -12,6 +12,7 @@
 #include "data/io/polygon_soup.h"
 #include "data/summary.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/cli/mesh_report.h"
 
 namespace limitcheck::cli {
@@ -19,6 +20,7 @@ namespace {
 
 struct Arguments {
   std::string file;
+  MeshOptions mesh;
   bool json = false;
 };
 
@@ -80,8 +82,14 @@ void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s
                          s.float_step, s.edges_lost_in_float));
 }
 
-nlohmann::ordered_json to_json(const std::string& file, const data::io::PolygonSoup& soup,
-                               const data::io::Examination& found, const data::MeshSummary& s) {
+// Triangles of the mesh, or those that its faces would be cut into.
+std::int64_t triangles(const data::Faces& faces) {
+  return static_cast<std::int64_t>(faces.corners().size()) - 2 * static_cast<std::int64_t>(faces.size());
+}
+
+nlohmann::ordered_json to_json(const std::string& file, const MeshScheme& chosen,
+                               const data::io::PolygonSoup& soup, const data::io::Examination& found,
+                               const data::MeshSummary& s) {
   const auto counts = [](const std::map<int, std::int64_t>& of) {
     nlohmann::ordered_json object = nlohmann::ordered_json::object();
     for (const auto& [key, count] : of) object[std::to_string(key)] = count;
@@ -95,13 +103,15 @@ nlohmann::ordered_json to_json(const std::string& file, const data::io::PolygonS
   return {{"program", "limitcheck"},
           {"version", LIMITCHECK_VERSION},
           {"file", file},
+          {"scheme", name_of(chosen.scheme)},
+          {"faces_cut", chosen.cut},
           {"valid", found.faults.empty()},
           {"numbers_from", soup.first},
           {"faults", std::move(faults)},
           {"vertices", soup.positions.size()},
           {"faces", soup.polygon_end.size()},
           {"face_sizes", counts(face_sizes(soup))},
-          {"triangles", s.faces},
+          {"triangles", triangles(found.mesh.faces)},
           {"unused_vertices", s.unused_vertices},
           {"components", s.components},
           {"boundary_edges", s.boundary_edges},
@@ -121,11 +131,13 @@ nlohmann::ordered_json to_json(const std::string& file, const data::io::PolygonS
 
 int check(const Arguments& a) {
   const data::io::PolygonSoup soup = data::io::read_soup(a.file);
-  const data::io::Examination found = data::io::examine(soup, {});
+  const data::io::Examination found = data::io::examine(soup, read_options(a.mesh));
   const data::MeshSummary summary = data::summarise(found.mesh);
+  const MeshScheme chosen{found.scheme, found.cut};
   if (a.json) {
-    fmt::print("{}\n", to_json(a.file, soup, found, summary).dump(2));
+    fmt::print("{}\n", to_json(a.file, chosen, soup, found, summary).dump(2));
   } else {
+    fmt::print("{}\n", scheme_line({chosen}, a.mesh));
     print_summary(soup, summary);
     print_faults(a.file, soup, found.faults);
   }
@@ -151,8 +163,10 @@ void add_check(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "check", "List everything that is wrong with a control mesh, and what it consists of");
   command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
+  add_mesh_options(*command, a->mesh);
   command->add_flag("--json", a->json, "One JSON document on standard output in place of the text");
   command->footer(
+      "What is a fault depends on the scheme: a face of four corners is one for Loop's only (MESH_POLYGON).\n"
       "Exit codes: 0 nothing is wrong, 1 the mesh has faults, 2 bad usage, or a file that cannot be read.\n"
       "An audit refuses a mesh with faults; limitcheck repair mends most of them.");
   command->callback([a, &exit_code] { exit_code = check(*a); });

@@ -58,6 +58,46 @@ TEST_F(CheckCommand, NamesPolygonsNotTheTrianglesTheyBecome) {
   EXPECT_NE(o.out.find("edge 2–3 has 3 faces (1, 2, 3)"), std::string::npos) << o.out;
 }
 
+TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
+  ASSERT_EQ(run("generate prism:5 -o prism.obj").code, 0);
+  const Outcome o = run("check prism.obj");
+  EXPECT_EQ(o.code, 0) << o.out;
+  EXPECT_TRUE(o.out.starts_with("scheme: catmull-clark (not all faces are triangles)\n")) << o.out;
+  EXPECT_NE(o.out.find("7; by corners: 5 of 4, 2 of 5"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("by neighbours: 10 of 3"), std::string::npos) << o.out;
+
+  const Outcome loop = run("check prism.obj --scheme loop");
+  EXPECT_EQ(loop.code, 1);
+  EXPECT_TRUE(loop.out.starts_with("scheme: loop (--scheme)\n")) << loop.out;
+  EXPECT_NE(loop.out.find("prism.obj:11: MESH_POLYGON: face 1 has 5 corners"), std::string::npos) << loop.out;
+
+  const Outcome cut = run("check prism.obj --triangulate shortest-diagonal");
+  EXPECT_EQ(cut.code, 0) << cut.out;
+  EXPECT_TRUE(
+      cut.out.starts_with("scheme: loop (--triangulate shortest-diagonal cut 7 faces into triangles)\n"))
+      << cut.out;
+
+  const auto json = [&](const std::string& options) {
+    return nlohmann::json::parse(run("check prism.obj --json" + options).out);
+  };
+  const auto own = json(""), of_triangles = json(" --triangulate fan");
+  EXPECT_EQ(own["scheme"], "catmull-clark");
+  EXPECT_EQ(own["faces_cut"], 0);
+  EXPECT_EQ(own["face_sizes"], (nlohmann::json{{"4", 5}, {"5", 2}}));
+  EXPECT_EQ(own["euler_characteristic"], 2);
+  EXPECT_EQ(of_triangles["scheme"], "loop");
+  EXPECT_EQ(of_triangles["faces_cut"], 7);
+  // As ever: those that the faces of the file give when they are cut.
+  EXPECT_EQ(own["triangles"], 16);
+  EXPECT_EQ(of_triangles["triangles"], 16);
+  EXPECT_EQ(json(" --scheme loop")["faults"].size(), 7U);
+}
+
+TEST_F(CheckCommand, ChoosesTheSchemeByFacesThatAreAtFaultToo) {
+  write("twice.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4 2\n");
+  EXPECT_TRUE(run("check twice.obj").out.starts_with("scheme: catmull-clark")) << run("check twice.obj").out;
+}
+
 TEST_F(CheckCommand, RefusesWhatIsNoMesh) {
   write("x.obj", "v 1 2\n");
   EXPECT_EQ(run("check x.obj").code, 2);
@@ -75,7 +115,8 @@ TEST_F(RepairCommand, MakesAMeshThatAnAuditTakes) {
       << o.out;
   EXPECT_EQ(run("check fixed.obj").code, 0);
   EXPECT_EQ(run("audit row-stream fixed.obj --depth 1 --level quick").code, 0);
-  EXPECT_EQ(run("repair fixed.obj -o again.obj").out.substr(0, 7), "nothing");
+  EXPECT_NE(run("repair fixed.obj -o again.obj").out.find("\nnothing had to be changed\n"),
+            std::string::npos);
 }
 
 TEST_F(RepairCommand, SaysWhatItCannotMend) {
@@ -94,6 +135,21 @@ TEST_F(RepairCommand, KeepsPolygonsInEveryFormat) {
     EXPECT_EQ(json["face_sizes"], (nlohmann::json{{"4", 2}})) << file;
     EXPECT_EQ(json["vertices"], 6) << file;
   }
+}
+
+TEST_F(RepairCommand, CutsPolygonsOnlyIfItIsTold) {
+  ASSERT_EQ(run("generate quad-cube -o cube.off").code, 0);
+  const Outcome kept = run("repair cube.off -o kept.off"),
+                cut = run("repair cube.off -o cut.off --triangulate fan");
+  EXPECT_TRUE(kept.out.starts_with("scheme: catmull-clark (not all faces are triangles)\n")) << kept.out;
+  EXPECT_NE(kept.out.find("8 vertices, 6 faces"), std::string::npos) << kept.out;
+  EXPECT_TRUE(cut.out.starts_with("scheme: loop (--triangulate fan cut 6 faces into triangles)\n"))
+      << cut.out;
+  EXPECT_NE(cut.out.find("8 vertices, 12 faces"), std::string::npos) << cut.out;
+  EXPECT_EQ(read("kept.off"), read("cube.off"));
+  const Outcome loop = run("repair cube.off -o loop.off --scheme loop");
+  EXPECT_EQ(loop.code, 1) << "faults are left, for Loop's scheme";
+  EXPECT_NE(loop.out.find("MESH_POLYGON"), std::string::npos) << loop.out;
 }
 
 TEST_F(RepairCommand, LeavesWhatIsThereWhenItCannotWrite) {

@@ -2,153 +2,76 @@
 // limitcheck eval: the exact surface at one point.
 #include <fmt/core.h>
 
-#include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <memory>
+#include <optional>
+#include <string_view>
 
 #include "data/error.h"
-#include "data/generators/named_mesh.h"
 #include "reference/surface/certified.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/eval_report.h"
+#include "verify/cli/mesh_options.h"
 
 namespace limitcheck::cli {
 namespace {
 
-using reference::CertifiedPoint;
-using reference::Enclosure;
-using reference::Enclosure3;
-using reference::NormalKind;
+using reference::CertifiedEvaluator;
 using reference::Parameter;
-using reference::Weights;
 
 struct Request {
-  std::string mesh, l1, l2;
-  std::int64_t face = 0;
+  std::string mesh, face, u, v;
+  MeshOptions options;
   int digits = 16;
   std::string precision = "double", weights = "loop";
   bool json = false;
 };
 
-const char* name(NormalKind kind) {
-  switch (kind) {
-    case NormalKind::kRegular:
-      return "regular";
-    case NormalKind::kNoTangentPlane:
-      return "no_tangent_plane";
-    case NormalKind::kFallback:
-      return "fallback";
-    case NormalKind::kArbitrary:
-      return "arbitrary";
-  }
-  return "";
+struct FaceAndCorner {
+  std::int64_t face = 0;
+  std::optional<int> corner;
+};
+
+// "17" or "17:2".
+FaceAndCorner parse_face(const std::string& text) {
+  const auto number = [&](std::string_view part, auto& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (error != std::errc() || end != part.data() + part.size())
+      throw data::ArgumentError(
+          fmt::format("FACE is a number from 0 in file order, or FACE:CORNER, not '{}'", text));
+  };
+  FaceAndCorner result;
+  const std::size_t colon = text.find(':');
+  number(std::string_view(text).substr(0, colon), result.face);
+  if (colon != std::string::npos) number(std::string_view(text).substr(colon + 1), result.corner.emplace());
+  return result;
 }
 
-nlohmann::ordered_json vector(const Enclosure3& v) {
-  return {v[0].value, v[1].value, v[2].value};
-}
-nlohmann::ordered_json vector(const Enclosure& e) {
-  return e.value;
-}
-
-double radius(const Enclosure3& v) {
-  return std::max({v[0].radius, v[1].radius, v[2].radius});
-}
-double radius(const Enclosure& e) {
-  return e.radius;
-}
-
-void print_json(const Request& request, const std::array<std::string, 3>& barycentric,
-                const CertifiedPoint& p) {
-  nlohmann::ordered_json json, radii;
-  json["mesh"] = request.mesh;
-  json["face"] = request.face;
-  json["barycentric"] = barycentric;
-  json["digits"] = request.digits;
-  json["weights"] = request.weights;
-  const auto add = [&](const char* key, const auto& value) {
-    json[key] = vector(value);
-    radii[key] = radius(value);
-  };
-  const auto add_maybe = [&](const char* key, const auto& value) {
-    if (value) return add(key, *value);
-    json[key] = radii[key] = nullptr;
-  };
-  add("position", p.position);
-  add("d1", p.d1);
-  add("d2", p.d2);
-  json["derivatives_exist"] = p.first_exist;
-  add_maybe("tangent1", p.t1);
-  add_maybe("tangent2", p.t2);
-  add("normal", p.normal);
-  json["normal_kind"] = name(p.normal_kind);
-  add_maybe("d11", p.d11);
-  add_maybe("d12", p.d12);
-  add_maybe("d22", p.d22);
-  add_maybe("gaussian_curvature", p.gaussian_curvature);
-  add_maybe("mean_curvature", p.mean_curvature);
-  json["radius"] = p.radius;
-  json["radii"] = radii;
-  fmt::print("{}\n", json.dump(2));
-}
-
-void print_text(const Request& request, const std::array<std::string, 3>& barycentric,
-                const CertifiedPoint& p) {
-  // Two digits of the radius, not less than it.
-  const auto within = [](const auto& value) {
-    const double r = radius(value);
-    return r == 0 ? "  exact" : fmt::format("  +-{:.1e}", 1.05 * r);
-  };
-  const auto line = [&](const char* what, const Enclosure3& v, const char* note = "") {
-    fmt::print("{:<12}{}  {}  {}{}{}\n", what, v[0].value, v[1].value, v[2].value, within(v), note);
-  };
-  const auto absent = [](const char* what, const char* why) { fmt::print("{:<12}{}\n", what, why); };
-  fmt::print("{} face {} at ({}, {}, {})\n", request.mesh, request.face, barycentric[0], barycentric[1],
-             barycentric[2]);
-  line("position", p.position);
-  const bool regular = p.normal_kind == NormalKind::kRegular || p.normal_kind == NormalKind::kNoTangentPlane;
-  const char* none = !regular ? "need not exist at this extraordinary corner, where the tangents degenerate"
-                     : p.boundary_corner
-                         ? "does not exist at this extraordinary corner, unless it runs along the boundary"
-                         : "does not exist: it grows without bound towards this extraordinary corner";
-  if (p.first_exist) {
-    line("d/dl1", p.d1);
-    line("d/dl2", p.d2);
-  } else {
-    absent("d/dl1", none);
-    absent("d/dl2", none);
+// The face is there, and it has a corner if it needs one.
+void check_face(const Request& request, const OpenedMesh& opened, const FaceAndCorner& at) {
+  const data::Faces& faces = opened.mesh.faces;
+  if (at.face < 0 || static_cast<std::size_t>(at.face) >= faces.size())
+    throw data::ArgumentError(fmt::format("{} has faces 0 to {}, not {}", request.mesh,
+                                          static_cast<std::int64_t>(faces.size()) - 1, at.face));
+  if (opened.chosen.scheme == data::Scheme::kLoop) {
+    if (!at.corner) return;
+    throw data::ArgumentError(
+        fmt::format("FACE:CORNER is for Catmull-Clark's scheme; here, for Loop's, FACE is {}", at.face));
   }
-  if (p.t1) {
-    line("tangent 1", *p.t1, "  (direction only)");
-    line("tangent 2", *p.t2, "  (direction only)");
-  }
-  switch (p.normal_kind) {
-    case NormalKind::kRegular:
-      line("normal", p.normal);
-      break;
-    case NormalKind::kNoTangentPlane:
-      line("normal", p.normal, "  (the surface has no tangent plane here)");
-      break;
-    case NormalKind::kFallback:
-      line("normal", p.normal, "  (tangents degenerate: from the control faces)");
-      break;
-    case NormalKind::kArbitrary:
-      line("normal", p.normal, "  (everything degenerate: arbitrary)");
-      break;
-  }
-  if (p.d11) {
-    line("d2/dl1dl1", *p.d11);
-    line("d2/dl1dl2", *p.d12);
-    line("d2/dl2dl2", *p.d22);
-  } else {
-    for (const char* what : {"d2/dl1dl1", "d2/dl1dl2", "d2/dl2dl2"}) absent(what, none);
-  }
-  if (p.gaussian_curvature) {
-    fmt::print("{:<12}{}{}\n", "Gaussian K", p.gaussian_curvature->value, within(*p.gaussian_curvature));
-    fmt::print("{:<12}{}{}\n", "mean H", p.mean_curvature->value, within(*p.mean_curvature));
-  }
-  fmt::print("certified: every number is that near the truth; the largest radius of a vector is {:.3g}\n",
-             p.radius);
+  const auto corners = static_cast<int>(faces[static_cast<std::size_t>(at.face)].size());
+  if (corners == 4 && at.corner)
+    throw data::ArgumentError(
+        fmt::format("{}: face {} is a quad, and U and V run over all of it: FACE is {}, without a corner",
+                    request.mesh, at.face, at.face));
+  if (corners != 4 && !at.corner)
+    throw data::ArgumentError(fmt::format(
+        "{}: face {} has {} corners, and U and V run over the quarter at one of them: FACE is {}:0 to "
+        "{}:{}",
+        request.mesh, at.face, corners, at.face, at.face, corners - 1));
+  if (at.corner && (*at.corner < 0 || *at.corner >= corners))
+    throw data::ArgumentError(fmt::format("{}: face {} has corners 0 to {}, not {}", request.mesh, at.face,
+                                          corners - 1, *at.corner));
 }
 
 // As a float tessellator sees the mesh.
@@ -162,19 +85,35 @@ void round_to_float(data::ControlMesh& mesh) {
     }
 }
 
+CertifiedEvaluator evaluator(const Request& request, const OpenedMesh& opened) {
+  if (opened.chosen.scheme == data::Scheme::kLoop)
+    return CertifiedEvaluator(
+        opened.mesh, request.weights == "warren" ? reference::Weights::kWarren : reference::Weights::kLoop);
+  if (request.weights != "loop")
+    throw data::ArgumentError("--weights warren is for Loop's scheme, and this is Catmull-Clark's");
+  return {opened.mesh, opened.chosen.scheme};
+}
+
 void run(const Request& request) {
-  data::ControlMesh mesh = data::open_mesh(request.mesh);
-  if (request.precision == "float") round_to_float(mesh);
-  if (request.face < 0 || static_cast<std::size_t>(request.face) >= mesh.faces.size())
-    throw data::ArgumentError(fmt::format("{} has faces 0 to {}, not {}", request.mesh,
-                                          static_cast<std::int64_t>(mesh.faces.size()) - 1, request.face));
-  const Parameter l1 = Parameter::parse(request.l1), l2 = Parameter::parse(request.l2);
-  const Weights weights = request.weights == "warren" ? Weights::kWarren : Weights::kLoop;
-  const CertifiedPoint point = reference::CertifiedEvaluator(mesh, weights)
-                                   .evaluate(static_cast<int>(request.face), l1, l2, request.digits);
-  const std::array<std::string, 3> barycentric{Parameter::complement(l1, l2).to_string(), l1.to_string(),
-                                               l2.to_string()};
-  request.json ? print_json(request, barycentric, point) : print_text(request, barycentric, point);
+  const FaceAndCorner at = parse_face(request.face);
+  OpenedMesh opened = open_mesh(request.mesh, request.options);
+  if (request.precision == "float") round_to_float(opened.mesh);
+  check_face(request, opened, at);
+  const Parameter u = Parameter::parse(request.u), v = Parameter::parse(request.v);
+  const reference::CertifiedPoint point =
+      evaluator(request, opened)
+          .evaluate(static_cast<int>(at.face), at.corner.value_or(0), u, v, request.digits);
+  EvaluatedPoint evaluated{request.mesh,
+                           scheme_line({opened.chosen}, request.options),
+                           opened.chosen,
+                           request.weights,
+                           at.face,
+                           at.corner,
+                           {u.to_string(), v.to_string()},
+                           request.digits};
+  if (opened.chosen.scheme == data::Scheme::kLoop)
+    evaluated.parameters.insert(evaluated.parameters.begin(), Parameter::complement(u, v).to_string());
+  request.json ? print_json(evaluated, point) : print_text(evaluated, point);
 }
 
 }  // namespace
@@ -185,9 +124,24 @@ void add_eval(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<Request>();
   command->add_option("MESH", request->mesh, "A mesh file, or a name as `limitcheck generate` takes it")
       ->required();
-  command->add_option("FACE", request->face, "Face, from 0 in file order")->required();
-  command->add_option("L1", request->l1, "Weight of the face's second corner: 1/3, 0.25, 1e-9")->required();
-  command->add_option("L2", request->l2, "Weight of its third corner; the first has 1 - L1 - L2")->required();
+  command
+      ->add_option(
+          "FACE", request->face,
+          "Face, from 0 in file order; FACE:CORNER for Catmull-Clark's scheme where the face is no quad")
+      ->required();
+  command
+      ->add_option(
+          "U", request->u,
+          "Loop: l1, the weight of the face's second corner; Catmull-Clark: u, from the corner towards "
+          "the next. 1/3, 0.25, 1e-9")
+      ->required();
+  command
+      ->add_option(
+          "V", request->v,
+          "Loop: l2, the weight of its third corner (the first has 1 - l1 - l2); Catmull-Clark: v, from "
+          "the corner towards the one before")
+      ->required();
+  add_mesh_options(*command, request->options);
   command->add_option("--digits", request->digits, "Significant digits")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
@@ -196,10 +150,18 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "Round the control mesh to it first, as a float tessellator sees it")
       ->check(CLI::IsMember({"float", "double"}))
       ->capture_default_str();
-  command->add_option("--weights", request->weights, "Weights of interior vertices: Loop's or Warren's")
+  command
+      ->add_option("--weights", request->weights,
+                   "Loop's scheme: weights of interior vertices, Loop's or Warren's")
       ->check(CLI::IsMember({"loop", "warren"}))
       ->capture_default_str();
   command->add_flag("--json", request->json, "One JSON document, numbers as decimal strings");
+  command->footer(
+      "Catmull-Clark: on a quad (U, V) is (0, 0) at corner 0, (1, 0) at corner 1, (1, 1) and (0, 1) at "
+      "corners 2 and "
+      "3. Any other face has a quad at each corner: there (0, 0) is the corner, (1, 0) the middle of the "
+      "edge to the "
+      "next corner, (1, 1) the middle of the face. Derivatives are by these parameters: d1 by U, d2 by V.");
   command->callback([request, &exit_code] {
     run(*request);
     exit_code = kHeld;

@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck eval` as a user meets it.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_dec_float.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "data/quad_answers.h"
 #include "verify/cli/command_test.h"
 
 namespace limitcheck::cli {
 namespace {
 
 class EvalCommand : public CommandTest {};
+
+using Decimal = boost::multiprecision::number<boost::multiprecision::cpp_dec_float<100>>;
+
+// Between got / scale and the expected number, relative to the latter where that is larger than 1.
+double difference(const std::string& got, int scale, const std::string& expected) {
+  const Decimal x = Decimal(got) / scale, y(expected);
+  const Decimal size = abs(y) > 1 ? Decimal(abs(y)) : Decimal(1);
+  return Decimal(abs(x - y) / size).convert_to<double>();
+}
 
 // A height of 324 at one of the twelve vertices picks its weight out of the sum.             [C66; section 5]
 TEST_F(EvalCommand, TheCentreOfARegularFaceHasThePapersWeights) {
@@ -121,6 +133,109 @@ TEST_F(EvalCommand, HasWarrensWeightsToo) {
   };
   EXPECT_NEAR(first(" --weights warren") / first(""), 0.5 * 55 / 24, 1e-14);
   EXPECT_EQ(run("eval octahedron 0 0 0 --weights hoppe").code, 2);
+}
+
+constexpr int kScale = 3000;
+
+// Every smooth known answer, at 45 digits; the answers have 42. A file holds no fractions: the control points are
+// kScale times those of the answers, which makes integers of them.
+TEST_F(EvalCommand, KnowsTheAnswersOfCatmullClarksSurface) {
+  int cases = 0, samples = 0;
+  for (const data::QuadAnswer& a : data::load_quad_answers()) {
+    if (a.scheme != "catmull-clark" || a.has_sharp || a.boundary != "edge" || a.triangles != "catmark")
+      continue;
+    if (a.faces.size() > 100) continue;  // interval arithmetic at valence 50 takes its time
+    const auto scaled = [](const std::string& fraction) {
+      const std::size_t slash = fraction.find('/');
+      const int denominator = slash == std::string::npos ? 1 : std::stoi(fraction.substr(slash + 1));
+      EXPECT_EQ(kScale % denominator, 0) << fraction;
+      return std::stoi(fraction) * (kScale / denominator);
+    };
+    ++cases;
+    std::string obj;
+    for (const auto& p : a.vertices)
+      obj += fmt::format("v {} {} {}\n", scaled(p[0]), scaled(p[1]), scaled(p[2]));
+    for (std::size_t f = 0; f < a.faces.size(); ++f) {
+      obj += "f";
+      for (const auto v : a.faces[f]) obj += fmt::format(" {}", v + 1);
+      obj += "\n";
+    }
+    write("case.obj", obj);
+    for (const data::QuadSample& s : a.samples) {
+      const bool quad = a.faces[s.face].size() == 4;
+      const std::string at = quad ? fmt::format("{}", s.face) : fmt::format("{}:{}", s.face, s.corner);
+      const Outcome o = run(fmt::format("eval case.obj {} {} {} --json --digits 45 --scheme catmull-clark",
+                                        at, s.uv[0], s.uv[1]));
+      ASSERT_EQ(o.code, 0) << a.id << " " << o.err;
+      const auto json = nlohmann::json::parse(o.out);
+      EXPECT_EQ(json["scheme"], "catmull-clark");
+      EXPECT_EQ(json["corner"].is_null(), quad);
+      EXPECT_EQ(json["parameters"].size(), 2U);
+      const auto agrees = [&](const char* key, const data::Numeral3& expected, int scale = kScale) {
+        for (std::size_t i = 0; i < 3; ++i)
+          EXPECT_LE(difference(json[key][i].get<std::string>(), scale, expected[i]), 1e-39)
+              << a.id << " " << at << " " << s.uv[0] << " " << s.uv[1] << " " << key;
+      };
+      agrees("position", s.position);
+      if (s.normal) agrees("normal", *s.normal, 1);
+      if (s.du) agrees("d1", *s.du), agrees("d2", *s.dv);
+      if (s.dudu) agrees("d11", *s.dudu), agrees("d12", *s.dudv), agrees("d22", *s.dvdv);
+      ++samples;
+    }
+  }
+  EXPECT_EQ(cases, 23);
+  RecordProperty("samples", samples);
+}
+
+TEST_F(EvalCommand, TakesACornerWhereAFaceIsNoQuad) {
+  const auto position = [&](const std::string& arguments) {
+    const Outcome o = run("eval " + arguments + " --json");
+    EXPECT_EQ(o.code, 0) << arguments << o.err;
+    return nlohmann::json::parse(o.out)["position"];
+  };
+  // The middle of a face is the corner (1, 1) of all its quads, that of an edge (1, 0) of one and (0, 1) of the next.
+  EXPECT_EQ(position("prism:5 0:0 1 1"), position("prism:5 0:3 1 1"));
+  EXPECT_EQ(position("prism:5 0:1 1 0"), position("prism:5 0:2 0 1"));
+  EXPECT_EQ(position("octahedron 3:2 1 0 --scheme catmull-clark"),
+            position("octahedron 3:0 0 1 --scheme catmull-clark"));
+  EXPECT_NE(position("octahedron 3:2 1/4 1/4 --scheme catmull-clark"), position("octahedron 3 1/4 1/4"));
+
+  const std::string text = run("eval prism:5 0:2 1/3 1/4").out;
+  EXPECT_TRUE(
+      text.starts_with("scheme: catmull-clark (not all faces are triangles)\n"
+                       "prism:5 face 0 corner 2 at (1/3, 1/4)\n"))
+      << text;
+  EXPECT_NE(text.find("d/du "), std::string::npos) << text;
+  EXPECT_NE(text.find("d2/dudv "), std::string::npos) << text;
+  EXPECT_TRUE(run("eval octahedron 0 0 0").out.starts_with("scheme: loop (all faces are triangles)\n"));
+  EXPECT_EQ(nlohmann::json::parse(run("eval octahedron 0 0 0 --json").out)["scheme"], "loop");
+  EXPECT_EQ(nlohmann::json::parse(run("eval prism:5 0 0 0 --triangulate fan --json").out)["faces_cut"], 7);
+}
+
+TEST_F(EvalCommand, SaysWhatIsWrongWithAFaceAndItsParameters) {
+  const auto error = [&](const std::string& arguments) {
+    const Outcome o = run("eval " + arguments);
+    EXPECT_EQ(o.code, 2) << arguments;
+    EXPECT_EQ(o.out, "") << arguments;
+    return o.err;
+  };
+  const auto says = [](const std::string& text, const std::string& what) {
+    EXPECT_NE(text.find(what), std::string::npos) << text;
+  };
+  says(error("prism:5 2:0 0 0"), "face 2 is a quad");
+  says(error("prism:5 0 0 0"), "FACE is 0:0 to 0:4");
+  says(error("prism:5 0:5 0 0"), "face 0 has corners 0 to 4, not 5");
+  says(error("prism:5 0:-1 0 0"), "face 0 has corners 0 to 4, not -1");
+  says(error("prism:5 7 0 0"), "has faces 0 to 6, not 7");
+  says(error("prism:5 2 5/4 0"), "must be in 0..1");
+  says(error("prism:5 2 0 -1/4"), "must be in 0..1");
+  says(error("prism:5 0: 0 0"), "FACE:CORNER");
+  says(error("prism:5 0:1x 0 0"), "FACE:CORNER");
+  says(error("octahedron 0:0 0 0"), "for Catmull-Clark's scheme");
+  says(error("prism:5 2 0 0 --weights warren"), "--weights warren is for Loop's scheme");
+  const std::string loop = error("prism:5 2 0 0 --scheme loop");
+  says(loop, "7 of 7 faces are no triangles"), says(loop, "leave out --scheme loop"),
+      says(loop, "--triangulate fan");
 }
 
 TEST_F(EvalCommand, RefusesBadInputWithExitCodeTwo) {

@@ -39,7 +39,8 @@ int after_output(int exit_code) {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "limitcheck: is a Loop subdivision tessellator right, by how much is it not, and how fast is it?"};
+      "limitcheck: is a tessellator of subdivision surfaces right, by how much is it not, and how fast is "
+      "it?"};
   app.set_version_flag("--version", "limitcheck " LIMITCHECK_VERSION);
   app.require_subcommand(1);
   app.footer("Exit codes: 0 all held, 1 findings, 2 bad usage or input.");

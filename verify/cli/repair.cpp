@@ -7,7 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "data/io/write.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/cli/mesh_report.h"
 
 namespace limitcheck::cli {
@@ -15,19 +17,21 @@ namespace {
 
 struct Arguments {
   std::string file, output;
+  MeshOptions mesh;
   verify::RepairOptions options;
 };
 
 int repair(const Arguments& a) {
   const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
-  data::io::write_soup(a.output, repaired.soup);
+  const data::io::Examination mesh = data::io::examine(repaired.soup, read_options(a.mesh));
+  data::write_mesh(a.output, mesh.mesh);
+  fmt::print("{}\n", scheme_line({{mesh.scheme, mesh.cut}}, a.mesh));
   for (const std::string& change : repaired.changes) fmt::print("{}\n", change);
   if (repaired.changes.empty()) fmt::print("nothing had to be changed\n");
-  fmt::print("{}: {} vertices, {} faces\n", a.output, repaired.soup.positions.size(),
-             repaired.soup.polygon_end.size());
+  fmt::print("{}: {} vertices, {} faces\n", a.output, mesh.mesh.positions.size(), mesh.mesh.faces.size());
   // As the file that was written has them.
   const data::io::PolygonSoup written = data::io::read_soup(a.output);
-  const auto left = data::io::examine(written, {}).faults;
+  const auto left = data::io::examine(written, {.scheme = read_options(a.mesh).scheme}).faults;
   print_faults(a.output, written, left);
   return left.empty() ? kHeld : kFindings;
 }
@@ -42,10 +46,12 @@ void add_repair(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")->required();
   command->add_flag("--weld", a->options.weld,
                     "Merge vertices at exactly the same place, which closes seams");
+  add_mesh_options(*command, a->mesh);
   command->footer(
       "Drops faces with a repeated corner, faces given twice and vertices that no face names; orients "
       "neighbouring faces alike; cuts the mesh apart where it is no manifold. No vertex is moved, no hole "
-      "filled.\nExit codes: 0 the result can be audited, 1 faults are left (they are listed), 2 bad usage, "
+      "filled, and faces of more than three corners stay so unless --triangulate is given.\nExit codes: 0 "
+      "the result can be audited, 1 faults are left (they are listed), 2 bad usage, "
       "or a "
       "file that cannot be read or written.");
   command->callback([a, &exit_code] { exit_code = repair(*a); });

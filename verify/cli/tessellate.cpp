@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "data/generators/named_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/cli/progress.h"
 #include "verify/mesh_output/mesh_output.h"
 #include "verify/subject/coordinate_range.h"
@@ -27,6 +27,7 @@ namespace limitcheck::cli {
 namespace {
 
 struct Arguments {
+  MeshOptions scheme;
   std::string mesh, output, strategy, camera, viewport = "1024x768", centre = "limit", repair = "fan", colour;
   std::string engine = "row-stream";
   std::vector<double> angles{30};
@@ -100,9 +101,11 @@ struct Timings {
   double read = 0, prepare = 0, write = 0;
 };
 
-nlohmann::ordered_json report(const Arguments& a, const fast::FrameStats& s,
+nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, const fast::FrameStats& s,
                               const fast::DepthOptions& options, const Timings& t) {
   return {{"mesh", a.mesh},
+          {"scheme", name_of(chosen.scheme)},
+          {"faces_cut", chosen.cut},
           {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
           {"engine", a.engine},
           {"strategy", std::string(fast::name(options.strategy))},
@@ -198,7 +201,9 @@ int tessellate(const Arguments& a) {
   Progress progress;
   Timings timings;
   progress.show(0, 3, "reading " + a.mesh);
-  const data::ControlMesh mesh = data::open_mesh(a.mesh);
+  const OpenedMesh opened = open_mesh(a.mesh, a.scheme);
+  require_loop(a.mesh, opened, "limitcheck tessellate");
+  const data::ControlMesh& mesh = opened.mesh;
   verify::require_range(a.mesh, mesh, false);
   timings.read = lap();
 
@@ -224,9 +229,9 @@ int tessellate(const Arguments& a) {
                stats.faces);
   }
   if (a.json) {
-    fmt::print("{}\n", report(a, stats, options, timings).dump(2));
+    fmt::print("{}\n", report(a, opened.chosen, stats, options, timings).dump(2));
   } else {
-    fmt::print("{}", summary(a, stats, timings));
+    fmt::print("{}\n{}", scheme_line({opened.chosen}, a.scheme), summary(a, stats, timings));
   }
   return kHeld;
 }
@@ -241,6 +246,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   command
       ->add_option("MESH", a->mesh, "A file (OBJ, OFF, PLY, STL) or a name (see limitcheck generate --list)")
       ->required();
+  add_mesh_options(*command, a->scheme);
   command->add_option("-o,--output", a->output,
                       "The file: .ply, .obj or .glb; without it, only the statistics");
   command->add_option("--depth", a->depth, "Subdivision depth; the largest one of random")

@@ -67,6 +67,36 @@ TEST_F(WitnessFiles, AreWrittenWhereTheSurroundingsOfAFaceTouchThemselves) {
   EXPECT_GE(findings, 2);
 }
 
+// Without the option the command would mean the polygons, and be about another surface.
+TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
+  ASSERT_EQ(run("generate pawn:5 -o pawn.obj").code, 0);
+  const Outcome o =
+      run("audit opensubdiv-bfr pawn.obj --triangulate shortest-diagonal --depth 2 --level quick --witnesses "
+          "found "
+          "--json -");
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_GT(expect_reproducible("found"), 2);
+  int commands = 0;
+  const Json report = Json::parse(o.out);
+  for (const auto& row : report["results"]) {
+    if (row["status"] != "finding" || row["witness"]["command"].is_null()) continue;
+    ++commands;
+    EXPECT_EQ(row["triangulated"], "shortest-diagonal");
+    const std::string eval = row["witness"]["command"], audit = row["witness"]["reproduce"];
+    for (const std::string& command : {eval, audit})
+      EXPECT_NE(command.find(" pawn.obj "), std::string::npos) << command;
+    EXPECT_EQ(run(audit.substr(11)).code, 1) << audit;
+    const Outcome point = run(eval.substr(11) + " --json");
+    ASSERT_EQ(point.code, 0) << eval << point.err;
+    if (row["check"] != "positions") continue;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(std::stod(Json::parse(point.out)["position"][axis].get<std::string>()),
+                  row["witness"]["expected"][axis].get<double>(), 1e-14)
+          << eval;
+  }
+  EXPECT_GT(commands, 1);
+}
+
 TEST_F(WitnessFiles, NameTheFamilyOfWeights) {
   const Outcome o =
       run("audit model:mutation=warren_declared octahedron --depth 1 --level quick --witnesses found");

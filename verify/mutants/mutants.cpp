@@ -13,12 +13,14 @@
 #include "verify/audit/relations.h"
 #include "verify/subject/faulty_subjects.h"
 #include "verify/subject/model_rules.h"
+#include "verify/subject/quad_model_rules.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
 namespace {
 
 constexpr const char* kBase = "model";
+constexpr const char* kQuadBase = "quad-model";
 
 // The row that each planted fault is meant for, and the subject it is planted in.
 struct Meant {
@@ -95,6 +97,11 @@ bool is_model(const std::string& subject, const std::string& options) {
   return subject == kBase || options.find(fmt::format("of={}", kBase)) != std::string::npos;
 }
 
+// All right subjects and mutants but the quad model do Loop's scheme.
+bool suits(const std::string& subject, const AuditMesh& m) {
+  return (m.scheme() == data::Scheme::kLoop) == (subject != kQuadBase);
+}
+
 std::string label(const AuditMesh& m) {
   return m.depths.empty() || m.depths == "uniform" ? fmt::format("{} (depth {})", m.name, m.depth)
                                                    : fmt::format("{} ({})", m.name, m.depths);
@@ -117,6 +124,10 @@ const std::vector<Mutant>& mutants() {
         all.push_back({std::string(m.name), std::string(m.description), kBase,
                        fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
                        std::string(m.check), std::string(m.claim)});
+    for (const Mutation& m : quad_mutations())
+      if (m.name != "none")
+        all.push_back({fmt::format("quad_{}", m.name), std::string(m.description), kQuadBase,
+                       fmt::format("mutation={}", m.name), std::string(m.check), ""});
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
                    faulty_options("wrong_edge_mask", "cgal"), "refined-positions", ""});
     return all;
@@ -135,6 +146,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
   for (const Mutant& m : mutants()) table.kills.push_back({&m, {}, ""});
   std::vector<AuditMesh> plan = default_plan(Level::kStandard);
   const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
+                                          {find_subject(kQuadBase), ""},
                                           {find_subject("row-stream"), "repair=stitch"},
                                           {find_subject("sliding-window"), "precision=double,repair=stitch"}};
   const std::size_t total = plan.size() * correct.size() + table.kills.size();
@@ -149,7 +161,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
     for (const AuditSubject& s : correct) {
       step(s.subject->name, m);
       ++done;
-      if (is_model(s.subject->name, s.options) && too_much(m)) continue;
+      if (!suits(s.subject->name, m) || (is_model(s.subject->name, s.options) && too_much(m))) continue;
       for (const Result& r : auditor.run(s, m))
         if (is_bad(r))
           table.red_on_correct.push_back(
@@ -163,7 +175,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
     const bool relations = m.relations;
     for (Kill& k : table.kills) {
       const bool relation = is_relation(k.mutant->check);
-      if (k.by_its_check() || (relation && !relations)) continue;
+      if (k.by_its_check() || (relation && !relations) || !suits(k.mutant->subject, m)) continue;
       if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
       step(k.mutant->name, m);
       m.relations = relation;

@@ -23,7 +23,7 @@ void add_frame(const Rewriting& mesh, std::span<const std::int32_t> depth, const
     fast::row_stream::Vertex vertex;
     std::copy_n(positions.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, vertex.position);
     std::copy_n(normals.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, vertex.normal);
-    bits.add(mesh.original(at), vertex.position);
+    bits.add(mesh.original(place_of(at)), vertex.position);
   }
 }
 

@@ -10,7 +10,7 @@ data::ControlMesh rounded(data::ControlMesh mesh) {
 }
 
 Rewriting rewrite(const data::ControlMesh& mesh, std::uint64_t seed) {
-  Rewriting out(mesh);
+  Rewriting out(mesh, data::Scheme::kLoop);
   if (seed == 0) return out;
   data::SplitMix64 random(seed);
   out.number_vertices(shuffled(mesh.positions.size(), random));

@@ -32,7 +32,7 @@ SharedBits::Level& SharedBits::level(int depth) {
   return *level;
 }
 
-void SharedBits::add(const lc_provenance& at, const float* vertex) {
+void SharedBits::add(const Place& at, const float* vertex) {
   const auto place = FaceDomain::triangle().side_of(point_of(at), at.denominator);
   if (!place) return;
   // A control vertex has the same bits at every depth: all of them go into the first table.

@@ -46,7 +46,7 @@ class SharedBits {
 
   /// A point on the border of a face, at depth d if its denominator is 2^d. Points inside a face are passed
   /// over.
-  void add(const lc_provenance& at, const float* vertex);
+  void add(const Place& at, const float* vertex);
 
   std::int64_t points() const { return points_; }                  // shared points seen
   std::int64_t compared() const { return compared_; }              // evaluations after the first of each

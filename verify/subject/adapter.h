@@ -72,8 +72,12 @@ Output<Real> allocate_output(const lc_request& request, lc_tessellation& out, st
   out.triangles = static_cast<std::uint32_t*>(get(triangles, 3 * sizeof(std::uint32_t)));
   out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
   out.corner = corners ? static_cast<std::int32_t*>(get(vertices, sizeof(std::int32_t))) : nullptr;
-  return {static_cast<Real*>(out.positions), static_cast<Real*>(out.normals), out.provenance, out.triangles,
-          out.triangle_face, out.corner};
+  return {static_cast<Real*>(out.positions),
+          static_cast<Real*>(out.normals),
+          out.provenance,
+          out.triangles,
+          out.triangle_face,
+          out.corner};
 }
 
 namespace detail {
@@ -106,6 +110,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
   if constexpr (requires { T::capabilities(options, scheme); }) {
     result = T::capabilities(options, scheme);
     result.schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
+    if constexpr (requires { T::kSchemes; }) result.schemes = T::kSchemes;
   } else {
     result = T::capabilities(options);
     result.schemes = LC_DOES_LOOP;
@@ -119,7 +124,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
 
 /// The function table of the adapter class T, which has
 ///   static lc_capabilities capabilities(Options&)              if it does Loop's scheme alone
-///   static lc_capabilities capabilities(Options&, lc_scheme)   if it does both
+///   static lc_capabilities capabilities(Options&, lc_scheme)   if it does both, or those of T::kSchemes
 ///   T(const lc_mesh&, Options&)
 ///   void tessellate(const lc_request&, lc_tessellation&)    all memory from the request
 /// Options that T does not read are refused.

@@ -62,7 +62,7 @@ Worst against_stam(const char* subject, const char* options, const std::string& 
     const auto exact = stam.evaluate(p.face, double(p.i) / p.denominator, double(p.j) / p.denominator,
                                      reference::Order::kFirst);
     worst.position = std::max(worst.position, distance(t.position(v), vector_of(exact.position)) / unit);
-    const Place at = place(mesh, p);
+    const PointName at = place(mesh, p);
     const bool spare =
         std::get<0>(at) == 0 && spared.contains(std::get<1>(at)) && std::string(subject) != "naive";
     const double a = angle_degrees(t.normal(v), vector_of(exact.normal));

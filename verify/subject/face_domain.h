@@ -126,7 +126,8 @@ class FaceDomain {
     if (shape_ == Shape::kTriangle) {
       const std::array<std::int64_t, 3> from{n - p.i - p.j, p.i, p.j};
       std::array<std::int64_t, 3> to{};
-      for (int k = 0; k < 3; ++k) to[static_cast<std::size_t>(corner(k, s))] = from[static_cast<std::size_t>(k)];
+      for (int k = 0; k < 3; ++k)
+        to[static_cast<std::size_t>(corner(k, s))] = from[static_cast<std::size_t>(k)];
       return {to[1], to[2]};
     }
     const Point q = s.mirrored ? Point{p.j, p.i} : Point{p.i, p.j};
@@ -262,15 +263,16 @@ class FaceDomain {
   }
 
   /// Twice the oriented area of a triangle of points, > 0 counter-clockwise, in triangles of the lattice. Exact
-  /// if a part has all three points; otherwise of a regular polygon, whose parts are parallelograms, rounded.
+  /// if a part has all three points; otherwise of a regular polygon, rounded.
   double area(std::array<Point, 3> c, std::int64_t n) const {
     if (share_part(c, n))
       return static_cast<double>((c[1].i - c[0].i) * (c[2].j - c[0].j) -
                                  (c[2].i - c[0].i) * (c[1].j - c[0].j));
+    // The polygon has the radius 1 and, like its parts together, the area parts() * (n / 2)^2.
     const auto a = flat(c[0], n), b = flat(c[1], n), d = flat(c[2], n);
-    return std::round(((b[0] - a[0]) * (d[1] - a[1]) - (d[0] - a[0]) * (b[1] - a[1])) /
-                      std::sin(2 * std::numbers::pi / corners_) * 1024) /
-           1024;
+    const double half = static_cast<double>(n) / 2, unit = std::sin(2 * std::numbers::pi / corners_);
+    const double area = (b[0] - a[0]) * (d[1] - a[1]) - (d[0] - a[0]) * (b[1] - a[1]);
+    return std::round(area * 2 * half * half / unit * 1024) / 1024;
   }
 
  private:
@@ -282,13 +284,21 @@ class FaceDomain {
     return at && (at->side == side || (at->along == 0 && at->side == next(side)));
   }
 
-  // Where a point of a polygon lies in the plane: the middle at 0, the middle of side k in direction
-  // exp(2 pi i k / corners).
+  // Where a point of a polygon lies in the plane, if the polygon is regular and its parts are bilinear.
   std::array<double, 2> flat(Point p, std::int64_t n) const {
-    const double turn = 2 * std::numbers::pi / corners_;
-    const auto to_next = static_cast<double>(n - 2 * p.j) / 2, to_previous = static_cast<double>(n - 2 * p.i) / 2;
-    return {to_next * std::cos(turn * p.part) + to_previous * std::cos(turn * (p.part - 1)),
-            to_next * std::sin(turn * p.part) + to_previous * std::sin(turn * (p.part - 1))};
+    const auto corner = [&](int k, std::size_t axis) {
+      const double turn = 2 * std::numbers::pi * k / corners_;
+      return axis == 0 ? std::cos(turn) : std::sin(turn);
+    };
+    const double u = 2 * static_cast<double>(p.i) / static_cast<double>(n);
+    const double v = 2 * static_cast<double>(p.j) / static_cast<double>(n);
+    std::array<double, 2> at{};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double own = corner(p.part, axis), to_next = (own + corner(p.part + 1, axis)) / 2,
+                   to_previous = (own + corner(p.part - 1, axis)) / 2;
+      at[axis] = (1 - v) * ((1 - u) * own + u * to_next) + v * (1 - u) * to_previous;  // the middle is 0
+    }
+    return at;
   }
 
   Shape shape_;

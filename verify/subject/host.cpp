@@ -51,16 +51,21 @@ std::string impossible(const lc_capabilities& c) {
 // What a subject did to the mesh that it was lent.
 std::string changes(const LentMesh& before, const LentMesh& after) {
   std::int64_t changed = 0;
-  const auto count = [&](const auto& a, const auto& b, std::size_t together) {
-    for (std::size_t k = 0; k < a.size(); k += together)
-      changed += !std::equal(a.begin() + static_cast<std::ptrdiff_t>(k),
-                             a.begin() + static_cast<std::ptrdiff_t>(k + together),
-                             b.begin() + static_cast<std::ptrdiff_t>(k));
+  const auto compare = [&](const auto& a, const auto& b, std::size_t begin, std::size_t count) {
+    const auto from = a.begin() + static_cast<std::ptrdiff_t>(begin);
+    return std::equal(from, from + static_cast<std::ptrdiff_t>(count),
+                      b.begin() + static_cast<std::ptrdiff_t>(begin));
   };
-  count(before.positions, after.positions, 3);
-  count(before.corners, after.corners, 1);
-  count(before.face_sizes, after.face_sizes, 1);
-  return fmt::format("the subject changed {} vertices or corners of the control mesh", changed);
+  for (std::size_t k = 0; k < before.positions.size(); k += 3)
+    changed += !compare(before.positions, after.positions, k, 3);
+  std::size_t corner = 0;
+  for (std::size_t f = 0; f < before.face_sizes.size(); ++f) {
+    const auto size = static_cast<std::size_t>(before.face_sizes[f]);
+    changed +=
+        before.face_sizes[f] != after.face_sizes[f] || !compare(before.corners, after.corners, corner, size);
+    corner += size;
+  }
+  return fmt::format("the subject changed {} vertices or faces of the control mesh", changed);
 }
 
 }  // namespace
@@ -87,7 +92,7 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   const data::Scheme scheme = asked.value_or(data::natural_scheme(mesh));
   capabilities_ = verify::capabilities(subject, options_, scheme);
   if (!does(capabilities_, scheme))
-    throw NotAsked(fmt::format("{}: does no {} surfaces", subject.name, data::name_of(scheme)));
+    throw NotAsked(fmt::format("{}: does not subdivide by {}", subject.name, data::name_of(scheme)));
   const bool single = capabilities_.precision == LC_FLOAT32;
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)

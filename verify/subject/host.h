@@ -36,7 +36,8 @@ struct Defect {
     kThrew,                 // release() let an exception through
   };
   Kind kind;
-  std::string array;        // "positions", "normals", "provenance", "triangles", "triangle_face", "corner", "mesh", ""
+  std::string
+      array;  // "positions", "normals", "provenance", "triangles", "triangle_face", "corner", "mesh", ""
   std::int64_t count = 0;   // elements concerned
   std::int64_t first = -1;  // the first of them, or -1
   std::string message;      // the whole in one sentence

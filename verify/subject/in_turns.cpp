@@ -83,7 +83,8 @@ class Instance {
     LentMesh other = mesh_;
     const auto last = static_cast<std::size_t>(mesh_.vertices()) - 1;
     for (std::size_t v = 0; v <= last; ++v)
-      for (std::size_t k = 0; k < 3; ++k) other.positions[3 * (last - v) + k] = 2 * mesh_.positions[3 * v + k];
+      for (std::size_t k = 0; k < 3; ++k)
+        other.positions[3 * (last - v) + k] = 2 * mesh_.positions[3 * v + k];
     for (std::int32_t& v : other.corners) v = static_cast<std::int32_t>(last) - v;
     return std::make_unique<Instance>(std::move(other), options_);
   }

@@ -76,16 +76,19 @@ class Face {
     using Leaf = reference::catmull_clark::LeafQuad<double>;
     const bool corners_only = domain_.parts() > 1 && depth == 0;
     for (int part = 0; part < domain_.parts(); ++part)
-      subdivider.tessellate(face, static_cast<std::size_t>(part), corners_only ? 1 : depth, [&](const Leaf& leaf) {
-        if (corners_only) {  // of its first quad
-          add(leaf[0], part);
-          return;
-        }
-        const std::array at{add(leaf[0], part), add(leaf[1], part), add(leaf[2], part), add(leaf[3], part)};
-        triangles.push_back({at[0], at[1], at[2]});
-        triangles.push_back({at[0], at[2], at[3]});
-      });
-    for (std::uint32_t k = 1; corners_only && k + 1 < vertices.size(); ++k) triangles.push_back({0, k, k + 1});
+      subdivider.tessellate(face, static_cast<std::size_t>(part), corners_only ? 1 : depth,
+                            [&](const Leaf& leaf) {
+                              if (corners_only) {  // of its first quad
+                                add(leaf[0], part);
+                                return;
+                              }
+                              const std::array at{add(leaf[0], part), add(leaf[1], part), add(leaf[2], part),
+                                                  add(leaf[3], part)};
+                              triangles.push_back({at[0], at[1], at[2]});
+                              triangles.push_back({at[0], at[2], at[3]});
+                            });
+    for (std::uint32_t k = 1; corners_only && k + 1 < vertices.size(); ++k)
+      triangles.push_back({0, k, k + 1});
   }
 
  private:
@@ -145,7 +148,8 @@ class NaiveSubject {
         const auto k = static_cast<std::size_t>(f);
         if (depth[k] < 0) continue;
         faces[k] = std::make_unique<Face>(domain(k), depth[k]);
-        std::visit([&](const auto& subdivider) { faces[k]->subdivide(subdivider, k, depth[k]); }, subdivider_);
+        std::visit([&](const auto& subdivider) { faces[k]->subdivide(subdivider, k, depth[k]); },
+                   subdivider_);
       }
     });
     agree_on_borders(faces, depth);
@@ -163,8 +167,8 @@ class NaiveSubject {
       if (faces[k] == nullptr) continue;
       const auto face = static_cast<std::int32_t>(k);
       const auto base = static_cast<std::uint32_t>(v);
-      const auto denominator =
-          static_cast<std::uint32_t>(std::max<std::int64_t>(1, domain(k).denominator(std::int64_t{1} << depth[k])));
+      const auto denominator = static_cast<std::uint32_t>(
+          std::max<std::int64_t>(1, domain(k).denominator(std::int64_t{1} << depth[k])));
       for (const Corner& corner : faces[k]->vertices) {
         const auto& [position, normal] = std::tie(corner.position, corner.normal);
         for (std::int64_t c = 0; const double x : {position.x, position.y, position.z})
@@ -186,7 +190,8 @@ class NaiveSubject {
 
  private:
   using Subdivider = std::variant<Loop, CatmullClark>;
-  static Subdivider make_subdivider(const data::ControlMesh& mesh, data::Scheme scheme, reference::Weights weights) {
+  static Subdivider make_subdivider(const data::ControlMesh& mesh, data::Scheme scheme,
+                                    reference::Weights weights) {
     if (scheme == data::Scheme::kLoop) return Loop(mesh, weights);
     return CatmullClark(mesh.faces, reference::positions_of<double>(mesh));
   }

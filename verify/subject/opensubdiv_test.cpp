@@ -165,7 +165,7 @@ TEST(OpenSubdivBfr, HasNoNormalAtABoundaryVertexOfOneFace) {
   const Tessellation t = session.tessellate(2);
   const Expected expected(mesh, 2);
   for (int corner = 0; corner < 3; ++corner) {
-    const Place at{0, corner, 0, 0, 0};
+    const PointName at{0, corner, 0, 0, 0};
     const double a = angle_degrees(t.normal(places(mesh, t).at(at)[0]), expected.normal(corner));
     EXPECT_FALSE(a < 1) << "corner " << corner << ": " << a;  // wrong, or none
     record("degrees_at_corner_" + std::to_string(corner), a);

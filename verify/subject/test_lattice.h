@@ -34,16 +34,16 @@ inline std::vector<std::pair<std::string, data::ControlMesh>> shapes() {
 }
 
 /// (kind, a, b, c, d): control vertex a; or on edge a < b, c / d from a; or in face a at (b, c) / d.
-using Place = std::tuple<int, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
+using PointName = std::tuple<int, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
 
-inline Place place(const data::ControlMesh& mesh, const lc_provenance& p) {
+inline PointName place(const data::ControlMesh& mesh, const lc_provenance& p) {
   const auto& corners = triangles_of(mesh)[p.face];
   const auto at = FaceDomain::triangle().side_of(point_of(p), p.denominator);
   if (!at) return {2, p.face, p.i, p.j, p.denominator};
   const auto a = corners[at->side], b = corners[FaceDomain::triangle().next(at->side)];
   if (at->along == 0) return {0, a, 0, 0, 0};
-  return a < b ? Place{1, a, b, at->along, p.denominator}
-               : Place{1, b, a, p.denominator - at->along, p.denominator};
+  return a < b ? PointName{1, a, b, at->along, p.denominator}
+               : PointName{1, b, a, p.denominator - at->along, p.denominator};
 }
 
 /// (l0, l1, l2) of `p` on `face`, which it may name or only touch.
@@ -65,9 +65,9 @@ inline std::optional<std::array<std::int64_t, 3>> on_face(const data::ControlMes
 }
 
 /// Every place and the vertices that lie there.
-inline std::map<Place, std::vector<std::int64_t>> places(const data::ControlMesh& mesh,
+inline std::map<PointName, std::vector<std::int64_t>> places(const data::ControlMesh& mesh,
                                                          const Tessellation& t) {
-  std::map<Place, std::vector<std::int64_t>> result;
+  std::map<PointName, std::vector<std::int64_t>> result;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
     result[place(mesh, t.provenance()[v])].push_back(v);
   }

@@ -102,8 +102,7 @@ std::int32_t schemes_of(const Header& header) {
   for (const auto& [name, bit] :
        {std::pair{"loop", std::int32_t{LC_DOES_LOOP}}, {"catmull-clark", LC_DOES_CATMULL_CLARK}})
     if (std::find(list.begin(), list.end(), name) != list.end()) schemes |= bit;
-  if (!list.is_array() || schemes == 0)
-    throw Error(R"("schemes" is no list with "loop" or "catmull-clark")");
+  if (!list.is_array() || schemes == 0) throw Error(R"("schemes" is no list with "loop" or "catmull-clark")");
   return schemes;
 }
 
@@ -188,8 +187,8 @@ Capabilities read_capabilities(Source& source) {
   if (!header.has("limitcheck")) throw Error(R"(the first answer does not say "limitcheck": 1)");
   const std::int64_t version = header.integer("limitcheck", INT64_MIN, INT64_MAX);
   if (version < 1 || version > kVersion)
-    throw Error(fmt::format("it speaks version {} of the protocol, this program speaks 1 to {}", version,
-                            kVersion));
+    throw Error(
+        fmt::format("it speaks version {} of the protocol, this program speaks 1 to {}", version, kVersion));
   header.refuse_unless_ok();
   if (header.has("impossible")) throw Error(header.text("impossible"));  // the worker has seen it
 
@@ -231,7 +230,8 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   const std::size_t point = 3 * real_size(capabilities);
   const bool normals = capabilities.values.normals != 0;
   const double bytes =
-      static_cast<double>(vertices) * static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance) + sizeof(std::int32_t)) +
+      static_cast<double>(vertices) *
+          static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance) + sizeof(std::int32_t)) +
       static_cast<double>(triangles) * 16.0;
   if (bytes > static_cast<double>(most_bytes))
     throw Error(fmt::format("it announces {} vertices and {} triangles, {:.3g} MiB; {} MiB are allowed",

@@ -25,20 +25,43 @@ Capabilities capabilities_of(const std::string& answer) {
 }
 
 TEST(Protocol, AsksInOneLineAndAPayload) {
-  EXPECT_EQ(ask_capabilities("a=\"b\""),
-            "{\"limitcheck\":1,\"options\":\"a=\\\"b\\\"\",\"request\":\"capabilities\"}\n");
+  EXPECT_EQ(ask_capabilities("a=\"b\"", LC_SCHEME_CATMULL_CLARK),
+            "{\"latest\":2,\"limitcheck\":1,\"options\":\"a=\\\"b\\\"\",\"request\":\"capabilities\","
+            "\"scheme\":\"catmull-clark\"}\n");
   const double positions[] = {0.1, 0, 0, 1, 0, 0, 0, 1, 1e-300};
   const std::int32_t triangles[] = {0, 1, 2};
-  const lc_mesh mesh{positions, 3, triangles, 1};
+  const std::int32_t sizes[] = {3};
+  const lc_mesh mesh{positions, 3, triangles, 1, sizeof(lc_mesh), LC_SCHEME_LOOP, triangles, 3, sizes, 1};
+  const auto program = [](Payload payload, int version) {
+    Capabilities c;
+    c.payload = payload;
+    c.version = version;
+    return c;
+  };
   const std::string header = "{\"options\":\"\",\"request\":\"create\",\"triangles\":1,\"vertices\":3}\n";
-  const std::string binary = ask_create(mesh, "", Payload::kBinary);
+  const std::string binary = ask_create(mesh, "", program(Payload::kBinary, 1));
   ASSERT_EQ(binary.size(), header.size() + sizeof positions + sizeof triangles);
   EXPECT_EQ(binary.substr(0, header.size()), header);
   EXPECT_EQ(std::memcmp(binary.data() + header.size(), positions, sizeof positions), 0);
   EXPECT_EQ(std::memcmp(binary.data() + header.size() + sizeof positions, triangles, sizeof triangles), 0);
-  EXPECT_EQ(ask_create(mesh, "", Payload::kText), header + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2\n");
-  EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, Payload::kText),
+  EXPECT_EQ(ask_create(mesh, "", program(Payload::kText, 1)), header + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2\n");
+  EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, program(Payload::kText, 1)),
             "{\"request\":\"tessellate\",\"threads\":2,\"triangles\":2}\n3\n-1\n");
+  // Version 2 has faces of any size, and says which scheme.
+  const std::int32_t quad[] = {0, 1, 2, 1}, four[] = {4};
+  const lc_mesh polygons{positions, 3, nullptr, 0, sizeof(lc_mesh), LC_SCHEME_CATMULL_CLARK,
+                         quad,      4, four,    1};
+  const std::string question =
+      "{\"corners\":4,\"faces\":1,\"options\":\"\",\"request\":\"create\",\"scheme\":\"catmull-clark\","
+      "\"vertices\":3}\n";
+  EXPECT_EQ(ask_create(polygons, "", program(Payload::kText, 2)),
+            question + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2 1\n");
+  const std::string arrays = ask_create(polygons, "", program(Payload::kBinary, 2)).substr(question.size());
+  ASSERT_EQ(arrays.size(), sizeof positions + sizeof four + sizeof quad);
+  EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions, four, sizeof four), 0);
+  EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions + sizeof four, quad, sizeof quad), 0);
+  EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, program(Payload::kText, 2)),
+            "{\"faces\":2,\"request\":\"tessellate\",\"threads\":2}\n3\n-1\n");
 }
 
 TEST(Protocol, ReadsWhatASubjectSaysAboutItself) {
@@ -57,9 +80,10 @@ TEST(Protocol, RefusesAnswersThatAreNone) {
   };
   for (const std::string& answer :
        {std::string(), std::string("\n"), std::string("hello\n"), std::string("[1]\n"), "{" + kHello + "}",
-        with("\"limitcheck\": 1", "\"limitcheck\": 2"), with("\"limitcheck\": 1", "\"limitcheck\": \"1\""),
-        with("\"limitcheck\": 1, ", ""), with("float32", "float16"),
-        with("\"max_depth\": 5", "\"max_depth\": -1"), with("\"max_depth\": 5", "\"max_depth\": 5.5"),
+        with("\"limitcheck\": 1", "\"limitcheck\": 3"), with("\"limitcheck\": 1", "\"limitcheck\": 2"),
+        with("\"limitcheck\": 1", "\"limitcheck\": \"1\""), with("\"limitcheck\": 1, ", ""),
+        with("float32", "float16"), with("\"max_depth\": 5", "\"max_depth\": -1"),
+        with("\"max_depth\": 5", "\"max_depth\": 5.5"),
         with("\"max_depth\": 5", "\"max_depth\": 18446744073709551615"),
         with("\"normals\": true", "\"normals\": 1"), with("\"ok\"", "\"fine\""),
         with("\"status\": \"ok\", ", ""), std::string(70000, '[') + "\n"}) {

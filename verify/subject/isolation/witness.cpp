@@ -55,7 +55,11 @@ std::string save_input(const std::string& folder, const Input& input) try {
   const auto mesh_file = place / fmt::format("{:016x}.obj", hash);
   data::write_mesh(mesh_file, mesh);
   command += fmt::format(" {}", shell_word(mesh_file.string()));
-  if (!data::validate(mesh).empty()) return fmt::format("; again with: {}{} --must-refuse", command, rest);
+  const data::Scheme scheme =
+      input.mesh->scheme == LC_SCHEME_CATMULL_CLARK ? data::Scheme::kCatmullClark : data::Scheme::kLoop;
+  if (scheme != data::natural_scheme(mesh)) command += fmt::format(" --scheme {}", data::name_of(scheme));
+  if (!data::validate(mesh, scheme).empty())
+    return fmt::format("; again with: {}{} --must-refuse", command, rest);
 
   if (!input.face_depth.empty()) {
     const auto [least, most] = std::minmax_element(input.face_depth.begin(), input.face_depth.end());

@@ -95,7 +95,8 @@ nlohmann::json scheme_names(const lc_capabilities& c) {
   return names;
 }
 
-nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options, data::Scheme scheme) {
+nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options,
+                                   data::Scheme scheme) {
   lc_capabilities c{};
   try {
     c = capabilities(subject, options, scheme);

@@ -14,7 +14,8 @@
 int main(int argc, char** argv) try {
   namespace data = limitcheck::data;
   namespace fast = limitcheck::fast;
-  const data::ControlMesh cage = argc > 1 ? data::read_mesh(argv[1]) : data::octahedron();
+  const data::ControlMesh cage =
+      argc > 1 ? data::read_mesh(argv[1], {.scheme = data::Scheme::kLoop}) : data::octahedron();
   const int depth = argc > 2 ? std::atoi(argv[2]) : 3;
 
   // Prepared once per cage; then one frame after the other.

@@ -13,7 +13,8 @@
 int main(int argc, char** argv) try {
   namespace data = limitcheck::data;
   namespace reference = limitcheck::reference;
-  const data::ControlMesh cage = argc > 1 ? data::read_mesh(argv[1]) : data::tetrahedron();
+  const data::ControlMesh cage =
+      argc > 1 ? data::read_mesh(argv[1], {.scheme = data::Scheme::kLoop}) : data::tetrahedron();
 
   const auto third = reference::Parameter::fraction(1, 3);
   const auto point = reference::StamEvaluator<double>(cage).evaluate(0, third, third);

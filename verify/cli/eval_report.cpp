@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/eval_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace limitcheck::cli {
+namespace {
+
+using reference::CertifiedPoint;
+using reference::Enclosure;
+using reference::Enclosure3;
+using reference::NormalKind;
+
+const char* name(NormalKind kind) {
+  switch (kind) {
+    case NormalKind::kRegular:
+      return "regular";
+    case NormalKind::kNoTangentPlane:
+      return "no_tangent_plane";
+    case NormalKind::kFallback:
+      return "fallback";
+    case NormalKind::kArbitrary:
+      return "arbitrary";
+  }
+  return "";
+}
+
+nlohmann::ordered_json vector(const Enclosure3& v) {
+  return {v[0].value, v[1].value, v[2].value};
+}
+nlohmann::ordered_json vector(const Enclosure& e) {
+  return e.value;
+}
+
+double radius(const Enclosure3& v) {
+  return std::max({v[0].radius, v[1].radius, v[2].radius});
+}
+double radius(const Enclosure& e) {
+  return e.radius;
+}
+
+}  // namespace
+
+void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
+  nlohmann::ordered_json json, radii;
+  json["mesh"] = at.mesh;
+  json["scheme"] = name_of(at.chosen.scheme);
+  json["faces_cut"] = at.chosen.cut;
+  json["face"] = at.face;
+  const bool loop = at.chosen.scheme == data::Scheme::kLoop;
+  if (!loop) json["corner"] = at.corner ? nlohmann::ordered_json(*at.corner) : nlohmann::ordered_json();
+  json[loop ? "barycentric" : "parameters"] = at.parameters;
+  json["digits"] = at.digits;
+  json["weights"] = loop ? nlohmann::ordered_json(at.weights) : nlohmann::ordered_json();
+  const auto add = [&](const char* key, const auto& value) {
+    json[key] = vector(value);
+    radii[key] = radius(value);
+  };
+  const auto add_maybe = [&](const char* key, const auto& value) {
+    if (value) return add(key, *value);
+    json[key] = radii[key] = nullptr;
+  };
+  add("position", p.position);
+  add("d1", p.d1);
+  add("d2", p.d2);
+  json["derivatives_exist"] = p.first_exist;
+  add_maybe("tangent1", p.t1);
+  add_maybe("tangent2", p.t2);
+  add("normal", p.normal);
+  json["normal_kind"] = name(p.normal_kind);
+  add_maybe("d11", p.d11);
+  add_maybe("d12", p.d12);
+  add_maybe("d22", p.d22);
+  add_maybe("gaussian_curvature", p.gaussian_curvature);
+  add_maybe("mean_curvature", p.mean_curvature);
+  json["radius"] = p.radius;
+  json["radii"] = radii;
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
+  // How the derivatives by the two parameters are written.
+  const bool loop = at.chosen.scheme == data::Scheme::kLoop;
+  const std::string a = loop ? "l1" : "u", b = loop ? "l2" : "v";
+  const std::string by_a = "d/d" + a, by_b = "d/d" + b;
+  const std::string by_aa = fmt::format("d2/d{0}d{0}", a), by_ab = fmt::format("d2/d{}d{}", a, b),
+                    by_bb = fmt::format("d2/d{0}d{0}", b);
+  // Two digits of the radius, not less than it.
+  const auto within = [](const auto& value) {
+    const double r = radius(value);
+    return r == 0 ? "  exact" : fmt::format("  +-{:.1e}", 1.05 * r);
+  };
+  const auto line = [&](const std::string& what, const Enclosure3& v, const char* note = "") {
+    fmt::print("{:<12}{}  {}  {}{}{}\n", what, v[0].value, v[1].value, v[2].value, within(v), note);
+  };
+  const auto absent = [](const std::string& what, const char* why) { fmt::print("{:<12}{}\n", what, why); };
+  fmt::print("{}\n{} face {}{} at ({})\n", at.scheme_line, at.mesh, at.face,
+             at.corner ? fmt::format(" corner {}", *at.corner) : "", fmt::join(at.parameters, ", "));
+  line("position", p.position);
+  const bool regular = p.normal_kind == NormalKind::kRegular || p.normal_kind == NormalKind::kNoTangentPlane;
+  const char* none = !regular ? "need not exist at this extraordinary corner, where the tangents degenerate"
+                     : !loop  ? "none at this extraordinary corner, where the parameters are singular"
+                     : p.boundary_corner
+                         ? "does not exist at this extraordinary corner, unless it runs along the boundary"
+                         : "does not exist: it grows without bound towards this extraordinary corner";
+  if (p.first_exist) {
+    line(by_a, p.d1);
+    line(by_b, p.d2);
+  } else {
+    absent(by_a, none);
+    absent(by_b, none);
+  }
+  if (p.t1) {
+    line("tangent 1", *p.t1, "  (direction only)");
+    line("tangent 2", *p.t2, "  (direction only)");
+  }
+  switch (p.normal_kind) {
+    case NormalKind::kRegular:
+      line("normal", p.normal);
+      break;
+    case NormalKind::kNoTangentPlane:
+      line("normal", p.normal, "  (the surface has no tangent plane here)");
+      break;
+    case NormalKind::kFallback:
+      line("normal", p.normal, "  (tangents degenerate: from the control faces)");
+      break;
+    case NormalKind::kArbitrary:
+      line("normal", p.normal, "  (everything degenerate: arbitrary)");
+      break;
+  }
+  if (p.d11) {
+    line(by_aa, *p.d11);
+    line(by_ab, *p.d12);
+    line(by_bb, *p.d22);
+  } else {
+    for (const std::string& what : {by_aa, by_ab, by_bb}) absent(what, none);
+  }
+  if (p.gaussian_curvature) {
+    fmt::print("{:<12}{}{}\n", "Gaussian K", p.gaussian_curvature->value, within(*p.gaussian_curvature));
+    fmt::print("{:<12}{}{}\n", "mean H", p.mean_curvature->value, within(*p.mean_curvature));
+  }
+  fmt::print("certified: every number is that near the truth; the largest radius of a vector is {:.3g}\n",
+             p.radius);
+}
+
+}  // namespace limitcheck::cli

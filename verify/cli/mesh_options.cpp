@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/mesh_options.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "data/error.h"
+#include "data/generators/named_mesh.h"
+
+namespace limitcheck::cli {
+namespace {
+
+std::int64_t polygons(const data::ControlMesh& mesh) {
+  std::int64_t count = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) count += mesh.faces[f].size() > 3;
+  return count;
+}
+
+OpenedMesh taken(const std::string& name, data::OpenedMesh opened, const MeshOptions& options) {
+  OpenedMesh result{std::move(opened.mesh), {}};
+  result.chosen = scheme_of(result.mesh, opened.cut, options);
+  if (result.chosen.scheme == data::Scheme::kLoop && !result.mesh.faces.are_triangles())
+    throw data::ArgumentError(
+        fmt::format("{}: {} of {} faces are no triangles, which Loop's scheme needs. Either leave out "
+                    "--scheme loop, for the "
+                    "surface of Catmull-Clark's scheme; or cut them with --triangulate fan or --triangulate "
+                    "shortest-diagonal, which is another surface",
+                    name, polygons(result.mesh), result.mesh.faces.size()));
+  return result;
+}
+
+// To be validated for the scheme that the mesh has: `taken` says in words what is wrong with the one asked for.
+data::ReadOptions without_scheme(const MeshOptions& options) {
+  data::ReadOptions result = read_options(options);
+  result.scheme.reset();
+  return result;
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, MeshOptions& options) {
+  command
+      .add_option(
+          "--scheme", options.scheme,
+          "The subdivision scheme; default: loop if all faces of the mesh are triangles, else catmull-clark")
+      ->check(CLI::IsMember({"loop", "catmull-clark"}));
+  command
+      .add_option(
+          "--triangulate", options.triangulate,
+          "Cut larger faces into triangles, for Loop's scheme: from their first corner (fan), or quads "
+          "along the shorter diagonal. The surface is another one than that of the faces")
+      ->check(CLI::IsMember({"fan", "shortest-diagonal"}));
+}
+
+data::ReadOptions read_options(const MeshOptions& options) {
+  data::ReadOptions result;
+  if (!options.triangulate.empty())
+    result.polygons =
+        options.triangulate == "fan" ? data::Triangulation::kFan : data::Triangulation::kShortestDiagonal;
+  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+    if (options.scheme == name_of(scheme)) result.scheme = scheme;
+  return result;
+}
+
+MeshScheme scheme_of(const data::ControlMesh& mesh, std::int64_t cut, const MeshOptions& options) {
+  return {read_options(options).scheme.value_or(data::natural_scheme(mesh)), cut};
+}
+
+OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options) {
+  return taken(file_or_name, data::open_mesh(file_or_name, without_scheme(options)), options);
+}
+
+OpenedMesh open_named_mesh(const std::string& specification, const MeshOptions& options) {
+  return taken(specification, data::open_named_mesh(specification, without_scheme(options)), options);
+}
+
+void require_loop(const std::string& name, const OpenedMesh& mesh, const std::string& command) {
+  if (mesh.chosen.scheme == data::Scheme::kLoop) return;
+  const std::int64_t count = polygons(mesh.mesh);
+  if (count == 0)
+    throw data::ArgumentError(
+        fmt::format("{} knows Loop's scheme only, not --scheme catmull-clark", command));
+  throw data::ArgumentError(fmt::format(
+      "{}: {} of {} faces are no triangles: that is a mesh for Catmull-Clark's scheme, and {} knows "
+      "Loop's only. --triangulate fan or --triangulate shortest-diagonal cuts them into triangles, "
+      "which is another surface",
+      name, count, mesh.mesh.faces.size(), command));
+}
+
+std::string scheme_line(const std::vector<MeshScheme>& meshes, const MeshOptions& options) {
+  const auto count = [&](data::Scheme scheme) {
+    return std::count_if(meshes.begin(), meshes.end(),
+                         [&](const MeshScheme& m) { return m.scheme == scheme; });
+  };
+  std::int64_t cut = 0;
+  for (const MeshScheme& m : meshes) cut += m.cut;
+  const auto loop = count(data::Scheme::kLoop), catmull_clark = count(data::Scheme::kCatmullClark);
+  if (loop > 0 && catmull_clark > 0)
+    return fmt::format("scheme: loop ({} of {} meshes, whose faces are all triangles), catmull-clark ({})",
+                       loop, meshes.size(), catmull_clark);
+  const std::string name(name_of(loop > 0 ? data::Scheme::kLoop : data::Scheme::kCatmullClark));
+  const std::string how = cut > 0 ? fmt::format("--triangulate {} cut {} face{} into triangles",
+                                                options.triangulate, cut, cut == 1 ? "" : "s")
+                          : !options.scheme.empty() ? "--scheme"
+                          : loop > 0                ? "all faces are triangles"
+                                                    : "not all faces are triangles";
+  return fmt::format("scheme: {} ({})", name, how);
+}
+
+}  // namespace limitcheck::cli

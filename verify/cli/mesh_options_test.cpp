@@ -49,22 +49,26 @@ TEST_F(Scheme, LoopsTakesPolygonsThatAreCutOnRequestAndSaysHowMany) {
 }
 
 // Files and names alike.
-TEST_F(Scheme, CommandsThatKnowLoopsOnlyRefuseWhatHasAnotherAndNameTheWayOut) {
+TEST_F(Scheme, PolygonsAreRefusedForLoopsInASentenceThatNamesTheWaysOut) {
   ASSERT_EQ(run("generate quad-cube -o cube.ply").code, 0);
   ASSERT_EQ(run("tessellate octahedron --depth 1 -o out.ply").code, 0);
-  for (const std::string mesh : {"quad-cube", "cube.ply"})
-    for (const std::string& command :
-         {"tessellate " + mesh, "audit --control " + mesh + " --tessellation out.ply"}) {
-      const Outcome o = run(command);
+  for (const std::string mesh : {"quad-cube", "cube.ply"}) {
+    for (const std::string& command : {"tessellate " + mesh, "audit naive " + mesh, "eval " + mesh + " 0 0 0",
+                                       "audit --control " + mesh + " --tessellation out.ply"}) {
+      const Outcome o = run(command + " --scheme loop");
       EXPECT_EQ(o.code, 2) << command;
       EXPECT_EQ(o.out, "") << command;
-      EXPECT_NE(o.err.find("6 of 6 faces are no triangles"), std::string::npos) << o.err;
-      EXPECT_NE(o.err.find("--triangulate fan"), std::string::npos) << o.err;
-      const Outcome loop = run(command + " --scheme loop");
-      EXPECT_EQ(loop.code, 2) << command;
-      EXPECT_NE(loop.err.find("leave out --scheme loop"), std::string::npos) << loop.err;
-      EXPECT_NE(loop.err.find("--triangulate fan"), std::string::npos) << loop.err;
+      for (const char* part :
+           {"6 of 6 faces are no triangles", "leave out --scheme loop", "--triangulate fan"})
+        EXPECT_NE(o.err.find(part), std::string::npos) << command << ": " << o.err;
     }
+    // The engine knows Loop's scheme only.
+    const Outcome o = run("tessellate " + mesh);
+    EXPECT_EQ(o.code, 2) << mesh;
+    EXPECT_EQ(o.out, "") << mesh;
+    for (const char* part : {"6 of 6 faces are no triangles", "--triangulate fan"})
+      EXPECT_NE(o.err.find(part), std::string::npos) << o.err;
+  }
   const Outcome o = run("tessellate octahedron --scheme catmull-clark");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("knows Loop's scheme only"), std::string::npos) << o.err;

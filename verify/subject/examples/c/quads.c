@@ -11,11 +11,11 @@
  * face q >> 2d. */
 typedef struct Mesh {
   int32_t vertices, halves, edges;
-  double (*p)[3];     /* of each vertex */
-  int32_t* from;      /* of each half-edge: the vertex it leaves, */
-  int32_t* twin;      /* the half-edge back, or -1 at a boundary, */
-  int32_t* edge;      /* the edge that it is a side of, */
-  uint32_t (*at)[2];  /* and (i, j) of the corner it leaves */
+  double (*p)[3];    /* of each vertex */
+  int32_t* from;     /* of each half-edge: the vertex it leaves, */
+  int32_t* twin;     /* the half-edge back, or -1 at a boundary, */
+  int32_t* edge;     /* the edge that it is a side of, */
+  uint32_t (*at)[2]; /* and (i, j) of the corner it leaves */
 } Mesh;
 
 static int32_t next(int32_t h) {
@@ -30,8 +30,14 @@ static void add(double* to, double weight, const double* p) {
 
 static Mesh allocate(int32_t vertices, int32_t halves) {
   const size_t v = (size_t)vertices + 1, h = (size_t)halves + 1, n = sizeof(int32_t);
-  return (Mesh){vertices,     halves,       0,           calloc(v, sizeof(double[3])), calloc(h, n),
-                calloc(h, n), calloc(h, n), calloc(h, sizeof(uint32_t[2]))};
+  return (Mesh){vertices,
+                halves,
+                0,
+                calloc(v, sizeof(double[3])),
+                calloc(h, n),
+                calloc(h, n),
+                calloc(h, n),
+                calloc(h, sizeof(uint32_t[2]))};
 }
 static void discard(Mesh m) {
   free(m.p), free(m.from), free(m.twin), free(m.edge), free(m.at);
@@ -50,7 +56,8 @@ static int by_ends(const void* x, const void* y) {
 static const char* connect(Mesh* m) {
   const char* wrong = NULL;
   Side* side = malloc(((size_t)m->halves + 1) * sizeof *side);
-  int32_t* leaving = calloc((size_t)m->vertices + 1, sizeof *leaving); /* boundary edges that leave a vertex */
+  int32_t* leaving =
+      calloc((size_t)m->vertices + 1, sizeof *leaving); /* boundary edges that leave a vertex */
   for (int32_t h = 0; h < m->halves; ++h) {
     const int32_t a = m->from[h], b = m->from[next(h)];
     side[h] = (Side){a < b ? a : b, a < b ? b : a, h};
@@ -75,7 +82,8 @@ static const char* connect(Mesh* m) {
 static Mesh refined(const Mesh* m) {
   const int32_t v_count = m->vertices, f0 = v_count + m->edges;
   Mesh fine = allocate(f0 + m->halves / 4, 4 * m->halves);
-  int32_t *faces = calloc((size_t)v_count + 1, sizeof *faces), *open = calloc((size_t)v_count + 1, sizeof *open);
+  int32_t *faces = calloc((size_t)v_count + 1, sizeof *faces),
+          *open = calloc((size_t)v_count + 1, sizeof *open);
   for (int32_t h = 0; h < m->halves; ++h) {
     ++faces[m->from[h]];
     if (m->twin[h] < 0) open[m->from[h]] = open[m->from[next(h)]] = 1;
@@ -108,8 +116,9 @@ static Mesh refined(const Mesh* m) {
 }
 
 static lc_status capabilities(const char* options, lc_capabilities* out, const char** message) {
-  const lc_capabilities mine = {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, 6, 0, 0, 1,
-                                sizeof mine, LC_SCHEME_CATMULL_CLARK, LC_DOES_CATMULL_CLARK};
+  const lc_capabilities mine = {
+      LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE,      LC_POINTS_REFINED,    6, 0, 0,
+      1,          sizeof mine,     LC_SCHEME_CATMULL_CLARK, LC_DOES_CATMULL_CLARK};
   *out = mine;
   if (options == NULL) return LC_OK;
   *message = "there are no options";
@@ -137,7 +146,8 @@ static lc_status create(const lc_mesh* mesh, const char* options, void** instanc
   return LC_INVALID_INPUT;
 }
 
-static lc_status tessellate(void* instance, const lc_request* request, lc_tessellation* out, const char** message) {
+static lc_status tessellate(void* instance, const lc_request* request, lc_tessellation* out,
+                            const char** message) {
   const Mesh* control = instance;
   const int32_t depth = control->halves > 0 ? request->face_depth[0] : 0;
   Mesh m = *control;
@@ -151,7 +161,8 @@ static lc_status tessellate(void* instance, const lc_request* request, lc_tessel
   out->provenance = request->allocate(request->host, v_count * sizeof(lc_provenance));
   out->triangles = request->allocate(request->host, 3 * t_count * sizeof(uint32_t));
   out->triangle_face = request->allocate(request->host, t_count * sizeof(int32_t));
-  const int refused = out->positions == NULL || out->provenance == NULL || out->triangles == NULL || out->triangle_face == NULL;
+  const int refused = out->positions == NULL || out->provenance == NULL || out->triangles == NULL ||
+                      out->triangle_face == NULL;
   if (!refused) {
     out->vertex_count = m.vertices, out->triangle_count = (int64_t)t_count;
     memcpy(position, m.p, v_count * sizeof *position);
@@ -161,7 +172,8 @@ static lc_status tessellate(void* instance, const lc_request* request, lc_tessel
       out->triangle_face[t] = face;
       if (h % 4 == 0)
         for (int k = 0; k < 3; ++k) /* (0, 1, 2) and (0, 2, 3) */
-          out->triangles[6 * q + k] = (uint32_t)m.from[h + k], out->triangles[6 * q + 3 + k] = (uint32_t)m.from[h + k + (k > 0)];
+          out->triangles[6 * q + k] = (uint32_t)m.from[h + k],
+                                 out->triangles[6 * q + 3 + k] = (uint32_t)m.from[h + k + (k > 0)];
     }
   }
   if (depth > 0) discard(m);
@@ -177,7 +189,8 @@ static void destroy(void* instance) {
 }
 
 const lc_subject* lc_subject_get(uint32_t abi) {
-  static const lc_subject subject = {LC_SUBJECT_ABI, "quads-in-c", "Catmull-Clark refinement of quads, in C", NULL,
-                                     capabilities,   create,       tessellate,                                release, destroy};
+  static const lc_subject subject = {LC_SUBJECT_ABI, "quads-in-c", "Catmull-Clark refinement of quads, in C",
+                                     NULL,           capabilities, create,
+                                     tessellate,     release,      destroy};
   return abi == LC_SUBJECT_ABI ? &subject : NULL;
 }

@@ -3,10 +3,12 @@
 // else.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "verify/cli/command_test.h"
+#include "verify/subject/subject.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -15,6 +17,12 @@ using nlohmann::json;
 
 const std::string kVersion1Program =
     "--program \"python3 '" LIMITCHECK_SOURCE_DIR "/verify/subject/examples/python/loop.py'\"";
+
+// What interface 2 added stands behind what interface 1 has (test_subjects/interface_1.c). README.md has the sizes.
+static_assert(offsetof(lc_capabilities, size) == 32 && sizeof(lc_capabilities) == 44);
+static_assert(offsetof(lc_mesh, size) == 32 && sizeof(lc_mesh) == 72);
+static_assert(offsetof(lc_request, size) == 32 && sizeof(lc_request) == 40);
+static_assert(offsetof(lc_tessellation, size) == 64 && sizeof(lc_tessellation) == 80);
 
 class Versions : public CommandTest {
  protected:

@@ -114,7 +114,8 @@ const std::vector<Explanation>& explanations() {
        kFile},
       {"file-coverage",
        "The triangles over each control face have its area: nothing is missing, nothing is there twice.",
-       "1e-4 of a face; 1e-2 of all where triangles cross the borders of control faces.",
+       "1e-4 of a face, or of a quad at its corner if the control mesh has other polygons; 1e-2 of all where "
+       "triangles cross their borders.",
        "areas in the domain of the control faces, from the closest points of the corners"},
       {"file-degenerate",
        "Triangles without area that the control mesh does not cause. Triangles that name a vertex twice, as "
@@ -128,7 +129,8 @@ const std::vector<Explanation>& explanations() {
        kNone, "counted by our own code and by CGAL"},
       {"file-hausdorff",
        "The larger of the distances from the triangles to the surface and from the surface to the triangles.",
-       "--max-deviation; without it, what one triangle for each control face would have, and the tolerance.",
+       "--max-deviation; without it, what one triangle for each control face would have, of Catmull-Clark's "
+       "scheme one polygon, and the tolerance. Quads of the file are two triangles each.",
        "bracketed: exact distances below, proved bounds above (verify/files/hausdorff.h)"},
   };
   return all;

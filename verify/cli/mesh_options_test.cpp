@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every command that takes a control mesh chooses the scheme by the mesh, says so first, and cuts no polygon unless
-// it is told to.
+// Every command that takes a control mesh chooses the scheme by the mesh, says so first, and cuts no polygon
+// unless it is told to.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -90,6 +90,15 @@ TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
   const auto cut = nlohmann::json::parse(run(subject + "prism.off --triangulate fan --json").out);
   EXPECT_EQ(cut["meshes"][0]["triangulated"], "fan");
   EXPECT_EQ(cut["meshes"][0]["faces"], 16);
+}
+
+TEST_F(Scheme, OfASubjectThatDoesLoopsOnlyLeadsToTriangulate) {
+  const Outcome o = run("audit row-stream quad-cube --depth 1 --level quick");
+  EXPECT_EQ(o.code, 2) << o.out;
+  EXPECT_NE(o.out.find("does Loop's scheme only needs --triangulate"), std::string::npos) << o.out;
+  EXPECT_EQ(run("audit row-stream quad-cube --depth 1 --level quick --triangulate fan").code, 0);
+  EXPECT_EQ(run("audit row-stream quad-cube cube --depth 1 --level quick").code, 0)
+      << "one of them is judged";
 }
 
 TEST_F(Scheme, OfBrokenMeshesIsChosenLikewise) {

@@ -37,14 +37,19 @@ std::string per_vertex(const FileEvidence& e) {
     const double a = angle_degrees(n.direction, e.foot[point].normal);
     if (!(a <= angle[n.vertex])) angle[n.vertex] = a;
   }
-  std::string out = "vertex,distance,normal_angle,face,l1,l2\n";
+  const bool loop = e.scheme() == data::Scheme::kLoop;
+  std::string out =
+      loop ? "vertex,distance,normal_angle,face,l1,l2\n" : "vertex,distance,normal_angle,face,corner,u,v\n";
   for (std::size_t v = 0; v < t.positions.size(); ++v) {
     const std::int32_t point = e.merged.point_of[v];
     if (!t.used[v] || point < 0) continue;
     const Foot& foot = e.foot[point];
-    out += fmt::format("{},{},{},{},{},{}\n", v, foot.distance / e.surface.diagonal(),
-                       angle[v] < 0 ? std::string() : fmt::format("{}", angle[v]), foot.at.face, foot.at.l[1],
-                       foot.at.l[2]);
+    out += fmt::format("{},{},{},", v, foot.distance / e.surface.diagonal(),
+                       angle[v] < 0 ? std::string() : fmt::format("{}", angle[v]));
+    const auto at = e.surface.surface().control_point(foot.at);
+    out += loop ? fmt::format("{},{},{}\n", foot.at.face, foot.at.l[1], foot.at.l[2])
+                : fmt::format("{},{},{},{}\n", at.face,
+                              at.corner < 0 ? std::string() : std::to_string(at.corner), at.first, at.second);
   }
   return out;
 }
@@ -66,7 +71,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
            const FilesOptions& options, const Step& step) {
   audit.notes.push_back(what_it_is(tessellation));
   step("search structure", 0, 1);
-  const ClosestPoint surface(control);
+  const ClosestPoint surface(control, options.scheme.value_or(data::natural_scheme(control)));
 
   if (options.fit != Fit::kNone) {
     step("fit", 0, 1);

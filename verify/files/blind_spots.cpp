@@ -5,25 +5,26 @@
 
 #include <algorithm>
 
-#include "reference/loop/refine.h"
+#include "verify/audit/schemes.h"
 
 namespace limitcheck::verify {
 
 std::string blind_spots(const FileEvidence& e) {
+  const Chart chart = e.surface.domain().chart();
   bool beside_corners = false;
   for (const FacePoint& at : e.place) {
     if (at.face < 0) continue;
-    const auto zeros = std::count(at.l.begin(), at.l.end(), 0);
-    if (zeros == 0) return "";
-    beside_corners = beside_corners || zeros == 1;
+    int sides = 0;
+    for (int k = 0; k < chart.corners(); ++k)
+      sides += chart.height(k, at.l) == 0 && e.surface.surface().on_control_edge(at.face, k);
+    if (sides == 0) return "";
+    beside_corners = beside_corners || sides == 1;
   }
-  const auto refined = reference::refine<double>(e.control, beside_corners ? 1 : 0);
-  const auto limits = refined.limits().positions;
+  const Scheme scheme = e.scheme() == data::Scheme::kLoop ? Scheme::kLoop : Scheme::kCatmullClark;
+  const auto refined = scheme_points(e.control, scheme, beside_corners ? 1 : 0, false);
+  const auto limits = scheme_points(e.control, scheme, beside_corners ? 1 : 0, true);
   double farthest = 0;
-  for (std::size_t v = 0; v < limits.size(); ++v) {
-    const auto way = limits[v] - refined.positions()[v];
-    farthest = std::max(farthest, norm(Vector{way.x, way.y, way.z}));
-  }
+  for (std::size_t v = 0; v < limits.size(); ++v) farthest = std::max(farthest, norm(limits[v] - refined[v]));
   std::string text =
       beside_corners ? "no vertex lies inside a control face, only at its corners and on its edges: the "
                        "surface inside of faces was not looked at"

@@ -15,34 +15,33 @@ bool off_the_surface(const FileEvidence& e, std::int32_t point) {
   return e.foot[point].distance > e.tolerance * e.surface.diagonal();
 }
 
-// Both ends lie on the limit of one boundary edge of the control mesh.
+// Both ends lie on the limit of one boundary edge of the domain.
 bool on_limit_boundary(const FileEvidence& e, const OpenEdge& edge) {
   const Domain& domain = e.surface.domain();
+  const Chart chart = domain.chart();
   if (off_the_surface(e, edge.from) || off_the_surface(e, edge.to)) return false;
   for (const std::int32_t p : {edge.from, edge.to}) {
     const FacePoint& at = e.place[p];
     std::vector<std::int32_t> faces{at.face};
-    for (int k = 0; k < 3; ++k)
-      if (at.l[k] == 1)
-        for (const std::int32_t f : domain.faces_at(domain.triangles()[at.face][k])) faces.push_back(f);
+    if (const int k = chart.corner_at(at.l); k >= 0)
+      for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) faces.push_back(f);
     for (const std::int32_t face : faces) {
       FacePoint x, y;
       if (!domain.express(e.place[edge.from], face, x) || !domain.express(e.place[edge.to], face, y))
         continue;
-      for (int k = 0; k < 3; ++k)
-        if (x.l[k] == 0 && y.l[k] == 0 && domain.across(face, k) < 0) return true;
+      for (int k = 0; k < chart.corners(); ++k)
+        if (chart.height(k, x.l) == 0 && chart.height(k, y.l) == 0 && domain.across(face, k) < 0) return true;
     }
   }
   return false;
 }
 
 // The control vertices along each closed walk of boundary edges.
-std::vector<std::vector<std::int32_t>> loops_of(const Domain& domain) {
+std::vector<std::vector<std::int32_t>> loops_of(const Lattice& control) {
   std::map<std::int32_t, std::int32_t> next;
-  for (std::size_t f = 0; f < domain.triangles().size(); ++f)
-    for (int k = 0; k < 3; ++k)
-      if (const auto& t = domain.triangles()[f]; domain.across(static_cast<std::int32_t>(f), k) < 0)
-        next[t[(k + 1) % 3]] = t[(k + 2) % 3];
+  for (std::int32_t f = 0; f < control.face_count(); ++f)
+    for (int k = 0; k < control.domain(f).corners(); ++k)
+      if (control.across(f, k) < 0) next[control.vertex(f, k)] = control.vertex(f, control.domain(f).next(k));
   std::vector<std::vector<std::int32_t>> loops;
   while (!next.empty()) {
     loops.emplace_back();
@@ -132,7 +131,8 @@ std::vector<bool> on_polygons(const FileEvidence& e, const std::vector<OpenEdge>
 FileBoundary compare_boundary(const FileEvidence& e, const SurfaceReport& report) {
   FileBoundary boundary;
   const std::vector<OpenEdge>& open = report.open_edges;
-  const auto loops = loops_of(e.surface.domain());
+  const auto loops = loops_of(Lattice(e.control, e.scheme(), 0));
+  const FacesAround around(e.control.faces, e.control.positions.size());
   boundary.loops = static_cast<std::int64_t>(loops.size());
   boundary.seams = has_seams(e.control, loops);
 
@@ -148,7 +148,7 @@ FileBoundary compare_boundary(const FileEvidence& e, const SurfaceReport& report
       Polygon& polygon = polygons.emplace_back();
       for (const std::int32_t v : loop) {
         polygon.points.push_back(e.control.positions[v]);
-        polygon.kept.push_back(corners_kept && e.surface.domain().faces_at(v).size() == 1);
+        polygon.kept.push_back(corners_kept && around.of(v).size() == 1);
       }
     }
     // Much of the boundary may be missing, but not nearly all of it.

@@ -11,7 +11,7 @@
 namespace limitcheck::verify {
 namespace {
 
-// A face is covered once if the areas of the triangles on it, in its domain, add up to 1. Feet are put on
+// A face of the domain is covered once if the areas of the triangles on it, in its parameters, add up to 1. Feet are put on
 // edges and corners, so a face's share is exact but for rounding; one triangle at depth 6 is 2.4e-4.
 constexpr double kShare = 1e-4;
 // Where triangles cross face borders their areas are exact between two faces but not around an extraordinary
@@ -66,7 +66,7 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
                          : fmt::format("{} of {} triangles face inwards", facing.bad, facing.of);
   }
 
-  std::vector<double> share(e.control.faces.size(), 0);
+  std::vector<double> share(e.surface.domain().face_count(), 0);
   std::int64_t crossing = 0, lost = 0;
   double all = 0;
   for (std::size_t t = 0; t < placed.size(); ++t) {
@@ -90,8 +90,10 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
       sum += off * off;
       if (off <= worst) continue;
       worst = off;
+      const auto at = e.surface.surface().control_point({static_cast<std::int32_t>(f), {}});
       cover.witness = Witness{};
-      cover.witness->face = static_cast<std::int64_t>(f);
+      cover.witness->face = at.face;
+      cover.witness->corner = at.corner;
       cover.witness->expected = {1};
       cover.witness->got = {share[f]};
     }
@@ -100,7 +102,10 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
     cover.rms = std::sqrt(sum / static_cast<double>(share.size()));
     if (cover.bad > 0) {
       cover.status = Status::kFinding;
-      cover.message = fmt::format("{} control faces are not wholly covered, {} more than once", less, more);
+      cover.message = fmt::format(
+          "{} {} are not wholly covered, {} more than once", less,
+          e.surface.surface().has_control_faces() ? "control faces" : "quads at the corners of control faces",
+          more);
     }
     return {facing, cover};
   }

@@ -105,7 +105,8 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   for (std::size_t k = 0; k < normals.size(); ++k) {
     if (angle[k] < 0 || !std::isfinite(angle[k])) continue;
     const FacePoint& at = e.foot[e.point_of(normals[k].vertex)].at;
-    delivered.push_back({normals[k].vertex, normals[k].direction, expected[k], at.face, at.l[1], at.l[2]});
+    const std::int32_t face = e.surface.surface().control_face(at.face);
+    delivered.push_back({normals[k].vertex, normals[k].direction, expected[k], face, at.l[1], at.l[2]});
   }
   const std::string origin =
       origin_of_normals(delivered, e.control, t.positions, t.triangles, e.merged.point_of);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/loop/stam.h"
 #include "verify/files/file_evidence.h"
 
 namespace limitcheck::verify {
@@ -21,13 +20,15 @@ bool has_no_area(const std::array<Vector, 3>& p) {
 // lines: the exact triangle of a third of the file's resolution, drawn from the place towards the middle of
 // the face, where corners without derivatives are out of the way.
 bool thin_at(const FileEvidence& e, const FacePoint& at, double spacing) {
+  const Chart chart = e.surface.domain().chart();
+  const Chart::Affine centre = chart.centre();
   std::array<Vector, 3> corner;
   for (int k = 0; k < 3; ++k) {
-    std::array<double, 3> l = at.l;
-    for (double& x : l) x += spacing * (1. / 3 - x);
+    Chart::Affine l = at.l;
+    for (int i = 0; i < 3; ++i) l[i] += spacing * (centre[i] - l[i]);
     l[0] -= k > 0 ? spacing / 3 : 0;
     if (k > 0) l[k] += spacing / 3;
-    corner[k] = e.surface.at({at.face, clamped(l)}, {}).position;
+    corner[k] = e.surface.at({at.face, chart.clamp(l)}, {}).position;
   }
   const double longest =
       std::max({norm(corner[1] - corner[0]), norm(corner[2] - corner[0]), norm(corner[2] - corner[1])});
@@ -40,8 +41,8 @@ bool surface_is_thin(const FileEvidence& e, const std::array<std::int32_t, 3>& p
   const Domain& domain = e.surface.domain();
   for (const std::int32_t p : points) {
     const FacePoint& at = e.place[p];
-    for (const std::int32_t v : domain.triangles()[at.face])
-      for (const std::int32_t face : domain.faces_at(v)) {
+    for (int k = 0; k < domain.chart().corners(); ++k)
+      for (const std::int32_t face : domain.faces_at(domain.vertex(at.face, k))) {
         FacePoint there;
         if (domain.express(at, face, there) && thin_at(e, there, spacing)) return true;
       }
@@ -61,8 +62,9 @@ std::vector<Result> check_file_triangles(const FileEvidence& e) {
     r.message = "the file has no faces";
     return {r};
   }
-  const double spacing = std::min(
-      1., std::sqrt(static_cast<double>(e.control.faces.size()) / static_cast<double>(t.triangles.size())));
+  const double faces =
+      static_cast<double>(e.surface.domain().face_count()) * e.surface.domain().chart().area();
+  const double spacing = std::min(1., std::sqrt(faces / static_cast<double>(t.triangles.size())));
   std::int64_t joints = 0, thin = 0;
   for (std::size_t k = 0; k < t.triangles.size(); ++k) {
     const auto& v = t.triangles[k];

@@ -38,10 +38,32 @@ Apart apart(const std::vector<Vector>& points, const std::vector<Vector>& cloud)
   return a;
 }
 
-// Vertices after so many steps: triangles, or quads from triangles.
-double vertices_after(const data::ControlMesh& mesh, Scheme scheme, int steps) {
-  const double growth = std::pow(4, steps) * static_cast<double>(mesh.faces.size());
-  return scheme == Scheme::kCatmullClark ? .75 * growth : .5 * growth;
+// The control mesh as the schemes take it: of triangles, and as it is.
+struct Cages {
+  data::ControlMesh cut;
+  const data::ControlMesh& whole;
+
+  explicit Cages(const data::ControlMesh& control) : cut{control.positions, {}}, whole(control) {
+    for (std::size_t f = 0; f < control.faces.size(); ++f)
+      for (std::size_t k = 1; k + 1 < control.faces[f].size(); ++k)
+        cut.faces.push_back({control.faces[f][0], control.faces[f][k], control.faces[f][k + 1]});
+  }
+  const data::ControlMesh& of(Scheme scheme) const { return scheme == Scheme::kCatmullClark ? whole : cut; }
+  // Vertices after so many steps, about: half as many as triangles, or as many as quads.
+  double vertices_after(Scheme scheme, int steps) const {
+    const data::ControlMesh& mesh = of(scheme);
+    const double growth = std::pow(4, steps);
+    return scheme == Scheme::kCatmullClark ? .25 * (growth * static_cast<double>(mesh.faces.corners().size()))
+                                           : .5 * (growth * static_cast<double>(mesh.faces.size()));
+  }
+};
+
+// The scheme that the file is judged by, and what it is called.
+Scheme own_scheme(const FileEvidence& e) {
+  return e.scheme() == data::Scheme::kLoop ? Scheme::kLoop : Scheme::kCatmullClark;
+}
+const char* owner(Scheme scheme) {
+  return scheme == Scheme::kLoop ? "Loop" : "Catmull and Clark";
 }
 
 // The stride with which about kSample elements of a list are taken.
@@ -82,8 +104,8 @@ struct Guess {
   Apart apart;
 };
 
-// Loop's refined control points: their largest distance from the surface.
-struct RefinedLoop {
+// The refined control points of the scheme that the file is judged by: their largest distance from the surface.
+struct Refined {
   double worst = -1;
   int steps = 0;
 };
@@ -91,7 +113,7 @@ struct RefinedLoop {
 // What the schemes make of the control mesh with about as many vertices, and how far that is from the sample.
 struct Guesses {
   std::vector<Guess> all;
-  RefinedLoop loop;  // after the number of steps that comes nearest
+  Refined own;  // after the number of steps that comes nearest
 };
 
 double worst_of(const ClosestPoint& surface, const std::vector<Vector>& cloud) {
@@ -103,29 +125,30 @@ double worst_of(const ClosestPoint& surface, const std::vector<Vector>& cloud) {
 
 Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   Guesses guesses;
+  const Cages cages(e.control);
+  const Scheme own = own_scheme(e);
   const auto have = static_cast<double>(sampled.placed);
-  const auto unlike = [&](int steps) {
-    return std::abs(std::log(vertices_after(e.control, Scheme::kLoop, steps) / have));
-  };
+  const auto unlike = [&](int steps) { return std::abs(std::log(cages.vertices_after(own, steps) / have)); };
   for (const Scheme scheme : {Scheme::kLoop, Scheme::kWarren, Scheme::kLinear, Scheme::kCatmullClark})
     for (int steps = 0; steps <= 7; ++steps) {
-      const double count = vertices_after(e.control, scheme, steps);
+      const double count = cages.vertices_after(scheme, steps);
       if (count > 3 * have + 100 || count < have / 8 || count > 2e6) continue;
       for (const bool limit : {false, true}) {
-        if (limit && (scheme == Scheme::kLoop || scheme == Scheme::kLinear || steps == 0)) continue;
-        const auto cloud = scheme_points(e.control, scheme, steps, limit);
+        if (limit && (scheme == own || scheme == Scheme::kLinear || steps == 0)) continue;
+        const auto cloud = scheme_points(cages.of(scheme), scheme, steps, limit);
         guesses.all.push_back({scheme, steps, limit, apart(sampled.points, cloud)});
-        if (scheme == Scheme::kLoop && (guesses.loop.worst < 0 || unlike(steps) < unlike(guesses.loop.steps)))
-          guesses.loop = {worst_of(e.surface, cloud), steps};
+        if (scheme == own && (guesses.own.worst < 0 || unlike(steps) < unlike(guesses.own.steps)))
+          guesses.own = {worst_of(e.surface, cloud), steps};
       }
     }
   return guesses;
 }
 
-const char* remark(Scheme scheme) {
+const char* remark(Scheme scheme, Scheme own) {
+  if (scheme == own) return "; what is missing is the last step, the limit mask";
   switch (scheme) {
     case Scheme::kLoop:
-      return "; what is missing is the last step, the limit mask";
+      return "; this is not Catmull-Clark subdivision at all: the faces were cut into triangles first";
     case Scheme::kWarren:
       return "; Warren's is another surface";
     case Scheme::kCatmullClark:
@@ -142,29 +165,31 @@ std::vector<std::string> diagnose(const FileEvidence& e) {
   const Sampled sampled = sample(e);
   if (sampled.points.empty()) return {};
   const double size = e.surface.diagonal();
-  const auto [guesses, loop] = guess(e, sampled);
+  const auto [guesses, refined] = guess(e, sampled);
+  const Scheme own = own_scheme(e);
   const auto best = std::min_element(guesses.begin(), guesses.end(), [](const Guess& a, const Guess& b) {
     return a.apart.rms < b.apart.rms;
   });
   if (best != guesses.end() && best->apart.rms < sampled.rms / 10)
     return {fmt::format(
-        "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off Loop's limit "
+        "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off {}'s limit "
         "surface{}",
         describe(best->scheme, best->steps, best->limit), best->apart.worst / size, sampled.worst / size,
-        remark(best->scheme))};
+        owner(own), remark(best->scheme, own))};
   std::vector<std::string> told;
   const auto& t = e.tessellation;
-  if (2 * t.quads > t.polygons)
+  if (own == Scheme::kLoop && 2 * t.quads > t.polygons)
     told.push_back(
         fmt::format("{} of {} faces are quads, which Loop's rule does not make: another scheme, such as "
                     "Catmull and Clark's",
                     t.quads, t.polygons));
-  if (loop.worst > 0 && sampled.worst > 3 * loop.worst)
+  if (refined.worst > 0 && sampled.worst > 3 * refined.worst)
     told.push_back(fmt::format(
-        "not Loop subdivision of this control mesh: the control mesh refined {} times by Loop's rule, not "
+        "not {} subdivision of this control mesh: the control mesh refined {} times by {}'s rule, not "
         "even moved to the limit, is within {:.2g} diagonals of the surface, these vertices are off by up to "
         "{:.2g}. If a scale, an offset or a rotation is in between, --fit takes it out",
-        loop.steps, loop.worst / size, sampled.worst / size));
+        own == Scheme::kLoop ? "Loop" : "Catmull-Clark", refined.steps, owner(own), refined.worst / size,
+        sampled.worst / size));
   return told;
 }
 

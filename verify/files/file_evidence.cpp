@@ -16,6 +16,7 @@ Result FileEvidence::result(std::string check) const {
   r.subject = tessellation.name;
   r.mesh = control_name;
   r.check = std::move(check);
+  r.scheme = scheme();
   r.status = Status::kHeld;
   return r;
 }
@@ -26,10 +27,18 @@ Witness FileEvidence::at_vertex(std::int32_t vertex) const {
   const std::int32_t point = point_of(vertex);
   const bool told = !claimed.empty() && claimed[vertex].face >= 0;
   if (!told && (point < 0 || place[point].face < 0)) return w;
-  const FacePoint& at = told ? claimed[vertex] : foot[point].at;
-  w.face = at.face;
-  w.l1 = fmt::format("{}", at.l[1]);
-  w.l2 = fmt::format("{}", std::min(at.l[2], 1 - at.l[1]));
+  Witness there = at_point(told ? claimed[vertex] : foot[point].at);
+  there.vertex = vertex;
+  return there;
+}
+
+Witness FileEvidence::at_point(const FacePoint& at) const {
+  const LimitSurface::ControlPoint named = surface.surface().control_point(at);
+  Witness w;
+  w.face = named.face;
+  w.corner = named.corner;
+  w.l1 = fmt::format("{}", named.first);
+  w.l2 = fmt::format("{}", named.second);
   return w;
 }
 
@@ -37,26 +46,19 @@ namespace {
 
 // On a corner or an edge, if the surface there is no farther from the foot than `slack`.
 FacePoint snapped(const FileEvidence& e, const Foot& foot, double slack) {
+  const Chart chart = e.surface.domain().chart();
   FacePoint best = foot.at;
   const auto better = [&](const FacePoint& there) {
     if (norm(e.surface.at(there, foot.position).position - foot.position) > slack) return false;
     best = there;
     return true;
   };
-  for (int k = 0; k < 3; ++k) {
-    if (foot.at.l[k] < .9) continue;
-    FacePoint corner{foot.at.face, {0, 0, 0}};
-    corner.l[k] = 1;
-    if (better(corner)) return best;
-  }
-  for (int k = 0; k < 3; ++k) {
-    if (foot.at.l[k] == 0 || foot.at.l[k] > .05) continue;
-    FacePoint edge = foot.at;
-    edge.l[k] = 0;
-    edge.l[(k + 1) % 3] += foot.at.l[k] / 2;
-    edge.l[(k + 2) % 3] += foot.at.l[k] / 2;
-    edge.l = clamped(edge.l);
-    if (better(edge)) return best;
+  for (int k = 0; k < chart.corners(); ++k)
+    if (chart.is_near(k, foot.at.l) && better({foot.at.face, chart.corner(k)})) return best;
+  for (int k = 0; k < chart.corners(); ++k) {
+    const double height = chart.height(k, foot.at.l);
+    if (height == 0 || height > .05) continue;
+    if (better({foot.at.face, chart.dropped(k, foot.at.l)})) return best;
   }
   return best;
 }
@@ -107,18 +109,18 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
   for (const std::int32_t p : points)
     if (p < 0 || e.place[p].face < 0) return placed;
   const Domain& domain = e.surface.domain();
-  const auto& faces = domain.triangles();
+  const Chart chart = domain.chart();
 
   // Candidates: the faces of all three corners, and those next to them that corners on an edge share.
   std::vector<std::int32_t> candidates;
   for (const std::int32_t p : points) {
     const FacePoint& at = e.place[p];
     candidates.push_back(at.face);
-    for (int k = 0; k < 3; ++k) {
-      if (at.l[k] == 0 && domain.across(at.face, k) >= 0) candidates.push_back(domain.across(at.face, k));
-      if (at.l[k] == 1)
-        for (const std::int32_t f : domain.faces_at(faces[at.face][k])) candidates.push_back(f);
-    }
+    for (int k = 0; k < chart.corners(); ++k)
+      if (chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0)
+        candidates.push_back(domain.across(at.face, k));
+    if (const int k = chart.corner_at(at.l); k >= 0)
+      for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) candidates.push_back(f);
   }
   // Three points of one edge, or of its ends, lie in both of its faces, and in the wrong one have no area.
   const auto area_of = [](const auto& l) {
@@ -130,7 +132,7 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   for (const bool unfold : {false, true}) {
     for (const std::int32_t face : candidates) {
-      std::array<std::array<double, 3>, 3> l{};
+      std::array<Chart::Affine, 3> l{};
       bool all = true;
       for (int c = 0; c < 3 && all; ++c) {
         const FacePoint& at = e.place[points[c]];
@@ -140,28 +142,18 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
           continue;
         }
         all = false;
-        for (int k = 0; unfold && k < 3 && !all; ++k) {
+        for (int k = 0; unfold && k < chart.corners() && !all; ++k) {
           const std::int32_t next = domain.across(face, k);
           FacePoint there;
-          if (next < 0 || !domain.express(at, next, there)) continue;
-          // (a, b, c) with c opposite and d beyond: l_d d = l_d (a + b - c).
-          double beyond = 0;
-          const auto corners = faces[face];
-          for (int i = 0; i < 3; ++i) {
-            const auto place = std::find(corners.begin(), corners.end(), faces[next][i]);
-            if (place == corners.end() || place - corners.begin() == k)
-              beyond = there.l[i];
-            else
-              l[c][place - corners.begin()] = there.l[i];
-          }
-          l[c][k] = -beyond;
-          l[c][(k + 1) % 3] += beyond;
-          l[c][(k + 2) % 3] += beyond;
+          // Around the middle of a control face there are as many quads as it has corners: no plane has them.
+          if (next < 0 || !e.surface.surface().on_control_edge(face, k)) continue;
+          if (!domain.express(at, next, there)) continue;
+          l[c] = domain.unfolded(next, domain.side_across(face, k), there.l);
           all = true;
         }
       }
       if (!all) continue;
-      const double area = area_of(l);
+      const double area = area_of(l) / chart.area();
       if (placed.face >= 0 && std::abs(area) <= std::abs(placed.area)) continue;
       placed = {face, unfold, l, area};
     }

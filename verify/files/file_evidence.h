@@ -34,8 +34,10 @@ struct FileEvidence {
   std::int32_t point_of(std::int32_t vertex) const { return merged.point_of[vertex]; }
   const Vector& position(std::int32_t point) const { return tessellation.positions[merged.vertex_of[point]]; }
 
+  data::Scheme scheme() const { return surface.surface().scheme(); }
   Result result(std::string check) const;
   Witness at_vertex(std::int32_t vertex) const;
+  Witness at_point(const FacePoint& at) const;
 };
 
 /// Merges, projects and places all used vertices, in parallel. `on_step`: points done, of how many; from any
@@ -43,11 +45,11 @@ struct FileEvidence {
 void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance,
                   const std::function<void(std::size_t, std::size_t)>& on_step);
 
-/// The three corners of a triangle in one face, unfolded across an edge if need be.
+/// The three corners of a triangle in one face of the domain, unfolded across an edge if need be.
 struct PlacedTriangle {
   std::int32_t face = -1;  // -1: not to be placed
   bool crosses = false;    // some corner lies beyond an edge of the face
-  std::array<std::array<double, 3>, 3> l{};
+  std::array<Chart::Affine, 3> l{};
   double area = 0;  // signed; 1 is the whole face
 };
 PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points);

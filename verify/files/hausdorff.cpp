@@ -9,7 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "reference/loop/stam.h"
 #include "verify/files/overlap.h"
 
 namespace limitcheck::verify {
@@ -25,7 +24,7 @@ constexpr std::size_t kExact = 400;  // places at which the distance is computed
 class Measurer {
  public:
   Measurer(const FileEvidence& e, std::function<void()> tick)
-      : e_(e), tick_(std::move(tick)), over_(e.control.faces.size()) {
+      : e_(e), tick_(std::move(tick)), over_(e.surface.domain().face_count()) {
     const auto& list = e.tessellation.triangles;
     corners_.resize(list.size());
     std::vector<BoxTree::Box> boxes;
@@ -47,20 +46,20 @@ class Measurer {
     Hausdorff result;
     result.loose = static_cast<std::int64_t>(loose_.size());
     const SurfaceLattice& lattice = e_.surface.lattice();
-    const auto per_face = std::size_t{1} << (2 * lattice.depth());
+    const std::size_t per_face = lattice.size() / over_.size();
     bounds_.assign(lattice.size(), {});
     std::vector<double> apart(over_.size(), 0);
     tbb::parallel_for(std::size_t{0}, over_.size(), [&](std::size_t f) {
-      const auto face = lattice_face(f);
+      const auto polygon = one_polygon(f);
       for (std::size_t k = 0; k < per_face; ++k) {
         const std::size_t index = f * per_face + k;
         const Piece piece = lattice.piece(index);
         bounds_[index] = look(piece, near(piece, over_[f]));
         for (const Vector& c : piece.corner)
-          apart[f] = std::max(apart[f], closest_on_triangle(c, face).distance + piece.deviation);
+          apart[f] = std::max(apart[f], distance_to(polygon, c) + piece.deviation);
       }
     });
-    result.one_triangle_each = *std::max_element(apart.begin(), apart.end());
+    result.one_polygon_each = *std::max_element(apart.begin(), apart.end());
 
     // Exact distances where the bounds are largest, then bounds where they are still too far above.
     for (const bool forwards : {true, false}) {
@@ -119,14 +118,23 @@ class Measurer {
     bool bare = false;                   // some of the piece has no triangle over it
   };
 
-  std::array<Vector, 3> lattice_face(std::size_t f) const {
-    std::array<Vector, 3> corner;
-    for (int k = 0; k < 3; ++k) {
-      FacePoint at{static_cast<std::int32_t>(f), {0, 0, 0}};
-      at.l[k] = 1;
-      corner[k] = e_.surface.at(at, {}).position;
-    }
-    return corner;
+  // The control face in which a face of the domain lies as one flat polygon of the limits of its corners, cut as
+  // files are: a fan from the first.
+  std::vector<std::array<Vector, 3>> one_polygon(std::size_t f) const {
+    const LimitSurface& surface = e_.surface.surface();
+    const std::int32_t face = surface.control_face(static_cast<std::int32_t>(f));
+    std::vector<Vector> corner;
+    for (std::size_t k = 0; k < e_.control.faces[face].size(); ++k)
+      corner.push_back(e_.surface.at(surface.control_corner(face, static_cast<int>(k)), {}).position);
+    std::vector<std::array<Vector, 3>> fan;
+    for (std::size_t k = 1; k + 1 < corner.size(); ++k) fan.push_back({corner[0], corner[k], corner[k + 1]});
+    return fan;
+  }
+
+  static double distance_to(const std::vector<std::array<Vector, 3>>& triangles, const Vector& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& t : triangles) least = std::min(least, closest_on_triangle(p, t).distance);
+    return least;
   }
 
   // Over its face, and over the faces beyond the edges it crosses.
@@ -137,19 +145,14 @@ class Measurer {
     over_[placed.face].push_back({triangle, placed.l});
     if (!placed.crosses) return;
     const Domain& domain = e_.surface.domain();
-    for (int k = 0; k < 3; ++k) {
-      if (std::min({placed.l[0][k], placed.l[1][k], placed.l[2][k]}) >= 0) continue;
+    const Chart chart = domain.chart();
+    for (int k = 0; k < chart.corners(); ++k) {
+      const auto height = [&](int c) { return chart.height(k, placed.l[c]); };
+      if (std::min({height(0), height(1), height(2)}) >= 0) continue;
       const std::int32_t next = domain.across(placed.face, k);
       if (next < 0) continue;
       Over there{triangle, {}};
-      const auto& from = domain.triangles()[placed.face];
-      const int a = (k + 1) % 3, b = (k + 2) % 3;
-      for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < 3; ++i) {
-          const std::int32_t v = domain.triangles()[next][i];
-          const Barycentric& l = placed.l[c];
-          there.l[c][i] = v == from[a] ? l[a] + l[k] : v == from[b] ? l[b] + l[k] : -l[k];
-        }
+      for (int c = 0; c < 3; ++c) there.l[c] = domain.unfolded(placed.face, k, placed.l[c]);
       over_[next].push_back(there);
     }
   }
@@ -188,11 +191,11 @@ class Measurer {
         const double from_triangles = closest_on_triangle(t, piece.corner).distance + piece.deviation;
         if (from_surface > bound.from_surface) {
           bound.from_surface = from_surface;
-          bound.at_surface = {piece.face, clamped(u)};
+          bound.at_surface = {piece.face, piece.chart.clamp(u)};
         }
         if (from_triangles > bound.from_triangles) {
           bound.from_triangles = from_triangles;
-          bound.at_triangles = {piece.face, clamped(u)};
+          bound.at_triangles = {piece.face, piece.chart.clamp(u)};
           bound.triangle = o.triangle;
           bound.weight = on_triangle;
         }
@@ -339,15 +342,18 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
   r.of = 1;
   r.worst = r.rms = larger.at_least / size;
   r.worst_absolute = larger.at_least;
-  r.bound = bound >= 0 ? bound : h.one_triangle_each / size + e.tolerance;
+  r.bound = bound >= 0 ? bound : h.one_polygon_each / size + e.tolerance;
   const double most = std::max(h.from_triangles.at_most, h.from_surface.at_most) / size;
   r.message = fmt::format(
       "Hausdorff distance between {:.3e} and {:.3e} diagonals (triangles to surface {:.3e} to {:.3e}, "
       "surface to triangles {:.3e} to {:.3e})",
       *r.worst, most, h.from_triangles.at_least / size, h.from_triangles.at_most / size,
       h.from_surface.at_least / size, h.from_surface.at_most / size);
-  if (bound < 0) r.message += "; the bound is that of one triangle per control face";
-  if (bound < 0 && e.tessellation.triangles.size() <= e.control.faces.size())
+  const bool loop = e.scheme() == data::Scheme::kLoop;
+  if (bound < 0)
+    r.message += fmt::format("; the bound is that of one {} per control face", loop ? "triangle" : "polygon");
+  const std::size_t triangles_each = e.control.faces.corners().size() - 2 * e.control.faces.size();
+  if (bound < 0 && e.tessellation.triangles.size() <= triangles_each)
     r.message += ", which this file is: only --max-deviation can judge it";
   if (h.loose > 0)
     r.message += fmt::format(
@@ -359,10 +365,7 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
   } else if (most > *r.bound) {
     r.message += "; the bound lies in between: not decided, taken as held";
   }
-  r.witness = Witness{};
-  r.witness->face = larger.where.face;
-  r.witness->l1 = fmt::format("{}", larger.where.l[1]);
-  r.witness->l2 = fmt::format("{}", std::min(larger.where.l[2], 1 - larger.where.l[1]));
+  r.witness = e.at_point(larger.where);
   return {r};
 }
 

@@ -16,10 +16,10 @@ struct Bracket {
 };
 
 struct Hausdorff {
-  Bracket from_triangles;        // max over the triangles of the distance to the surface
-  Bracket from_surface;          // max over the surface of the distance to the triangles
-  std::int64_t loose = 0;        // triangles that reach over several control faces, or cover none
-  double one_triangle_each = 0;  // at most so far is the surface from one triangle per control face
+  Bracket from_triangles;       // max over the triangles of the distance to the surface
+  Bracket from_surface;         // max over the surface of the distance to the triangles
+  std::int64_t loose = 0;       // triangles that reach over several control faces, or cover none
+  double one_polygon_each = 0;  // at most so far is the surface from one polygon per control face
 };
 
 /// The triangles are laid over the domain by their placed corners and cut along the pieces of the surface
@@ -38,8 +38,8 @@ struct Hausdorff {
 Hausdorff hausdorff(
     const FileEvidence& evidence, const std::function<void()>& tick = [] {}, double tightness = .02);
 
-/// The row `file-hausdorff`; `bound` in diagonals, negative: one triangle per control face, and the
-/// tolerance of positions.
+/// The row `file-hausdorff`; `bound` in diagonals, negative: one polygon per control face (Loop's scheme:
+/// one triangle), and the tolerance of positions.
 std::vector<Result> check_file_hausdorff(const FileEvidence& evidence, double bound,
                                          const std::function<void()>& tick);
 

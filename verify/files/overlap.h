@@ -11,6 +11,7 @@
 
 namespace limitcheck::verify {
 
+// Of triangles barycentric; in the domain affine, as Chart has them.
 using Barycentric = std::array<double, 3>;
 
 // A triangle of the tessellation over one face, its corners in the coordinates of that face, perhaps beyond

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "data/bounding_box.h"
-#include "reference/loop/stam.h"
 #include "verify/projection/newton.h"
 #include "verify/projection/triangle.h"
 
@@ -26,8 +25,8 @@ std::vector<BoxTree::Box> boxes(const SurfaceLattice& lattice) {
 }
 
 // Whether the surface over a piece may be nearer to p than `distance`, as far as so many cuts tell.
-bool may_be_nearer(const SurfaceLattice& lattice, const reference::StamEvaluator<double>& surface,
-                   const Piece& piece, const Vector& p, double distance, int& cuts) {
+bool may_be_nearer(const SurfaceLattice& lattice, const LimitSurface& surface, const Piece& piece,
+                   const Vector& p, double distance, int& cuts) {
   if (closest_on_triangle(p, piece.corner).distance - piece.deviation >= distance) return false;
   if (cuts-- <= 0) return true;
   const auto children = lattice.split(piece, surface);
@@ -38,19 +37,14 @@ bool may_be_nearer(const SurfaceLattice& lattice, const reference::StamEvaluator
 
 }  // namespace
 
-ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces)
-    : domain_(mesh),
-      lattice_(mesh, SurfaceLattice::depth_for(mesh.faces.size(), pieces)),
-      surface_(std::make_unique<const reference::StamEvaluator<double>>(mesh)),
+ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, data::Scheme scheme, std::size_t pieces)
+    : surface_(mesh, scheme),
+      lattice_(surface_.mesh(), SurfaceLattice::depth_for(surface_.mesh(), pieces)),
       tree_(boxes(lattice_)),
       diagonal_(data::box_diagonal(mesh)) {}
 
-ClosestPoint::~ClosestPoint() = default;
-
 Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
-  double l1 = where.l[1], l2 = where.l[2];
-  if (l1 + l2 > 1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);
-  const auto s = surface_->evaluate(where.face, l1, l2, reference::Order::kFirst);
+  const auto s = surface_.evaluate(where, reference::Order::kFirst);
   Foot foot;
   foot.at = where;
   foot.position = vector_of(s.position);
@@ -83,10 +77,10 @@ Foot ClosestPoint::closest(const Vector& p) const {
     }
     if (best.distance <= rounding) return 0.0;
     int cuts = best.stationary ? kCuts : 0;
-    if (!may_be_nearer(lattice_, *surface_, piece, p, best.distance - rounding, cuts))
+    if (!may_be_nearer(lattice_, surface_, piece, p, best.distance - rounding, cuts))
       return best.distance - rounding;
     if (descents++ < 256) {
-      const Minimum found = descend(*surface_, domain_, p, piece.parameter(flat.weight), diagonal_);
+      const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_);
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
         best = found;
     }
@@ -94,7 +88,7 @@ Foot ClosestPoint::closest(const Vector& p) const {
   });
   Foot foot = at(best.at, p);
   foot.at_least = foot.distance <= rounding ? 0 : std::clamp(at_least, 0.0, foot.distance);
-  const bool at_corner = best.at.l[0] == 1 || best.at.l[1] == 1 || best.at.l[2] == 1;
+  const bool at_corner = domain().chart().corner_at(best.at.l) >= 0;
   foot.stationary = best.stationary || foot.distance <= rounding ||
                     (at_corner && norm(cross(p - foot.position, foot.normal)) <= 1e-12 * diagonal_);
   return foot;

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "data/control_mesh.h"
+#include "data/scheme.h"
 #include "verify/projection/box_tree.h"
-#include "verify/projection/domain.h"
+#include "verify/projection/limit_surface.h"
 #include "verify/projection/surface_lattice.h"
 
 namespace limitcheck::verify {
@@ -27,10 +27,12 @@ struct Foot {
 /// The limit surface of a control mesh with a search structure. Any number of threads may ask at once.
 class ClosestPoint {
  public:
-  /// `mesh` is valid and outlives this. `pieces`: the search structure has about so many flat triangles (and
-  /// at least 16 for each face).
-  explicit ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces = std::size_t{1} << 18);
-  ~ClosestPoint();
+  /// `mesh` is valid for the scheme and outlives this. `pieces`: the search structure has about so many flat
+  /// triangles (and at least 16 for each triangle of the domain, 32 for each quad).
+  ClosestPoint(const data::ControlMesh& mesh, data::Scheme scheme, std::size_t pieces = kPieces);
+  /// Of the scheme that the mesh is meant for.
+  explicit ClosestPoint(const data::ControlMesh& mesh, std::size_t pieces = kPieces)
+      : ClosestPoint(mesh, data::natural_scheme(mesh), pieces) {}
 
   /// The closest point of the surface to p, which must be finite.
   ///   method   all pieces whose proved bound lets them hold a nearer point, by rising distance; from each,
@@ -44,16 +46,17 @@ class ClosestPoint {
   /// The surface at a point of the domain: `distance` and the rest as if p projected there.
   Foot at(const FacePoint& where, const Vector& p) const;
 
-  const Domain& domain() const { return domain_; }
+  const LimitSurface& surface() const { return surface_; }
+  const Domain& domain() const { return surface_.domain(); }
   const SurfaceLattice& lattice() const { return lattice_; }
-  const reference::StamEvaluator<double>& surface() const { return *surface_; }
   /// Length of the diagonal of the control mesh's bounding box.
   double diagonal() const { return diagonal_; }
 
  private:
-  Domain domain_;
+  static constexpr std::size_t kPieces = std::size_t{1} << 18;
+
+  LimitSurface surface_;
   SurfaceLattice lattice_;
-  std::unique_ptr<const reference::StamEvaluator<double>> surface_;
   BoxTree tree_;
   double diagonal_;
 };

@@ -5,60 +5,93 @@
 
 namespace limitcheck::verify {
 
-std::array<double, 3> clamped(std::array<double, 3> l) {
-  for (double& x : l) x = std::clamp(x, 0.0, 1.0);
-  const double sum = l[0] + l[1] + l[2];
-  if (sum != 1)
-    for (double& x : l) x /= sum;
-  return l;
+std::int32_t Domain::across(std::int32_t face, int k) const {
+  return lattice_.across(face, chart().first(k));
 }
 
-std::int32_t Domain::across(std::int32_t face, int k) const {
-  return lattice_.across(face, lattice_.domain(face).next(k));
+int Domain::side_across(std::int32_t face, int k) const {
+  const int begin = chart().first(k);
+  const Lattice::Edge& edge = lattice_.edge(face, begin);
+  return chart().side_from(edge.corner[edge.face[0] == face && edge.corner[0] == begin ? 1 : 0]);
 }
 
 bool Domain::express(const FacePoint& point, std::int32_t face, FacePoint& result) const {
   result = {face, {0, 0, 0}};
+  if (chart().is_square()) {
+    if (point.face == face) {
+      result = point;
+      return true;
+    }
+    if (const int k = chart().corner_at(point.l); k >= 0) {
+      const auto corner = lattice_.corner_of(face, vertex(point.face, k));
+      if (corner) result.l = chart().corner(*corner);
+      return corner.has_value();
+    }
+    for (int k = 0; k < 4; ++k) {
+      if (chart().height(k, point.l) != 0 || across(point.face, k) != face) continue;
+      result.l = chart().put_on(side_across(point.face, k), unfolded(point.face, k, point.l));
+      return true;
+    }
+    return false;
+  }
   for (int k = 0; k < 3; ++k) {
     if (point.l[k] == 0) continue;
-    const auto& to = triangles()[face];
-    const auto place = std::find(to.begin(), to.end(), triangles()[point.face][k]);
-    if (place == to.end()) return false;
-    result.l[place - to.begin()] = point.l[k];
+    const auto corner = lattice_.corner_of(face, vertex(point.face, k));
+    if (!corner) return false;
+    result.l[*corner] = point.l[k];
   }
   return true;
 }
 
-FacePoint Domain::walk(FacePoint from, std::array<double, 3> step) const {
+// `whole`: the sum of the coordinates, 1 of a point and 0 of a step.
+Chart::Affine Domain::turned(std::int32_t face, int k, const Chart::Affine& l, double whole) const {
+  const std::int32_t next = across(face, k);
+  if (!chart().is_square()) {  // (a, b, c) with c left behind becomes (b, a, d), d = a + b - c
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    Chart::Affine there{};
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t v = vertex(next, i);
+      there[i] = v == vertex(face, a) ? l[a] + l[k] : v == vertex(face, b) ? l[b] + l[k] : -l[k];
+    }
+    return there;
+  }
+  // Along the side and away from it, counted from where it begins; then from the other face.
+  const auto rest = [&](double x) { return whole - x; };
+  const double along = rest(k == 0 ? l[1] : k == 1 ? l[2] : k == 2 ? rest(l[1]) : rest(l[2]));
+  const double away = -(k == 0 ? l[2] : k == 1 ? rest(l[1]) : k == 2 ? rest(l[2]) : l[1]);
+  const int side = side_across(face, k);
+  const double u = side == 0 ? along : side == 1 ? rest(away) : side == 2 ? rest(along) : away;
+  const double v = side == 0 ? away : side == 1 ? along : side == 2 ? rest(away) : rest(along);
+  return {whole - u - v, u, v};
+}
+
+Chart::Affine Domain::unfolded(std::int32_t face, int k, const Chart::Affine& l) const {
+  return turned(face, k, l, 1);
+}
+
+FacePoint Domain::walk(FacePoint from, Chart::Affine step) const {
+  const Chart shape = chart();
   // A straight line crosses few edges unless it circles a vertex; then any point on its way is good enough.
   for (int crossing = 0; crossing < 24; ++crossing) {
     double way = 1;
     int exit = -1;
-    for (int k = 0; k < 3; ++k)
-      if (step[k] < 0 && from.l[k] + step[k] < 0 && from.l[k] / -step[k] < way) {
-        way = from.l[k] / -step[k];
+    for (int k = 0; k < shape.corners(); ++k) {
+      const double height = shape.height(k, from.l), slope = shape.slope(k, step);
+      if (slope < 0 && height + slope < 0 && height / -slope < way) {
+        way = height / -slope;
         exit = k;
       }
+    }
     for (int k = 0; k < 3; ++k) from.l[k] += way * step[k];
-    from.l = clamped(from.l);
+    from.l = shape.clamp(from.l);
     if (exit < 0) return from;
-    from.l[exit] = 0;
-    from.l = clamped(from.l);
+    from.l = shape.clamp(shape.put_on(exit, from.l));
     const std::int32_t next = across(from.face, exit);
     if (next < 0) return from;
     for (double& s : step) s *= 1 - way;
-
-    // (a, b, c) with c left behind becomes (b, a, d), d = a + b - c.
-    const auto& t = triangles()[from.face];
-    const int a = (exit + 1) % 3, b = (exit + 2) % 3;
-    FacePoint there{next, {}};
-    std::array<double, 3> on{};
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t v = triangles()[next][k];
-      there.l[k] = v == t[a] ? from.l[a] : v == t[b] ? from.l[b] : 0;
-      on[k] = v == t[a] ? step[a] + step[exit] : v == t[b] ? step[b] + step[exit] : -step[exit];
-    }
-    from = there;
+    const int entry = side_across(from.face, exit);
+    const Chart::Affine on = turned(from.face, exit, step, 0);
+    from = {next, shape.put_on(entry, unfolded(from.face, exit, from.l))};
     step = on;
   }
   return from;

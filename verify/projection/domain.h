@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parameter domain of a whole control mesh: its faces as unit triangles, joined at the edges.
+// The parameter domain of a mesh of triangles or of quads: its faces as unit triangles or unit squares, joined at
+// the edges.
 #pragma once
 
 #include <array>
@@ -8,45 +9,55 @@
 
 #include "verify/audit/faces_around.h"
 #include "verify/audit/lattice.h"
+#include "verify/projection/chart.h"
 
 namespace limitcheck::verify {
 
-/// A point of the domain: barycentric coordinates in one face, >= 0, sum 1.
+/// A point of the domain: a face, and affine coordinates as Chart has them.
 struct FacePoint {
   std::int32_t face = -1;
-  std::array<double, 3> l{};
+  Chart::Affine l{};
 };
 
-/// Two faces unfold into a plane as two triangles of a regular lattice, in which the limit surface is C2
-/// across their edge. So a straight walk goes on in the next face.
+/// Two faces unfold into a plane as two triangles, or two squares, of a regular lattice, in which the limit
+/// surface is C2 across their edge. So a straight walk goes on in the next face.
 class Domain {
  public:
-  /// `mesh` is valid (data/validate.h) and outlives this.
+  /// All faces of the mesh are triangles, of Loop's scheme, or all are quads, of Catmull-Clark's. It is valid
+  /// (data/validate.h) and outlives this.
   explicit Domain(const data::ControlMesh& mesh)
       : lattice_(mesh, 0), around_(mesh.faces, mesh.positions.size()) {}
 
-  data::Triangles triangles() const { return triangles_of(lattice_.mesh()); }
+  Chart chart() const {
+    return lattice_.scheme() == data::Scheme::kLoop ? Chart::triangle() : Chart::square();
+  }
+  std::size_t face_count() const { return static_cast<std::size_t>(lattice_.face_count()); }
+  /// The vertex at corner k.
+  std::int32_t vertex(std::int32_t face, int k) const { return lattice_.vertex(face, k); }
 
-  /// The face across the edge opposite corner k, or -1 on the boundary.
+  /// The face across side k, or -1 on the boundary.
   std::int32_t across(std::int32_t face, int k) const;
+  /// The side of the face across that is side k of this one, which is not on the boundary.
+  int side_across(std::int32_t face, int k) const;
 
-  /// All faces at a control vertex.
+  /// All faces at a vertex.
   std::span<const std::int32_t> faces_at(std::int32_t vertex) const { return around_.of(vertex); }
 
   /// The same point in another face, if it lies in that one too: on a common edge, or at a common corner;
   /// coordinates are compared with 0 exactly. False otherwise.
   bool express(const FacePoint& point, std::int32_t face, FacePoint& result) const;
 
-  /// Goes from `from` by `step` (the sum of which is 0), across interior edges, up to its end or to the
-  /// boundary.
-  FacePoint walk(FacePoint from, std::array<double, 3> step) const;
+  /// A point, inside of the face or not, in the coordinates of the face across side k.
+  Chart::Affine unfolded(std::int32_t face, int k, const Chart::Affine& l) const;
+
+  /// Goes from `from` by `step`, across interior edges, up to its end or to the boundary.
+  FacePoint walk(FacePoint from, Chart::Affine step) const;
 
  private:
+  Chart::Affine turned(std::int32_t face, int k, const Chart::Affine& l, double whole) const;
+
   Lattice lattice_;
   FacesAround around_;
 };
-
-/// Coordinates >= 0 with sum 1 from ones that are so up to rounding.
-std::array<double, 3> clamped(std::array<double, 3> l);
 
 }  // namespace limitcheck::verify

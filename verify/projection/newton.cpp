@@ -9,9 +9,13 @@ namespace {
 
 class Descent {
  public:
-  Descent(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
-          const FacePoint& start, double scale)
-      : surface_(surface), domain_(domain), p_(p), at_(start), scale_(scale) {
+  Descent(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale)
+      : surface_(surface),
+        domain_(surface.domain()),
+        chart_(domain_.chart()),
+        p_(p),
+        at_(start),
+        scale_(scale) {
     evaluate(at_);
   }
 
@@ -26,17 +30,10 @@ class Descent {
   }
 
  private:
-  reference::SurfacePoint<double> point(const FacePoint& at, reference::Order order) const {
-    double l1 = at.l[1], l2 = at.l[2];
-    if (l1 + l2 > 1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);
-    return surface_.evaluate(at.face, l1, l2, order);
-  }
-  double distance_at(const FacePoint& at) const {
-    return norm(vector_of(point(at, reference::Order::kPosition).position) - p_);
-  }
+  double distance_at(const FacePoint& at) const { return norm(surface_.position(at) - p_); }
   void evaluate(const FacePoint& at) {
     at_ = at;
-    s_ = point(at, reference::Order::kSecond);
+    s_ = surface_.evaluate(at, reference::Order::kSecond);
     position_ = vector_of(s_.position);
     distance_ = norm(position_ - p_);
   }
@@ -45,13 +42,13 @@ class Descent {
   void leave_corner() {
     constexpr double kAside = 1. / 256;
     FacePoint aside = at_;
-    for (double& l : aside.l) l += kAside * (1. / 3 - l);
+    const Chart::Affine centre = chart_.centre();
+    for (int k = 0; k < 3; ++k) aside.l[k] += kAside * (centre[k] - aside.l[k]);
     evaluate(aside);
   }
 
-  // A step within the boundary edge opposite corner k.
   struct Step {
-    std::array<double, 3> l;
+    Chart::Affine l;
     double length;  // in space
     double slope;   // of |s - p|^2 / 2 along it
   };
@@ -70,7 +67,7 @@ class Descent {
       hb += dot(r, vector_of(s_.d12));
       hc += dot(r, vector_of(s_.d22));
     }
-    const auto solve = [&](double A, double B, double C) -> std::array<double, 3> {
+    const auto solve = [&](double A, double B, double C) -> Chart::Affine {
       const double det = A * C - B * B;
       if (!(A > 0 && C > 0 && det > 1e-14 * A * C) || !std::isfinite(det)) return {NAN, NAN, NAN};
       const double u = (B * g2 - C * g1) / det, v = (B * g1 - A * g2) / det;
@@ -83,12 +80,11 @@ class Descent {
       if (!(size > 0)) return false;
       out.l = {(g1 + g2) / size, -g1 / size, -g2 / size};
     }
-    for (int k = 0; k < 3; ++k) {
-      if (at_.l[k] != 0 || out.l[k] >= 0 || domain_.across(at_.face, k) >= 0) continue;
+    for (int k = 0; k < chart_.corners(); ++k) {
+      if (chart_.height(k, at_.l) != 0 || chart_.slope(k, out.l) >= 0 || domain_.across(at_.face, k) >= 0)
+        continue;
       // One dimension is left: along the edge.
-      std::array<double, 3> e{};
-      e[(k + 1) % 3] = -1;
-      e[(k + 2) % 3] = 1;
+      const Chart::Affine e = chart_.along(k);
       const double g = e[1] * g1 + e[2] * g2;
       double h = e[1] * e[1] * ha + 2 * e[1] * e[2] * hb + e[2] * e[2] * hc;
       if (!(h > 0)) h = e[1] * e[1] * a + 2 * e[1] * e[2] * b + e[2] * e[2] * c;
@@ -136,7 +132,7 @@ class Descent {
         FacePoint best = at_;
         double least = distance_;
         for (int k = 0; k < 6; ++k) {
-          std::array<double, 3> way{};
+          Chart::Affine way{};
           way[k % 3] = h;
           way[(k % 3 + (k < 3 ? 1 : 2)) % 3] = -h;
           const FacePoint there = domain_.walk(at_, way);
@@ -153,8 +149,9 @@ class Descent {
     pattern_is_minimal_ = true;
   }
 
-  const reference::StamEvaluator<double>& surface_;
+  const LimitSurface& surface_;
   const Domain& domain_;
+  Chart chart_;
   Vector p_;
   FacePoint at_;
   double scale_;
@@ -166,9 +163,8 @@ class Descent {
 
 }  // namespace
 
-Minimum descend(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
-                const FacePoint& start, double scale) {
-  return Descent(surface, domain, p, start, scale).run();
+Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale) {
+  return Descent(surface, p, start, scale).run();
 }
 
 }  // namespace limitcheck::verify

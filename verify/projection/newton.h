@@ -2,8 +2,7 @@
 // Local minima of the distance from a point to the limit surface.
 #pragma once
 
-#include "reference/loop/stam.h"
-#include "verify/projection/domain.h"
+#include "verify/projection/limit_surface.h"
 #include "verify/projection/triangle.h"
 
 namespace limitcheck::verify {
@@ -17,7 +16,6 @@ struct Minimum {
 
 /// Descends from `start` to a local minimum of |s - p|.
 /// `scale`: the size of the mesh, which says what counts as rounding.
-Minimum descend(const reference::StamEvaluator<double>& surface, const Domain& domain, const Vector& p,
-                const FacePoint& start, double scale);
+Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale);
 
 }  // namespace limitcheck::verify

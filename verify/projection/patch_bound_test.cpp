@@ -5,23 +5,18 @@
 #include <cmath>
 
 #include "data/generators/named_mesh.h"
-#include "reference/loop/stam.h"
 #include "verify/projection/surface_lattice.h"
 
 namespace limitcheck::verify {
 namespace {
 
-double measured(const Piece& piece, const reference::StamEvaluator<double>& surface, int n) {
+double measured(const Piece& piece, const LimitSurface& surface, int n) {
   double worst = 0;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j) {
       const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
       const std::array<double, 3> weight{1 - a - b, a, b};
-      const FacePoint at = piece.parameter(weight);
-      const auto s =
-          surface.evaluate(at.face, std::min(at.l[1], 1 - at.l[2]), at.l[2], reference::Order::kPosition)
-              .position;
-      worst = std::max(worst, norm(Vector{s.x, s.y, s.z} - piece.flat(weight)));
+      worst = std::max(worst, norm(surface.position(piece.parameter(weight)) - piece.flat(weight)));
     }
   return worst;
 }
@@ -32,7 +27,7 @@ TEST(PatchBound, IsNowhereExceededOnTheStockShapesAndTheirSplitPieces) {
   double worst = 0;
   for (const std::string& name : shapes) {
     const data::ControlMesh mesh = data::named_mesh(name);
-    const reference::StamEvaluator<double> surface(mesh);
+    const LimitSurface surface(mesh, data::Scheme::kLoop);
     const SurfaceLattice lattice(mesh, 2);
     double size = 0;
     for (const auto& p : mesh.positions) size = std::max(size, largest(p));

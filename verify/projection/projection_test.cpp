@@ -9,7 +9,6 @@
 #include "data/generators/named_mesh.h"
 #include "data/splitmix64.h"
 #include "reference/loop/refine.h"
-#include "reference/loop/stam.h"
 #include "verify/projection/closest_point.h"
 
 namespace limitcheck::verify {
@@ -91,7 +90,7 @@ TEST(Projection, TheParameterOfAPointOfTheSurfaceIsRecovered) {
 // The largest |normal curvature|, by the fundamental forms (do Carmo, 3.3); infinite where the evaluator has
 // no second derivatives.
 double largest_curvature(const ClosestPoint& closest, const FacePoint& at) {
-  const auto s = closest.surface().evaluate(at.face, at.l[1], at.l[2]);
+  const auto s = closest.surface().evaluate(at, reference::Order::kSecond);
   if (!s.second_exist || s.at_corner) return std::numeric_limits<double>::infinity();
   const double E = dot(s.d1, s.d1), F = dot(s.d1, s.d2), G = dot(s.d2, s.d2);
   const double e = dot(s.d11, s.normal), f = dot(s.d12, s.normal), g = dot(s.d22, s.normal);

@@ -8,25 +8,21 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "verify/projection/domain.h"
+#include "verify/projection/limit_surface.h"
 #include "verify/projection/patch_bound.h"
 #include "verify/projection/triangle.h"
-
-namespace limitcheck::reference {
-template <class N>
-class StamEvaluator;
-}
 
 namespace limitcheck::verify {
 
 /// A piece of the surface over a small triangle of the domain.
 struct Piece {
+  Chart chart = Chart::triangle();
   std::int32_t face = -1;
-  std::array<std::array<double, 3>, 3> at;  // barycentric coordinates of the corners
-  std::array<Vector, 3> corner;             // limit points
-  double deviation = 0;                     // |surface - flat triangle| at equal parameters is at most this
-  std::int32_t irregular = -1;              // index of the extraordinary vertex at a corner, or -1
-  int steps = 0;                            // taken towards that vertex from the lattice
+  std::array<Chart::Affine, 3> at;  // coordinates of the corners
+  std::array<Vector, 3> corner;     // limit points
+  double deviation = 0;             // |surface - flat triangle| at equal parameters is at most this
+  std::int32_t irregular = -1;      // index of the extraordinary vertex at a corner, or -1
+  int steps = 0;                    // taken towards that vertex from the lattice
 
   Vector flat(const std::array<double, 3>& weight) const {
     return weight[0] * corner[0] + weight[1] * corner[1] + weight[2] * corner[2];
@@ -34,14 +30,15 @@ struct Piece {
   FacePoint parameter(const std::array<double, 3>& weight) const;
 };
 
-/// All faces of a control mesh subdivided uniformly.
+/// All faces of a domain subdivided uniformly. Quads of the lattice are cut along the diagonal that runs towards
+/// the nearest corner of their face.
 class SurfaceLattice {
  public:
-  /// depth >= 2. The mesh is valid (data/validate.h).
+  /// depth >= 2. All faces are triangles, or all are quads; the mesh is valid (data/validate.h).
   SurfaceLattice(const data::ControlMesh& mesh, int depth);
 
   /// The depth of at most so many pieces, 2 to 7.
-  static int depth_for(std::size_t faces, std::size_t pieces);
+  static int depth_for(const data::ControlMesh& mesh, std::size_t pieces);
 
   int depth() const { return depth_; }
   std::size_t size() const { return triangles_.size(); }
@@ -52,11 +49,15 @@ class SurfaceLattice {
 
   /// The four sub-pieces: at the corners, in order, then the
   /// middle. Their corners come from the exact evaluator.
-  std::array<Piece, 4> split(const Piece& piece, const reference::StamEvaluator<double>& surface) const;
+  std::array<Piece, 4> split(const Piece& piece, const LimitSurface& surface) const;
 
  private:
+  void subdivide_triangles(const data::ControlMesh& mesh);
+  void subdivide_quads(const data::ControlMesh& mesh);
+
   int depth_;
-  std::vector<std::array<std::int32_t, 3>> triangles_;  // 4^depth per face
+  Chart chart_;
+  std::vector<std::array<std::int32_t, 3>> triangles_;  // of a face 4^depth, or twice as many
   std::vector<Vector> limits_;
   std::vector<double> deviation_;
   std::vector<std::int32_t> irregular_;  // of each triangle

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// The audit of files against Catmull-Clark's limit surface: files of quads that are right, and with a fault each.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "data/generators/named_mesh.h"
+#include "verify/audit/schemes.h"
+#include "verify/files/hausdorff.h"
+#include "verify/files/test_files.h"
+#include "verify/files/test_quad_files.h"
+#include "verify/projection/test_quad_meshes.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using namespace test;
+
+FilesAudit audit_quads(const data::ControlMesh& mesh, FileTessellation t) {
+  FilesOptions options;
+  options.scheme = data::Scheme::kCatmullClark;
+  options.needs_normals = true;
+  return audit(mesh, std::move(t), options);
+}
+
+TEST(QuadFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
+  for (const QuadMesh& m : quad_meshes())
+    for (const int depth : {0, 1, 2, 3}) {
+      if (depth % 2 == 1 && !m.name.starts_with("quad") && m.name != "prism 5" && m.name != "dual") continue;
+      const FilesAudit a = audit_quads(m.mesh, quad_file(m.mesh, depth));
+      EXPECT_EQ(findings(a), "") << m.name << " at depth " << depth << ": " << row(a, "file-coverage").message
+                                 << "; " << row(a, "file-watertight").message << "; "
+                                 << row(a, "file-hausdorff").message << "; "
+                                 << row(a, "file-normals").message;
+      EXPECT_LE(*row(a, "file-distance").worst, 1e-14) << m.name << " at depth " << depth;
+      EXPECT_EQ(row(a, "file-distance").scheme, data::Scheme::kCatmullClark);
+      EXPECT_TRUE(depth == 0 || row(a, "file-coverage").of > 1) << m.name << ": faces are judged one by one";
+    }
+}
+
+TEST(QuadFiles, RefinedPointsAreNamedAndTheirBoundaryIsNoCrack) {
+  for (const QuadMesh& m : quad_meshes())
+    for (const int depth : {1, 2}) {
+      if (m.name != (depth == 1 ? "quad cube" : "fan 2") && m.name != "wheel 5" && m.name != "dual") continue;
+      const FilesAudit a = audit_quads(m.mesh, quad_file(m.mesh, depth, false));
+      const Result& distance = row(a, "file-distance");
+      EXPECT_EQ(distance.status, Status::kFinding) << m.name;
+      EXPECT_NE(distance.message.find(fmt::format("refined by Catmull and Clark's rule ({} step", depth)),
+                std::string::npos)
+          << m.name << " at depth " << depth << ": " << distance.message;
+      EXPECT_NE(distance.message.find("Catmull and Clark's limit surface"), std::string::npos)
+          << distance.message;
+      EXPECT_NE(distance.message.find("the limit mask"), std::string::npos) << distance.message;
+      EXPECT_EQ(row(a, "file-watertight").status, Status::kHeld)
+          << m.name << ": " << row(a, "file-watertight").message;
+    }
+}
+
+// The other way to a tessellation of quads, cutting them first, makes another surface.
+TEST(QuadFiles, LoopsPointsOfTheTriangulatedMeshAreNamed) {
+  for (const auto& mesh : {data::quad_cube(), data::quad_torus(6, 4), data::polygon_prism(5)}) {
+    data::ControlMesh cut{mesh.positions, {}};
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      for (std::size_t k = 1; k + 1 < mesh.faces[f].size(); ++k)
+        cut.faces.push_back({mesh.faces[f][0], mesh.faces[f][k], mesh.faces[f][k + 1]});
+    for (const bool limit : {true, false}) {
+      const std::string said = row(audit_quads(mesh, exact(cut, 2, limit)), "file-distance").message;
+      EXPECT_NE(said.find(limit ? "limit points of Loop's rule" : "refined by Loop's rule"),
+                std::string::npos)
+          << said;
+      EXPECT_NE(said.find("not Catmull-Clark subdivision"), std::string::npos) << said;
+    }
+    const std::string flat =
+        row(audit_quads(mesh, read_obj([&] {
+                          std::string text;
+                          for (const Vector& p : scheme_points(cut, Scheme::kLinear, 2, false))
+                            text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
+                          return text;
+                        }())),
+            "file-distance")
+            .message;
+    EXPECT_NE(flat.find("nothing was subdivided"), std::string::npos) << flat;
+  }
+}
+
+// One fault each, and the checks that see it.
+TEST(QuadFiles, EveryCheckSeesTheFaultItIsThereFor) {
+  for (const auto& mesh : {data::quad_wheel(5, 1), data::dual(data::bumpy_sphere(40, 1))}) {
+    const FileTessellation good = quad_file(mesh, 3);
+    ASSERT_EQ(findings(audit_quads(mesh, good)), "");
+    const auto with = [&](auto&& fault) {
+      FileTessellation t = good;
+      fault(t);
+      return findings(audit_quads(mesh, t));
+    };
+    const ClosestPoint surface(mesh, data::Scheme::kCatmullClark);
+    const auto moved = [&](double diagonals) {
+      return with([&](auto& t) {
+        const Foot foot = surface.closest(t.positions.back());
+        t.positions.back() = t.positions.back() + diagonals * surface.diagonal() * foot.normal;
+      });
+    };
+    EXPECT_TRUE(moved(1e-4).starts_with("file-distance")) << moved(1e-4);
+    EXPECT_EQ(moved(1e-5), "file-distance");
+    EXPECT_EQ(moved(1e-7), "") << "within the tolerance";
+    EXPECT_EQ(with([](auto& t) {  // turned by 0.3 degrees
+                auto& n = t.normals[321].direction;
+                const Vector aside = cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
+                n = n + (5e-3 / norm(aside)) * aside;
+              }),
+              "file-normals");
+    EXPECT_EQ(with([](auto& t) { std::swap(t.triangles[99][0], t.triangles[99][1]); }),
+              "file-orientation file-watertight");
+    EXPECT_EQ(with([](auto& t) { t.triangles.push_back(t.triangles[40]); }), "file-coverage file-watertight");
+    const std::string hole = with([](auto& t) { t.triangles.erase(t.triangles.begin() + 40); });
+    EXPECT_TRUE(hole.starts_with("file-coverage file-watertight")) << hole;
+    EXPECT_EQ(with([](auto& t) {  // a crack of one ulp: a corner of one triangle only
+                t.positions.push_back(t.positions[t.triangles[40][0]]);
+                t.used.push_back(true);
+                t.positions.back()[0] = std::nextafter(t.positions.back()[0], 9.);
+                t.triangles[40][0] = static_cast<std::int32_t>(t.positions.size()) - 1;
+              }),
+              "file-watertight");
+  }
+}
+
+// Quads of the file count as two triangles; along which diagonal is the file's choice.
+TEST(QuadFiles, TheDiagonalOfAQuadIsTheFilesChoice) {
+  for (const QuadMesh& m : quad_meshes()) {
+    if (m.name != "quad cube" && m.name != "wheel 5" && m.name != "fan 3" && m.name != "dual") continue;
+    FileTessellation t = quad_file(m.mesh, 2);
+    for (std::size_t k = 0; k < t.triangles.size(); k += 2) {
+      const auto [a, b, c] = t.triangles[k];
+      const std::int32_t d = t.triangles[k + 1][2];
+      t.triangles[k] = {b, c, d};
+      t.triangles[k + 1] = {b, d, a};
+    }
+    const FilesAudit found = audit_quads(m.mesh, t);
+    EXPECT_EQ(findings(found), "") << m.name << row(found, "file-hausdorff").message;
+  }
+}
+
+TEST(QuadFiles, SaysWhatACoarseFileDoesNotShow) {
+  const auto said = [](const data::ControlMesh& mesh, int depth) {
+    return row(audit_quads(mesh, quad_file(mesh, depth)), "file-distance").message;
+  };
+  for (const auto& mesh : {data::quad_cube(), data::polygon_prism(5)}) {
+    EXPECT_NE(said(mesh, 0).find("along the edges and inside of faces was not looked at"), std::string::npos)
+        << said(mesh, 0);
+    EXPECT_EQ(said(mesh, 1), "") << "the middle of every face";
+  }
+  const auto cube = data::quad_cube();
+  EXPECT_NE(row(audit_quads(cube, quad_file(cube, 0)), "file-hausdorff").message.find("only --max-deviation"),
+            std::string::npos);
+}
+
+// A control mesh of triangles is Loop's unless the other scheme is asked for.
+TEST(QuadFiles, TheSchemeIsTheControlMeshsUnlessOneIsAskedFor) {
+  const data::ControlMesh mesh = data::named_mesh("octahedron");
+  EXPECT_NE(findings(audit(mesh, quad_file(mesh, 2))), "");
+  EXPECT_EQ(findings(audit_quads(mesh, quad_file(mesh, 2))), "");
+  const data::ControlMesh cube = data::quad_cube();
+  EXPECT_EQ(findings(audit(cube, quad_file(cube, 2))), "");
+}
+
+TEST(QuadFiles, HausdorffsBracketsHoldDenseSamplesOfBothSides) {
+  for (const QuadMesh& m : quad_meshes()) {
+    if (m.name == "dual" || m.name.starts_with("fan")) continue;
+    const FileTessellation t = quad_file(m.mesh, 1);
+    const ClosestPoint surface(m.mesh, data::Scheme::kCatmullClark, 1 << 12);
+    FileEvidence e{m.name, m.mesh, surface, t, 1e-6};
+    place_points(e, {}, [](std::size_t, std::size_t) {});
+    const Hausdorff h = hausdorff(e);
+    double there = 0, back = 0;
+    for (const auto& c : t.triangles)
+      for (int i = 0; i <= 6; ++i)
+        for (int j = 0; i + j <= 6; ++j) {
+          const Vector& o = t.positions[c[0]];
+          const Vector p = o + (i / 6.) * (t.positions[c[1]] - o) + (j / 6.) * (t.positions[c[2]] - o);
+          there = std::max(there, surface.closest(p).distance);
+        }
+    for (const Vector& s : quad_file(m.mesh, 4).positions) {
+      double least = 1e300;
+      for (const auto& c : t.triangles)
+        least = std::min(
+            least,
+            closest_on_triangle(s, {t.positions[c[0]], t.positions[c[1]], t.positions[c[2]]}).distance);
+      back = std::max(back, least);
+    }
+    EXPECT_LE(there, h.from_triangles.at_most) << m.name;
+    EXPECT_LE(back, h.from_surface.at_most) << m.name;
+    EXPECT_GE(h.from_triangles.at_least, .9 * there) << m.name;
+    EXPECT_GE(h.from_surface.at_least, .9 * back) << m.name;
+    EXPECT_LE(h.from_triangles.at_most, 6 * h.from_triangles.at_least) << m.name;
+    EXPECT_EQ(h.loose, 0) << m.name;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What was written for version 1 of the interface or of the protocol is asked what it was always asked, and nothing
-// else.
+// What was written for version 1 of the interface or of the protocol is asked what it was always asked, and
+// nothing else.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -18,7 +18,8 @@ using nlohmann::json;
 const std::string kVersion1Program =
     "--program \"python3 '" LIMITCHECK_SOURCE_DIR "/verify/subject/examples/python/loop.py'\"";
 
-// What interface 2 added stands behind what interface 1 has (test_subjects/interface_1.c). README.md has the sizes.
+// What interface 2 added stands behind what interface 1 has (test_subjects/interface_1.c). README.md has
+// the sizes.
 static_assert(offsetof(lc_capabilities, size) == 32 && sizeof(lc_capabilities) == 44);
 static_assert(offsetof(lc_mesh, size) == 32 && sizeof(lc_mesh) == 72);
 static_assert(offsetof(lc_request, size) == 32 && sizeof(lc_request) == 40);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* A subject of Catmull-Clark's in one file of C: a mesh of quads, refined step by step in double. It delivers the
- * vertices of the refined mesh, not points of the limit surface, and its capabilities say so. Faces that are no quads
- * it refuses; examples/python/quads.py takes them. */
+/* A subject of Catmull-Clark's in one file of C: a mesh of quads, refined step by step in double. It
+ * delivers the vertices of the refined mesh, not points of the limit surface, and its capabilities say so.
+ * Faces that are no quads it refuses; examples/python/quads.py takes them. */
 #include <limitcheck/subject.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Half-edge h = 4 q + k leaves corner k of quad q. A step makes quad h of it: after d steps quad q is part of control
- * face q >> 2d. */
+/* Half-edge h = 4 q + k leaves corner k of quad q. A step makes quad h of it: after d steps quad q is part
+ * of control face q >> 2d. */
 typedef struct Mesh {
   int32_t vertices, halves, edges;
   double (*p)[3];    /* of each vertex */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A subject of Catmull-Clark's in one file of C++: a mesh of quads, refined step by step in double. It delivers the
-// vertices of the refined mesh, not points of the limit surface, and its capabilities say so. Faces that are no quads
-// it refuses; examples/python/quads.py takes them.
+// A subject of Catmull-Clark's in one file of C++: a mesh of quads, refined step by step in double. It
+// delivers the vertices of the refined mesh, not points of the limit surface, and its capabilities say so.
+// Faces that are no quads it refuses; examples/python/quads.py takes them.
 #include <limitcheck/subject.h>
 
 #include <algorithm>

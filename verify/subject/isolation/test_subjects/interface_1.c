@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A library as it was built for interface 1. These are its declarations as limitcheck 0.1 installed them, less the
- * comments: if they no longer fit what the host hands over, the host has broken its word, not this file.
- * Its points are the control mesh at depth 0. With WHATEVER_IS_ASKED it answers as a library may that never looks at
- * the interface asked for. */
+/* A library as it was built for interface 1. These are its declarations as limitcheck 0.1 installed them,
+ * less the comments: if they no longer fit what the host hands over, the host has broken its word, not this
+ * file. Its points are the control mesh at depth 0. With WHATEVER_IS_ASKED it answers as a library may that
+ * never looks at the interface asked for. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Catmull-Clark by every subject that does it: each lattice point of each face once, named truly, and the values
-// of the reference wherever the library is right. Where it is not, findings.json has it.
+// Catmull-Clark by every subject that does it: each lattice point of each face once, named truly, and the
+// values of the reference wherever the library is right. Where it is not, findings.json has it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,7 +86,8 @@ class Expected {
     return refined_.vertex(static_cast<std::size_t>(face), static_cast<std::size_t>(p.part),
                            static_cast<int>(p.i), static_cast<int>(p.j));
   }
-  // Every lattice point of a face by the vertex that it is. At depth 0 a face that is no quad has its corners.
+  // Every lattice point of a face by the vertex that it is. At depth 0 a face that is no quad has its
+  // corners.
   std::map<std::int32_t, FaceDomain::Point> lattice(std::int32_t face) const {
     std::map<std::int32_t, FaceDomain::Point> result;
     const FaceDomain d = domain(face);

@@ -134,8 +134,8 @@ TEST(CatmullClark_OpenSubdiv, HasTheSameRefinedAndLimitPoints) {
   EXPECT_GT(worst_boundary, 0.5);
 }
 
-// Three ways that share no code: the recursion over single quads, Stam's powers of the subdivision matrix, and
-// OpenSubdiv's limit masks after three steps.
+// Three ways that share no code: the recursion over single quads, Stam's powers of the subdivision matrix,
+// and OpenSubdiv's limit masks after three steps.
 TEST(CatmullClark_OpenSubdiv, OurTwoEvaluatorsAndFarAgreeToAFewUlp) {
   constexpr int kDepth = 3;
   double naive_stam = 0, naive_far = 0, stam_far = 0, turned_stam = 0, turned_far = 0;

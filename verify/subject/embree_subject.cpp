@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Embree: rtcInterpolate on a subdivision geometry, a limit surface of Catmull-Clark's in float with its first
-// derivatives. Its documentation promises no accuracy; verify/subject/README.md says what was measured.
+// Embree: rtcInterpolate on a subdivision geometry, a limit surface of Catmull-Clark's in float with its
+// first derivatives. Its documentation promises no accuracy; verify/subject/README.md says what was
+// measured.
 //
-// Debian's build asserts, and an assertion ends the process: on the fourth float of a vertex, which it reads as 16
-// bytes, and on the sizes of its arrays. So vertices are padded, and what it has no room for is refused.
+// Debian's build asserts, and an assertion ends the process: on the fourth float of a vertex, which it
+// reads as 16 bytes, and on the sizes of its arrays. So vertices are padded, and what it has no room for is
+// refused.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -38,7 +40,8 @@ class FaceOfGeometry {
  public:
   FaceOfGeometry(RTCGeometry geometry, const std::int32_t* sizes) : geometry_(geometry), sizes_(sizes) {}
   void begin(std::int32_t face) { face_ = face; }
-  // A face that is no quad has its parts in a square of squares of two units, four to a row, each from 1/2 to 3/2.
+  // A face that is no quad has its parts in a square of squares of two units, four to a row, each from 1/2
+  // to 3/2.
   void evaluate(std::int32_t part, const float* uv, float* position, float* du, float* dv) const {
     const bool whole = sizes_[face_] == 4;
     const float u = whole ? uv[0] : 2 * static_cast<float>(part % 4) + 0.5F + uv[0];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shared by the subjects that ask a library for single points of its limit surface, face by face. Faces share no
-// vertices. The normal is d/du x d/dv as evaluated, NaN where the library's derivatives are parallel or zero.
+// Shared by the subjects that ask a library for single points of its limit surface, face by face. Faces
+// share no vertices. The normal is d/du x d/dv as evaluated, NaN where the library's derivatives are
+// parallel or zero.
 #pragma once
 
 #include <array>
@@ -24,8 +25,8 @@ struct FacePattern {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Of a face of Catmull-Clark's: each lattice point once, each quad of the lattice cut along its diagonal from
-/// (0, 0).
+/// Of a face of Catmull-Clark's: each lattice point once, each quad of the lattice cut along its diagonal
+/// from (0, 0).
 inline FacePattern quads_pattern(int corners, int depth) {
   const FaceDomain domain(data::Scheme::kCatmullClark, corners);
   const std::int64_t n = std::int64_t{1} << depth;

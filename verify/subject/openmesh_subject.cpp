@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// OpenMesh: Subdivider::Uniform::LoopT and CatmullClarkT, in double. It refines; it knows no limit points and no
-// normals. Its weights are Loop's, from a table of 50 entries that it reads without looking at the valence.
+// OpenMesh: Subdivider::Uniform::LoopT and CatmullClarkT, in double. It refines; it knows no limit points
+// and no normals. Its weights are Loop's, from a table of 50 entries that it reads without looking at the
+// valence.
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface), evaluated point by point, and
-// forgotten: the streaming use, nearest to what the paper does. The points are those of the library's uniform
-// Tessellation of a triangle; on Catmull-Clark's faces ours, because the library's of a pentagon are not those of
-// its refinement.
+// OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface), evaluated point by
+// point, and forgotten: the streaming use, nearest to what the paper does. The points are those of the
+// library's uniform Tessellation of a triangle; on Catmull-Clark's faces ours, because the library's of a
+// pentagon are not those of its refinement.
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
 

@@ -40,8 +40,8 @@ inline FacePattern opensubdiv_triangle(int depth) {
   return pattern;
 }
 
-/// The option boundary=edge|none: the interpolation rule of boundary vertices. By the library's own default, none,
-/// the faces that touch a boundary have no limit surface.
+/// The option boundary=edge|none: the interpolation rule of boundary vertices. By the library's own
+/// default, none, the faces that touch a boundary have no limit surface.
 inline bool without_boundary(Options& options) {
   return options.choice("boundary", {"edge", "none"}) == 1;
 }

@@ -86,7 +86,7 @@ void QuadTracker::step(std::int64_t vertex_count, const std::vector<Quad>& quads
     if (q[2] < old || ends[q[2]][0] != kNone) broken("a middle with an old neighbour");
     const auto parent_place = leaves.find(directed(q[0], across(q[1])));
     if (parent_place == leaves.end()) broken("a quad without a parent");
-    const auto& [f, k] = parent_place->second;
+    const std::size_t f = parent_place->second.first, k = parent_place->second.second;
     const Face& parent = faces_[f];
     const std::size_t size = parent.corners.size(), previous = (k + size - 1) % size, next = (k + 1) % size;
     if (parent.corners[previous] != across(q[3])) broken("a quad whose sides have no face in common");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the vertices of a mesh refined by Catmull-Clark lie on the control mesh, for libraries that keep no record
-// of it.
+// Where the vertices of a mesh refined by Catmull-Clark lie on the control mesh, for libraries that keep no
+// record of it.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 namespace limitcheck::verify {
 
 /// Follows a mesh through steps that split each face of n corners into n quads. All it relies on is that old
-/// vertices keep their numbers and new ones are appended: a new quad has one old vertex; the new vertices beside
-/// it each have one more old neighbour, the other end of the edge that they divide; and these two edges have one
-/// face between them. No geometry.
+/// vertices keep their numbers and new ones are appended: a new quad has one old vertex; the new vertices
+/// beside it each have one more old neighbour, the other end of the edge that they divide; and these two
+/// edges have one face between them. No geometry.
 class QuadTracker {
  public:
   using Quad = std::array<std::uint32_t, 4>;

@@ -20,8 +20,8 @@ namespace limitcheck::verify {
 ///   std::int64_t vertex_count() const
 ///   std::array<double, 3> position(std::int64_t) const
 ///   std::vector<std::array<std::uint32_t, N>> faces() const    after a step: N is 3 or 4
-/// the one refined by Loop's scheme, the other, void if there is none, by Catmull-Clark's. Real is the number type
-/// the library keeps its points in.
+/// the one refined by Loop's scheme, the other, void if there is none, by Catmull-Clark's. Real is the
+/// number type the library keeps its points in.
 template <class LoopMesh, class QuadMesh, class Real = double>
 class RefiningSubject {
   static constexpr bool kQuads = !std::is_void_v<QuadMesh>;

@@ -26,21 +26,23 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
   const char* group = "A finished tessellation (instead of SUBJECT)";
   auto* control = audit.add_option("--control", files.control, "Control mesh: a file or a generator's name")
                       ->group(group);
-  auto* tessellation = audit
-                           .add_option("--tessellation", files.tessellation,
-                                       "A tessellation of it by any program: PLY, OBJ, OFF, STL, glTF or "
-                                       "GLB; triangles or larger polygons")
-                           ->group(group);
+  auto* tessellation =
+      audit
+          .add_option("--tessellation", files.tessellation,
+                      "A tessellation of it by any program: PLY, OBJ, OFF, STL, glTF or "
+                      "GLB; larger polygons count as fans of triangles from their first corner")
+          ->group(group);
   control->needs(tessellation);
   tessellation->needs(control);
   const auto option = [&](CLI::Option* o) { return o->group(group)->needs(tessellation); };
   option(
       audit.add_flag("--normals", files.normals,
                      "Report a file without normals as a finding (normals that it has are always judged)"));
-  option(
-      audit.add_option("--provenance", files.provenance,
-                       "CSV that says where each vertex lies: vertex,face,l1,l2 or "
-                       "vertex,face,i,j,denominator; without it the closest point of the surface is found"));
+  option(audit.add_option(
+      "--provenance", files.provenance,
+      "CSV that says where each vertex lies: vertex,face,l1,l2 or "
+      "vertex,face,i,j,denominator; without it the closest point of the surface is found. Of "
+      "Catmull-Clark's scheme u and v, and of a face that is no quad a column corner"));
   option(audit.add_option("--fit", files.fit,
                           "Undo a scale and an offset first (scale), or also a rotation (similarity)"))
       ->check(CLI::IsMember({"scale", "similarity"}))
@@ -53,7 +55,7 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
       ->capture_default_str();
   option(audit.add_option("--max-deviation", files.hausdorff,
                           "Of the triangles from the surface and back, in diagonals (default: what one "
-                          "triangle per control face would have)"))
+                          "triangle, or polygon, per control face would have)"))
       ->check(CLI::PositiveNumber)
       ->check(kFinite);
   option(audit.add_option("--per-vertex", files.per_vertex,
@@ -67,7 +69,6 @@ int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std:
   refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}});
   const auto start = std::chrono::steady_clock::now();
   const OpenedMesh opened = open_mesh(files.control, mesh);
-  require_loop(files.control, opened, "the audit of finished files");
   const data::ControlMesh& control = opened.mesh;
   verify::require_range(files.control, control, true);
   verify::FileTessellation tessellation = verify::read_tessellation(files.tessellation);
@@ -75,8 +76,9 @@ int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std:
   if (!files.provenance.empty())
     provenance =
         verify::read_provenance(files.provenance, static_cast<std::int64_t>(tessellation.positions.size()),
-                                static_cast<std::int64_t>(control.faces.size()));
+                                control, opened.chosen.scheme);
   verify::FilesOptions options;
+  options.scheme = opened.chosen.scheme;
   options.tolerance = files.tolerance;
   if (files.hausdorff > 0) options.hausdorff = files.hausdorff;
   options.needs_normals = files.normals;

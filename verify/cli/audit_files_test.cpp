@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "verify/cli/command_test.h"
@@ -33,6 +34,37 @@ TEST_F(AuditFilesCommand, TellsTheControlMeshItselfFromATessellation) {
   const Outcome o = run("audit --control cage.obj --tessellation cage.obj");
   EXPECT_EQ(o.code, 1) << o.err;
   EXPECT_NE(o.out.find("file-distance             FINDING"), std::string::npos) << o.out;
+}
+
+// The limit points of the cube -1 .. 1 are its corners halved: 3/8 + 1/6 - 1/24 of 1 (three neighbours, three
+// opposite corners of faces). Cut into triangles it has another surface.
+TEST_F(AuditFilesCommand, JudgesFilesOfQuadsByCatmullClarksScheme) {
+  ASSERT_EQ(run("generate quad-cube -o cage.obj").code, 0);
+  std::istringstream lines(read("cage.obj"));
+  std::string limit;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string word;
+    if (words >> word; word != "v") {
+      limit += line + "\n";
+      continue;
+    }
+    double x = 0, y = 0, z = 0;
+    words >> x >> y >> z;
+    std::ostringstream half;
+    half << "v " << x / 2 << ' ' << y / 2 << ' ' << z / 2 << '\n';
+    limit += half.str();
+  }
+  write("limit.obj", limit);
+  const Outcome held = run("audit --control cage.obj --tessellation limit.obj --per-vertex each.csv");
+  EXPECT_EQ(held.code, 0) << held.out << held.err;
+  EXPECT_NE(held.out.find("scheme: catmull-clark"), std::string::npos) << held.out;
+  EXPECT_TRUE(read("each.csv").starts_with("vertex,distance,normal_angle,face,corner,u,v\n"));
+  EXPECT_EQ(run("audit --control cage.obj --tessellation limit.obj --provenance each.csv").code, 0);
+  const Outcome refined = run("audit --control cage.obj --tessellation cage.obj");
+  EXPECT_EQ(refined.code, 1);
+  const Outcome loop = run("audit --control cage.obj --tessellation limit.obj --triangulate fan");
+  EXPECT_EQ(loop.code, 1) << loop.out << loop.err;
 }
 
 TEST_F(AuditFilesCommand, ExitsWithTwoOnBadUsageAndBadInput) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "data/triangulate.h"
+#include "data/validate.h"
 #include "verify/audit/schemes.h"
 
 namespace limitcheck::verify {
@@ -38,15 +40,17 @@ Apart apart(const std::vector<Vector>& points, const std::vector<Vector>& cloud)
   return a;
 }
 
-// The control mesh as the schemes take it: of triangles, and as it is.
+// The control mesh as the schemes take it: of triangles, and as it is. Triangles of polygons may be no manifold,
+// and then have no surface.
 struct Cages {
   data::ControlMesh cut;
   const data::ControlMesh& whole;
 
-  explicit Cages(const data::ControlMesh& control) : cut{control.positions, {}}, whole(control) {
-    for (std::size_t f = 0; f < control.faces.size(); ++f)
-      for (std::size_t k = 1; k + 1 < control.faces[f].size(); ++k)
-        cut.faces.push_back({control.faces[f][0], control.faces[f][k], control.faces[f][k + 1]});
+  explicit Cages(const data::ControlMesh& control)
+      : cut{control.positions, data::triangulate(control, data::Triangulation::kFan).faces}, whole(control) {}
+  bool has(Scheme scheme) const {
+    return scheme == Scheme::kCatmullClark || whole.faces.are_triangles() ||
+           data::validate(cut, data::Scheme::kLoop).empty();
   }
   const data::ControlMesh& of(Scheme scheme) const { return scheme == Scheme::kCatmullClark ? whole : cut; }
   // Vertices after so many steps, about: half as many as triangles, or as many as quads.
@@ -129,7 +133,8 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   const Scheme own = own_scheme(e);
   const auto have = static_cast<double>(sampled.placed);
   const auto unlike = [&](int steps) { return std::abs(std::log(cages.vertices_after(own, steps) / have)); };
-  for (const Scheme scheme : {Scheme::kLoop, Scheme::kWarren, Scheme::kLinear, Scheme::kCatmullClark})
+  for (const Scheme scheme : {Scheme::kLoop, Scheme::kWarren, Scheme::kLinear, Scheme::kCatmullClark}) {
+    if (!cages.has(scheme)) continue;
     for (int steps = 0; steps <= 7; ++steps) {
       const double count = cages.vertices_after(scheme, steps);
       if (count > 3 * have + 100 || count < have / 8 || count > 2e6) continue;
@@ -141,6 +146,7 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
           guesses.own = {worst_of(e.surface, cloud), steps};
       }
     }
+  }
   return guesses;
 }
 

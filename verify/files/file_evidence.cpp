@@ -80,9 +80,12 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
   if (!provenance.empty()) {
     e.claimed.assign(t.positions.size(), {});
     for (const ProvenanceRow& row : provenance) {
-      e.claimed[row.vertex] = row.at;
+      const FacePoint at = e.surface.surface().has_control_faces()
+                               ? row.at
+                               : e.surface.surface().at({row.at.face, row.corner, row.at.l[1], row.at.l[2]});
+      e.claimed[row.vertex] = at;
       const std::int32_t point = e.point_of(static_cast<std::int32_t>(row.vertex));
-      if (point >= 0 && claim[point].face < 0) claim[point] = row.at;
+      if (point >= 0 && claim[point].face < 0) claim[point] = at;
     }
   }
   std::vector<char> used(points, 0);

@@ -33,16 +33,27 @@ Words split(std::string_view line) {
 }
 
 // Where each column of the longer form stands.
-constexpr std::string_view kColumns[] = {"vertex", "face", "l1", "l2", "i", "j", "denominator"};
-enum Column { kVertex, kFace, kL1, kL2, kI, kJ, kDenominator };
+constexpr std::string_view kColumns[] = {"vertex", "face", "l1", "l2", "i", "j", "denominator", "corner"};
+enum Column { kVertex, kFace, kL1, kL2, kI, kJ, kDenominator, kCorner, kCount };
 
-}  // namespace
+Column column(std::string_view word) {
+  if (word == "u") return kL1;
+  if (word == "v") return kL2;
+  return static_cast<Column>(std::find(std::begin(kColumns), std::end(kColumns), word) -
+                             std::begin(kColumns));
+}
 
-std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
-                                            std::int64_t vertices, std::int64_t faces) {
+// What a row may name. `quads`: the control mesh, if the scheme is Catmull-Clark's.
+struct Named {
+  std::int64_t vertices, faces;
+  const data::ControlMesh* quads = nullptr;
+};
+
+std::vector<ProvenanceRow> parse(std::string_view content, const std::string& name, const Named& named_by) {
+  const std::int64_t vertices = named_by.vertices, faces = named_by.faces;
   std::vector<ProvenanceRow> rows;
   std::vector<bool> named(vertices, false);
-  std::array<int, 7> place{};
+  std::array<int, kCount> place{};
   place.fill(-1);
   std::size_t width = 0;
   std::int64_t line = 0;
@@ -61,12 +72,11 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
       width = words.size();
       if (!words[0].empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0) {
         for (std::size_t k = 0; k < width; ++k)
-          for (int c = 0; c < 7; ++c)
-            if (words[k] == kColumns[c]) place[c] = static_cast<int>(k);
+          if (const Column c = column(words[k]); c != kCount) place[c] = static_cast<int>(k);
       } else if (width == 4) {
-        place = {0, 1, 2, 3, -1, -1, -1};
+        place = {0, 1, 2, 3, -1, -1, -1, -1};
       } else if (width == 5) {
-        place = {0, 1, -1, -1, 2, 3, 4};
+        place = {0, 1, -1, -1, 2, 3, 4, -1};
       }
       const bool real = place[kL1] >= 0 && place[kL2] >= 0;
       const bool lattice = place[kI] >= 0 && place[kJ] >= 0 && place[kDenominator] >= 0;
@@ -103,8 +113,25 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
     } catch (const data::ArgumentError& error) {
       fail("FILE_SYNTAX", error.what());
     }
-    // Decimals of l1 and l2 may sum to a little more than 1.
     const double a = l1.as_double(), b = l2.as_double();
+    if (named_by.quads != nullptr) {
+      const auto corners =
+          static_cast<std::int64_t>(named_by.quads->faces[static_cast<std::size_t>(face)].size());
+      const bool told = place[kCorner] >= 0 && !words[place[kCorner]].empty();
+      const std::int64_t corner = told ? integer(kCorner) : -1;
+      if (corners == 4 ? told && corner != 0 : corner < 0 || corner >= corners)
+        fail("FILE_PROVENANCE",
+             fmt::format("face {} has {} corners: {}", face, corners,
+                         corners == 4 ? "it is one quad, of corner 0"
+                                      : "the column corner says which of its quads is meant"));
+      if (!(a >= 0 && a <= 1 && b >= 0 && b <= 1))
+        fail("FILE_PROVENANCE", fmt::format("({}, {}) is outside the unit square", a, b));
+      row.at = {static_cast<std::int32_t>(face), Chart::at(a, b)};
+      row.corner = corners == 4 ? -1 : static_cast<int>(corner);
+      rows.push_back(row);
+      continue;
+    }
+    // Decimals of l1 and l2 may sum to a little more than 1.
     if (!(a >= 0 && b >= 0 && a + b <= 1 + 1e-9))
       fail("FILE_PROVENANCE", fmt::format("({}, {}) is outside the face", a, b));
     row.at = {static_cast<std::int32_t>(face),
@@ -115,9 +142,23 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
   return rows;
 }
 
+}  // namespace
+
+std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
+                                            std::int64_t vertices, std::int64_t faces) {
+  return parse(content, name, {vertices, faces});
+}
+
+std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
+                                            std::int64_t vertices, const data::ControlMesh& control,
+                                            data::Scheme scheme) {
+  const auto faces = static_cast<std::int64_t>(control.faces.size());
+  return parse(content, name, {vertices, faces, scheme == data::Scheme::kLoop ? nullptr : &control});
+}
+
 std::vector<ProvenanceRow> read_provenance(const std::filesystem::path& file, std::int64_t vertices,
-                                           std::int64_t faces) {
-  return parse_provenance(data::io::whole_content(file), file.string(), vertices, faces);
+                                           const data::ControlMesh& control, data::Scheme scheme) {
+  return parse_provenance(data::io::whole_content(file), file.string(), vertices, control, scheme);
 }
 
 }  // namespace limitcheck::verify

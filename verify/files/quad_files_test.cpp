@@ -125,6 +125,26 @@ TEST(QuadFiles, EveryCheckSeesTheFaultItIsThereFor) {
   }
 }
 
+// The table that an audit writes is one that it takes.
+TEST(QuadFiles, ProvenanceIsHeldAgainstTheExactEvaluationThere) {
+  for (const auto& mesh : {data::quad_cube(), data::polygon_prism(5)}) {
+    const FileTessellation t = quad_file(mesh, 2);
+    const std::string table = audit_quads(mesh, t).per_vertex;
+    const auto read = [&](const std::string& text) {
+      return parse_provenance(text, "map.csv", static_cast<std::int64_t>(t.positions.size()), mesh,
+                              data::Scheme::kCatmullClark);
+    };
+    auto rows = read(table);
+    const FilesAudit good = audit(mesh, t, {}, rows);
+    EXPECT_EQ(findings(good), "");
+    EXPECT_EQ(row(good, "file-positions").of, static_cast<std::int64_t>(t.positions.size()));
+    EXPECT_LE(*row(good, "file-positions").worst, 1e-14);
+    std::swap(rows[60].at, rows[61].at);
+    std::swap(rows[60].corner, rows[61].corner);
+    EXPECT_NE(findings(audit(mesh, t, {}, rows)).find("file-positions"), std::string::npos);
+  }
+}
+
 // Quads of the file count as two triangles; along which diagonal is the file's choice.
 TEST(QuadFiles, TheDiagonalOfAQuadIsTheFilesChoice) {
   for (const QuadMesh& m : quad_meshes()) {

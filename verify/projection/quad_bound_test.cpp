@@ -76,6 +76,32 @@ TEST(QuadBound, IsSharpForAQuadratic) {
   }
 }
 
+// Up to the boundary, where a ghost beyond it is the mirror image. The corners of the sheet are not regular.
+TEST(QuadBound, IsZeroOfAFlatSheetOfParallelograms) {
+  std::vector<reference::Vec3<double>> positions;
+  data::Faces faces;
+  const int n = 4;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) positions.push_back({double(i), double(i + j), double(i - 2 * j)});
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      faces.push_back({a, a + 1, a + n + 2, a + n + 1});
+    }
+  const reference::Topology topology(positions.size(), faces);
+  int regular = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (int turn = 0; turn < 4; ++turn) {
+      Quad quad{};
+      for (int k = 0; k < 4; ++k) quad[k] = std::as_const(faces)[f][(k + turn) % 4];
+      const auto bound = regular_bound(topology, positions, quad);
+      if (!bound) continue;
+      ++regular;
+      EXPECT_EQ(*bound, 0) << "quad " << f << " from corner " << turn;
+    }
+  EXPECT_EQ(regular, 4 * (n * n - 4));
+}
+
 TEST(QuadBound, FallsWithEveryDepth) {
   const data::ControlMesh mesh = data::quad_torus(5, 4);
   const double coarse = SurfaceLattice(mesh, 3).largest_deviation();

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "verify/audit/audit.h"
@@ -54,6 +55,18 @@ TEST(CatmullClarkAudit, TheNaiveSubdividerHasNoFinding) {
       Auditor auditor(depth, 1, {}, depth == 2 ? Level::kThorough : Level::kQuick);
       expect_held(auditor.run({lc_subject_naive(), ""}, mesh), m.name + " at depth " + std::to_string(depth));
     }
+}
+
+// At depth 0 a diagonal of a face may join the vertices of another edge.
+TEST(CatmullClarkAudit, ADiagonalBesideAnotherEdgeOfTheSameEndsIsNoFault) {
+  std::vector<Named> meshes;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+    meshes.push_back({"mixed", data::named_mesh("mixed:" + std::to_string(seed) + ":40")});
+  for (const Named& m : meshes)
+    for (const auto* subject : {lc_subject_naive(), lc_subject_quad_model(), lc_subject_cgal()})
+      for (const Result& r : Auditor(0, 1).run({subject, ""}, audited(m)))
+        EXPECT_TRUE(r.check != "watertight" || r.status == Status::kHeld)
+            << subject->name << ": " << r.message;
 }
 
 TEST(CatmullClarkAudit, AStitchedTessellatorHasNoFindingAtUnequalDepths) {

@@ -10,6 +10,7 @@
 
 #include "verify/audit/checks.h"
 #include "verify/audit/confirm.h"
+#include "verify/audit/diagonals.h"
 #include "verify/audit/outline.h"
 #include "verify/audit/weld.h"
 #include "verify/watertight/watertight.h"
@@ -80,9 +81,15 @@ Looked look(const Evidence& e, const Outline& outline) {
       point = it->second;
     }
   }
-  const auto points = static_cast<std::int64_t>(l.vertex_of.size());
-  tbb::parallel_invoke([&] { l.report = inspect_surface(points, triangles); },
-                       [&] { l.judgement = judge_surface(points, triangles); });
+  const OriginOfTriangles surface =
+      tell_diagonals_apart(e, std::move(triangles), static_cast<std::int64_t>(l.vertex_of.size()));
+  tbb::parallel_invoke([&] { l.report = inspect_surface(surface.points, surface.triangles); },
+                       [&] { l.judgement = judge_surface(surface.points, surface.triangles); });
+  // From here on the triangles are those of the tessellation. (An open edge is no diagonal that was told apart.)
+  for (auto* edges : {&l.report.open_edges, &l.report.crowded_witness, &l.report.clashing_witness})
+    for (OpenEdge& edge : *edges) edge.triangle = surface.origin[edge.triangle];
+  for (auto* list : {&l.report.degenerate_witness, &l.report.duplicate_witness})
+    for (std::int32_t& triangle : *list) triangle = surface.origin[triangle];
   return l;
 }
 
@@ -194,7 +201,8 @@ std::optional<Witness> not_manifold(const Evidence& e, const Looked& looked) {
     w.triangle = triangle;
     return w;
   }
-  if (!r.bow_tie_witness.empty()) return e.at_vertex(looked.vertex_of[r.bow_tie_witness.front()]);
+  if (!r.bow_tie_witness.empty() && r.bow_tie_witness.front() < std::ssize(looked.vertex_of))
+    return e.at_vertex(looked.vertex_of[r.bow_tie_witness.front()]);
   return std::nullopt;
 }
 

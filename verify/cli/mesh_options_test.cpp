@@ -55,11 +55,13 @@ TEST_F(Scheme, CommandsThatKnowLoopsOnlyRefuseWhatHasAnotherAndNameTheWayOut) {
   for (const std::string mesh : {"quad-cube", "cube.ply"})
     for (const std::string& command :
          {"tessellate " + mesh, "audit --control " + mesh + " --tessellation out.ply"}) {
-      const Outcome o = run(command);
-      EXPECT_EQ(o.code, 2) << command;
-      EXPECT_EQ(o.out, "") << command;
-      EXPECT_NE(o.err.find("6 of 6 faces are no triangles"), std::string::npos) << o.err;
-      EXPECT_NE(o.err.find("--triangulate fan"), std::string::npos) << o.err;
+      if (command.starts_with("tessellate")) {  // the audit of files knows both
+        const Outcome o = run(command);
+        EXPECT_EQ(o.code, 2) << command;
+        EXPECT_EQ(o.out, "") << command;
+        EXPECT_NE(o.err.find("6 of 6 faces are no triangles"), std::string::npos) << o.err;
+        EXPECT_NE(o.err.find("--triangulate fan"), std::string::npos) << o.err;
+      }
       const Outcome loop = run(command + " --scheme loop");
       EXPECT_EQ(loop.code, 2) << command;
       EXPECT_NE(loop.err.find("leave out --scheme loop"), std::string::npos) << loop.err;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: whatever a file holds beside a small control mesh, it is refused or gives the seven rows
-// of the file audit, with a closest point for every finite vertex. The first byte chooses the control mesh
-// and the form of the file.
+// of the file audit, with a closest point for every finite vertex. The first byte chooses the control mesh,
+// its scheme and the form of the file.
 #include <fcntl.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -44,6 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   verify::FilesOptions options;
   options.needs_normals = (data[0] & 8U) != 0;
   options.fit = data[0] & 16U ? verify::Fit::kSimilarity : verify::Fit::kNone;
+  if (data[0] & 32U) options.scheme = data::Scheme::kCatmullClark;
   try {
     verify::FileTessellation tessellation = verify::read_tessellation(file);
     const auto audit = verify::audit_files("control", control, std::move(tessellation), {}, options,

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "data/generators/named_mesh.h"
+#include "reference/catmull_clark/stam.h"
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
@@ -59,6 +60,35 @@ BENCHMARK(stam_set_up)
     ->Arg(4000)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
+
+/// Lattice points of depth 5 of Catmull-Clark's surface: a quad's, or those of the sub-quads of another face.
+void catmull_clark(benchmark::State& state, const char* name, Order order) {
+  const data::ControlMesh mesh = data::named_mesh(name);
+  const reference::catmull_clark::StamEvaluator<double> stam(mesh.faces,
+                                                             reference::positions_of<double>(mesh));
+  int face = 0, corner = 0, i = 0, j = 0;
+  for (auto _ : state) {
+    const auto corners = static_cast<int>(mesh.faces[static_cast<std::size_t>(face)].size());
+    const int n = corners == 4 ? 32 : 16;
+    benchmark::DoNotOptimize(stam.evaluate(face, corner, i / double(n), j / double(n), order));
+    if (i++ < n) continue;
+    i = 0;
+    if (j++ < n) continue;
+    j = 0;
+    if (corners != 4 && ++corner < corners) continue;
+    corner = 0;
+    face = face + 1 < stam.face_count() ? face + 1 : 0;
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK_CAPTURE(catmull_clark, regular, "quad-torus:64:32", Order::kFirst)
+    ->Name("reference/catmull-clark/position+normal/quad-torus");
+BENCHMARK_CAPTURE(catmull_clark, dual, "dual:bumpy:4000", Order::kFirst)
+    ->Name("reference/catmull-clark/position+normal/dual-of-bumpy:4000");
+BENCHMARK_CAPTURE(catmull_clark, mixed, "mixed:1:4000", Order::kFirst)
+    ->Name("reference/catmull-clark/position+normal/mixed:4000");
+BENCHMARK_CAPTURE(catmull_clark, second, "dual:bumpy:4000", Order::kSecond)
+    ->Name("reference/catmull-clark/position+normal+second/dual-of-bumpy:4000");
 
 void naive(benchmark::State& state) {
   const reference::NaiveSubdivider<double> subdivider(bumpy(state.range(0)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Polygons cut into triangles, for those who ask: the result has another limit surface than the polygons. [C09]
+// Polygons cut into triangles, for those who ask: the result has another limit surface than the polygons.
+// [C09]
 #pragma once
 
 #include <cstddef>
@@ -24,8 +25,8 @@ struct Triangulated {
   std::int64_t cut = 0;            ///< so many faces were cut
 };
 
-/// Takes any faces; a quad that names a vertex which does not exist is cut as kFan. The triangles of a manifold
-/// may be none: two polygons that share two opposite corners may both be cut between them.
+/// Takes any faces; a quad that names a vertex which does not exist is cut as kFan. The triangles of a
+/// manifold may be none: two polygons that share two opposite corners may both be cut between them.
 Triangulated triangulate(const ControlMesh& mesh, Triangulation rule);
 
 }  // namespace limitcheck::data

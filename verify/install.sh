@@ -8,7 +8,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build                                     # build
-  libosd-dev libcgal-dev libopenmesh-dev                    # the tessellators audited; CGAL also judges watertightness
+  libosd-dev libcgal-dev libopenmesh-dev libembree-dev      # the tessellators audited; CGAL also judges watertightness
   libeigen3-dev libboost-dev libmpfr-dev libgmp-dev         # linear algebra and multiprecision
   libflint-dev libflint-arb-dev                             # certified enclosures
   libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev     # threads, command line, text, JSON

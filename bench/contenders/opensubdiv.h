@@ -29,9 +29,8 @@ class OpenSubdivMesh {
   explicit OpenSubdivMesh(const data::ControlMesh& mesh) {
     for (const auto& p : mesh.positions)
       for (const double x : p) control_.push_back(static_cast<float>(x));
-    refiner_ =
-        verify::make_refiner({nullptr, static_cast<std::int64_t>(mesh.positions.size()),
-                              mesh.faces.corners().data(), static_cast<std::int64_t>(mesh.faces.size())});
+    const verify::LentMesh lent(mesh, data::Scheme::kLoop);
+    refiner_ = verify::make_refiner(lent.view());
   }
   OpenSubdiv::Far::TopologyRefiner& refiner() const { return *refiner_; }
   std::size_t faces() const { return static_cast<std::size_t>(refiner_->GetLevel(0).GetNumFaces()); }

@@ -9,10 +9,10 @@
 
 namespace limitcheck::data {
 
-/// The mesh random_mesh(seed, options) after about half of its inner edges were dissolved in a random order, so
-/// that two faces became one. An edge stays where the new face would name a vertex twice or have more than
-/// `most_corners` corners, where an inner vertex would keep fewer than 3 faces, and where a boundary vertex would
-/// keep none. Valid for Catmull-Clark's scheme; closed or open as random_mesh(seed) is.
+/// The mesh random_mesh(seed, options) after about half of its inner edges were dissolved in a random order,
+/// so that two faces became one. An edge stays where the new face would name a vertex twice or have more than
+/// `most_corners` corners, where an inner vertex would keep fewer than 3 faces, and where a boundary vertex
+/// would keep none. Valid for Catmull-Clark's scheme; closed or open as random_mesh(seed) is.
 ///   throws   InputError NAME_BAD_PARAMETER
 ControlMesh mixed_mesh(std::uint64_t seed, const RandomMeshOptions& options = {},
                        std::size_t most_corners = 8);

@@ -49,7 +49,8 @@ TEST(MixedMesh, KeepsToTheCornersAllowed) {
   EXPECT_GT(census(mixed_mesh(4, {.faces = 2000}, 20)).sizes.rbegin()->first, 10U);
 }
 
-// The value was obtained with g++ 12 and with clang 14, optimised and not; other compilers must give the same.
+// The value was obtained with g++ 12 and with clang 14, optimised and not; other compilers must give the
+// same.
 TEST(MixedMesh, IsTheSameWithEveryCompiler) {
   std::uint64_t all = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) all = all * 31 + hash(mixed_mesh(seed));

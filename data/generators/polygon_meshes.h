@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes of quads and other polygons, for any valence and boundary. Every coordinate is exact in float. All throw
-// InputError NAME_BAD_PARAMETER where a number is out of range.
+// Meshes of quads and other polygons, for any valence and boundary. Every coordinate is exact in float. All
+// throw InputError NAME_BAD_PARAMETER where a number is out of range.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,9 @@ ControlMesh polygon_prism(int n);
 ///   throws   ArgumentError: an edge that has not two faces in opposite directions
 ControlMesh dual(const ControlMesh& mesh);
 
-/// A chess pawn, which a modeller would turn on a lathe: 2n columns of quads, and at each pole n quads around a
-/// vertex of valence n; n >= 3. The other end of each second column has the valence 3.
+/// A chess pawn, which a modeller would turn on a lathe: 2n columns of quads, and at each pole n quads around
+/// a vertex of valence n; n >= 3. Every second vertex of the ring around a pole has no edge to it, and the
+/// valence 3.
 ControlMesh pawn(int n);
 /// The same with n columns: at the head n triangles around a vertex of valence n, at the foot one n-gon.
 ControlMesh mixed_pawn(int n);

@@ -95,7 +95,8 @@ TEST(Dual, ExchangesFacesAndVertices) {
   EXPECT_THROW(dual(sheet(2, 2)), ArgumentError);
 }
 
-// The values were obtained with g++ 12 and with clang 14, optimised and not; other compilers must give the same.
+// The values were obtained with g++ 12 and with clang 14, optimised and not; other compilers must give the
+// same.
 TEST(PolygonMeshes, AreTheSameWithEveryCompiler) {
   std::uint64_t all = 0;
   for (const ControlMesh& mesh :

@@ -46,7 +46,8 @@ class NaiveSubdivider {
   /// Subdivides a quad (corner 0), or the sub-quad at a corner of another face, and hands its leaves to
   /// `emit`, depth first. A quad has 4^depth of them, 2^depth + 1 lattice points a side; a sub-quad is itself
   /// the result of a step and is subdivided once less. Any number of threads may do so at once.
-  ///   throws   data::ArgumentError: no such face or corner, depth < 0 or > 30, a face that is no quad at depth 0
+  ///   throws   data::ArgumentError: no such face or corner, depth < 0 or > 30, a face that is no quad at
+  ///            depth 0
   void tessellate(std::size_t face, std::size_t corner, int depth,
                   const std::function<void(const LeafQuad<N>&)>& emit) const;
 

@@ -111,7 +111,8 @@ struct QuadParameter {
 
 /// (u, v) on a face: on a quad itself; on another face on the sub-quad of `corner`, u from the corner along
 /// its edge to the next, v along the edge before.
-///   throws   data::ArgumentError: no such face or corner (a quad has the corner 0 only), u or v outside 0 .. 1
+///   throws   data::ArgumentError: no such face or corner (a quad has the corner 0 only), u or v
+///            outside 0 .. 1
 template <class N, class P>
 QuadParameter<P> locate(const QuadMesh<N>& mesh, int face, int corner, const P& u, const P& v) {
   const auto refuse = [](const std::string& why) { throw data::ArgumentError(why); };

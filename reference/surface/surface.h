@@ -21,8 +21,8 @@ class Surface {
   ///   weights  of Loop's scheme
   Surface(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights = Weights::kLoop);
 
-  /// At (l1, l2) of a triangle of Loop's scheme, whose corner is 0; at (u, v) of a quad, whose corner is 0, or of
-  /// the sub-quad at a corner of another face.
+  /// At (l1, l2) of a triangle of Loop's scheme, whose corner is 0; at (u, v) of a quad, whose corner is 0,
+  /// or of the sub-quad at a corner of another face.
   ///   Coordinate  double or Parameter
   template <class Coordinate>
   SurfacePoint<double> evaluate(int face, int corner, const Coordinate& first, const Coordinate& second,
@@ -43,7 +43,8 @@ class RefinedSurface {
   RefinedSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth,
                  Weights weights = Weights::kLoop);
 
-  /// The vertex at a lattice point of a face, counted from its corner as the refined meshes of the schemes do.
+  /// The vertex at a lattice point of a face, counted from its corner as the refined meshes of the schemes
+  /// do.
   const Vec3<double>& position(int face, int corner, int i, int j) const;
 
  private:

@@ -14,12 +14,12 @@
 
 namespace limitcheck::verify {
 
-/// The vertices of the control mesh refined `depth` times, n = 2^depth steps to a control edge, and the centres
-/// of the faces; shared points once. A point has an id:
+/// The vertices of the control mesh refined `depth` times, n = 2^depth steps to a control edge, and the
+/// centres of the faces; shared points once. A point has an id:
 ///   0 .. V-1                   control vertices
 ///   then n-1 for each edge     by ascending (smaller vertex, larger vertex), counted from the smaller vertex
-///   then, face after face      the lattice points inside it (FaceDomain::inner_number), then its centre if that
-///                              is none of them
+///   then, face after face      the lattice points inside it (FaceDomain::inner_number), then its centre if
+///                              that is none of them
 /// The adjacency is its own, because it must not depend on anything that it helps to judge.
 class Lattice {
  public:

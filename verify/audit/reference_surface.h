@@ -40,18 +40,18 @@ class ReferenceSurface {
   /// same time as anything else.
   void prepare(std::span<const Lattice::Id> ids);
 
-  /// All functions below are for prepared points only. The position is a double; reference/surface/surface.h says
-  /// where its error is stated.
+  /// All functions below are for prepared points only. The position is a double; reference/surface/surface.h
+  /// says where its error is stated.
   const Vector& position(Lattice::Id id) const { return position_[id]; }
   /// Unit normal; limit points only.
   const Vector& normal(Lattice::Id id) const { return normal_[id]; }
   /// False where the surface has no normal (D12: zero by the
   /// masks; D5: boundary vertices without a tangent plane).
   bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
-  /// Where there is a normal: (|t1| + |t2|) / |t1 x t2|, t1 and t2 the derivatives by l1 and l2, or by u and v. An error of
-  /// e in both tangents turns the normal by e times this, in radians. Infinite if t1 x t2 vanishes in double.
-  /// At a control vertex, that of the middle of the finest facet there if it is larger, and in
-  /// any case where the derivatives vanish: a control vertex that is extraordinary need not have any.
+  /// Where there is a normal: (|t1| + |t2|) / |t1 x t2|, t1 and t2 the derivatives by l1 and l2, or by u and
+  /// v. An error of e in both tangents turns the normal by e times this, in radians. Infinite if t1 x t2
+  /// vanishes in double. At a control vertex, that of the middle of the finest facet there if it is larger,
+  /// and in any case where the derivatives vanish: a control vertex that is extraordinary need not have any.
   double normal_condition(Lattice::Id id) const { return condition_[id]; }
 
   /// The same surface in certified arithmetic.

@@ -44,8 +44,8 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
   return result;
 }
 
-// After the first step a face is a quad at each corner. Of Loop's lattice only the points on control edges are
-// among them, but for a few of no interest.
+// After the first step a face is a quad at each corner. Of Loop's lattice only the points on control edges
+// are among them, but for a few of no interest.
 SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit,
                                   data::Scheme lattice) {
   reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));

@@ -183,9 +183,8 @@ TEST(Seams, AreNamed) {
   EXPECT_EQ(said({"cut-knot", cut_knot(12, 5)}), "the control mesh has 34 coincident boundary edges");
   // 5 steps down the meridian on both sides, 6 steps without length at each pole in one place; 6 triangles at
   // each pole.
-  EXPECT_EQ(
-      said({"uv-sphere", uv_sphere(6, 5, false)}),
-      "the control mesh has 22 coincident boundary edges; the control mesh has 12 faces without area");
+  EXPECT_EQ(said({"uv-sphere", uv_sphere(6, 5, false)}),
+            "the control mesh has 22 coincident boundary edges; the control mesh has 12 faces without area");
   EXPECT_EQ(said({"tetrahedron", data::tetrahedron()}), "");
 }
 

@@ -107,8 +107,8 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
   std::filesystem::remove_all(folder);
 }
 
-// What a finding on a pentagon is written as: the mesh with its polygons, and the exact point in the quad at the
-// corner.
+// What a finding on a pentagon is written as: the mesh with its polygons, and the exact point in the quad at
+// the corner.
 TEST(WitnessFiles, KeepPolygonsAndNameTheCorner) {
   AuditMesh mesh{"prism:5", data::named_mesh("prism:5")};
   Result finding;

@@ -238,7 +238,8 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said otherwise.
+// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said
+// otherwise.
 std::string mesh_options(const Result& result) {
   std::string text;
   if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -139,11 +140,13 @@ Meshes planned(const Arguments& a, const std::vector<verify::AuditSubject>& audi
       asked ? verify::default_plan(level(a.output)) : verify::default_plan(level(a.output), audited), {}};
   if (asked == data::Scheme::kLoop)
     std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
-  std::vector<MeshScheme> chosen;
+  std::map<std::string, MeshScheme> by_name;  // the plan has a mesh at several depths
   for (verify::AuditMesh& m : result.list) {
     m.asked_scheme = asked;
-    chosen.push_back({m.scheme(), 0});
+    by_name[m.name] = {m.scheme(), 0};
   }
+  std::vector<MeshScheme> chosen;
+  for (const auto& [name, scheme] : by_name) chosen.push_back(scheme);
   result.scheme_line = scheme_line(chosen, a.mesh);
   return result;
 }
@@ -230,10 +233,19 @@ Job settle(Arguments a) {
 }
 
 // Why not all was looked at; empty: all was.
-std::string incomplete(const verify::Auditor& auditor, const verify::Report& report, int signal) {
+std::string incomplete(const verify::Auditor& auditor, const std::vector<verify::AuditMesh>& meshes,
+                       const verify::Report& report, int signal) {
   if (signal != 0) return fmt::format("interrupted by {}", verify::signal_name(signal));
   if (auditor.out_of_memory()) return "this program ran out of memory";
-  if (!report.looked()) return "nothing was looked at: nothing that was asked for is supported";
+  if (!report.looked()) {
+    const bool polygons = std::any_of(meshes.begin(), meshes.end(), [](const verify::AuditMesh& m) {
+      return !m.mesh.faces.are_triangles();
+    });
+    return std::string("nothing was looked at: nothing that was asked for is supported") +
+           (polygons
+                ? "; a subject that does Loop's scheme only needs --triangulate for meshes with larger faces"
+                : "");
+  }
   return "";
 }
 
@@ -303,7 +315,7 @@ int audit(const Job& job) {
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
   const int signal = auditor.gave_up() ? verify::interrupted() : 0;
-  report.incomplete = incomplete(auditor, report, signal);
+  report.incomplete = incomplete(auditor, meshes, report, signal);
   const bool judged = judged_as_required(a.output, report);
   waive(a.output, audited, report);
 

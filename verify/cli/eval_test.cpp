@@ -137,8 +137,8 @@ TEST_F(EvalCommand, HasWarrensWeightsToo) {
 
 constexpr int kScale = 3000;
 
-// Every smooth known answer, at 45 digits; the answers have 42. A file holds no fractions: the control points are
-// kScale times those of the answers, which makes integers of them.
+// Every smooth known answer, at 45 digits; the answers have 42. A file holds no fractions: the control points
+// are kScale times those of the answers, which makes integers of them.
 TEST_F(EvalCommand, KnowsTheAnswersOfCatmullClarksSurface) {
   int cases = 0, samples = 0;
   for (const data::QuadAnswer& a : data::load_quad_answers()) {
@@ -193,7 +193,8 @@ TEST_F(EvalCommand, TakesACornerWhereAFaceIsNoQuad) {
     EXPECT_EQ(o.code, 0) << arguments << o.err;
     return nlohmann::json::parse(o.out)["position"];
   };
-  // The middle of a face is the corner (1, 1) of all its quads, that of an edge (1, 0) of one and (0, 1) of the next.
+  // The middle of a face is the corner (1, 1) of all its quads, that of an edge (1, 0) of one and (0, 1) of
+  // the next.
   EXPECT_EQ(position("prism:5 0:0 1 1"), position("prism:5 0:3 1 1"));
   EXPECT_EQ(position("prism:5 0:1 1 0"), position("prism:5 0:2 0 1"));
   EXPECT_EQ(position("octahedron 3:2 1 0 --scheme catmull-clark"),

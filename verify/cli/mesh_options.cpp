@@ -31,7 +31,8 @@ OpenedMesh taken(const std::string& name, data::OpenedMesh opened, const MeshOpt
   return result;
 }
 
-// To be validated for the scheme that the mesh has: `taken` says in words what is wrong with the one asked for.
+// To be validated for the scheme that the mesh has: `taken` says in words what is wrong with the one asked
+// for.
 data::ReadOptions without_scheme(const MeshOptions& options) {
   data::ReadOptions result = read_options(options);
   result.scheme.reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The control mesh of a command, and the scheme that is meant: --scheme, --triangulate, and the first line of the
-// output, which says what was chosen.
+// The control mesh of a command, and the scheme that is meant: --scheme, --triangulate, and the first line of
+// the output, which says what was chosen.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -38,14 +38,14 @@ struct OpenedMesh {
 MeshScheme scheme_of(const data::ControlMesh& mesh, std::int64_t cut, const MeshOptions& options);
 
 /// A file or a generator's name.
-///   throws   data::InputError as data::open_mesh; data::ArgumentError: Loop's scheme was asked for, and the mesh
-///            has polygons that nobody allowed to be cut
+///   throws   data::InputError as data::open_mesh; data::ArgumentError: Loop's scheme was asked for, and the
+///            mesh has polygons that nobody allowed to be cut
 OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options);
 /// A generator's name only.
 OpenedMesh open_named_mesh(const std::string& specification, const MeshOptions& options);
 
-/// For commands that know Loop's scheme only. Throws data::ArgumentError, which names --triangulate, if another one
-/// was chosen; `command` is its subject: "limitcheck tessellate".
+/// For commands that know Loop's scheme only. Throws data::ArgumentError, which names --triangulate, if
+/// another one was chosen; `command` is its subject: "limitcheck tessellate".
 void require_loop(const std::string& name, const OpenedMesh& mesh, const std::string& command);
 
 /// "scheme: loop (all faces are triangles)", of one mesh or of all meshes of a command.

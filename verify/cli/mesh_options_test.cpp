@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every command that takes a control mesh chooses the scheme by the mesh, says so first, and cuts no polygon unless
-// it is told to.
+// Every command that takes a control mesh chooses the scheme by the mesh, says so first, and cuts no polygon
+// unless it is told to.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -49,24 +49,26 @@ TEST_F(Scheme, LoopsTakesPolygonsThatAreCutOnRequestAndSaysHowMany) {
 }
 
 // Files and names alike.
-TEST_F(Scheme, CommandsThatKnowLoopsOnlyRefuseWhatHasAnotherAndNameTheWayOut) {
+TEST_F(Scheme, PolygonsAreRefusedForLoopsInASentenceThatNamesTheWaysOut) {
   ASSERT_EQ(run("generate quad-cube -o cube.ply").code, 0);
   ASSERT_EQ(run("tessellate octahedron --depth 1 -o out.ply").code, 0);
-  for (const std::string mesh : {"quad-cube", "cube.ply"})
-    for (const std::string& command :
-         {"tessellate " + mesh, "audit --control " + mesh + " --tessellation out.ply"}) {
-      if (command.starts_with("tessellate")) {  // the audit of files knows both
-        const Outcome o = run(command);
-        EXPECT_EQ(o.code, 2) << command;
-        EXPECT_EQ(o.out, "") << command;
-        EXPECT_NE(o.err.find("6 of 6 faces are no triangles"), std::string::npos) << o.err;
-        EXPECT_NE(o.err.find("--triangulate fan"), std::string::npos) << o.err;
-      }
-      const Outcome loop = run(command + " --scheme loop");
-      EXPECT_EQ(loop.code, 2) << command;
-      EXPECT_NE(loop.err.find("leave out --scheme loop"), std::string::npos) << loop.err;
-      EXPECT_NE(loop.err.find("--triangulate fan"), std::string::npos) << loop.err;
+  for (const std::string mesh : {"quad-cube", "cube.ply"}) {
+    for (const std::string& command : {"tessellate " + mesh, "audit naive " + mesh, "eval " + mesh + " 0 0 0",
+                                       "audit --control " + mesh + " --tessellation out.ply"}) {
+      const Outcome o = run(command + " --scheme loop");
+      EXPECT_EQ(o.code, 2) << command;
+      EXPECT_EQ(o.out, "") << command;
+      for (const char* part :
+           {"6 of 6 faces are no triangles", "leave out --scheme loop", "--triangulate fan"})
+        EXPECT_NE(o.err.find(part), std::string::npos) << command << ": " << o.err;
     }
+    // The engine knows Loop's scheme only.
+    const Outcome o = run("tessellate " + mesh);
+    EXPECT_EQ(o.code, 2) << mesh;
+    EXPECT_EQ(o.out, "") << mesh;
+    for (const char* part : {"6 of 6 faces are no triangles", "--triangulate fan"})
+      EXPECT_NE(o.err.find(part), std::string::npos) << o.err;
+  }
   const Outcome o = run("tessellate octahedron --scheme catmull-clark");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("knows Loop's scheme only"), std::string::npos) << o.err;
@@ -92,6 +94,15 @@ TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
   const auto cut = nlohmann::json::parse(run(subject + "prism.off --triangulate fan --json").out);
   EXPECT_EQ(cut["meshes"][0]["triangulated"], "fan");
   EXPECT_EQ(cut["meshes"][0]["faces"], 16);
+}
+
+TEST_F(Scheme, OfASubjectThatDoesLoopsOnlyLeadsToTriangulate) {
+  const Outcome o = run("audit row-stream quad-cube --depth 1 --level quick");
+  EXPECT_EQ(o.code, 2) << o.out;
+  EXPECT_NE(o.out.find("does Loop's scheme only needs --triangulate"), std::string::npos) << o.out;
+  EXPECT_EQ(run("audit row-stream quad-cube --depth 1 --level quick --triangulate fan").code, 0);
+  EXPECT_EQ(run("audit row-stream quad-cube cube --depth 1 --level quick").code, 0)
+      << "one of them is judged";
 }
 
 TEST_F(Scheme, OfBrokenMeshesIsChosenLikewise) {

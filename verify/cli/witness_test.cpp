@@ -97,6 +97,26 @@ TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
   EXPECT_GT(commands, 1);
 }
 
+// Quads, polygons, and triangles that are meant for Catmull-Clark's scheme.
+TEST_F(WitnessFiles, OfCatmullClarksSurfacesShowTheFindingAgain) {
+  for (const char* meshes : {"quad-cube prism:5 mixed-pawn:5", "octahedron --scheme catmull-clark"}) {
+    const Outcome o = run(std::string("audit quad-model:mutation=face_weight_1e-6 ") + meshes +
+                          " --depth 2 --level quick --witnesses found --json -");
+    EXPECT_EQ(o.code, 1) << o.err;
+    int findings = 0;
+    const Json report = Json::parse(o.out);
+    for (const auto& row : report["results"]) findings += row["status"] == "finding";
+    EXPECT_EQ(expect_reproducible("found"), findings) << meshes;
+    EXPECT_GT(findings, 0) << meshes;
+    for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
+      const Json json = Json::parse(read(entry.path() / "witness.json"));
+      EXPECT_EQ(json.at("scheme"), "catmull-clark");
+      EXPECT_NE(json.at("audit").get<std::string>().find(" --scheme catmull-clark"), std::string::npos);
+    }
+    fs::remove_all(folder_ / "found");
+  }
+}
+
 TEST_F(WitnessFiles, NameTheFamilyOfWeights) {
   const Outcome o =
       run("audit model:mutation=warren_declared octahedron --depth 1 --level quick --witnesses found");
@@ -120,6 +140,16 @@ TEST_F(WitnessFiles, CarryTheDepthsOfTheFaces) {
 TEST_F(WitnessFiles, AreSmallAfterShrinking) {
   const Outcome o =
       run("audit model:mutation=weight_1e-6_at_valence_5 random:5:300 --depth 2 --level quick --shrink 60");
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_NE(o.err.find("shrunk to"), std::string::npos) << o.err;
+  EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
+  for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
+    EXPECT_LE(data::read_mesh(entry.path() / "control.obj").faces.size(), 8U) << entry.path();
+}
+
+TEST_F(WitnessFiles, OfPolygonsAreSmallAfterShrinking) {
+  const Outcome o = run(
+      "audit quad-model:mutation=weight_1e-6_at_valence_5 mixed:4:300 --depth 2 --level quick --shrink 60");
   EXPECT_EQ(o.code, 1) << o.err;
   EXPECT_NE(o.err.find("shrunk to"), std::string::npos) << o.err;
   EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);

@@ -34,8 +34,8 @@ struct FilesAudit {
 
 /// Rows: file-finite, file-unused, file-distance (or file-positions, with a provenance), file-normals,
 /// file-normal-length, file-orientation, file-coverage, file-degenerate, file-watertight, file-hausdorff.
-/// `control` is valid for the scheme (data/validate.h); the tessellation is fitted first if asked. Quads and larger
-/// polygons of the file are the triangles that tessellation_file.h cuts them into.
+/// `control` is valid for the scheme (data/validate.h); the tessellation is fitted first if asked. Quads and
+/// larger polygons of the file are the triangles that tessellation_file.h cuts them into.
 FilesAudit audit_files(
     const std::string& control_name, const data::ControlMesh& control, FileTessellation tessellation,
     const std::vector<ProvenanceRow>& provenance, const FilesOptions& options,

@@ -11,8 +11,9 @@
 namespace limitcheck::verify {
 namespace {
 
-// A face of the domain is covered once if the areas of the triangles on it, in its parameters, add up to 1. Feet are put on
-// edges and corners, so a face's share is exact but for rounding; one triangle at depth 6 is 2.4e-4.
+// A face of the domain is covered once if the areas of the triangles on it, in its parameters, add up to 1.
+// Feet are put on edges and corners, so a face's share is exact but for rounding; one triangle at depth 6 is
+// 2.4e-4.
 constexpr double kShare = 1e-4;
 // Where triangles cross face borders their areas are exact between two faces but not around an extraordinary
 // vertex: only all faces together are judged, and less sharply.

@@ -40,8 +40,8 @@ Apart apart(const std::vector<Vector>& points, const std::vector<Vector>& cloud)
   return a;
 }
 
-// The control mesh as the schemes take it: of triangles, and as it is. Triangles of polygons may be no manifold,
-// and then have no surface.
+// The control mesh as the schemes take it: of triangles, and as it is. Triangles of polygons may be no
+// manifold, and then have no surface.
 struct Cages {
   data::ControlMesh cut;
   const data::ControlMesh& whole;
@@ -108,7 +108,8 @@ struct Guess {
   Apart apart;
 };
 
-// The refined control points of the scheme that the file is judged by: their largest distance from the surface.
+// The refined control points of the scheme that the file is judged by: their largest distance from the
+// surface.
 struct Refined {
   double worst = -1;
   int steps = 0;

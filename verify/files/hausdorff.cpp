@@ -118,8 +118,8 @@ class Measurer {
     bool bare = false;                   // some of the piece has no triangle over it
   };
 
-  // The control face in which a face of the domain lies as one flat polygon of the limits of its corners, cut as
-  // files are: a fan from the first.
+  // The control face in which a face of the domain lies as one flat polygon of the limits of its corners, cut
+  // as files are: a fan from the first.
   std::vector<std::array<Vector, 3>> one_polygon(std::size_t f) const {
     const LimitSurface& surface = e_.surface.surface();
     const std::int32_t face = surface.control_face(static_cast<std::int32_t>(f));

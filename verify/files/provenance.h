@@ -29,8 +29,8 @@ struct ProvenanceRow {
 /// Of Loop's scheme.
 std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
                                             std::int64_t vertices, std::int64_t faces);
-/// Of either scheme. Catmull-Clark's parameters u and v may be headed so, or l1 and l2; on a face that is no quad
-/// they are of the quad at a corner, which a column `corner` names.
+/// Of either scheme. Catmull-Clark's parameters u and v may be headed so, or l1 and l2; on a face that is no
+/// quad they are of the quad at a corner, which a column `corner` names.
 std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
                                             std::int64_t vertices, const data::ControlMesh& control,
                                             data::Scheme scheme);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The audit of files against Catmull-Clark's limit surface: files of quads that are right, and with a fault each.
+// The audit of files against Catmull-Clark's limit surface: files of quads that are right, and with a fault
+// each.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -15,8 +15,8 @@
 
 namespace limitcheck::verify::test {
 
-/// The mesh refined so many times, moved to the limit or not, as the text of an OBJ file of quads (at depth 0: of
-/// the control faces) with the limit's normals.
+/// The mesh refined so many times, moved to the limit or not, as the text of an OBJ file of quads (at depth
+/// 0: of the control faces) with the limit's normals.
 inline std::string obj_of_quads(const data::ControlMesh& mesh, int depth, bool limit) {
   reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
   for (int step = 0; step < depth; ++step) refined.refine();

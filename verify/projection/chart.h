@@ -21,7 +21,8 @@ inline std::array<double, 3> clamped(std::array<double, 3> l) {
 ///   triangle   barycentric coordinates: l1 and l2 of Loop's scheme are the second and the third
 ///   square     (1 - u - v, u, v), of which the first is negative beyond the diagonal; only u and v count
 ///
-/// A side goes counter-clockwise. Side k lies opposite corner k of a triangle, and begins at corner k of a square.
+/// A side goes counter-clockwise. Side k lies opposite corner k of a triangle, and begins at corner k of a
+/// square.
 class Chart {
  public:
   using Affine = std::array<double, 3>;
@@ -50,8 +51,8 @@ class Chart {
     const Affine a = corner(first(side)), b = corner(last(side));
     return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   }
-  /// The determinant of three points is twice their area over that of the triangle (0, 0), (1, 0), (0, 1), half
-  /// of which is the unit; so much has the whole.
+  /// The determinant of three points is twice their area over that of the triangle (0, 0), (1, 0), (0, 1),
+  /// half of which is the unit; so much has the whole.
   constexpr double area() const { return square_ ? 2 : 1; }
 
   /// How far a point lies from a side, the far corner or side being at 1; 0 exactly means on it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parameter domain of a mesh of triangles or of quads: its faces as unit triangles or unit squares, joined at
-// the edges.
+// The parameter domain of a mesh of triangles or of quads: its faces as unit triangles or unit squares,
+// joined at the edges.
 #pragma once
 
 #include <array>

@@ -15,8 +15,9 @@ namespace limitcheck::verify {
 
 /// The faces of the domain are
 ///   of Loop's scheme         the control mesh's triangles
-///   of Catmull-Clark's       its quads; or, if it has other faces, the quads of the mesh after one step: one for each
-///                            corner of each control face, in order. Their limit surface is the same.
+///   of Catmull-Clark's       its quads; or, if it has other faces, the quads of the mesh after one step: one
+///                            for each corner of each control face, in order. Their limit surface is the
+///                            same.
 class LimitSurface {
  public:
   /// `mesh` is valid for the scheme (data/validate.h) and outlives this.
@@ -35,8 +36,8 @@ class LimitSurface {
     return vector_of(evaluate(at, reference::Order::kPosition).position);
   }
 
-  /// A point as reports name it: a control face, of one that is cut into quads a corner (else -1), and l1 and l2
-  /// or u and v.
+  /// A point as reports name it: a control face, of one that is cut into quads a corner (else -1), and l1 and
+  /// l2 or u and v.
   struct ControlPoint {
     std::int32_t face = -1;
     int corner = -1;
@@ -54,7 +55,8 @@ class LimitSurface {
   bool on_control_edge(std::int32_t face, int side) const;
 
  private:
-  // Of a quad of the refined mesh: which corner of its control face it has, and whether that is a quad itself.
+  // Of a quad of the refined mesh: which corner of its control face it has, and whether that is a quad
+  // itself.
   int control_corner_of(std::int32_t face) const {
     return face - static_cast<std::int32_t>(control_.faces.first_corner(control_face_[face]));
   }

@@ -83,7 +83,8 @@ bool beside_a_lonely_corner(const Domain& domain, const FacePoint& at) {
   return false;
 }
 
-// But for rounding: next to the corner of a boundary face without neighbours, where d1 and d2 become parallel, more.
+// But for rounding: next to the corner of a boundary face without neighbours, where d1 and d2 become
+// parallel, more.
 TEST(QuadProjection, APointOfTheSurfaceIsItsOwnFoot) {
   double worst = 0, worst_lonely = 0;
   for (const test::QuadMesh& m : test::quad_meshes()) {

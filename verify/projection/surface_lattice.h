@@ -30,8 +30,8 @@ struct Piece {
   FacePoint parameter(const std::array<double, 3>& weight) const;
 };
 
-/// All faces of a domain subdivided uniformly. Quads of the lattice are cut along the diagonal that runs towards
-/// the nearest corner of their face.
+/// All faces of a domain subdivided uniformly. Quads of the lattice are cut along the diagonal that runs
+/// towards the nearest corner of their face.
 class SurfaceLattice {
  public:
   /// depth >= 2. All faces are triangles, or all are quads; the mesh is valid (data/validate.h).

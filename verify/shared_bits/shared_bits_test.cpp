@@ -164,8 +164,7 @@ TEST(SharedBits, OneBitIsSeenWhereverItIs) {
   std::int64_t planted = 0;
   for (const std::uint32_t flip : {1u, 1u << 31}) {
     for (int number = 0; number < 6; ++number) {
-      for (const auto& at :
-           {lc_provenance{4, 0, 0, 8}, {4, 8, 0, 8}, {4, 5, 0, 8}, {4, 1, 7, 8}, {4, 0, 4, 8}}) {
+      for (const auto& at : {Place{4, 0, 0, 8}, {4, 8, 0, 8}, {4, 5, 0, 8}, {4, 1, 7, 8}, {4, 0, 4, 8}}) {
         SharedBits bits(mesh, 3);
         std::array<float, 6> vertex{};
         bits.add(at, vertex.data());

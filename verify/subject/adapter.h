@@ -29,7 +29,8 @@ struct Output {
 
 /// Refuses what does not fit in 32-bit indices when each triangle becomes 4^depth, halfedges included.
 inline void refuse_too_many_triangles(const lc_mesh& mesh, int depth) {
-  // A face of n corners has no more than n quads after a step, each of two triangles; a triangle of Loop's is one.
+  // A face of n corners has no more than n quads after a step, each of two triangles; a triangle of Loop's is
+  // one.
   const std::int64_t triangles = mesh.scheme == LC_SCHEME_LOOP ? mesh.face_count : 2 * mesh.corner_count;
   if (triangles > (std::int64_t{UINT32_MAX} / 6 >> (2 * depth))) {
     throw SubjectError(LC_NOT_SUPPORTED, "more triangles at this depth than 32-bit indices can name");

@@ -15,7 +15,9 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
+#include "reference/catmull_clark/naive.h"
 #include "reference/catmull_clark/refined_mesh.h"
+#include "reference/surface/surface.h"
 #include "verify/subject/opensubdiv_mesh.h"
 
 namespace limitcheck::verify {
@@ -43,19 +45,8 @@ struct FarMesh {
   std::vector<Vec3<double>> refined, limits, normals;
 
   FarMesh(const data::ControlMesh& mesh, int depth) {
-    std::vector<int> sizes;
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-      sizes.push_back(static_cast<int>(mesh.faces[f].size()));
-    Far::TopologyDescriptor descriptor;
-    descriptor.numVertices = static_cast<int>(mesh.positions.size());
-    descriptor.numFaces = static_cast<int>(sizes.size());
-    descriptor.numVertsPerFace = sizes.data();
-    descriptor.vertIndicesPerFace = mesh.faces.corners().data();
-    OpenSubdiv::Sdc::Options scheme;
-    scheme.SetVtxBoundaryInterpolation(OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
-    using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    const std::unique_ptr<Far::TopologyRefiner> refiner(
-        Factory::Create(descriptor, Factory::Options(OpenSubdiv::Sdc::SCHEME_CATMARK, scheme)));
+    const LentMesh lent(mesh, data::Scheme::kCatmullClark);
+    const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(lent.view());
     Far::TopologyRefiner::UniformOptions uniform(depth);
     uniform.fullTopologyInLastLevel = true;
     refiner->RefineUniform(uniform);
@@ -141,6 +132,51 @@ TEST(CatmullClark_OpenSubdiv, HasTheSameRefinedAndLimitPoints) {
   EXPECT_LE(worst_limit, 4);
   EXPECT_LE(worst_normal, 1e-9);  // degrees; one rounding turns a unit vector by 6e-15
   EXPECT_GT(worst_boundary, 0.5);
+}
+
+// Three ways that share no code: the recursion over single quads, Stam's powers of the subdivision matrix,
+// and OpenSubdiv's limit masks after three steps.
+TEST(CatmullClark_OpenSubdiv, OurTwoEvaluatorsAndFarAgreeToAFewUlp) {
+  constexpr int kDepth = 3;
+  double naive_stam = 0, naive_far = 0, stam_far = 0, turned_stam = 0, turned_far = 0;
+  for (const auto& [name, mesh] : meshes()) {
+    const double unit = largest_of(mesh) * 0x1p-52;
+    const FarMesh far(mesh, kDepth);
+    Refined ours(mesh.faces, positions_of(mesh));
+    for (int step = 0; step < kDepth; ++step) ours.refine();
+    const reference::Surface stam(mesh, data::Scheme::kCatmullClark);
+    const reference::catmull_clark::NaiveSubdivider<double> naive(mesh.faces, positions_of(mesh));
+    for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+      const bool quad = mesh.faces[face].size() == 4;
+      const double steps = std::ldexp(1, quad ? kDepth : kDepth - 1);
+      for (std::size_t corner = 0; corner < (quad ? 1 : mesh.faces[face].size()); ++corner)
+        naive.tessellate(face, corner, kDepth, [&](const reference::catmull_clark::LeafQuad<double>& leaf) {
+          for (const auto& c : leaf) {
+            const auto v = ours.vertex(face, corner, c.i, c.j);
+            const auto exact = stam.evaluate(static_cast<int>(face), static_cast<int>(corner), c.i / steps,
+                                             c.j / steps, reference::Order::kFirst);
+            const Vec3<double>& theirs = far.limits[static_cast<std::size_t>(v)];
+            naive_stam = std::max(naive_stam, magnitude(c.position - exact.position) / unit);
+            naive_far = std::max(naive_far, magnitude(c.position - theirs) / unit);
+            stam_far = std::max(stam_far, magnitude(exact.position - theirs) / unit);
+            if (c.normal_kind != reference::NormalKind::kRegular) continue;
+            turned_stam = std::max(turned_stam, degrees(c.normal, exact.normal));
+            const auto sector = ours.topology().sector(v);
+            if (sector.closed || sector.faces.size() < 3)  // the others: above
+              turned_far = std::max(turned_far, degrees(c.normal, far.normals[static_cast<std::size_t>(v)]));
+          }
+        });
+    }
+  }
+  std::printf(
+      "units of the last place: naive and Stam %.2f, naive and Far %.2f, Stam and Far %.2f; normals %.1e, "
+      "%.1e degrees\n",
+      naive_stam, naive_far, stam_far, turned_stam, turned_far);
+  EXPECT_LE(naive_stam, 4);
+  EXPECT_LE(naive_far, 4);
+  EXPECT_LE(stam_far, 4);
+  EXPECT_LE(turned_stam, 1e-9);
+  EXPECT_LE(turned_far, 1e-9);
 }
 
 TEST(CatmullClark_Cgal, HasTheSameRefinedPoints) {

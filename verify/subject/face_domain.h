@@ -29,13 +29,13 @@ inline Place place_of(const lc_provenance& p, std::int32_t corner = 0) {
 /// The parameter domain of a control face:
 ///   triangle   of Loop's scheme: corners (0, 0), (1, 0), (0, 1) in (l1, l2)
 ///   quad       of Catmull-Clark's: the unit square of (u, v)
-///   polygon    any other face of Catmull-Clark's, with as many parts as corners: part k is the unit square from
-///              corner k to the middle of side k, the middle of the face, and the middle of side k - 1
+///   polygon    any other face of Catmull-Clark's, with as many parts as corners: part k is the unit square
+///              from corner k to the middle of side k, the middle of the face, and the middle of side k - 1
 ///
 /// Points are integers over a common number n of steps to a side, which every function takes: (i, j) is
-/// l1 = i / n, l2 = j / n. A side is two sides of parts, so that in a part of a polygon u = i / (n / 2). An odd
-/// n leaves of a polygon its corners. Corners are numbered counter-clockwise from 0. Side k runs from corner k
-/// to corner next(k), and a point on it is given by its number of steps from corner k.
+/// l1 = i / n, l2 = j / n. A side is two sides of parts, so that in a part of a polygon u = i / (n / 2). An
+/// odd n leaves of a polygon its corners. Corners are numbered counter-clockwise from 0. Side k runs from
+/// corner k to corner next(k), and a point on it is given by its number of steps from corner k.
 class FaceDomain {
  public:
   struct Point {
@@ -178,8 +178,9 @@ class FaceDomain {
       for (Point& p : points) p = *in_part(p, *part, n);
     return part.has_value();
   }
-  /// The straight line from p to q in the shortest steps whose coordinates are multiples of `unit`, each as two
-  /// points of one part. Between two parts a line is straight along a side only; elsewhere it is one step.
+  /// The straight line from p to q in the shortest steps whose coordinates are multiples of `unit`, each as
+  /// two points of one part. Between two parts a line is straight along a side only; elsewhere it is one
+  /// step.
   template <class Visit>
   constexpr void for_each_step(Point p, Point q, std::int64_t n, std::int64_t unit, Visit visit) const {
     std::array<Point, 2> ends{p, q};
@@ -235,8 +236,8 @@ class FaceDomain {
     if (shape_ == Shape::kQuad) return (n - 1) * (n - 1);
     return n == 1 ? 0 : 1 + parts() * (n / 2) * (n / 2 - 1);
   }
-  /// Their numbers among these, from 0: of a triangle and a quad row by row in j; of a polygon part by part, then
-  /// the centre.
+  /// Their numbers among these, from 0: of a triangle and a quad row by row in j; of a polygon part by part,
+  /// then the centre.
   constexpr std::int64_t inner_number(Point p, std::int64_t n) const {
     if (shape_ == Shape::kTriangle) return (p.j - 1) * (n - 1) - p.j * (p.j - 1) / 2 + p.i - 1;
     if (shape_ == Shape::kQuad) return (p.j - 1) * (n - 1) + p.i - 1;
@@ -262,8 +263,8 @@ class FaceDomain {
     return {number % m + 1, row % (m - 1) + 1, static_cast<std::int32_t>(row / (m - 1))};
   }
 
-  /// Twice the oriented area of a triangle of points, > 0 counter-clockwise, in triangles of the lattice. Exact
-  /// if a part has all three points; otherwise of a regular polygon, rounded.
+  /// Twice the oriented area of a triangle of points, > 0 counter-clockwise, in triangles of the lattice.
+  /// Exact if a part has all three points; otherwise of a regular polygon, rounded.
   double area(std::array<Point, 3> c, std::int64_t n) const {
     if (share_part(c, n))
       return static_cast<double>((c[1].i - c[0].i) * (c[2].j - c[0].j) -

@@ -145,8 +145,8 @@ class Tessellation {
   std::vector<Overrun> overruns_;
 };
 
-/// The capabilities of a subject under these options for one scheme. Throws SubjectError; SubjectDied (kProtocol) if it
-/// declares what means nothing.
+/// The capabilities of a subject under these options for one scheme. Throws SubjectError; SubjectDied
+/// (kProtocol) if it declares what means nothing.
 lc_capabilities capabilities(const lc_subject& subject, const std::string& options = {},
                              data::Scheme scheme = data::Scheme::kLoop);
 

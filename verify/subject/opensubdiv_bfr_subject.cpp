@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface), its uniform Tessellation
-// evaluated point by point, and forgotten: the streaming use, nearest to what the paper does.
+// OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface), evaluated point by
+// point, and forgotten: the streaming use, nearest to what the paper does. The points are those of the
+// library's uniform Tessellation of a triangle; on Catmull-Clark's faces ours, because the library's of a
+// pentagon are not those of its refinement.
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
 
@@ -26,39 +28,48 @@ using Factory = Bfr::RefinerSurfaceFactory<Cache>;
 template <class Real>
 class FaceSurface {
  public:
-  FaceSurface(const Factory& factory, const std::vector<Real>& control)
-      : factory_(factory), control_(control) {}
+  FaceSurface(const Factory& factory, const std::vector<Real>& control, bool closed_only)
+      : factory_(factory), control_(control), closed_only_(closed_only) {}
 
   void begin(std::int32_t face) {
     const OpenSubdivErrors errors;
     if (!factory_.InitVertexSurface(face, &surface_))
-      throw SubjectError(LC_FAILED, "Bfr has no limit surface for face " + std::to_string(face));
+      throw SubjectError(closed_only_ ? LC_NOT_SUPPORTED : LC_FAILED,
+                         "Bfr has no limit surface for face " + std::to_string(face));
     errors.check();
     points_.resize(3 * static_cast<std::size_t>(surface_.GetNumPatchPoints()));
     surface_.PreparePatchPoints(control_.data(), 3, points_.data(), 3);
   }
-  void evaluate(const Real* uv, Real* position, Real* du, Real* dv) const {
-    surface_.Evaluate(uv, points_.data(), 3, position, du, dv);
+  // Catmull-Clark's faces of other sizes than four have the parts as sub-faces, turned as ours.
+  void evaluate(std::int32_t part, const Real* uv, Real* position, Real* du, Real* dv) const {
+    const Bfr::Parameterization face = surface_.GetParameterization();
+    Real of_face[2] = {uv[0], uv[1]};
+    if (face.HasSubFaces()) face.ConvertNormalizedSubFaceToCoord(part, uv, of_face);
+    surface_.Evaluate(of_face, points_.data(), 3, position, du, dv);
   }
 
  private:
   const Factory& factory_;
   const std::vector<Real>& control_;
+  const bool closed_only_;
   Bfr::Surface<Real> surface_;
   std::vector<Real> points_;
 };
 
 class BfrSubject {
  public:
-  static lc_capabilities capabilities(Options& options) {
+  static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
     (void)approx_level(options);
     return {
-        wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 0};
+        wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
   }
 
   BfrSubject(const lc_mesh& mesh, Options& options)
-      : mesh_(mesh), wide_(capabilities(options).precision == LC_FLOAT64), refiner_(make_refiner(mesh)) {
+      : mesh_(mesh),
+        wide_(capabilities(options, mesh.scheme).precision == LC_FLOAT64),
+        closed_only_(without_boundary(options)),
+        refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(options))) {
     Factory::Options level;
     if (const int given = approx_level(options); given >= 0)
       level.SetApproxLevelSmooth(given).SetApproxLevelSharp(given);
@@ -76,11 +87,13 @@ class BfrSubject {
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
     const std::vector<Real> control(mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count);
-    tessellate_faces<Real>(mesh_, request, out, [&] { return FaceSurface<Real>(*factory_, control); });
+    const FacePatterns patterns(mesh_, request, opensubdiv_triangle);
+    tessellate_faces<Real>(mesh_, patterns, request, out,
+                           [&] { return FaceSurface<Real>(*factory_, control, closed_only_); });
   }
 
   const lc_mesh mesh_;
-  const bool wide_;
+  const bool wide_, closed_only_;
   std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> refiner_;
   std::unique_ptr<Factory> factory_;
 };
@@ -90,6 +103,7 @@ class BfrSubject {
 extern "C" const lc_subject* lc_subject_opensubdiv_bfr() {
   static const lc_subject subject = make_subject<BfrSubject>(
       "opensubdiv-bfr", "OpenSubdiv 3.5 Bfr: the limit surface of each face, evaluated",
-      "precision=float|double (default float), approx-level=N (default the library's, 2)");
+      "precision=float|double (default float), approx-level=N (default the library's, 2), "
+      "boundary=edge|none (default edge; none is the library's: closed meshes only)");
   return &subject;
 }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // OpenSubdiv Far: the whole mesh refined uniformly (PrimvarRefiner::Interpolate level by level), then limit
 // positions and tangents (PrimvarRefiner::Limit). Delivered as the library delivers it; the normal is its
-// first tangent x its second.
+// first tangent x its second. Catmull-Clark's quads are cut along a diagonal. Limit() takes the faces
+// around a vertex for quads without a look: on a mesh of other faces its values at depth 0 mean nothing.
 #include <opensubdiv/far/primvarRefiner.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "verify/subject/opensubdiv_mesh.h"
@@ -21,14 +24,22 @@ namespace Far = OpenSubdiv::Far;
 template <class Real>
 using Vector = OpenSubdivVector<Real>;
 
-// Where the three corners of a refined face lie on its control face, in units of 2^-level.
-struct Lattice {
-  std::array<std::array<std::uint32_t, 2>, 3> corner;
+// Where the corners of a refined face lie on its control face, in units of 1 / denominator of the part.
+struct RefinedFace {
+  std::int32_t control_face, part;
+  std::uint32_t denominator;
+  std::array<std::array<std::uint32_t, 2>, 4> at;
+};
+
+// A vertex of the next level, and where it lies on this level's face in halves of its units.
+struct Child {
+  int vertex;
+  std::array<std::uint32_t, 2> at;
 };
 
 class FarSubject {
  public:
-  static lc_capabilities capabilities(Options& options) {
+  static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
     (void)bare(options);
     return {wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 8, 1, 0, 1};
@@ -36,7 +47,7 @@ class FarSubject {
 
   FarSubject(const lc_mesh& mesh, Options& options)
       : mesh_(mesh),
-        wide_(capabilities(options).precision == LC_FLOAT64),
+        wide_(capabilities(options, mesh.scheme).precision == LC_FLOAT64),
         bare_(bare(options)),
         refiner_(make_refiner(mesh)) {}
 
@@ -73,8 +84,12 @@ class FarSubject {
     }
 
     const Far::TopologyLevel& last = refiner_->GetLevel(depth);
+    const bool quads = mesh_.scheme == LC_SCHEME_CATMULL_CLARK;
+    std::int64_t triangles = 0;
+    for (int f = 0; f < last.GetNumFaces(); ++f) triangles += last.GetFaceVertices(f).size() - 2;
     const auto output =
-        allocate_output<Real>(request, out, last.GetNumVertices(), last.GetNumFaces(), /*normals=*/true);
+        allocate_output<Real>(request, out, last.GetNumVertices(), triangles, /*normals=*/true,
+                              /*corners=*/quads);
     auto* limit = reinterpret_cast<Vector<Real>*>(output.positions);
     std::vector<Vector<Real>> tangent1(points.size());
     std::vector<Vector<Real>> tangent2(points.size());
@@ -89,53 +104,107 @@ class FarSubject {
     }
 
     std::int64_t written = 0;
-    for (std::int32_t face = 0; face < mesh_.triangle_count; ++face) {
-      descend(face, 0, depth, face, {{{{0, 0}, {1, 0}, {0, 1}}}}, output, written);
+    for (std::int32_t face = 0; face < mesh_.face_count; ++face) begin(face, depth, output, written);
+  }
+
+  // All of one control face.
+  template <class Real>
+  void begin(std::int32_t face, int depth, const Output<Real>& output, std::int64_t& written) const {
+    const Far::TopologyLevel& control = refiner_->GetLevel(0);
+    const auto corners = control.GetFaceVertices(face);
+    if (mesh_.scheme == LC_SCHEME_LOOP) {
+      descend(face, 0, depth, {face, 0, 1, {{{0, 0}, {1, 0}, {0, 1}}}}, output, written);
+    } else if (corners.size() == 4) {
+      descend(face, 0, depth, {face, 0, 1, kSquare}, output, written);
+    } else if (depth == 0) {
+      for (int k = 0; k < corners.size(); ++k) name(corners[k], {face, k, 1, kSquare}, {0, 0}, output);
+      for (int k = 1; k + 1 < corners.size(); ++k)
+        write(face, {corners[0], corners[k], corners[k + 1]}, output, written);
+    } else {
+      const auto edges = control.GetFaceEdges(face);
+      const auto children = control.GetFaceChildFaces(face);
+      for (int c = 0; c < children.size(); ++c) {
+        const auto child_corners = refiner_->GetLevel(1).GetFaceVertices(children[c]);
+        int k = 0;  // the corner that it lies at
+        while (k < corners.size() && !contains(child_corners, control.GetVertexChildVertex(corners[k]))) ++k;
+        if (k == corners.size())
+          throw SubjectError(LC_FAILED, "a part of a face that lies at none of its corners");
+        const int previous = k == 0 ? corners.size() - 1 : k - 1;
+        const std::array<Child, 4> candidates{{{control.GetVertexChildVertex(corners[k]), {0, 0}},
+                                               {control.GetEdgeChildVertex(edges[k]), {1, 0}},
+                                               {control.GetFaceChildVertex(face), {1, 1}},
+                                               {control.GetEdgeChildVertex(edges[previous]), {0, 1}}}};
+        descend(children[c], 1, depth, child_of({face, k, 1, {}}, child_corners, candidates), output,
+                written);
+      }
     }
   }
 
   // Writes the triangles into which `face` of `level` is divided at `depth`, and the provenance of their
-  // corners. A child's corner is the child of a corner or of an edge of its parent: that says where it lies,
-  // whatever the library's order of children is.
+  // corners. A child's corner is the child of a corner, of an edge or of the face of its parent: that says
+  // where it lies, whatever the library's order of children is.
   template <class Real>
-  void descend(std::int32_t control_face, int level, int depth, int face, const Lattice& at,
-               const Output<Real>& output, std::int64_t& written) const {
-    const Far::TopologyLevel& here = refiner_->GetLevel(level);
-    const auto corners = here.GetFaceVertices(face);
+  void descend(int face, int level, int depth, const RefinedFace& here, const Output<Real>& output,
+               std::int64_t& written) const {
+    const Far::TopologyLevel& topology = refiner_->GetLevel(level);
+    const auto corners = topology.GetFaceVertices(face);
+    const auto count = static_cast<std::size_t>(corners.size());
     if (level == depth) {
-      for (int k = 0; k < 3; ++k) {
-        const auto& [i, j] = at.corner[k];
-        output.triangles[3 * written + k] = static_cast<std::uint32_t>(corners[k]);
-        output.provenance[corners[k]] = {control_face, i, j, std::uint32_t{1} << depth};
-      }
-      output.triangle_face[written++] = control_face;
+      for (std::size_t k = 0; k < count; ++k) name(corners[static_cast<int>(k)], here, here.at[k], output);
+      write(here.control_face, {corners[0], corners[1], corners[2]}, output, written);
+      if (count == 4) write(here.control_face, {corners[0], corners[2], corners[3]}, output, written);
       return;
     }
-    const auto edges = here.GetFaceEdges(face);
-    std::array<int, 6> candidates{};
-    std::array<std::array<std::uint32_t, 2>, 6> places{};
-    for (int k = 0; k < 3; ++k) {
-      const auto& a = at.corner[k];
-      const auto& b = at.corner[(k + 1) % 3];
-      candidates[k] = here.GetVertexChildVertex(corners[k]);
-      places[k] = {2 * a[0], 2 * a[1]};
-      candidates[k + 3] = here.GetEdgeChildVertex(edges[k]);
-      places[k + 3] = {a[0] + b[0], a[1] + b[1]};
+    const auto edges = topology.GetFaceEdges(face);
+    std::array<Child, 9> candidates{};
+    const auto middle = [](const auto& a, const auto& b) {
+      return std::array<std::uint32_t, 2>{a[0] + b[0], a[1] + b[1]};
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& a = here.at[k];
+      const auto i = static_cast<int>(k);
+      candidates[k] = {topology.GetVertexChildVertex(corners[i]), middle(a, a)};
+      candidates[k + count] = {topology.GetEdgeChildVertex(edges[i]), middle(a, here.at[(k + 1) % count])};
     }
-    const auto children = here.GetFaceChildFaces(face);
+    if (count == 4) candidates[8] = {topology.GetFaceChildVertex(face), middle(here.at[0], here.at[2])};
+    const auto children = topology.GetFaceChildFaces(face);
+    const RefinedFace finer{here.control_face, here.part, 2 * here.denominator, {}};
     for (int c = 0; c < children.size(); ++c) {
       const auto child_corners = refiner_->GetLevel(level + 1).GetFaceVertices(children[c]);
-      Lattice child{};
-      for (int k = 0; k < 3; ++k) {
-        std::size_t match = 0;
-        while (match < 6 && candidates[match] != child_corners[k]) ++match;
-        if (match == 6)
-          throw SubjectError(LC_FAILED, "a refined vertex is the child of no vertex or edge of its face");
-        child.corner[k] = places[match];
-      }
-      descend(control_face, level + 1, depth, children[c], child, output, written);
+      const std::span known(candidates.data(), count == 4 ? 9 : 6);
+      descend(children[c], level + 1, depth, child_of(finer, child_corners, known), output, written);
     }
   }
+
+  static bool contains(const Far::ConstIndexArray& vertices, int vertex) {
+    return std::find(vertices.begin(), vertices.end(), vertex) != vertices.end();
+  }
+  static RefinedFace child_of(RefinedFace child, const Far::ConstIndexArray& corners,
+                              std::span<const Child> known) {
+    for (int k = 0; k < corners.size(); ++k) {
+      const auto match = std::find_if(known.begin(), known.end(),
+                                      [&](const Child& candidate) { return candidate.vertex == corners[k]; });
+      if (match == known.end())
+        throw SubjectError(LC_FAILED, "a refined vertex is the child of no vertex, edge or face of its face");
+      child.at[static_cast<std::size_t>(k)] = match->at;
+    }
+    return child;
+  }
+  template <class Real>
+  static void name(int vertex, const RefinedFace& face, const std::array<std::uint32_t, 2>& at,
+                   const Output<Real>& output) {
+    output.provenance[vertex] = {face.control_face, at[0], at[1], face.denominator};
+    if (output.corner != nullptr) output.corner[vertex] = face.part;
+  }
+  template <class Real>
+  static void write(std::int32_t control_face, const std::array<int, 3>& corners, const Output<Real>& output,
+                    std::int64_t& written) {
+    for (std::size_t k = 0; k < 3; ++k)
+      output.triangles[3 * written + static_cast<std::int64_t>(k)] = static_cast<std::uint32_t>(corners[k]);
+    output.triangle_face[written++] = control_face;
+  }
+
+  static constexpr std::array<std::array<std::uint32_t, 2>, 4> kSquare{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
   const lc_mesh mesh_;
   const bool wide_, bare_;

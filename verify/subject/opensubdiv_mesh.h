@@ -51,20 +51,22 @@ struct OpenSubdivVector {
   }
 };
 
-/// The refiner of a control mesh: by default Loop's scheme, boundary vertices on the B-spline curve, none of
-/// them a corner.
+inline OpenSubdiv::Sdc::SchemeType opensubdiv_scheme(const lc_mesh& mesh) {
+  return mesh.scheme == LC_SCHEME_LOOP ? OpenSubdiv::Sdc::SCHEME_LOOP : OpenSubdiv::Sdc::SCHEME_CATMARK;
+}
+
+/// The refiner of a control mesh: by default boundary vertices on the B-spline curve, none of them a corner.
 inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
-    const lc_mesh& mesh, OpenSubdiv::Sdc::SchemeType type = OpenSubdiv::Sdc::SCHEME_LOOP,
+    const lc_mesh& mesh, OpenSubdiv::Sdc::SchemeType type,
     OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary =
         OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY) {
   using namespace OpenSubdiv;
   const OpenSubdivErrors errors;
-  const std::vector<int> sizes(mesh.triangle_count, 3);
   Far::TopologyDescriptor descriptor;
   descriptor.numVertices = static_cast<int>(mesh.vertex_count);
-  descriptor.numFaces = static_cast<int>(mesh.triangle_count);
-  descriptor.numVertsPerFace = sizes.data();
-  descriptor.vertIndicesPerFace = mesh.triangles;
+  descriptor.numFaces = static_cast<int>(mesh.face_count);
+  descriptor.numVertsPerFace = mesh.face_sizes;
+  descriptor.vertIndicesPerFace = mesh.corners;
   Sdc::Options scheme;
   scheme.SetVtxBoundaryInterpolation(boundary);
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
@@ -72,6 +74,9 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
   errors.check();
   if (refiner == nullptr) throw SubjectError(LC_INVALID_INPUT, "OpenSubdiv makes no topology of this mesh");
   return refiner;
+}
+inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const lc_mesh& mesh) {
+  return make_refiner(mesh, opensubdiv_scheme(mesh));
 }
 
 }  // namespace limitcheck::verify

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The quad model: a plain, correct tessellator of Catmull-Clark's surfaces that can be told to be wrong in one
-// way. Uniform refinement to the deepest level asked for, every point once; triangles along a deeper neighbour
-// are cut until they meet its points. Computes in double.
+// The quad model: a plain, correct tessellator of Catmull-Clark's surfaces that can be told to be wrong in
+// one way. Uniform refinement to the deepest level asked for, every point once; triangles along a deeper
+// neighbour are cut until they meet its points. Computes in double.
 //
 //   options   mutation=NAME (default none)
 #include <algorithm>

@@ -11,7 +11,8 @@ std::vector<const lc_subject*> built_in_subjects() {
                                      lc_subject_opensubdiv_far_patches(),
                                      lc_subject_opensubdiv_bfr(),
                                      lc_subject_cgal(),
-                                     lc_subject_openmesh()};
+                                     lc_subject_openmesh(),
+                                     lc_subject_embree()};
   if (const lc_subject* vtk = lc_subject_vtk()) all.push_back(vtk);
   return all;
 }

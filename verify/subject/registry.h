@@ -17,6 +17,7 @@ const lc_subject* lc_subject_opensubdiv_far_patches();
 const lc_subject* lc_subject_opensubdiv_bfr();
 const lc_subject* lc_subject_cgal();
 const lc_subject* lc_subject_openmesh();
+const lc_subject* lc_subject_embree();
 const lc_subject* lc_subject_vtk();  // nullptr: this build has none
 const lc_subject* lc_subject_null();
 const lc_subject* lc_subject_model();       // right, or wrong in one stated way: model_rules.h

@@ -18,12 +18,12 @@
  *
  * Conventions: faces counter-clockwise seen from outside, corners c0, c1, c2 ...; normals of unit length,
  * outward.
- *   Loop          every face is a triangle: barycentric l0 = 1 - l1 - l2 at c0, l1 at c1, l2 at c2; the normal
- *                 is along ds/dl1 x ds/dl2
- *   Catmull-Clark a quad has (u, v): c0 at (0, 0), c1 at (1, 0), c2 at (1, 1), c3 at (0, 1); the normal is along
- *                 ds/du x ds/dv. Any other face, a triangle too, is cut by the first step into one quad for each
- *                 corner k: from c_k to the middle of the side to c_k+1, to the middle of the face, to the middle
- *                 of the side from c_k-1. Each has a (u, v) of its own, (0, 0) at c_k.
+ *   Loop          every face is a triangle: barycentric l0 = 1 - l1 - l2 at c0, l1 at c1, l2 at c2; the
+ *                 normal is along ds/dl1 x ds/dl2
+ *   Catmull-Clark a quad has (u, v): c0 at (0, 0), c1 at (1, 0), c2 at (1, 1), c3 at (0, 1); the normal is
+ *                 along ds/du x ds/dv. Any other face, a triangle too, is cut by the first step into one quad
+ *                 for each corner k: from c_k to the middle of the side to c_k+1, to the middle of the face,
+ *                 to the middle of the side from c_k-1. Each has a (u, v) of its own, (0, 0) at c_k.
  *
  * Versions: what interface 2 added stands at the end of each structure, behind what interface 1 has, so that
  * a subject built for 1 is called as it always was; it is asked for Loop's scheme on triangles alone. The
@@ -129,11 +129,11 @@ typedef struct lc_request {
 
 /* Where a vertex lies on control face `face`. Lattice points of depth d are the vertices of the control mesh
  * refined d times, moved to the limit surface.
- *   Loop            l1 = i / denominator, l2 = j / denominator; lattice points have denominator 2^d, the centre
- *                   of a face is i = j = 1, denominator 3
- *   Catmull-Clark   u = i / denominator, v = j / denominator; lattice points have denominator 2^d on a quad and
- *                   2^(d-1) on the quads of another face, which lc_tessellation.corner tells apart. At depth
- *                   0 such a face has its corners only. */
+ *   Loop            l1 = i / denominator, l2 = j / denominator; lattice points have denominator 2^d, the
+ *                   centre of a face is i = j = 1, denominator 3
+ *   Catmull-Clark   u = i / denominator, v = j / denominator; lattice points have denominator 2^d on a quad
+ *                   and 2^(d-1) on the quads of another face, which lc_tessellation.corner tells apart. At
+ *                   depth 0 such a face has its corners only. */
 typedef struct lc_provenance {
   int32_t face;
   uint32_t i, j;
@@ -181,9 +181,9 @@ typedef struct lc_subject {
 
 /*
  * A shared library exports one function. `abi` is the interface the host speaks, LC_SUBJECT_ABI of its own
- * copy of this header; NULL if the subject cannot serve it. The host asks for the latest interface first, then
- * for earlier ones. The table stays valid while the library is loaded. LC_EXPORT makes the function visible
- * whatever the default visibility is.
+ * copy of this header; NULL if the subject cannot serve it. The host asks for the latest interface first,
+ * then for earlier ones. The table stays valid while the library is loaded. LC_EXPORT makes the function
+ * visible whatever the default visibility is.
  *
  *   const lc_subject* lc_subject_get(uint32_t abi) { return abi == LC_SUBJECT_ABI ? &my_table : NULL; }
  */

@@ -70,7 +70,8 @@ bool counts_usable(const lc_tessellation& out, std::vector<Defect>& defects) {
   return usable;
 }
 
-// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals and corners may be missing.
+// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals and corners may
+// be missing.
 bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vector<Defect>& defects) {
   bool usable = true;
   for (const Array& a : arrays) {

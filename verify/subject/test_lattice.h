@@ -66,7 +66,7 @@ inline std::optional<std::array<std::int64_t, 3>> on_face(const data::ControlMes
 
 /// Every place and the vertices that lie there.
 inline std::map<PointName, std::vector<std::int64_t>> places(const data::ControlMesh& mesh,
-                                                         const Tessellation& t) {
+                                                             const Tessellation& t) {
   std::map<PointName, std::vector<std::int64_t>> result;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
     result[place(mesh, t.provenance()[v])].push_back(v);

@@ -28,10 +28,8 @@ inline RefinedByOpenSubdiv refined_by_opensubdiv(const data::ControlMesh& mesh,
   using namespace OpenSubdiv;
   using Point = OpenSubdivVector<double>;
   RefinedByOpenSubdiv result;
-  result.refiner =
-      make_refiner({mesh.positions.front().data(), static_cast<std::int64_t>(mesh.positions.size()),
-                    mesh.faces.corners().data(), static_cast<std::int64_t>(mesh.faces.size())},
-                   type, boundary);
+  const LentMesh lent(mesh, data::natural_scheme(mesh));
+  result.refiner = make_refiner(lent.view(), type, boundary);
   Far::TopologyRefiner::UniformOptions uniform(steps);
   uniform.fullTopologyInLastLevel = true;
   result.refiner->RefineUniform(uniform);

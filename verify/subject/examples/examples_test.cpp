@@ -21,6 +21,10 @@ const fs::path kExamples = fs::path(LIMITCHECK_SOURCE_DIR) / "verify/subject/exa
 // Every valence class inside, and boundary vertices with 1 to 5 faces.
 constexpr const char* kMeshes = "icosahedron octahedron torus holes fan:5 wheel:3 wheel:13:2 two-components";
 
+// Quads: regular, of other valences inside, boundary vertices of 1 to 5 faces.
+constexpr const char* kQuads = "quad-cube quad-torus quad-wheel:7 quad-fan:1 quad-fan:5";
+constexpr const char* kPolygons = "prism:3 prism:5 mixed:1:40 dual:bumpy:20";
+
 class Examples : public InstalledTest {
  protected:
   /// Held; only bits may depend on the order of the faces.
@@ -36,6 +40,17 @@ class Examples : public InstalledTest {
     EXPECT_GE(results.size(), rows);
     for (const json& row : results) expect_no_fault(row);
   }
+  /// Of what delivers no limit points: no check finds a fault, and the points of all meshes are judged.
+  static void expect_refined_points_held(const Outcome& o, std::size_t meshes) {
+    ASSERT_EQ(o.code, 0) << o.out << o.err;
+    std::size_t judged = 0;
+    const json report = json::parse(o.out);
+    for (const json& row : report["results"]) {
+      if (row["status"] != "not-supported") expect_no_fault(row);
+      judged += row["check"] == "refined-positions" && row["status"] == "held";
+    }
+    EXPECT_EQ(judged, meshes);
+  }
 };
 
 TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
@@ -48,6 +63,8 @@ TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
     expect_all_held(
         shell("prefix/bin/limitcheck audit " + language + "/libloop.so --depth 2 --json - " + kMeshes),
         25U * 8U);
+    expect_refined_points_held(
+        shell("prefix/bin/limitcheck audit " + language + "/libquads.so --depth 3 --json - " + kQuads), 5U);
   }
 }
 
@@ -56,7 +73,7 @@ TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
 TEST_F(Examples, InCWithOneWeightChangedIsCaughtWithTheRightWitness) {
   install();
   fs::create_directories(folder_ / "wrong");
-  for (const char* file : {"CMakeLists.txt", "loop.h", "subject.c"})
+  for (const char* file : {"CMakeLists.txt", "loop.h", "quads.c", "subject.c"})
     fs::copy(kExamples / "c" / file, folder_ / "wrong");
   std::ifstream in(kExamples / "c/loop.c");
   std::string code{std::istreambuf_iterator<char>(in), {}};
@@ -99,6 +116,14 @@ TEST_F(Examples, InPythonPassesTheAudit) {
       "audit --program \"python3 '" + (kExamples / "python/loop.py").string() + "'\" --timeout 300 --json - ";
   expect_all_held(run(audit + "--depth 2 --level quick " + kMeshes), 12U * 8U);
   expect_all_held(run(audit + "--depth 1 octahedron fan:2"), 25U * 2U);
+}
+
+TEST_F(Examples, InPythonOfQuadsAndPolygonsPassesTheAudit) {
+  const std::string audit = "audit --program \"python3 '" + (kExamples / "python/quads.py").string() +
+                            "'\" --timeout 300 --json - ";
+  expect_refined_points_held(run(audit + "--depth 2 --level quick " + kQuads + " " + kPolygons), 9U);
+  expect_refined_points_held(run(audit + "--depth 0 --level quick prism:3 prism:5 dual:bumpy:20"), 3U);
+  expect_refined_points_held(run(audit + "--depth 1 quad-cube prism:5"), 2U);
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST_F(Breakdown, LibrariesThatAreNoSubjectsAreBadInputAndSayWhy) {
       {"./text.so", "cannot be loaded as a shared library"},
       {library("no_entry"), "does not export lc_subject_get()"},
       {library("serves_nothing"), "offers no interface from 1 to 2"},
-      {library("other_interface"), "was built for interface 42, this program has 1"},
+      {library("other_interface"), "was built for interface 43, this program has 2"},
       {library("empty_table"), "has no name, or a function of it is NULL"},
       {library("needs_another_library"), "undefined symbol: function_of_another_library"},
       {"--program no-such-program", "no-such-program: not found"},

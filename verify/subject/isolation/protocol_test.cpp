@@ -5,6 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "verify/subject/host_memory.h"
 #include "verify/subject/isolation/memory_source.h"
@@ -141,6 +149,57 @@ TEST(Protocol, ReadsTextAndBinaryToTheSameArrays) {
     Read r;
     EXPECT_THROW(read(r, bytes.substr(0, k), Payload::kBinary), Error) << k;
   }
+}
+
+TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
+  Capabilities c = capabilities_of(
+      R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
+      R"("weights": "loop", "boundary": "spline", "points": "refined", "max_depth": 5, "normals": false, )"
+      R"("per_face_depth": false, "exact_lattice": true})"
+      "\n");
+  EXPECT_EQ(c.values.schemes, LC_DOES_CATMULL_CLARK);
+  std::string bytes = kText;
+  const float position[] = {1, 2, 3};
+  const lc_provenance provenance{7, 1, 2, 4};
+  const std::int32_t corner = 5, face = 7;
+  const std::uint32_t corners[] = {0, 0, 0};
+  const auto add = [&](const auto& x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
+  add(position), add(provenance), add(corner), add(corners), add(face);
+  for (const auto& [payload, answer] :
+       {std::pair{Payload::kBinary, bytes}, {Payload::kText, kText + "1 2 3 7 1 2 4 5\n0 0 0 7\n"}}) {
+    c.payload = payload;
+    Read r;
+    MemorySource source(answer);
+    read_tessellation(source, c, 1 << 20, r.request, r.out);
+    EXPECT_EQ(std::memcmp(r.out.provenance, &provenance, sizeof provenance), 0);
+    ASSERT_NE(r.out.corner, nullptr);
+    EXPECT_EQ(*r.out.corner, 5);
+    EXPECT_EQ(*r.out.triangle_face, 7);
+  }
+}
+
+// The table of PROTOCOL.md: each question has the keys that are sent, the first answer is one that is read.
+TEST(Protocol, IsAsItsPageSays) {
+  std::ifstream in(LIMITCHECK_SOURCE_DIR "/verify/subject/isolation/PROTOCOL.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  static const std::regex object("`(\\{[^`]*\\})`"), letter(": ([A-Zvt])([,}])");
+  std::vector<std::string> objects;
+  for (std::sregex_iterator m(page.begin(), page.end(), object), end; m != end; ++m)
+    objects.push_back(std::regex_replace((*m)[1].str(), letter, ": 0$2"));
+  ASSERT_GE(objects.size(), 6U);
+  const auto keys = [](const std::string& text) {
+    std::set<std::string> result;
+    const auto json = nlohmann::json::parse(text.substr(0, text.find('\n')));
+    for (const auto& [key, value] : json.items()) result.insert(key);
+    return result;
+  };
+  const Capabilities c = capabilities_of(objects[1] + "\n");
+  EXPECT_EQ(c.version, kVersion);
+  EXPECT_EQ(c.values.schemes, LC_DOES_LOOP | LC_DOES_CATMULL_CLARK);
+  const lc_mesh nothing{};
+  EXPECT_EQ(keys(objects[0]), keys(ask_capabilities("k=v", LC_SCHEME_CATMULL_CLARK)));
+  EXPECT_EQ(keys(objects[2]), keys(ask_create(nothing, "k=v", c)));
+  EXPECT_EQ(keys(objects[4]), keys(ask_tessellate({}, 1, c)));
 }
 
 TEST(Protocol, RefusesTextThatIsNotTheNumbersAnnounced) {

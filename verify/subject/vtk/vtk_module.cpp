@@ -63,7 +63,7 @@ class VtkMesh {
     mesh_->GetPoint(v, p.data());
     return p;
   }
-  std::vector<std::array<std::uint32_t, 3>> triangles() const {
+  std::vector<std::array<std::uint32_t, 3>> faces() const {
     std::vector<std::array<std::uint32_t, 3>> result;
     result.reserve(mesh_->GetNumberOfCells());
     vtkNew<vtkIdList> corners;
@@ -82,6 +82,6 @@ class VtkMesh {
 }  // namespace
 
 extern "C" const lc_subject* lc_subject_get(std::uint32_t abi) {
-  static const lc_subject subject = make_subject<RefiningSubject<VtkMesh, float>>("vtk", "VTK");
+  static const lc_subject subject = make_subject<RefiningSubject<VtkMesh, void, float>>("vtk", "VTK");
   return abi == LC_SUBJECT_ABI ? &subject : nullptr;
 }

@@ -5,26 +5,21 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <exception>
-#include <map>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "data/error.h"
-#include "data/generators/named_mesh.h"
-#include "data/worst_cases.h"
 #include "verify/audit/audit.h"
-#include "verify/audit/default_plan.h"
 #include "verify/audit/face_depths.h"
 #include "verify/audit/json.h"
 #include "verify/audit/refusal.h"
 #include "verify/audit/table.h"
 #include "verify/cli/audit_depths.h"
 #include "verify/cli/audit_files.h"
+#include "verify/cli/audit_meshes.h"
 #include "verify/cli/audit_output.h"
 #include "verify/cli/audit_resume.h"
 #include "verify/cli/commands.h"
@@ -32,7 +27,6 @@
 #include "verify/cli/progress.h"
 #include "verify/cli/subject_loader.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/subject/coordinate_range.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
@@ -102,89 +96,12 @@ std::string built_in_names() {
   return names;
 }
 
-// --sample: "FACES" or "FACES:SEED".
-struct Sampling {
-  std::size_t faces = 0;
-  std::uint64_t seed = 1;
-};
-
-std::optional<Sampling> parse_sample(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  Sampling sampling;
-  const char* last = text.data() + text.size();
-  std::from_chars_result read = std::from_chars(text.data(), last, sampling.faces);
-  if (read.ec == std::errc() && read.ptr != last && *read.ptr == ':')
-    read = std::from_chars(read.ptr + 1, last, sampling.seed);
-  if (read.ec != std::errc() || read.ptr != last || sampling.faces == 0)
-    throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
-  return sampling;
-}
-
 void check_json(const std::string& json) {
   if (!json.empty() && json != "-" && !json.ends_with(".json"))
     throw data::ArgumentError(fmt::format(
         "--json {0}: the file must end in .json, or be - for standard output (--json without a file "
         "goes last: {0} --json)",
         json));
-}
-
-// What is looked at, and the line that says for which scheme.
-struct Meshes {
-  std::vector<verify::AuditMesh> list;
-  std::string scheme_line;
-};
-
-Meshes planned(const Arguments& a, const std::vector<verify::AuditSubject>& audited) {
-  const std::optional<data::Scheme> asked = read_options(a.mesh).scheme;
-  Meshes result{
-      asked ? verify::default_plan(level(a.output)) : verify::default_plan(level(a.output), audited), {}};
-  if (asked == data::Scheme::kLoop)
-    std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
-  std::map<std::string, MeshScheme> by_name;  // the plan has a mesh at several depths
-  for (verify::AuditMesh& m : result.list) {
-    m.asked_scheme = asked;
-    by_name[m.name] = {m.scheme(), 0};
-  }
-  std::vector<MeshScheme> chosen;
-  for (const auto& [name, scheme] : by_name) chosen.push_back(scheme);
-  result.scheme_line = scheme_line(chosen, a.mesh);
-  return result;
-}
-
-OpenedMesh open_broken_mesh(const std::string& file, const MeshOptions& options) {
-  data::io::Examination found = verify::read_broken_mesh(file, read_options(options));
-  return {std::move(found.mesh), {found.scheme, found.cut}};
-}
-
-// The meshes of the command line, or the default ones, at the depths that it says.
-Meshes meshes_asked_for(const Arguments& a, const verify::Depths& depths,
-                        const std::optional<Sampling>& sampling, Progress& progress) {
-  std::vector<std::string> names = a.meshes;
-  if (names.empty()) {
-    if (a.output.level != "quick") names = data::worst_case_meshes();
-    names.emplace_back("bumpy:800");
-    for (std::string& shape : data::stock_shapes()) names.push_back(std::move(shape));
-  }
-  std::vector<verify::AuditMesh> meshes;
-  std::vector<MeshScheme> chosen;
-  for (const std::string& name : names) {
-    progress.show(0, 1, "mesh " + name);
-    OpenedMesh opened = a.must_refuse ? open_broken_mesh(name, a.mesh) : open_mesh(name, a.mesh);
-    chosen.push_back(opened.chosen);
-    verify::AuditMesh m{name, std::move(opened.mesh)};
-    m.asked_scheme = opened.chosen.scheme;
-    if (opened.chosen.cut > 0) m.triangulated = a.mesh.triangulate;
-    m.depth = a.depth;
-    m.depths = depths.text();
-    if (!a.must_refuse) {
-      verify::require_range(name, m.mesh, true);
-      m.face_depth = verify::face_depths(depths, m.mesh, a.depth);
-      if (sampling) m.sample = std::make_shared<verify::MeshSample>(m.mesh, sampling->faces, sampling->seed);
-      refuse_too_many_points(m);
-    }
-    meshes.push_back(std::move(m));
-  }
-  return {std::move(meshes), scheme_line(chosen, a.mesh)};
 }
 
 // The header of the report.
@@ -293,7 +210,11 @@ int audit(const Job& job) {
   SubjectLoader loader(a.from);
   const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  const Meshes asked = a.plan ? planned(a, audited) : meshes_asked_for(a, job.depths, job.sampling, progress);
+  const AuditedMeshes asked =
+      a.plan
+          ? planned_meshes(a.mesh, level(a.output), audited)
+          : open_meshes({a.meshes, a.mesh, a.depth, job.depths, job.sampling, level(a.output), a.must_refuse},
+                        audited, progress);
   const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
 

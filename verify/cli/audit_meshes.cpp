@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/audit_meshes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "data/error.h"
+#include "data/generators/named_mesh.h"
+#include "data/worst_cases.h"
+#include "verify/audit/default_plan.h"
+#include "verify/audit/refusal.h"
+#include "verify/cli/audit_depths.h"
+#include "verify/subject/coordinate_range.h"
+
+namespace limitcheck::cli {
+namespace {
+
+OpenedMesh open_broken_mesh(const std::string& file, const MeshOptions& options) {
+  data::io::Examination found = verify::read_broken_mesh(file, read_options(options));
+  return {std::move(found.mesh), {found.scheme, found.cut}};
+}
+
+// Where no mesh is named and a depth is: Loop's shapes, and the quads and polygons of the plan, of the schemes
+// that the subjects do.
+std::vector<std::string> default_names(const MeshRequest& a,
+                                       const std::vector<verify::AuditSubject>& audited) {
+  std::vector<std::string> names;
+  if (a.level != verify::Level::kQuick) names = data::worst_case_meshes();
+  names.emplace_back("bumpy:800");
+  for (std::string& shape : data::stock_shapes()) names.push_back(std::move(shape));
+  if (read_options(a.options).scheme == data::Scheme::kLoop) return names;
+  for (const verify::AuditMesh& m : verify::default_plan(a.level, audited))
+    if (m.scheme() == data::Scheme::kCatmullClark &&
+        std::find(names.begin(), names.end(), m.name) == names.end())
+      names.push_back(m.name);
+  return names;
+}
+
+}  // namespace
+
+std::optional<Sampling> parse_sample(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  Sampling sampling;
+  const char* last = text.data() + text.size();
+  std::from_chars_result read = std::from_chars(text.data(), last, sampling.faces);
+  if (read.ec == std::errc() && read.ptr != last && *read.ptr == ':')
+    read = std::from_chars(read.ptr + 1, last, sampling.seed);
+  if (read.ec != std::errc() || read.ptr != last || sampling.faces == 0)
+    throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
+  return sampling;
+}
+
+AuditedMeshes planned_meshes(const MeshOptions& options, verify::Level level,
+                             const std::vector<verify::AuditSubject>& audited) {
+  const std::optional<data::Scheme> asked = read_options(options).scheme;
+  AuditedMeshes result{asked ? verify::default_plan(level) : verify::default_plan(level, audited), {}};
+  if (asked == data::Scheme::kLoop)
+    std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
+  std::map<std::string, MeshScheme> by_name;  // the plan has a mesh at several depths
+  for (verify::AuditMesh& m : result.list) {
+    m.asked_scheme = asked;
+    by_name[m.name] = {m.scheme(), 0};
+  }
+  std::vector<MeshScheme> chosen;
+  for (const auto& [name, scheme] : by_name) chosen.push_back(scheme);
+  result.scheme_line = scheme_line(chosen, options);
+  return result;
+}
+
+AuditedMeshes open_meshes(const MeshRequest& a, const std::vector<verify::AuditSubject>& audited,
+                          Progress& progress) {
+  const std::vector<std::string> names = a.names.empty() ? default_names(a, audited) : a.names;
+  std::vector<verify::AuditMesh> meshes;
+  std::vector<MeshScheme> chosen;
+  for (const std::string& name : names) {
+    progress.show(0, 1, "mesh " + name);
+    OpenedMesh opened = a.must_refuse ? open_broken_mesh(name, a.options) : open_mesh(name, a.options);
+    chosen.push_back(opened.chosen);
+    verify::AuditMesh m{name, std::move(opened.mesh)};
+    m.asked_scheme = opened.chosen.scheme;
+    if (opened.chosen.cut > 0) m.triangulated = a.options.triangulate;
+    m.depth = a.depth;
+    m.depths = a.depths.text();
+    if (!a.must_refuse) {
+      verify::require_range(name, m.mesh, true);
+      m.face_depth = verify::face_depths(a.depths, m.mesh, a.depth);
+      if (a.sampling)
+        m.sample = std::make_shared<verify::MeshSample>(m.mesh, a.sampling->faces, a.sampling->seed);
+      refuse_too_many_points(m);
+    }
+    meshes.push_back(std::move(m));
+  }
+  return {std::move(meshes), scheme_line(chosen, a.options)};
+}
+
+}  // namespace limitcheck::cli

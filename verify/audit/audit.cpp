@@ -204,7 +204,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   } catch (const std::exception& error) {
     rows.add_failure(error, contradicts_capabilities(error, audited, mesh, asked));
     for (const Check& check : checks()) rows.add(check, Status::kNotRun, "there is no tessellation");
-    if (level_ != Level::kQuick && mesh.relations)
+    if (related(mesh, sample ? sample->part().faces.size() : mesh.mesh.faces.size()))
       for (const std::string_view r : relation_rows())
         rows.add(r, Status::kNotRun, "there is no tessellation");
     return;

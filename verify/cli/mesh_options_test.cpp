@@ -23,7 +23,7 @@ TEST_F(Scheme, IsTheFirstLineOfEveryCommand) {
   ASSERT_EQ(run("tessellate octahedron --depth 2 -o out.ply").code, 0);
   for (const char* command :
        {"tessellate octahedron --depth 1", "audit naive octahedron --depth 1 --level quick",
-        "audit naive --depth 1 --level quick", "eval octahedron 0 0 0",
+        "audit row-stream --depth 1 --level quick", "eval octahedron 0 0 0",
         "audit --control octahedron --tessellation out.ply"}) {
     const Outcome o = run(command);
     EXPECT_EQ(o.code, 0) << command << o.out << o.err;

@@ -56,20 +56,12 @@ RingWeights<N> make_dart_limit(int n) {
 template <class N>
 RingWeights<N> make_dart_tangent(int n) {
   const auto count = static_cast<std::size_t>(n);
-  const SquareMatrix<N> a = dart_matrix<N>(n);
   // Points that mirror each other have equal weights: e_0; e_1, e_{n-1}; ..; f_0, f_{n-1}; ..
   std::vector<std::array<std::size_t, 2>> pairs;
   for (std::size_t i = 0; 2 * i <= count; ++i) pairs.push_back({1 + i, 1 + (count - i) % count});
   for (std::size_t i = 0; 2 * i < count; ++i) pairs.push_back({1 + count + i, 2 * count - i});
-  SquareMatrix<N> folded(pairs.size(), std::vector<N>(pairs.size(), N(0)));
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    for (std::size_t j = 0; j < pairs.size(); ++j)
-      for (std::size_t side = 0; side < (pairs[i][0] == pairs[i][1] ? 1 : 2); ++side)
-        folded[i][j] += a[pairs[i][side]][pairs[j][0]] - a[0][pairs[j][0]];
-  const std::vector<N> row = dominant_left_eigenvector(folded).row;
-  RingWeights<N> result{std::vector<N>(count), std::vector<N>(count)};
-  const auto at = [&](std::size_t k) -> N& { return k <= count ? result.e[k - 1] : result.f[k - 1 - count]; };
-  for (std::size_t i = 0; i < pairs.size(); ++i) at(pairs[i][0]) = at(pairs[i][1]) = row[i];
+  const std::vector<N> row = mirrored_left_eigenvector(dart_matrix<N>(n), pairs);
+  RingWeights<N> result{{row.begin(), row.begin() + n}, {row.begin() + n, row.end()}};
   const CircleTable<N>& table = circle_table<N>(n);
   N size(0);
   for (std::size_t i = 0; i < count; ++i) size += result.e[i] * table.cosine[2 * i];

@@ -122,11 +122,6 @@ struct RingedQuad {
   }
 };
 
-inline VertexState state_of(std::span<const VertexState> states, std::int32_t v) {
-  const auto at = static_cast<std::size_t>(v);
-  return at < states.size() ? states[at] : VertexState::kOrdinary;
-}
-
 /// The corner of a quad that is opposite v.
 inline std::int32_t opposite(const Topology& topology, std::int32_t face, std::int32_t v) {
   const auto quad = topology.faces()[static_cast<std::size_t>(face)];

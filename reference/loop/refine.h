@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "reference/loop/weights.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 #include "reference/point/surface_point.h"
@@ -15,9 +17,10 @@ namespace limitcheck::reference {
 
 /// One step: the new vertex points, in the order of the vertices, then the edge points, in the order
 /// of the edges.
+///   states   of the vertices of a mesh that is cut along its sharp edges
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                 Weights weights = Weights::kLoop);
+                                 Weights weights = Weights::kLoop, std::span<const VertexState> states = {});
 
 /// The control points as they are, in the number type: exact in every one but narrower ones.
 template <class N>

@@ -14,7 +14,7 @@ namespace limitcheck::reference {
 
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                 Weights weights) {
+                                 Weights weights, std::span<const VertexState> states) {
   std::vector<Vec3<N>> result;
   result.reserve(topology.vertex_count() + topology.edges().size());
   std::vector<Vec3<N>> ring;
@@ -22,14 +22,12 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
     const Sector sector = topology.sector(static_cast<std::int32_t>(v));
     if (sector.faces.empty()) {
       result.push_back(positions[v]);  // isolated: nothing to subdivide
-    } else if (!sector.closed) {
-      result.push_back(boundary_vertex_point(positions[v], positions[sector.neighbours.front()],
-                                             positions[sector.neighbours.back()]));
-    } else {
-      ring.clear();
-      for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
-      result.push_back(interior_vertex_point<N>(positions[v], ring, weights));
+      continue;
     }
+    ring.clear();
+    for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
+    result.push_back(vertex_point<N>(positions[v], ring, !sector.closed,
+                                     state_of(states, static_cast<std::int32_t>(v)), weights));
   }
   for (const Edge& e : topology.edges()) {
     const auto across = [&](std::int32_t face) -> const Vec3<N>& {
@@ -141,11 +139,12 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
 }
 
 /// All of refine.h but `limits`, which needs square roots.
-#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                            \
-  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights); \
-  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                             \
-  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                          \
-  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights);       \
+#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                           \
+  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights, \
+                                            std::span<const VertexState>);                         \
+  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                            \
+  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                         \
+  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights);      \
   template void RefinedMesh<N>::refine();
 
 }  // namespace limitcheck::reference

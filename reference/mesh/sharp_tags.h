@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "data/sharpness.h"
@@ -47,5 +49,11 @@ enum class VertexState : std::uint8_t {
   kHeld,      ///< it stays where it is: a corner, or inside the tip of a cone
   kDart  ///< one sharp edge ends there: an open sector whose two ends are the same edge, and the smooth rule
 };
+
+/// Of a vertex; later ones, and all where there are none, are ordinary.
+inline VertexState state_of(std::span<const VertexState> states, std::int32_t v) {
+  const auto at = static_cast<std::size_t>(v);
+  return at < states.size() ? states[at] : VertexState::kOrdinary;
+}
 
 }  // namespace limitcheck::reference

@@ -158,6 +158,17 @@ Sharpness Sharpness::of_part(const Topology& topology, const Topology& part,
   return result;
 }
 
+SharpTags Sharpness::tags(const Topology& topology) const {
+  SharpTags result;
+  const auto exact = [](const Rational& s) { return Parameter::parse(s.str()); };
+  for (std::size_t e = 0; e < edge_.size(); ++e)
+    if (edge_[e] > 0) result.edges.push_back({topology.edges()[e].a, topology.edges()[e].b, exact(edge_[e])});
+  for (std::size_t v = 0; v < vertex_.size(); ++v)
+    if (vertex_[v] > 0) result.vertices.push_back({static_cast<std::int32_t>(v), exact(vertex_[v])});
+  if (chaikin_) result.creasing = data::Creasing::kChaikin;
+  return result;
+}
+
 int Sharpness::lasting_edges(const Topology& topology, std::int32_t v) const {
   int count = 0;
   for (const std::int32_t e : topology.sector(v).edges) count += stays_sharp(topology, e) ? 1 : 0;

@@ -51,6 +51,9 @@ class Sharpness {
   Sharpness of_part(const Topology& topology, const Topology& part, const std::vector<std::int32_t>& faces,
                     const std::vector<std::int32_t>& vertices) const;
 
+  /// The same as tags.
+  SharpTags tags(const Topology& topology) const;
+
   /// Of each face: whether a corner has a semi-sharp tag, on itself or on an edge of it, or an edge that stays
   /// sharp and cannot be cut, since no other sharp edge meets either of its ends. Such faces need a step.
   std::vector<bool> needs_a_step(const Topology& topology) const;

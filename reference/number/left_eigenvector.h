@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -165,6 +166,23 @@ LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
     for (std::size_t i = 1; i < n; ++i) x[i] = T::widened(x[i], radius);
   }
   return result;
+}
+
+/// The same of a matrix whose rows sum to 1, without the eigenvalue 1, among the rows that are equal at points
+/// that mirror each other: the weights of all points but the first, which has what is missing to 0.
+///   pairs   of points, each but the first in one; a point that is its own mirror image twice
+template <class N>
+std::vector<N> mirrored_left_eigenvector(const SquareMatrix<N>& a,
+                                         const std::vector<std::array<std::size_t, 2>>& pairs) {
+  SquareMatrix<N> folded(pairs.size(), std::vector<N>(pairs.size(), N(0)));
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (std::size_t j = 0; j < pairs.size(); ++j)
+      for (std::size_t side = 0; side < (pairs[i][0] == pairs[i][1] ? 1 : 2); ++side)
+        folded[i][j] += a[pairs[i][side]][pairs[j][0]] - a[0][pairs[j][0]];
+  const std::vector<N> row = dominant_left_eigenvector(folded).row;
+  std::vector<N> weights(a.size() - 1);
+  for (std::size_t i = 0; i < pairs.size(); ++i) weights[pairs[i][0] - 1] = weights[pairs[i][1] - 1] = row[i];
+  return weights;
 }
 
 /// make(n), kept by thread, number type and `Which`; made again when the number type's precision has changed.

@@ -8,7 +8,7 @@ namespace limitcheck::reference {
 Surface::Surface(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights)
     : evaluator_([&]() -> decltype(evaluator_) {
         if (scheme == data::Scheme::kLoop) return StamEvaluator<double>(mesh, weights);
-        return catmull_clark::StamEvaluator<double>(mesh.faces, positions_of<double>(mesh));
+        return catmull_clark::StamEvaluator<double>(mesh.faces, positions_of<double>(mesh), mesh.sharpness);
       }()) {}
 
 RefinedSurface::RefinedSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth, Weights weights)

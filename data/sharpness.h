@@ -48,7 +48,8 @@ struct Sharpness {
   Creasing creasing = Creasing::kUniform;
   TriangleRule triangles = TriangleRule::kCatmark;
 
-  /// Whether the surface is that of the mesh without tags. (The way of creasing says nothing without creases.)
+  /// Whether the surface is that of the mesh without tags. (The way of creasing says nothing without
+  /// creases.)
   bool empty() const {
     return edges.empty() && vertices.empty() && boundary == Boundary::kEdge &&
            triangles == TriangleRule::kCatmark;

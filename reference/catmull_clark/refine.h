@@ -122,8 +122,8 @@ struct QuadMesh {
   std::vector<Vec3<N>> positions;
   data::Faces given;                ///< the faces before that step, empty if there was none
   std::vector<VertexState> states;  ///< of the vertices; empty if all are ordinary
-  /// Quads whose surface this mesh does not have, since semi-sharp tags are near: theirs are those of `tagged`,
-  /// which has the same quads and is not cut.
+  /// Quads whose surface this mesh does not have, since semi-sharp tags are near: theirs are those of
+  /// `tagged`, which has the same quads and is not cut.
   std::vector<bool> needs_a_step;
   std::shared_ptr<const TaggedMesh<N>> tagged;
 
@@ -188,7 +188,8 @@ struct QuadParameter {
 
 /// (u, v) on a face: on a quad itself; on another face on the sub-quad of `corner`, u from the corner along
 /// its edge to the next, v along the edge before.
-///   throws   data::ArgumentError: no such face or corner (a quad has the corner 0 only), u or v outside 0 .. 1
+///   throws   data::ArgumentError: no such face or corner (a quad has the corner 0 only), u or v outside 0 ..
+///   1
 template <class N, class P>
 QuadParameter<P> locate(const QuadMesh<N>& mesh, int face, int corner, const P& u, const P& v) {
   const auto refuse = [](const std::string& why) { throw data::ArgumentError(why); };

@@ -21,8 +21,10 @@ class StamData;
 /// Two steps at most for the whole mesh, once; then a bicubic patch, or, next to an extraordinary vertex, the
 /// two-ring after J steps at a cost that grows with log J (two_ring.h). Built for double, Decimal50,
 /// Decimal100 and Ball.
-///   error     in double positions within one unit in the last place of the largest coordinate (measured: 0.9);
-///             derivatives within 4 * 2^-53 (t1_terms + J |d1|), since the J-th power is that of a rounded eigenvalue
+///   error     in double positions within one unit in the last place of the largest coordinate (measured:
+///   0.9);
+///             derivatives within 4 * 2^-53 (t1_terms + J |d1|), since the J-th power is that of a rounded
+///             eigenvalue
 ///   threads   any number may evaluate at once
 template <class N>
 class StamEvaluator {

@@ -21,7 +21,8 @@ struct QuadMesh;
 /// grows with -log2 of the distance to the extraordinary vertex, and so does the rounding error of its
 /// derivatives. Built for double, Decimal50, Decimal100, and Rational: there exact at every valence, but
 /// without normals and without
-/// tangents at extraordinary corners.                                                           [the paper's ref. 1]
+/// tangents at extraordinary corners.                                                           [the paper's
+/// ref. 1]
 ///   threads   any number may evaluate at once
 template <class N>
 class SubdivisionEvaluator {

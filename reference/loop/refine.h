@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "reference/point/surface_point.h"
 
 namespace limitcheck::reference {
+
+class Sharpness;
 
 /// One step: the new vertex points, in the order of the vertices, then the edge points, in the order
 /// of the edges.
@@ -35,7 +38,7 @@ class RefinedMesh {
   /// Depth 0: the mesh itself. Throws data::ArgumentError if it is not manifold (Topology).
   explicit RefinedMesh(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles,
-              Weights weights = Weights::kLoop);
+              Weights weights = Weights::kLoop, const SharpTags& tags = {});
 
   /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
   /// few times.
@@ -53,7 +56,8 @@ class RefinedMesh {
   }
   const Topology& topology() const { return topology_; }
 
-  /// Limit positions and unit normals of all vertices.
+  /// Limit positions and unit normals of all vertices; of a vertex on a sharp edge, which has a normal for
+  /// each side, that of the first face in its ring.
   /// [C14, D1, D2, D12]
   struct Limits {
     std::vector<Vec3<N>> positions, normals;
@@ -80,6 +84,7 @@ class RefinedMesh {
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> lattice_;
   Topology topology_;
+  std::shared_ptr<const Sharpness> sharpness_;  ///< none in a mesh without tags
 };
 
 /// The refined mesh after `depth` steps.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two-ring of a held vertex or a dart after any number of steps: by powers of its matrix itself, which has no
-// such closed form as that of two_ring_modes.h.
+// The two-ring of a held vertex or a dart after any number of steps: by powers of its matrix itself, which
+// has no such closed form as that of two_ring_modes.h.
 //
 // The points and their names are those of two_ring_modes.h, taken as differences from c, so that there is no
 // eigenvalue 1, and divided by growth^J, about the largest eigenvalue.
@@ -72,8 +72,8 @@ class SpecialRing {
   const Vec3<N>& limit() const { return limit_; }
   /// The largest coordinate of the points given.
   const N& size() const { return size_; }
-  /// The points around face i after J steps, over growth^J, as differences from c; and from c to its place after
-  /// one more step, and to the limit.
+  /// The points around face i after J steps, over growth^J, as differences from c; and from c to its place
+  /// after one more step, and to the limit.
   struct FacePoints {
     typename TwoRing<N>::FacePoints points;
     Vec3<N> c_after, c_to_limit;

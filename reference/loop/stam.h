@@ -25,8 +25,8 @@ template <class N>
 class StamData;
 }
 
-/// Largest errors of StamEvaluator<double>, measured against 50 and 100 digits on the known answers and on the
-/// stock shapes. Its tests hold these numbers.
+/// Largest errors of StamEvaluator<double>, measured against 50 and 100 digits on the known answers and on
+/// the stock shapes. Its tests hold these numbers.
 struct StamError {
   static constexpr double kPosition = 2;  ///< in ulp of the largest control coordinate
   /// d1, d2: the same, beside 2^-52 |d1| log2(1 / distance to the nearest extraordinary corner).

@@ -16,7 +16,8 @@
 
 namespace limitcheck::reference {
 
-/// The triangles of a step, four for each face: those at its corners (c_k, e_k, e_{k-1}), then the middle one.
+/// The triangles of a step, four for each face: those at its corners (c_k, e_k, e_{k-1}), then the middle
+/// one.
 inline data::Faces refined_triangles(const Topology& topology) {
   const auto edges = static_cast<std::int32_t>(topology.vertex_count());
   data::Faces refined;
@@ -46,8 +47,8 @@ struct TriangleMesh {
   Topology topology;
   std::vector<Vec3<N>> positions;
   std::vector<VertexState> states;  ///< of the vertices; empty if all are ordinary
-  /// Faces whose surface this mesh does not have, since semi-sharp tags are near: theirs are those of `tagged`,
-  /// which has the same faces and is not cut.
+  /// Faces whose surface this mesh does not have, since semi-sharp tags are near: theirs are those of
+  /// `tagged`, which has the same faces and is not cut.
   std::vector<bool> needs_a_step;
   std::shared_ptr<const TaggedMesh<N>> tagged;
 
@@ -105,8 +106,8 @@ struct SubFacePath {
   }
 };
 
-/// Takes a point of a face that needs steps to the mesh of few faces in whose face 0 it is after these steps, with
-/// no semi-sharp tags left.
+/// Takes a point of a face that needs steps to the mesh of few faces in whose face 0 it is after these steps,
+/// with no semi-sharp tags left.
 template <class N>
 TriangleMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t face, Weights weights,
                                SubFacePath& path) {

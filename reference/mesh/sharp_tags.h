@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sharp edges and vertices with sharpnesses that are exact: floats as the binary fractions they are, or 23/10.
+// Sharp edges and vertices with sharpnesses that are exact: floats as the binary fractions they are, or
+// 23/10.
 #pragma once
 
 #include <algorithm>

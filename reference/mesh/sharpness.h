@@ -18,7 +18,8 @@ namespace limitcheck::reference {
 /// The rule of a vertex, by its sharp edges: none, one, two, more, or held by a sharpness of its own.
 enum class VertexRule : std::uint8_t { kSmooth, kDart, kCrease, kCorner };
 
-/// Of a vertex in one step: the rule that it has, the one that it will have, and how much of the former counts.
+/// Of a vertex in one step: the rule that it has, the one that it will have, and how much of the former
+/// counts.
 struct VertexRules {
   struct One {
     VertexRule rule;
@@ -54,8 +55,9 @@ class Sharpness {
   /// The same as tags.
   SharpTags tags(const Topology& topology) const;
 
-  /// Of each face: whether a corner has a semi-sharp tag, on itself or on an edge of it, or an edge that stays
-  /// sharp and cannot be cut, since no other sharp edge meets either of its ends. Such faces need a step.
+  /// Of each face: whether a corner has a semi-sharp tag, on itself or on an edge of it, or an edge that
+  /// stays sharp and cannot be cut, since no other sharp edge meets either of its ends. Such faces need a
+  /// step.
   std::vector<bool> needs_a_step(const Topology& topology) const;
 
   /// The mesh with a copy of the points of each edge that stays sharp for either of its sides.

@@ -18,9 +18,9 @@ namespace limitcheck::reference {
 template <class N>
 using SquareMatrix = std::vector<std::vector<N>>;
 
-/// The row p with p a = p that sums to 1, of a matrix whose rows sum to 1, with no entry below 0 and something in
-/// column 0 of every row. By the elimination of Grassmann, Taksar and Heyman [1985], which subtracts nothing:
-/// exact in rationals, and accurate in each entry where numbers are rounded.
+/// The row p with p a = p that sums to 1, of a matrix whose rows sum to 1, with no entry below 0 and
+/// something in column 0 of every row. By the elimination of Grassmann, Taksar and Heyman [1985], which
+/// subtracts nothing: exact in rationals, and accurate in each entry where numbers are rounded.
 template <class N>
 std::vector<N> stationary_row(SquareMatrix<N> a) {
   for (std::size_t k = a.size() - 1; k > 0; --k) {
@@ -81,9 +81,9 @@ SquareMatrix<N> inverse(SquareMatrix<N> a) {
 
 }  // namespace detail
 
-/// The row x with x m = mu x, x[0] = 1, and mu the eigenvalue of the largest modulus, which is real and simple.
-/// Power iteration in double finds it, Newton's method on (x, mu) gives all digits; in balls Krawczyk's test
-/// encloses both.
+/// The row x with x m = mu x, x[0] = 1, and mu the eigenvalue of the largest modulus, which is real and
+/// simple. Power iteration in double finds it, Newton's method on (x, mu) gives all digits; in balls
+/// Krawczyk's test encloses both.
 template <class N>
 struct LeftEigenvector {
   std::vector<N> row;
@@ -141,7 +141,8 @@ LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
     }
   }
   if constexpr (requires { T::middle(mu); }) {
-    // For unknowns within r of these, -y F + (1 - y F') u - y (terms of second order) is within a + b r + c r^2.
+    // For unknowns within r of these, -y F + (1 - y F') u - y (terms of second order) is within a + b r + c
+    // r^2.
     const std::vector<N> f = value();
     const SquareMatrix<N> d = derivative();
     N a(0), b(0), c(0);
@@ -168,8 +169,8 @@ LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
   return result;
 }
 
-/// The same of a matrix whose rows sum to 1, without the eigenvalue 1, among the rows that are equal at points
-/// that mirror each other: the weights of all points but the first, which has what is missing to 0.
+/// The same of a matrix whose rows sum to 1, without the eigenvalue 1, among the rows that are equal at
+/// points that mirror each other: the weights of all points but the first, which has what is missing to 0.
 ///   pairs   of points, each but the first in one; a point that is its own mirror image twice
 template <class N>
 std::vector<N> mirrored_left_eigenvector(const SquareMatrix<N>& a,

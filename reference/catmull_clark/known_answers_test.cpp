@@ -86,6 +86,31 @@ TEST(CatmullClark_KnownAnswers, ByStamToThirtyNineDigits) {
   check_all<StamEvaluator<N>>();
 }
 
+// Rational points and sharpnesses give rational positions everywhere, and derivatives but at special
+// vertices: the difference from the answer is the answer's rounding to 42 digits.
+TEST(CatmullClark_KnownAnswers, AreTheRoundedRationals) {
+  const auto expect_rounded = [](const Vec3<Rational>& got, const data::Numeral3& expected,
+                                 const std::string& what) {
+    const Vec3<Rational> want = vec<Rational>(expected);
+    EXPECT_LE(magnitude(got - want),
+              (magnitude(want) + Rational(1)) / Rational(Integer("1" + std::string(40, '0'))))
+        << what;
+  };
+  for (const auto& a : answers()) {
+    const SubdivisionEvaluator<Rational> evaluator(a.faces, vecs<Rational>(a.vertices), tags_of(a));
+    for (const auto& s : a.samples) {
+      const auto p =
+          evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]));
+      expect_rounded(p.position, s.position, a.id);
+      EXPECT_EQ(p.first_exist, s.du.has_value()) << a.id;
+      if (s.du) expect_rounded(p.d1, *s.du, a.id), expect_rounded(p.d2, *s.dv, a.id);
+      if (!s.dudu) continue;
+      expect_rounded(p.d11, *s.dudu, a.id), expect_rounded(p.d12, *s.dudv, a.id);
+      expect_rounded(p.d22, *s.dvdv, a.id);
+    }
+  }
+}
+
 TEST(CatmullClark_KnownAnswers, AreInsideTheCertifiedEnclosures) {
   for (const auto& a : answers()) {
     if (a.faces.size() > 100) continue;  // balls at valence 50 take their time

@@ -195,12 +195,8 @@ class StamData {
     long steps = 0;
     const StamData piece(settled_around(*mesh_.tagged, at.quad, at.u, at.v, steps));
     at.quad = 0;
-    const SurfacePoint<N> p = piece.evaluate(at, order);
-    SurfacePoint<N> result = p;
-    const N first = power(N(2), steps), second = first * first;
-    for (auto* d : {&result.d1, &result.d2, &result.t1, &result.t2}) *d *= first;
-    for (auto* d : {&result.d11, &result.d12, &result.d22}) *d *= second;
-    result.t1_terms *= first, result.t2_terms *= first;
+    SurfacePoint<N> result = piece.evaluate(at, order);
+    scale_derivatives(result, power(N(2), steps));
     return result;
   }
 

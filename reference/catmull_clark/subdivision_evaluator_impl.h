@@ -42,13 +42,17 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Pa
                                  : gathered(settled_around(*mesh_->tagged, at.quad, at.u, at.v, level), 0);
   const Vec3<N> fallback =
       area_of(quad.corner[0].point, quad.corner[1].point, quad.corner[2].point, quad.corner[3].point);
+  const long steps = level;
   level += at.halved ? 1 : 0;
   while (!quad.is_regular()) {
     const Rational half(1, 2);
     const bool right = at.u > half, up = at.v > half;
     const std::size_t k = up ? (right ? 2 : 3) : (right ? 1 : 0);
-    if (at.u == (right ? 1 : 0) && at.v == (up ? 1 : 0) && !quad.corner[k].is_regular())
-      return extraordinary_corner<N>(quad.corner[k], k, order);
+    if (at.u == (right ? 1 : 0) && at.v == (up ? 1 : 0) && !quad.corner[k].is_regular()) {
+      SurfacePoint<N> result = extraordinary_corner<N>(quad.corner[k], k, order);
+      if (steps > 0) scale_derivatives(result, NumberTraits<N>::scale(N(1), steps));
+      return result;
+    }
     quad = SubdividedQuad<N>(quad).subquad(static_cast<int>(k));
     at.u = 2 * at.u - (right ? 1 : 0);
     at.v = 2 * at.v - (up ? 1 : 0);

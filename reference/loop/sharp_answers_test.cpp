@@ -12,6 +12,7 @@
 #include "reference/loop/subdivision_evaluator.h"
 #include "reference/mesh/test_tags.h"
 #include "reference/number/number_exact.h"
+#include "reference/surface/certified.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -66,6 +67,31 @@ TEST(Loop_SharpKnownAnswers, BySubdivisionToThirtyNineDigits) {
 }
 TEST(Loop_SharpKnownAnswers, ByStamToThirtyNineDigits) {
   check_all<StamEvaluator<N>>();
+}
+
+TEST(Loop_SharpKnownAnswers, AreInsideTheCertifiedEnclosures) {
+  for (const auto& a : data::load_quad_answers()) {
+    if (a.scheme != "loop") continue;
+    const CertifiedEvaluator evaluator(a.vertices, a.faces, data::Scheme::kLoop, tags_of(a));
+    for (const auto& s : a.samples) {
+      const auto p = evaluator.evaluate(s.face, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]), 45);
+      const auto check = [&](const Enclosure3& got, const data::Numeral3& expected) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          const N want = data::parse<N>(expected[i]), value(got[i].value);
+          const N rounding = magnitude(want) * N("1e-41") + N("1e-43");  // of the answer's own 42 digits
+          EXPECT_LE(magnitude(want - value), N(got[i].radius) + rounding) << a.id << " " << s.uv[0];
+          EXPECT_LE(got[i].radius, 1e-40) << a.id << " " << s.uv[0];
+        }
+      };
+      check(p.position, s.position);
+      if (s.normal) check(p.normal, *s.normal);
+      if (s.du) check(p.d1, *s.du), check(p.d2, *s.dv);
+      if (s.dudu) {
+        ASSERT_TRUE(p.d11.has_value()) << a.id;
+        check(*p.d11, *s.dudu), check(*p.d12, *s.dudv), check(*p.d22, *s.dvdv);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -85,9 +85,11 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
     for (std::size_t k = 0; k < 3; ++k)
       if (w[k] == 1 && !f.corner[k].is_regular()) {
         const auto next = path.gradient[(k + 1) % 3], before = path.gradient[(k + 2) % 3];
-        return extraordinary_corner<N>(
+        SurfacePoint<N> result = extraordinary_corner<N>(
             f.corner[k].point, f.corner[k].span(), f.corner[k].on_boundary, f.corner[k].ring_index,
             {next[0], next[1], before[0], before[1], path.level}, weights_, order, f.corner[k].state);
+        if (path.level > 0) scale_derivatives(result, NumberTraits<N>::scale(N(1), path.level));
+        return result;
       }
     const SubdividedFace<N> subdivided(f);
     f = subdivided.subface(path.descend());

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Wavefront OBJ: `v`, `f`, and what may be read over; and OpenSubdiv's tags, which count from 0:
-//   t crease 2/1/0 A B SHARPNESS             one edge; or several: 4/2/0 A B C D S T, or 4/1/0 with one
-//   sharpness
-//   t corner 1/1/0 V SHARPNESS               likewise
-//   t interpolateboundary 1/0/0 1|2          1: vertices of one face are held, 2: they are not, as without it
+//   t crease 2/1/0 A B SHARPNESS         one edge; or several: 4/2/0 A B C D S T; or 4/1/0 A B C D S
+//   t corner 1/1/0 V SHARPNESS           likewise
+//   t interpolateboundary 1/0/0 1|2      1: vertices of one face are held, 2: they are not, as without it
 //   t creasemethod 0/0/1 normal|chaikin
 //   t smoothtriangles 0/0/1 catmark|smooth
 #include <fmt/core.h>

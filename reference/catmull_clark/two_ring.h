@@ -12,11 +12,9 @@
 //
 // One step is a linear map of these points. Two things make its powers cheap and accurate:
 //   - All points are taken as differences from c. What is left of the map has no eigenvalue 1, so that a
-//   point's
-//     distance from c keeps its relative accuracy however close they come.
+//     point's distance from c keeps its relative accuracy however close they come.
 //   - Around an interior vertex, Fourier's transform in i takes the map apart into one 6 x 6 block for each
-//   frequency
-//     [Stam 1998]; its J-th power comes by repeated squaring. No eigenvector is needed, and no case
+//     frequency [Stam 1998]; its J-th power comes by repeated squaring. No eigenvector is needed, and no case
 //     distinction where eigenvalues coincide. A sector on the boundary keeps its one map of 6 K + 2 points.
 // Everything is divided by growth^J, so that nothing underflows: growth is the largest eigenvalue.
 #pragma once

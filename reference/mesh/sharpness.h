@@ -63,9 +63,8 @@ class Sharpness {
   /// The mesh with a copy of the points of each edge that stays sharp for either of its sides.
   struct Cut {
     data::Faces faces;
-    std::vector<std::int32_t>
-        origin;  ///< of each vertex: the one that it is a copy of; the old ones come first
-    std::vector<VertexState> states;  ///< of each vertex
+    std::vector<std::int32_t> origin;  ///< of each vertex, what it is a copy of; the old ones come first
+    std::vector<VertexState> states;   ///< of each vertex
   };
   Cut cut(const Topology& topology) const;
 

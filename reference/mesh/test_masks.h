@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -24,7 +25,8 @@ struct KnownMask {
 inline std::vector<KnownMask> known_masks(const std::string& scheme) {
   std::ifstream stream(LIMITCHECK_SOURCE_DIR "/data/known_masks.json");
   std::vector<KnownMask> result;
-  for (const auto& one : nlohmann::json::parse(stream).at("masks")) {
+  const nlohmann::json all = nlohmann::json::parse(stream);
+  for (const auto& one : all.at("masks")) {
     if (one.at("scheme") != scheme) continue;
     const auto weights = [&](const char* key) {
       std::vector<Decimal100> list;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/error.h"
 #include "reference/number/number.h"
 
 namespace limitcheck::reference {
@@ -81,17 +82,17 @@ SquareMatrix<N> inverse(SquareMatrix<N> a) {
 
 }  // namespace detail
 
-/// The row x with x m = mu x, x[0] = 1, and mu the eigenvalue of the largest modulus, which is real and
-/// simple. Power iteration in double finds it, Newton's method on (x, mu) gives all digits; in balls
-/// Krawczyk's test encloses both.
+/// A row and its eigenvalue.
 template <class N>
 struct LeftEigenvector {
   std::vector<N> row;
   N eigenvalue;
 };
 
+namespace detail {
+
 template <class N>
-LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
+LeftEigenvector<N> find_left_eigenvector(const SquareMatrix<N>& m) {
   using T = NumberTraits<N>;
   const std::size_t n = m.size();
   std::vector<double> guess(n, 1), next(n);
@@ -108,10 +109,11 @@ LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
   for (std::size_t i = 0; i < n; ++i) image += guess[i] * T::approximate(m[i][0]);
   LeftEigenvector<N> result{std::vector<N>(n), T::from_double(image / guess[0])};
   for (std::size_t i = 0; i < n; ++i) result.row[i] = T::from_double(guess[i] / guess[0]);
-  auto& [x, mu] = result;
+  std::vector<N>& x = result.row;
+  N& mu = result.eigenvalue;
 
   // F = x m - mu x by the unknowns mu, x[1], x[2], ..
-  const auto value = [&, &x = x, &mu = mu] {
+  const auto value = [&] {
     std::vector<N> f(n, N(0));
     for (std::size_t j = 0; j < n; ++j) {
       for (std::size_t i = 0; i < n; ++i) f[j] += x[i] * m[i][j];
@@ -119,7 +121,7 @@ LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
     }
     return f;
   };
-  const auto derivative = [&, &x = x, &mu = mu] {
+  const auto derivative = [&] {
     SquareMatrix<N> d(n, std::vector<N>(n, N(0)));
     for (std::size_t j = 0; j < n; ++j) {
       d[j][0] = N(0) - x[j];
@@ -167,6 +169,22 @@ LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
     for (std::size_t i = 1; i < n; ++i) x[i] = T::widened(x[i], radius);
   }
   return result;
+}
+
+}  // namespace detail
+
+/// The row x with x m = mu x, x[0] = 1, and mu the eigenvalue of the largest modulus, which is real and
+/// simple. Power iteration in double finds it, Newton's method on (x, mu) gives all digits; in balls
+/// Krawczyk's test encloses both.
+///   throws   data::ArgumentError in a number type that is not near to double numbers, such as residues
+template <class N>
+LeftEigenvector<N> dominant_left_eigenvector(const SquareMatrix<N>& m) {
+  using T = NumberTraits<N>;
+  if constexpr (!requires(N a) { T::approximate(a), T::from_double(1.0), T::precision(); }) {
+    throw data::ArgumentError("no eigenvectors in this number type");
+  } else {
+    return detail::find_left_eigenvector(m);
+  }
 }
 
 /// The same of a matrix whose rows sum to 1, without the eigenvalue 1, among the rows that are equal at

@@ -152,7 +152,8 @@ double worst_difference(const Left& a, const Right& b, const ControlMesh& mesh, 
   data::SplitMix64 random(7);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto& [u, v] = places()[random.next() % places().size()];
+      const auto& place = places()[random.next() % places().size()];
+      const char *u = place[0], *v = place[1];
       const bool triangle = mesh.faces[f].size() == 3;
       const auto corner =
           static_cast<int>(mesh.faces[f].size() == 4 ? 0 : random.next() % mesh.faces[f].size());

@@ -6,16 +6,19 @@
 #include <vector>
 
 #include "data/faces.h"
+#include "data/sharpness.h"
 
 namespace limitcheck::data {
 
 /// A mesh of polygons: the input of subdivision, and nothing computed from it.
 ///   positions   one (x, y, z) per vertex, finite
 ///   faces       vertex indices 0..positions.size()-1, counter-clockwise seen from outside
+///   sharpness   sharp edges and vertices; empty for a surface that is smooth but for its boundary
 /// The container does not check any of this; `validate` (data/validate.h) does.
 struct ControlMesh {
   std::vector<std::array<double, 3>> positions;
   Faces faces;
+  Sharpness sharpness = {};
 
   friend bool operator==(const ControlMesh&, const ControlMesh&) = default;
 };

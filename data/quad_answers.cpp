@@ -17,7 +17,11 @@ QuadSample sample(const Json& json) {
   QuadSample s;
   json.at("face").get_to(s.face);
   s.corner = json.value("subface", 0);
-  json.at("uv").get_to(s.uv);
+  if (json.contains("uv")) {
+    json.at("uv").get_to(s.uv);
+  } else {
+    s.uv = {json.at("barycentric").at(1).get<Numeral>(), json.at("barycentric").at(2).get<Numeral>()};
+  }
   s.at_vertex = json.contains("at_vertex");
   s.no_tangent_plane = json.value("no_tangent_plane", false);
   json.at("position").get_to(s.position);
@@ -27,6 +31,8 @@ QuadSample sample(const Json& json) {
   vector("unit_normal", s.normal);
   vector("d_du", s.du), vector("d_dv", s.dv);
   vector("d2_dudu", s.dudu), vector("d2_dudv", s.dudv), vector("d2_dvdv", s.dvdv);
+  vector("d_dl1", s.du), vector("d_dl2", s.dv);
+  vector("d2_dl1dl1", s.dudu), vector("d2_dl1dl2", s.dudv), vector("d2_dl2dl2", s.dvdv);
   return s;
 }
 
@@ -36,11 +42,18 @@ QuadAnswer answer(const Json& json) {
   json.at("scheme").get_to(a.scheme);
   json.at("boundary").get_to(a.boundary);
   json.at("triangles").get_to(a.triangles);
-  a.has_sharp = !json.at("creases").empty() || !json.at("corners").empty();
+  json.at("creasing").get_to(a.creasing);
+  const auto sharpness = [](const Json& one) {
+    const auto text = one.at("sharpness").get<std::string>();
+    return text == "inf" ? "10" : text;
+  };
+  for (const Json& one : json.at("creases"))
+    a.sharp_edges.push_back({one.at("edge").at(0), one.at("edge").at(1), sharpness(one)});
+  for (const Json& one : json.at("corners"))
+    a.sharp_vertices.push_back({one.at("vertex"), -1, sharpness(one)});
   json.at("vertices").get_to(a.vertices);
   for (const Json& face : json.at("faces")) a.faces.push_back(face.get<std::vector<std::int32_t>>());
-  if (a.scheme == "catmull-clark")
-    for (const Json& one : json.at("expected")) a.samples.push_back(sample(one));
+  for (const Json& one : json.at("expected")) a.samples.push_back(sample(one));
   return a;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace limitcheck::data {
@@ -56,6 +58,7 @@ class Validator {
     check_edges();
     check_fans();
     check_isolated();
+    check_sharpness();
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const MeshFinding& a, const MeshFinding& b) { return a.fault < b.fault; });
     return std::move(findings_);
@@ -320,6 +323,48 @@ class Validator {
     }
   }
 
+  // Every tag is of an edge or vertex that exists, and no two disagree.
+  void check_sharpness() {
+    const Sharpness& sharpness = mesh_.sharpness;
+    if (sharpness.edges.empty() && sharpness.vertices.empty()) return;
+    using Key = std::pair<std::int32_t, std::int32_t>;
+    std::map<Key, float> known;  // NaN until a tag has been seen
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    for (const SharpEdge& e : sharpness.edges) known.emplace(std::minmax(e.a, e.b), none);
+    std::set<Key> edges;
+    for (std::size_t h = 0; h < face_of_.size(); ++h)
+      if (!removed_[face_of_[h]])
+        if (const Key key = edge(static_cast<std::int32_t>(h)); known.count(key) > 0) edges.insert(key);
+
+    std::int64_t tag = 0;
+    const auto check = [&](const std::string& what, std::vector<std::int64_t> elements, bool exists,
+                           float value, float& before) {
+      const auto refuse = [&](std::string message) {
+        report(MeshFault::kSharpness, elements, std::move(message), -1);
+        findings_.back().tag = tag;
+      };
+      if (!exists)
+        refuse(fmt::format("{} has a sharpness and is none", what));
+      else if (!(value >= 0))
+        refuse(fmt::format("{} has the sharpness {}", what, value));
+      else if (before != value && !std::isnan(before))
+        refuse(fmt::format("{} has the sharpness {} and {}", what, before, value));
+      else
+        before = value;
+      ++tag;
+    };
+    for (const SharpEdge& e : sharpness.edges) {
+      const Key key = std::minmax(e.a, e.b);
+      check(fmt::format("edge {}–{}", vertex(e.a), vertex(e.b)), {e.a, e.b}, edges.count(key) > 0,
+            e.sharpness, known.at(key));
+    }
+    std::map<std::int32_t, float> of_vertex;
+    for (const SharpVertex& v : sharpness.vertices)
+      check(fmt::format("vertex {}", vertex(v.vertex)), {v.vertex},
+            v.vertex >= 0 && static_cast<std::size_t>(v.vertex) < vertices_, v.sharpness,
+            of_vertex.emplace(v.vertex, none).first->second);
+  }
+
   std::string vertices_of(std::span<const std::int32_t> corners) const {
     std::vector<std::int64_t> numbers;
     for (const std::int32_t v : corners) numbers.push_back(vertex(v));
@@ -367,6 +412,8 @@ std::string_view code(MeshFault fault) {
       return "MESH_POLYGON";
     case MeshFault::kIsolatedVertex:
       return "MESH_ISOLATED_VERTEX";
+    case MeshFault::kSharpness:
+      return "MESH_SHARPNESS";
   }
   return "MESH_UNKNOWN";
 }

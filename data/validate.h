@@ -29,6 +29,7 @@ enum class MeshFault {
   kLowValence,        ///< an interior vertex with fewer than 3 neighbours, D9         [vertex]
   kPolygon,           ///< a face that is no triangle, where the scheme is Loop's      [face]
   kIsolatedVertex,    ///< a vertex that no face names                                 [vertex]
+  kSharpness,         ///< sharpness of no edge or vertex, below 0, or two of one      [v0, v1, or vertex]
 };
 
 /// The stable name: "MESH_NONMANIFOLD_EDGE", ...
@@ -41,6 +42,7 @@ struct MeshFinding {
   std::string message;                 ///< "edge 4–9 has 3 faces (12, 13, 40)"
   std::int64_t face = -1;              ///< the face that brought the fault in (the latest involved), or -1
   std::int64_t vertex = -1;            ///< if no face did: the vertex at fault, or -1
+  std::int64_t tag = -1;               ///< kSharpness: which one, sharp edges first, then sharp vertices
 };
 
 /// How messages number vertices and faces; the elements of a finding always count from 0.

@@ -16,6 +16,7 @@
 #include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
+#include "data/generators/sharp_meshes.h"
 #include "data/io/polygon_soup.h"
 #include "data/scheme.h"
 #include "data/shapes.h"
@@ -113,6 +114,27 @@ const std::vector<Entry>& entries() {
       {"mixed", "mixed:SEED[:FACES]",
        "triangles, quads and faces of up to 8 corners: random:SEED[:FACES] with edges dissolved", 1, 2,
        [](Parameters p) { return mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}); }},
+      {"creased-cube", "creased-cube[:S]", "quad-cube with edges of sharpness S, infinite unless given", 0, 1,
+       [](Parameters p) { return creased_cube(p.empty() ? 10 : p[0]); }},
+      {"crease-ring", "crease-ring[:S]",
+       "quad-torus with a crease of sharpness S around it, infinite unless given", 0, 1,
+       [](Parameters p) { return crease_ring(p.empty() ? 10 : p[0]); }},
+      {"dart", "dart:N", "wheel:N with one sharp edge at the vertex of valence N", 1, 1,
+       [](Parameters p) { return dart(as_int(p[0]), true); }},
+      {"quad-dart", "quad-dart:N", "quad-wheel:N with one sharp edge at the vertex of valence N", 1, 1,
+       [](Parameters p) { return dart(as_int(p[0]), false); }},
+      {"corner", "corner:K", "wheel:2K with K sharp edges at its centre, every second one", 1, 1,
+       [](Parameters p) { return corner(as_int(std::min<std::uint64_t>(p[0], 1U << 20)), true); }},
+      {"quad-corner", "quad-corner:K", "quad-wheel:2K with K sharp edges at its centre", 1, 1,
+       [](Parameters p) { return corner(as_int(std::min<std::uint64_t>(p[0], 1U << 20)), false); }},
+      {"sharp", "sharp:SEED[:FACES]", "random:SEED[:FACES] with sharp edges and vertices", 1, 2,
+       [](Parameters p) {
+         return with_random_sharpness(random_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
+       }},
+      {"mixed-sharp", "mixed-sharp:SEED[:FACES]", "mixed:SEED[:FACES] with sharp edges and vertices", 1, 2,
+       [](Parameters p) {
+         return with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
+       }},
       {"crowd", "crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number", 1,
        1, [](Parameters p) { return crowd(as_int(p[0])); }},
   };

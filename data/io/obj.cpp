@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ: `v`, `f`, and what may be read over.
+// Wavefront OBJ: `v`, `f`, and what may be read over; and OpenSubdiv's tags, which count from 0:
+//   t crease 2/1/0 A B SHARPNESS         one edge; or several: 4/2/0 A B C D S T; or 4/1/0 A B C D S
+//   t corner 1/1/0 V SHARPNESS           likewise
+//   t interpolateboundary 1/0/0 1|2      1: vertices of one face are held, 2: they are not, as without it
+//   t creasemethod 0/0/1 normal|chaikin
+//   t smoothtriangles 0/0/1 catmark|smooth
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <vector>
 
 #include "data/error.h"
 #include "data/io/polygon_soup.h"
@@ -39,6 +46,8 @@ class ObjReader {
         read_normal();
       } else if (keyword == "f") {
         read_face();
+      } else if (keyword == "t") {
+        read_tag();
       } else if (contains(kFreeForm, keyword)) {
         scanner_.fail("FILE_UNSUPPORTED", fmt::format("free-form geometry is not read: {}", quoted(keyword)));
       } else if (!contains(kReadOver, keyword)) {
@@ -76,6 +85,72 @@ class ObjReader {
       soup_.corners.push_back(vertex_of(word));
     }
     soup_.close_polygon(scanner_.line());
+  }
+
+  struct Tag {
+    std::vector<std::int64_t> integers;
+    std::vector<double> numbers;
+    std::vector<std::string_view> words;
+  };
+
+  // NAME I/N/W, then so many integers, numbers and words.
+  Tag read_tag_arguments(std::string_view name) {
+    const std::string_view counts = scanner_.word();
+    std::array<std::int64_t, 3> count{};
+    std::string_view rest = counts;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t slash = rest.find('/');
+      const auto value = to_integer(rest.substr(0, slash));
+      if (!value || *value < 0 || (slash == std::string_view::npos) != (i == 2))
+        scanner_.syntax_error(fmt::format("a tag has counts like 2/1/0, not {}", quoted(counts)));
+      count[i] = *value;
+      rest.remove_prefix(i == 2 ? 0 : slash + 1);
+    }
+    Tag tag;
+    for (std::int64_t i = 0; i < count[0]; ++i) tag.integers.push_back(scanner_.integer("an index"));
+    for (std::int64_t i = 0; i < count[1]; ++i) tag.numbers.push_back(scanner_.number("a sharpness"));
+    for (std::int64_t i = 0; i < count[2]; ++i) {
+      tag.words.push_back(scanner_.word());
+      if (tag.words.back().empty()) scanner_.syntax_error(fmt::format("tag {} ends too early", quoted(name)));
+    }
+    scanner_.end_of_line();
+    return tag;
+  }
+
+  void read_tag() {
+    const std::string_view name = scanner_.word();
+    const Tag tag = read_tag_arguments(name);
+    if (name == "crease" || name == "corner") {
+      const std::size_t each = name == "crease" ? 2 : 1, count = tag.integers.size() / each;
+      if (tag.integers.size() % each != 0 || (tag.numbers.size() != 1 && tag.numbers.size() != count))
+        scanner_.syntax_error(fmt::format("tag {} has {} indices and {} sharpnesses", quoted(name),
+                                          tag.integers.size(), tag.numbers.size()));
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::int64_t a = tag.integers[each * i], b = each == 2 ? tag.integers[2 * i + 1] : -1;
+        if (a < 0 || (each == 2 && b < 0)) scanner_.syntax_error("tags have indices from 0");
+        soup_.sharp.push_back({a, b, tag.numbers[tag.numbers.size() == 1 ? 0 : i], scanner_.line()});
+      }
+      return;
+    }
+    const auto choose = [&](auto& choice, const auto& value, std::string_view first, auto first_choice,
+                            std::string_view second, auto second_choice) {
+      if (value != first && value != second)
+        scanner_.fail("FILE_UNSUPPORTED", fmt::format("tag {} is {} or {}, not {}", quoted(name), first,
+                                                      second, io::quoted(value)));
+      choice = value == first ? first_choice : second_choice;
+    };
+    Sharpness& choices = soup_.choices;
+    const auto value = tag.words.size() == 1      ? std::string(tag.words[0])
+                       : tag.integers.size() == 1 ? std::to_string(tag.integers[0])
+                                                  : std::string();
+    if (name == "interpolateboundary")
+      choose(choices.boundary, value, "1", Boundary::kEdgeAndCorner, "2", Boundary::kEdge);
+    else if (name == "creasemethod")
+      choose(choices.creasing, value, "normal", Creasing::kUniform, "chaikin", Creasing::kChaikin);
+    else if (name == "smoothtriangles")
+      choose(choices.triangles, value, "catmark", TriangleRule::kCatmark, "smooth", TriangleRule::kSmooth);
+    else
+      scanner_.fail("FILE_UNSUPPORTED", fmt::format("tag {} is not read", quoted(name)));
   }
 
   std::int64_t vertex_of(std::string_view word) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stanford PLY, ascii and binary of both byte orders.
+// Stanford PLY, ascii and binary of both byte orders. An element "edge" with vertex1, vertex2 and a sharpness
+// has the sharp edges.
 //
 // Our own reader because neither library at hand keeps the promises of read.h: Assimp keeps positions in
 // float, takes truncated files for whole and loops on a missing end_header; CGAL allocates what a list count
@@ -31,6 +32,9 @@ class PlyReader {
         read_vertices(element, body);
       } else if (element.name == "face") {
         read_faces(element, body);
+      } else if (element.name == "edge" && std::any_of(element.properties.begin(), element.properties.end(),
+                                                       [](auto& p) { return p.name == "sharpness"; })) {
+        read_edges(element, body);
       } else if (!element.properties.empty()) {
         for (std::int64_t i = 0; i < element.count; ++i) {
           body.begin(element, i);
@@ -181,6 +185,29 @@ class PlyReader {
       }
       body.end();
       soup_.close_polygon(body.line());
+    }
+  }
+
+  void read_edges(const Element& element, Body& body) {
+    const std::size_t first = property_named(element, {"vertex1"}, false),
+                      second = property_named(element, {"vertex2"}, false),
+                      sharpness = property_named(element, {"sharpness"}, false);
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      body.begin(element, i);
+      PolygonSoup::SharpTag tag{};
+      for (std::size_t k = 0; k < element.properties.size(); ++k) {
+        const Property& property = element.properties[k];
+        if (k == sharpness)
+          tag.sharpness = body.real(property, property.type);
+        else if ((k == first || k == second) && property.type.kind != Type::Kind::kFloat)
+          (k == first ? tag.a : tag.b) = body.integer(property, property.type);
+        else
+          body.skip(property);
+      }
+      body.end();
+      if (tag.a < 0 || tag.b < 0) body.fail("FILE_SYNTAX", "a vertex below 0");
+      tag.line = body.line();
+      soup_.sharp.push_back(tag);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "data/error.h"
@@ -109,15 +110,39 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
     result.cut = triangles.cut;
   }
 
+  // Tags, edges first, as findings number them.
+  mesh.sharpness = soup.choices;
+  std::vector<std::int64_t> tag_lines;
+  for (const bool of_vertices : {false, true})
+    for (const auto& tag : soup.sharp) {
+      if ((tag.b < 0) != of_vertices) continue;
+      const auto index = [](std::int64_t v) {
+        return v < 0 || v > std::numeric_limits<std::int32_t>::max() ? -1 : static_cast<std::int32_t>(v);
+      };
+      const auto sharpness = static_cast<float>(tag.sharpness);
+      if (of_vertices)
+        mesh.sharpness.vertices.push_back({index(tag.a), sharpness});
+      else
+        mesh.sharpness.edges.push_back({index(tag.a), index(tag.b), sharpness});
+      tag_lines.push_back(tag.line);
+    }
+
   // All of them together.
   for (MeshFinding& finding : validate(mesh, result.scheme, {soup.first, polygon_of})) {
+    const auto of_bad_polygons = [&] {
+      return std::all_of(finding.elements.begin(), finding.elements.end(), [&](std::int64_t v) {
+        return v >= 0 && static_cast<std::size_t>(v) < of_a_bad_polygon.size() && of_a_bad_polygon[v];
+      });
+    };
     const bool entailed =
-        (finding.fault == MeshFault::kBowtieVertex || finding.fault == MeshFault::kIsolatedVertex) &&
-        of_a_bad_polygon[finding.vertex];
+        ((finding.fault == MeshFault::kBowtieVertex || finding.fault == MeshFault::kIsolatedVertex) &&
+         of_a_bad_polygon[finding.vertex]) ||
+        (finding.fault == MeshFault::kSharpness && of_bad_polygons());
     if (entailed || finding.fault == MeshFault::kEmpty) continue;
     result.faults.push_back({std::string(code(finding.fault)),
-                             finding.face >= 0 ? line_of(soup.polygon_lines, polygon_of[finding.face])
-                                               : line_of(soup.position_lines, finding.vertex),
+                             finding.tag >= 0    ? line_of(tag_lines, finding.tag)
+                             : finding.face >= 0 ? line_of(soup.polygon_lines, polygon_of[finding.face])
+                                                 : line_of(soup.position_lines, finding.vertex),
                              std::move(finding.message), finding.vertex});
   }
   return result;

@@ -26,6 +26,15 @@ struct PolygonSoup {
   // OBJ: for each corner the index of its normal, -1 for none. Empty: normals[i] is that of position i.
   std::vector<std::int64_t> corner_normals;
 
+  // Sharp edges, and sharp vertices (b is -1); boundary, creasing and rule for triangles are in `choices`.
+  struct SharpTag {
+    std::int64_t a, b;
+    double sharpness;
+    std::int64_t line;
+  };
+  std::vector<SharpTag> sharp;
+  Sharpness choices;
+
   void close_polygon(std::int64_t line = 0) {
     polygon_end.push_back(corners.size());
     if (line > 0) polygon_lines.push_back(line);

@@ -19,6 +19,23 @@
 namespace limitcheck::data {
 namespace {
 
+// As a number in text: infinity has no spelling that all readers know.
+float finite(float sharpness) {
+  return std::min(sharpness, kInfiniteSharpness);
+}
+
+// OpenSubdiv's tags (obj.cpp).
+void append_tags(std::string& text, const Sharpness& sharpness) {
+  const auto line = [&](auto... arguments) { fmt::format_to(std::back_inserter(text), arguments...); };
+  for (const SharpEdge& e : sharpness.edges)
+    line(FMT_STRING("t crease 2/1/0 {} {} {}\n"), e.a, e.b, finite(e.sharpness));
+  for (const SharpVertex& v : sharpness.vertices)
+    line(FMT_STRING("t corner 1/1/0 {} {}\n"), v.vertex, finite(v.sharpness));
+  if (sharpness.boundary == Boundary::kEdgeAndCorner) text += "t interpolateboundary 1/0/0 1\n";
+  if (sharpness.creasing == Creasing::kChaikin) text += "t creasemethod 0/0/1 chaikin\n";
+  if (sharpness.triangles == TriangleRule::kSmooth) text += "t smoothtriangles 0/0/1 smooth\n";
+}
+
 void append_obj(std::string& text, const ControlMesh& mesh) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p[0], p[1], p[2]);
@@ -28,6 +45,17 @@ void append_obj(std::string& text, const ControlMesh& mesh) {
       fmt::format_to(std::back_inserter(text), " {}", std::int64_t{v} + 1);
     text += '\n';
   }
+  append_tags(text, mesh.sharpness);
+}
+
+// A format that would lose some of it says so.
+void require_only(const char* format, const Sharpness& sharpness, bool edges) {
+  Sharpness rest = sharpness;
+  if (edges) rest.edges.clear();
+  if (!rest.empty() || rest.creasing != Creasing::kUniform)
+    throw InputError("FILE_UNSUPPORTED", "", 0,
+                     fmt::format("{} has no place for {}; OBJ has", format,
+                                 edges ? "sharp vertices and the choices of creases" : "sharpness"));
 }
 
 // The body of OFF and of ascii PLY.
@@ -53,11 +81,19 @@ void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
   const bool small = most < 256;
   text += fmt::format(
       "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face {}\nproperty list {} int vertex_indices\nend_header\n",
+      "element face {}\nproperty list {} int vertex_indices\n",
       ascii ? "ascii" : "binary_little_endian", mesh.positions.size(), mesh.faces.size(),
       small ? "uchar" : "uint");
+  const auto& edges = mesh.sharpness.edges;
+  if (!edges.empty())
+    text +=
+        fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\nproperty float sharpness\n",
+                    edges.size());
+  text += "end_header\n";
   if (ascii) {
     append_lines(text, mesh);
+    for (const SharpEdge& e : edges)
+      fmt::format_to(std::back_inserter(text), "{} {} {}\n", e.a, e.b, finite(e.sharpness));
     return;
   }
   for (const auto& p : mesh.positions) {
@@ -70,6 +106,10 @@ void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
     else
       append_little_endian(text, static_cast<std::uint32_t>(corners.size()));
     for (const std::int32_t v : corners) append_little_endian(text, static_cast<std::uint32_t>(v));
+  }
+  for (const SharpEdge& e : edges) {
+    for (const std::int32_t v : {e.a, e.b}) append_little_endian(text, static_cast<std::uint32_t>(v));
+    append_little_endian(text, std::bit_cast<std::uint32_t>(finite(e.sharpness)));
   }
 }
 
@@ -122,10 +162,12 @@ std::string mesh_content(const ControlMesh& mesh, FileFormat format, const Write
       append_obj(text, mesh);
       break;
     case FileFormat::kOff:
+      require_only("OFF", mesh.sharpness, false);
       text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.faces.size());
       append_lines(text, mesh);
       break;
     case FileFormat::kPly:
+      require_only("PLY", mesh.sharpness, true);
       append_ply(text, mesh, options.ascii_ply);
       break;
     case FileFormat::kStl:

@@ -19,8 +19,9 @@ struct WriteOptions {
 /// positions are binary doubles or the shortest decimals that are read as the same double. The file appears
 /// whole or not at all: it is written under a temporary name beside the final one and renamed. A file that is
 /// not regular (a pipe, /dev/stdout) is written to directly.
-///   throws   InputError: FILE_UNKNOWN_FORMAT, FILE_UNSUPPORTED (STL), FILE_CANNOT_WRITE (with the system's
-///            reason)
+///   sharpness  OBJ has all of it, as OpenSubdiv's tags; PLY sharp edges, as elements; infinity becomes 10
+///   throws     InputError: FILE_UNKNOWN_FORMAT, FILE_UNSUPPORTED (STL, and a sharpness that the format has
+///              no place for), FILE_CANNOT_WRITE (with the system's reason)
 void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options = {});
 
 /// What write_mesh writes into the file.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every smooth known answer, to 39 digits with 100-digit arithmetic, by both evaluators; and exactly in
-// rationals.
+// Every known answer, smooth and sharp, to 39 digits with 100-digit arithmetic, by both evaluators.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "data/quad_answers.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/mesh/test_tags.h"
 #include "reference/number/number_exact.h"
 #include "reference/surface/certified.h"
 
@@ -30,14 +30,13 @@ std::vector<Vec3<M>> vecs(const std::vector<data::Numeral3>& texts) {
   return result;
 }
 
-// The cases without sharp edges and held corners, with the face points of the standard rule.
-const std::vector<data::QuadAnswer>& smooth_answers() {
+// All of this scheme.
+const std::vector<data::QuadAnswer>& answers() {
   static const auto loaded = [] {
-    std::vector<data::QuadAnswer> smooth;
+    std::vector<data::QuadAnswer> all;
     for (auto& a : data::load_quad_answers())
-      if (a.scheme == "catmull-clark" && !a.has_sharp && a.boundary == "edge" && a.triangles == "catmark")
-        smooth.push_back(std::move(a));
-    return smooth;
+      if (a.scheme == "catmull-clark") all.push_back(std::move(a));
+    return all;
   }();
   return loaded;
 }
@@ -53,10 +52,10 @@ constexpr double kDigits = 39;
 
 template <class Evaluator>
 void check_all() {
-  ASSERT_EQ(smooth_answers().size(), 24U);
+  ASSERT_EQ(answers().size(), 50U);
   double fewest = 100;
-  for (const auto& a : smooth_answers()) {
-    const Evaluator evaluator(a.faces, vecs<N>(a.vertices));
+  for (const auto& a : answers()) {
+    const Evaluator evaluator(a.faces, vecs<N>(a.vertices), tags_of(a));
     for (const auto& s : a.samples) {
       const auto p = evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]),
                                         Parameter::parse(s.uv[1]), Order::kSecond);
@@ -87,10 +86,35 @@ TEST(CatmullClark_KnownAnswers, ByStamToThirtyNineDigits) {
   check_all<StamEvaluator<N>>();
 }
 
+// Rational points and sharpnesses give rational positions everywhere, and derivatives but at special
+// vertices: the difference from the answer is the answer's rounding to 42 digits.
+TEST(CatmullClark_KnownAnswers, AreTheRoundedRationals) {
+  const auto expect_rounded = [](const Vec3<Rational>& got, const data::Numeral3& expected,
+                                 const std::string& what) {
+    const Vec3<Rational> want = vec<Rational>(expected);
+    EXPECT_LE(magnitude(got - want),
+              (magnitude(want) + Rational(1)) / Rational(Integer("1" + std::string(40, '0'))))
+        << what;
+  };
+  for (const auto& a : answers()) {
+    const SubdivisionEvaluator<Rational> evaluator(a.faces, vecs<Rational>(a.vertices), tags_of(a));
+    for (const auto& s : a.samples) {
+      const auto p =
+          evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]));
+      expect_rounded(p.position, s.position, a.id);
+      EXPECT_EQ(p.first_exist, s.du.has_value()) << a.id;
+      if (s.du) expect_rounded(p.d1, *s.du, a.id), expect_rounded(p.d2, *s.dv, a.id);
+      if (!s.dudu) continue;
+      expect_rounded(p.d11, *s.dudu, a.id), expect_rounded(p.d12, *s.dudv, a.id);
+      expect_rounded(p.d22, *s.dvdv, a.id);
+    }
+  }
+}
+
 TEST(CatmullClark_KnownAnswers, AreInsideTheCertifiedEnclosures) {
-  for (const auto& a : smooth_answers()) {
+  for (const auto& a : answers()) {
     if (a.faces.size() > 100) continue;  // balls at valence 50 take their time
-    const CertifiedEvaluator evaluator(a.vertices, a.faces, data::Scheme::kCatmullClark);
+    const CertifiedEvaluator evaluator(a.vertices, a.faces, data::Scheme::kCatmullClark, tags_of(a));
     for (const auto& s : a.samples) {
       const auto p =
           evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]), 45);

@@ -146,4 +146,11 @@ Tangents<N> boundary_tangents(const Vec3<N>& c, std::span<const Vec3<N>> edges,
   return t;
 }
 
+/// Eigenvalue of the mean at the tip of a cone, an interior vertex that is held: larger than that of the
+/// first frequency at any valence, so that the surface has no tangent plane there.
+template <class N>
+N cone_eigenvalue() {
+  return (N(3) + NumberTraits<N>::sqrt(N(5))) * (N(1) / N(8));
+}
+
 }  // namespace limitcheck::reference::catmull_clark

@@ -77,6 +77,8 @@ Vec3<N> area_of(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3
 /// tangent plane:
 ///   interior   t1, t2 along the u and v of the quad, of the size of its edges
 ///   boundary   t1 along the boundary (r_0 - r_K) / 2, t2 across it into the surface
+///   held       on the boundary t1 and t2 along its two edges; inside, where there is no plane, as inside
+///   dart       t1 along the sharp edge, t2 across it
 ///   k          which corner of the quad it is
 template <class N>
 SurfacePoint<N> extraordinary_corner(const RingedCorner<Vec3<N>>& corner, std::size_t k, Order order) {
@@ -91,7 +93,13 @@ SurfacePoint<N> extraordinary_corner(const RingedCorner<Vec3<N>>& corner, std::s
     result.normal_condition = normal.condition;
     if (order == Order::kPosition) return result;
     const int count = corner.face_count();
-    if (corner.on_boundary) {
+    if (corner.state == VertexState::kDart || (corner.state == VertexState::kHeld && corner.on_boundary)) {
+      const N share = corner.state == VertexState::kDart ? N(1) / N(2 * count) : N(1);
+      result.t1 = tangents.first * share;
+      result.t2 = tangents.second * share;
+      result.t1_terms = tangents.first_terms * share;
+      result.t2_terms = tangents.second_terms * share;
+    } else if (corner.on_boundary) {
       const N half = N(1) / N(2), share = N(1) / N(2 * count + 1);
       result.t1 = tangents.first * half;
       result.t2 = tangents.second * share;

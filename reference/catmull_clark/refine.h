@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,13 +14,17 @@
 #include "data/error.h"
 #include "data/faces.h"
 #include "reference/catmull_clark/masks.h"
+#include "reference/catmull_clark/ringed_quad.h"
+#include "reference/mesh/sharpness.h"
 #include "reference/mesh/topology.h"
 
 namespace limitcheck::reference::catmull_clark {
 
 /// One step: the new vertex points in the order of the vertices, then the edge points, then the face points.
+///   states   of the vertices of a mesh that is cut along its sharp edges
 template <class N>
-std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions) {
+std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                                 std::span<const VertexState> states = {}) {
   const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
   const std::size_t vertices = positions.size(), edges = topology.edges().size(),
                     faces = topology.faces().size();
@@ -40,14 +46,16 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
   }
   for (std::size_t v = 0; v < vertices; ++v) {
     const Sector sector = topology.sector(static_cast<std::int32_t>(v));
-    if (sector.faces.empty()) {
+    const VertexState state = state_of(states, static_cast<std::int32_t>(v));
+    if (sector.faces.empty() || state == VertexState::kHeld) {
       refined[v] = positions[v];
-    } else if (!sector.closed) {
+    } else if (!sector.closed && state == VertexState::kOrdinary) {
       refined[v] =
           boundary_vertex_point(positions[v], at(sector.neighbours.front()), at(sector.neighbours.back()));
     } else {
       around.clear(), near.clear();
-      for (const std::int32_t e : sector.neighbours) around.push_back(at(e));
+      // A dart has its sharp edge at either end.
+      for (const std::int32_t e : sector.neighbours.first(sector.faces.size())) around.push_back(at(e));
       for (const std::int32_t f : sector.faces) near.push_back(face(f));
       refined[v] = interior_vertex_point<N>(positions[v], around, near);
     }
@@ -78,28 +86,97 @@ inline data::Faces refined_faces(const Topology& topology) {
   return refined;
 }
 
+/// One step of a mesh with sharp edges and vertices.
+///   triangles   the rule for edges inside that are smooth; only the first step meets triangles
+template <class N>
+TaggedMesh<N> refine_once(const TaggedMesh<N>& mesh, data::TriangleRule triangles) {
+  const Topology& topology = mesh.topology;
+  std::vector<Vec3<N>> refined = refine_once(topology, mesh.positions);
+  const std::size_t vertices = mesh.positions.size(), edges = topology.edges().size();
+  if (triangles == data::TriangleRule::kSmooth)
+    for (std::size_t e = 0; e < edges; ++e) {
+      const Edge& edge = topology.edges()[e];
+      if (edge.on_boundary()) continue;
+      N weight(0);
+      const Vec3<N>& a = mesh.positions[static_cast<std::size_t>(edge.a)];
+      Vec3<N> faces{};
+      for (const std::int32_t f : {edge.left_face, edge.right_face}) {
+        const auto at = static_cast<std::size_t>(f);
+        weight += topology.faces()[at].size() == 3 ? N(47) / N(200) : N(1) / N(8);
+        faces += refined[vertices + edges + at] - a;
+      }
+      const Vec3<N> along = mesh.positions[static_cast<std::size_t>(edge.b)] - a;
+      refined[vertices + e] = a + along * (N(1) / N(2) - weight) + faces * weight;
+    }
+  sharpen(topology, mesh.sharpness, mesh.positions, refined);
+  Topology finer(refined.size(), refined_faces(topology));
+  Sharpness sharpness = mesh.sharpness.refined(topology, finer);
+  return {std::move(finer), std::move(refined), std::move(sharpness)};
+}
+
 /// A mesh of quads with the same limit surface: the mesh itself, or, if it has other faces, the mesh after
-/// one step.
+/// one step; cut along its sharp edges.
 template <class N>
 struct QuadMesh {
   Topology topology;
   std::vector<Vec3<N>> positions;
-  data::Faces given;  ///< the faces before that step, empty if there was none
+  data::Faces given;                ///< the faces before that step, empty if there was none
+  std::vector<VertexState> states;  ///< of the vertices; empty if all are ordinary
+  /// Quads whose surface this mesh does not have, since semi-sharp tags are near: theirs are those of
+  /// `tagged`, which has the same quads and is not cut.
+  std::vector<bool> needs_a_step;
+  std::shared_ptr<const TaggedMesh<N>> tagged;
 
-  QuadMesh(data::Faces faces, std::vector<Vec3<N>> points)
+  QuadMesh(data::Faces faces, std::vector<Vec3<N>> points, const SharpTags& tags = {})
       : topology(points.size(), faces), positions(std::move(points)) {
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      if (faces[f].size() != 4) {
-        positions = refine_once(topology, positions);
-        Topology refined(positions.size(), refined_faces(topology));
-        topology = std::move(refined);
-        given = std::move(faces);
-        return;
-      }
+    bool only_quads = true;
+    for (std::size_t f = 0; f < faces.size(); ++f) only_quads = only_quads && faces[f].size() == 4;
+    if (!tags.empty()) {
+      Sharpness sharpness(topology, tags);
+      TaggedMesh<N> mesh{std::move(topology), std::move(positions), std::move(sharpness)};
+      if (!only_quads) mesh = refine_once(mesh, tags.triangles);
+      settle(std::move(mesh));
+    } else if (!only_quads) {
+      positions = refine_once(topology, positions);
+      Topology refined(positions.size(), refined_faces(topology));
+      topology = std::move(refined);
+    }
+    if (!only_quads) given = std::move(faces);
   }
+  explicit QuadMesh(TaggedMesh<N> mesh) : topology(mesh.topology) { settle(std::move(mesh)); }
 
   std::size_t face_count() const { return given.size() > 0 ? given.size() : topology.faces().size(); }
+  bool is_settled(std::size_t quad) const { return !tagged || !needs_a_step[quad]; }
+
+ private:
+  void settle(TaggedMesh<N> mesh) {
+    needs_a_step = mesh.sharpness.needs_a_step(mesh.topology);
+    Sharpness::Cut cut = mesh.sharpness.cut(mesh.topology);
+    positions.clear();
+    for (const std::int32_t v : cut.origin) positions.push_back(mesh.positions[static_cast<std::size_t>(v)]);
+    states = std::move(cut.states);
+    topology = Topology(positions.size(), std::move(cut.faces));
+    if (std::find(needs_a_step.begin(), needs_a_step.end(), true) != needs_a_step.end())
+      tagged = std::make_shared<const TaggedMesh<N>>(std::move(mesh));
+  }
 };
+
+/// A quad that needs steps before its surface can be said, and a point of it: the mesh of few faces in whose
+/// face 0 the point is after these steps, with no semi-sharp tags left.
+///   at      the parameters on the quad; becomes those on face 0
+///   steps   receives how many there were
+template <class N, class P>
+QuadMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t quad, P& u, P& v, long& steps) {
+  TaggedMesh<N> near = mesh.around(quad);
+  for (steps = 0; near.sharpness.needs_a_step(near.topology)[0]; ++steps) {
+    const P half = P(1) / P(2);
+    const bool right = u > half, up = v > half;
+    u = 2 * u - (right ? 1 : 0);
+    v = 2 * v - (up ? 1 : 0);
+    near = refine_once(near, data::TriangleRule::kCatmark).around(up ? (right ? 2 : 3) : (right ? 1 : 0));
+  }
+  return QuadMesh<N>(std::move(near));
+}
 
 /// Where a parameter of a given face lies in the mesh of quads.
 template <class P>

@@ -4,12 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "data/faces.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 #include "reference/point/surface_point.h"
+
+namespace limitcheck::reference {
+class Sharpness;
+}
 
 namespace limitcheck::reference::catmull_clark {
 
@@ -20,8 +26,9 @@ namespace limitcheck::reference::catmull_clark {
 template <class N>
 class RefinedMesh {
  public:
-  /// Depth 0: the mesh itself. Throws data::ArgumentError if it is not manifold (Topology).
-  RefinedMesh(data::Faces faces, std::vector<Vec3<N>> positions);
+  /// Depth 0: the mesh itself. Throws data::ArgumentError if it is not manifold (Topology) or the tags do not
+  /// fit (Sharpness).
+  RefinedMesh(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
 
   /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
   /// few times.
@@ -36,6 +43,7 @@ class RefinedMesh {
   std::int32_t vertex(std::size_t face, std::size_t corner, int i, int j) const;
 
   /// Limit positions and unit normals of all vertices; at depth 0 of a mesh with other faces than quads, too.
+  /// Of a vertex on a sharp edge, which has a normal for each side, that of the first face in its ring.
   struct Limits {
     std::vector<Vec3<N>> positions, normals;
     std::vector<NormalKind> kinds;
@@ -47,6 +55,8 @@ class RefinedMesh {
   int depth_ = 0;
   Topology topology_;
   std::vector<Vec3<N>> positions_;
+  std::shared_ptr<const Sharpness> sharpness_;  ///< none in a mesh without tags
+  data::TriangleRule triangles_;
 };
 
 }  // namespace limitcheck::reference::catmull_clark

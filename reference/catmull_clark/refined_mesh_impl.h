@@ -2,6 +2,8 @@
 // Definitions behind refined_mesh.h, for the .cpp files that instantiate them.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,11 +15,24 @@
 namespace limitcheck::reference::catmull_clark {
 
 template <class N>
-RefinedMesh<N>::RefinedMesh(data::Faces faces, std::vector<Vec3<N>> positions)
-    : given_(std::move(faces)), topology_(positions.size(), given_), positions_(std::move(positions)) {}
+RefinedMesh<N>::RefinedMesh(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags)
+    : given_(std::move(faces)),
+      topology_(positions.size(), given_),
+      positions_(std::move(positions)),
+      sharpness_(tags.empty() ? nullptr : std::make_shared<const Sharpness>(topology_, tags)),
+      triangles_(tags.triangles) {}
 
 template <class N>
 void RefinedMesh<N>::refine() {
+  if (sharpness_) {
+    TaggedMesh<N> next =
+        refine_once(TaggedMesh<N>{std::move(topology_), std::move(positions_), *sharpness_}, triangles_);
+    topology_ = std::move(next.topology);
+    positions_ = std::move(next.positions);
+    sharpness_ = std::make_shared<const Sharpness>(std::move(next.sharpness));
+    ++depth_;
+    return;
+  }
   std::vector<Vec3<N>> positions = refine_once(topology_, positions_);
   topology_ = Topology(positions.size(), refined_faces(topology_));
   positions_ = std::move(positions);
@@ -61,11 +76,32 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
     all.kinds.resize(positions_.size());
     return all;
   }
+  const auto gathered = [](const Topology& topology, const std::vector<Vec3<N>>& positions, std::size_t v,
+                           std::span<const VertexState> states) {
+    return gather_vertex<Vec3<N>>(
+        topology, static_cast<std::int32_t>(v),
+        [&](std::int32_t p) { return positions[static_cast<std::size_t>(p)]; }, states);
+  };
+  std::optional<QuadMesh<N>> cut;
+  if (sharpness_) cut.emplace(TaggedMesh<N>{topology_, positions_, *sharpness_});
+  const auto ring_of = [&](std::size_t v) {
+    if (!cut) return gathered(topology_, positions_, v, {});
+    const Sector sector = topology_.sector(static_cast<std::int32_t>(v));
+    if (sector.faces.empty() || cut->is_settled(static_cast<std::size_t>(sector.faces[0])))
+      return gathered(cut->topology, cut->positions, v, cut->states);
+    const auto face = static_cast<std::size_t>(sector.faces[0]);
+    const auto corners = topology_.faces()[face];
+    const auto k = static_cast<std::size_t>(
+        std::find(corners.begin(), corners.end(), static_cast<std::int32_t>(v)) - corners.begin());
+    double right = k == 1 || k == 2 ? 1 : 0, up = k >= 2 ? 1 : 0;
+    long steps = 0;
+    const QuadMesh<N> near = settled_around(*cut->tagged, face, right, up, steps);
+    return gathered(near.topology, near.positions, static_cast<std::size_t>(near.topology.faces()[0][k]),
+                    near.states);
+  };
   Limits limits;
   for (std::size_t v = 0; v < positions_.size(); ++v) {
-    const auto corner = gather_vertex<Vec3<N>>(topology_, static_cast<std::int32_t>(v), [&](std::int32_t p) {
-      return positions_[static_cast<std::size_t>(p)];
-    });
+    const auto corner = ring_of(v);
     if (corner.faces.empty()) {  // no face has it
       limits.positions.push_back(positions_[v]);
       limits.normals.push_back({N(0), N(0), N(1)});

@@ -9,9 +9,16 @@
 #include <span>
 
 #include "reference/catmull_clark/masks.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 
 namespace limitcheck::reference::catmull_clark {
+
+/// Whether a bicubic patch describes the surface at a vertex of so many faces.
+inline bool is_regular_vertex(int faces, bool on_boundary, VertexState state) {
+  if (state == VertexState::kHeld) return on_boundary && faces == 1;
+  return state == VertexState::kOrdinary && faces == (on_boundary ? 2 : 4);
+}
 
 /// A corner of a quad with its ring (masks.h). The quad lies between the ring's edges `sector` and `sector` +
 /// 1, cyclically inside.
@@ -22,6 +29,7 @@ struct RingedCorner {
   boost::container::small_vector<Point, 5> edges, faces;
   int sector = 0;
   bool on_boundary = false;
+  VertexState state = VertexState::kOrdinary;
 
   int valence() const { return static_cast<int>(edges.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
@@ -32,7 +40,7 @@ struct RingedCorner {
   const Point& face(int i) const { return faces[slot(i, face_count())]; }
   std::span<const Point> edge_span() const { return {edges.data(), edges.size()}; }
   std::span<const Point> face_span() const { return {faces.data(), faces.size()}; }
-  bool is_regular() const { return face_count() == (on_boundary ? 2 : 4); }
+  bool is_regular() const { return is_regular_vertex(face_count(), on_boundary, state); }
 
  private:
   std::size_t slot(int i, int count) const {
@@ -47,6 +55,7 @@ RingedCorner<Vec3<N>> subdivide(const RingedCorner<Vec3<N>>& from) {
   RingedCorner<Vec3<N>> to;
   to.sector = from.sector;
   to.on_boundary = from.on_boundary;
+  to.state = from.state;
   const std::size_t n = from.edges.size(), count = from.faces.size();
   to.faces.resize(count);
   to.edges.resize(n);
@@ -56,8 +65,12 @@ RingedCorner<Vec3<N>> subdivide(const RingedCorner<Vec3<N>>& from) {
     to.edges[i] = from.on_boundary && (i == 0 || i + 1 == n)
                       ? boundary_edge_point(from.point, from.edges[i])
                       : edge_point(from.point, from.edges[i], to.faces[(i + count - 1) % count], to.faces[i]);
-  to.point = from.on_boundary ? boundary_vertex_point(from.point, from.edges.front(), from.edges.back())
-                              : interior_vertex_point<N>(from.point, from.edge_span(), to.face_span());
+  if (from.state == VertexState::kHeld)
+    to.point = from.point;
+  else if (from.on_boundary && from.state == VertexState::kOrdinary)
+    to.point = boundary_vertex_point(from.point, from.edges.front(), from.edges.back());
+  else  // a dart has its sharp edge at either end
+    to.point = interior_vertex_point<N>(from.point, from.edge_span().first(count), to.face_span());
   return to;
 }
 
@@ -73,7 +86,8 @@ struct RingedQuad {
   }
 
   /// The sixteen points of a regular quad. A boundary vertex of two faces is completed by linear ghosts
-  /// beyond the boundary: ghost(on, inside) is twice the point on it minus the point inside.
+  /// beyond the boundary: ghost(on, inside) is twice the point on it minus the point inside. So is a held one
+  /// of a single face, beyond either edge.
   template <class Ghost>
   std::array<Point, 16> patch(Ghost&& ghost) const {
     // Where neighbours 2 and 3 and far corners 1, 2, 3 of corner k lie in the patch.
@@ -88,6 +102,10 @@ struct RingedQuad {
       if (!c.on_boundary) {
         p[edge2] = c.edge(2), p[edge3] = c.edge(3);
         p[face1] = c.face(1), p[face2] = c.face(2), p[face3] = c.face(3);
+      } else if (c.state == VertexState::kHeld) {
+        p[edge2] = ghost(c.point, c.edge(0)), p[edge3] = ghost(c.point, c.edge(1));
+        p[face1] = ghost(c.edge(1), c.face(0)), p[face3] = ghost(c.edge(0), c.face(0));
+        p[face2] = ghost(p[edge3], p[face3]);
       } else if (c.sector == 0) {  // the boundary runs from neighbour 0 over the corner to neighbour 2
         p[edge2] = c.edge(2), p[face1] = c.face(1);
         p[edge3] = ghost(c.point, c.edge(1));
@@ -111,10 +129,13 @@ inline std::int32_t opposite(const Topology& topology, std::int32_t face, std::i
 }
 
 /// A vertex of a mesh of quads with its ring; point(v) is that of a vertex.
+///   states   of the vertices; later ones, and all where there are none, are ordinary
 template <class Point, class PointOf>
-RingedCorner<Point> gather_vertex(const Topology& topology, std::int32_t v, PointOf&& point) {
+RingedCorner<Point> gather_vertex(const Topology& topology, std::int32_t v, PointOf&& point,
+                                  std::span<const VertexState> states = {}) {
   const Sector sector = topology.sector(v);
   RingedCorner<Point> c;
+  c.state = state_of(states, v);
   c.point = point(v);
   c.on_boundary = !sector.closed;
   for (const std::int32_t e : sector.neighbours) c.edges.push_back(point(e));
@@ -124,10 +145,11 @@ RingedCorner<Point> gather_vertex(const Topology& topology, std::int32_t v, Poin
 
 /// The face of a mesh of quads with its neighbourhood.
 template <class Point, class PointOf>
-RingedQuad<Point> gather(const Topology& topology, std::size_t face, PointOf&& point) {
+RingedQuad<Point> gather(const Topology& topology, std::size_t face, PointOf&& point,
+                         std::span<const VertexState> states = {}) {
   RingedQuad<Point> result;
   for (std::size_t k = 0; k < 4; ++k) {
-    result.corner[k] = gather_vertex<Point>(topology, topology.faces()[face][k], point);
+    result.corner[k] = gather_vertex<Point>(topology, topology.faces()[face][k], point, states);
     result.corner[k].sector = topology.ring_index(face, k);
     const auto edge = static_cast<std::size_t>(topology.edge(face, k));
     result.edge_on_boundary[k] = topology.edges()[edge].on_boundary();

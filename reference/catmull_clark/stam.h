@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "data/faces.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/number/vec3.h"
 #include "reference/point/parameter.h"
 #include "reference/point/surface_point.h"
@@ -27,8 +28,8 @@ class StamData;
 template <class N>
 class StamEvaluator {
  public:
-  /// Throws data::ArgumentError if the mesh is not manifold (Topology).
-  StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions);
+  /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
+  StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
   ~StamEvaluator();
   StamEvaluator(StamEvaluator&&) noexcept;
   StamEvaluator& operator=(StamEvaluator&&) noexcept;

@@ -140,8 +140,10 @@ class FinerSector {
 template <class N>
 class StamData {
  public:
-  StamData(data::Faces faces, std::vector<Vec3<N>> positions)
-      : mesh_(std::move(faces), std::move(positions)), points_(refine_once(mesh_.topology, mesh_.positions)) {
+  StamData(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags)
+      : StamData(QuadMesh<N>(std::move(faces), std::move(positions), tags)) {}
+  explicit StamData(QuadMesh<N> mesh)
+      : mesh_(std::move(mesh)), points_(refine_once(mesh_.topology, mesh_.positions, mesh_.states)) {
     const Topology finer(points_.size(), refined_faces(mesh_.topology));
     make_two_rings(finer);
     make_patches(finer);
@@ -152,6 +154,12 @@ class StamData {
   template <class P>
   SurfacePoint<N> evaluate(int face, int corner, const P& u, const P& v, Order order) const {
     const QuadParameter<P> at = locate(mesh_, face, corner, u, v);
+    return mesh_.is_settled(at.quad) ? evaluate(at, order) : evaluate_after_steps(at, order);
+  }
+
+ private:
+  template <class P>
+  SurfacePoint<N> evaluate(const QuadParameter<P>& at, Order order) const {
     const P half = P(1) / P(2);
     const bool right = at.u > half, up = at.v > half;
     const std::size_t k = up ? (right ? 2 : 3) : (right ? 1 : 0);
@@ -181,10 +189,21 @@ class StamData {
     return result;
   }
 
- private:
+  /// Near semi-sharp tags: on the piece of the quad that has none.
+  template <class P>
+  SurfacePoint<N> evaluate_after_steps(QuadParameter<P> at, Order order) const {
+    long steps = 0;
+    const StamData piece(settled_around(*mesh_.tagged, at.quad, at.u, at.v, steps));
+    at.quad = 0;
+    SurfacePoint<N> result = piece.evaluate(at, order);
+    scale_derivatives(result, power(N(2), steps));
+    return result;
+  }
+
   RingedCorner<Vec3<N>> corner_of(std::size_t quad, std::size_t k) const {
-    return gather<Vec3<N>>(mesh_.topology, quad,
-                           [&](std::int32_t v) { return mesh_.positions[static_cast<std::size_t>(v)]; })
+    return gather<Vec3<N>>(
+               mesh_.topology, quad,
+               [&](std::int32_t v) { return mesh_.positions[static_cast<std::size_t>(v)]; }, mesh_.states)
         .corner[k];
   }
   Vec3<N> fallback(std::size_t quad) const {
@@ -218,7 +237,9 @@ class StamData {
     for (std::size_t id = 0; id < two_ring_of_.size(); ++id) {
       const auto v = static_cast<std::int32_t>(id);
       const Sector sector = finer.sector(v);
-      if (sector.faces.empty() || sector.faces.size() == (sector.closed ? 4U : 2U)) continue;
+      const VertexState state = state_of(mesh_.states, v);
+      const auto faces = static_cast<int>(sector.faces.size());
+      if (faces == 0 || is_regular_vertex(faces, !sector.closed, state)) continue;
       TwoRingPoints<N> points;
       points.c = at(v);
       for (const std::int32_t f : sector.faces) {
@@ -234,11 +255,11 @@ class StamData {
           points.e.push_back(at(last.point)), points.p.push_back(at(last.edge(2)));
       }
       two_ring_of_[id] = static_cast<std::int32_t>(rings_.size());
-      const auto faces = static_cast<int>(sector.faces.size());
+      const std::pair key(faces, state);
       if (sector.closed)
-        rings_.emplace_back(interior_.try_emplace(faces, faces).first->second, points);
+        rings_.emplace_back(interior_.try_emplace(key, faces, state).first->second, points);
       else
-        rings_.emplace_back(boundary_.try_emplace(faces, faces).first->second, points);
+        rings_.emplace_back(boundary_.try_emplace(key, faces, state).first->second, points);
     }
   }
 
@@ -246,9 +267,9 @@ class StamData {
     patches_.resize(finer.faces().size());
     for (std::size_t child = 0; child < patches_.size(); ++child) {
       if (two_ring_of_[static_cast<std::size_t>(mesh_.topology.faces()[child / 4][child % 4])] >= 0) continue;
-      patches_[child] = gather<std::int32_t>(finer, child, [](std::int32_t v) {
-                          return v;
-                        }).patch([&](std::int32_t on, std::int32_t inside) {
+      const auto quad = gather<std::int32_t>(
+          finer, child, [](std::int32_t v) { return v; }, mesh_.states);
+      patches_[child] = quad.patch([&](std::int32_t on, std::int32_t inside) {
         points_.push_back(
             ghost_point(points_[static_cast<std::size_t>(on)], points_[static_cast<std::size_t>(inside)]));
         return static_cast<std::int32_t>(points_.size() - 1);
@@ -260,16 +281,16 @@ class StamData {
   std::vector<Vec3<N>> points_;  ///< after one more step: vertices, edge points, face points, then ghosts
   std::vector<std::array<std::int32_t, 16>> patches_;  ///< of the quads of that step
   std::vector<std::int32_t> two_ring_of_;              ///< of each vertex of mesh_, -1 where it is regular
-  std::map<int, InteriorKind<N>> interior_;
-  std::map<int, BoundaryKind<N>> boundary_;
+  std::map<std::pair<int, VertexState>, InteriorKind<N>> interior_;
+  std::map<std::pair<int, VertexState>, BoundaryKind<N>> boundary_;
   std::vector<TwoRing<N>> rings_;
 };
 
 }  // namespace detail
 
 template <class N>
-StamEvaluator<N>::StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions)
-    : data_(std::make_unique<detail::StamData<N>>(std::move(faces), std::move(positions))) {}
+StamEvaluator<N>::StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags)
+    : data_(std::make_unique<detail::StamData<N>>(std::move(faces), std::move(positions), tags)) {}
 template <class N>
 StamEvaluator<N>::~StamEvaluator() = default;
 template <class N>

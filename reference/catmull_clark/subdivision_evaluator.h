@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "data/faces.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/number/vec3.h"
 #include "reference/point/parameter.h"
 #include "reference/point/surface_point.h"
@@ -25,8 +26,8 @@ struct QuadMesh;
 template <class N>
 class SubdivisionEvaluator {
  public:
-  /// Throws data::ArgumentError if the mesh is not manifold (Topology).
-  SubdivisionEvaluator(data::Faces faces, std::vector<Vec3<N>> positions);
+  /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
+  SubdivisionEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
   ~SubdivisionEvaluator();
   SubdivisionEvaluator(SubdivisionEvaluator&&) noexcept;
   SubdivisionEvaluator& operator=(SubdivisionEvaluator&&) noexcept;

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "reference/mesh/sharp_tags.h"
 #include "reference/number/vec3.h"
 
 namespace limitcheck::reference::catmull_clark {
@@ -52,12 +53,14 @@ struct TwoRingPoints {
   std::vector<Vec3<N>> f, g, h, r;  ///< n or K
 };
 
-/// All that a vertex of n faces has in common with others; n other than 4.
+/// All that a vertex of n faces has in common with others; n other than 4, if it is not held: the tip of a
+/// cone.
 template <class N>
 class InteriorKind {
  public:
-  explicit InteriorKind(int n);
+  InteriorKind(int n, VertexState state);
   int faces() const { return faces_; }
+  bool is_held() const { return held_; }
   const N& growth() const { return growth_; }
 
   struct Complex {
@@ -70,26 +73,31 @@ class InteriorKind {
 
  private:
   int faces_;
+  bool held_;
   N growth_;
   std::vector<Block> step_;
   std::vector<std::vector<Block>> table_;  ///< of small exponents
 };
 
-/// The same of a sector of K faces on the boundary; K other than 2.
+/// The same of a sector of K faces on the boundary: an ordinary one, K other than 2; a held one, K other than
+/// 1; a dart.
 template <class N>
 class BoundaryKind {
  public:
-  explicit BoundaryKind(int faces);
+  BoundaryKind(int faces, VertexState state);
   int faces() const { return faces_; }
   const N& growth() const { return growth_; }
   /// Takes J steps, over growth^J. The points are e_0 .. e_K, p_0 .. p_K, then f, g, h, r.
   std::vector<Vec3<N>> advance(std::vector<Vec3<N>> points, long steps) const;
+  /// What such points add to c: in one step, and in the limit.
+  Vec3<N> after(const std::vector<Vec3<N>>& points) const;
+  Vec3<N> to_limit(const std::vector<Vec3<N>>& points) const;
 
  private:
   using Matrix = std::vector<N>;  ///< row by row
   Matrix times(const Matrix& a, const Matrix& b) const;
-
   int faces_;
+  VertexState state_;
   std::size_t size_;
   N growth_;
   std::vector<Matrix> squares_;  ///< the map to the powers 1, 2, 4, .. that were asked for

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "reference/catmull_clark/dart.h"
 #include "reference/catmull_clark/masks.h"
 #include "reference/catmull_clark/two_ring.h"
 
@@ -38,7 +39,7 @@ Block product(const Block& a, const Block& b) {
 
 /// Blocks of one frequency w = exp(2 pi i m / n), before division by the growth.
 template <class N>
-typename InteriorKind<N>::Block step_block(long m, long n) {
+typename InteriorKind<N>::Block step_block(long m, long n, bool held) {
   using T = NumberTraits<N>;
   const N x = T::cos_pi(2 * m, n), y = sin_pi<N>(2 * m, n);
   const auto set = [&](auto& entry, int constant, int w, int conjugate, int over) {
@@ -56,7 +57,7 @@ typename InteriorKind<N>::Block step_block(long m, long n) {
       set(a[kH][kH], 1, 0, 0, 16);
   set(a[kR][kE], 6, 6, 0, 64), set(a[kR][kF], 36, 0, 0, 64), set(a[kR][kP], 1, 1, 0, 64);
   set(a[kR][kG], 6, 0, 0, 64), set(a[kR][kH], 6, 0, 0, 64), set(a[kR][kR], 1, 0, 0, 64);
-  if (m == 0)  // c moves by 3 / (2 n) of the mean e and 1 / (4 n) of the mean f
+  if (m == 0 && !held)  // c moves by 3 / (2 n) of the mean e and 1 / (4 n) of the mean f
     for (auto& row : a) {
       row[kE].re -= N(3) / N(static_cast<int>(2 * n));
       row[kF].re -= N(1) / N(static_cast<int>(4 * n));
@@ -67,11 +68,13 @@ typename InteriorKind<N>::Block step_block(long m, long n) {
 }  // namespace detail
 
 template <class N>
-InteriorKind<N>::InteriorKind(int n)
-    : faces_(n), growth_((four_lambda_minus_one<N>(n) + N(1)) * (N(1) / N(4))) {
+InteriorKind<N>::InteriorKind(int n, VertexState state)
+    : faces_(n),
+      held_(state == VertexState::kHeld),
+      growth_(held_ ? cone_eigenvalue<N>() : (four_lambda_minus_one<N>(n) + N(1)) * (N(1) / N(4))) {
   const N share = N(1) / growth_;
   for (long m = 0; m <= n / 2; ++m) {
-    Block a = detail::step_block<N>(m, n);
+    Block a = detail::step_block<N>(m, n, held_);
     for (auto& row : a)
       for (Complex& entry : row) entry.re *= share, entry.im *= share;
     step_.push_back(a);
@@ -112,9 +115,13 @@ const std::vector<typename InteriorKind<N>::Block>& InteriorKind<N>::power(long 
 }
 
 template <class N>
-BoundaryKind<N>::BoundaryKind(int faces) : faces_(faces), size_(6 * static_cast<std::size_t>(faces) + 2) {
+BoundaryKind<N>::BoundaryKind(int faces, VertexState state)
+    : faces_(faces), state_(state), size_(6 * static_cast<std::size_t>(faces) + 2) {
   const auto count = static_cast<std::size_t>(faces);
-  growth_ = faces == 1 ? N(1) / N(2) : (four_lambda_minus_one<N>(2 * faces) + N(1)) * (N(1) / N(4));
+  if (state == VertexState::kDart)  // near enough: growth is only what the powers are divided by
+    growth_ = NumberTraits<N>::from_double(std::max(.5, (four_lambda_minus_one<double>(faces) + 1) * .25));
+  else
+    growth_ = faces == 1 ? N(1) / N(2) : (four_lambda_minus_one<N>(2 * faces) + N(1)) * (N(1) / N(4));
   const std::size_t e = 0, p = count + 1, f = 2 * count + 2, g = f + count, h = g + count, r = h + count;
   Matrix a(size_ * size_, N(0));
   const auto add = [&](std::size_t row, std::size_t column, int weight, int over) {
@@ -143,13 +150,35 @@ BoundaryKind<N>::BoundaryKind(int faces) : faces_(faces), size_(6 * static_cast<
     add(r + i, p + i, 1, 64), add(r + i, p + i + 1, 1, 64), add(r + i, r + i, 1, 64);
   }
   const N share = N(1) / growth_;
-  for (std::size_t row = 0; row < size_; ++row) {  // c moves by (e_0 + e_K) / 8
-    add(row, e, -1, 8), add(row, e + count, -1, 8);
+  for (std::size_t row = 0; row < size_; ++row) {  // c moves: see after()
+    if (state == VertexState::kOrdinary) add(row, e, -1, 8), add(row, e + count, -1, 8);
+    for (std::size_t i = 0; i < count && state == VertexState::kDart; ++i)
+      add(row, e + i, -3, 2 * faces * faces), add(row, f + i, -1, 4 * faces * faces);
     for (std::size_t column = 0; column < size_; ++column) a[row * size_ + column] *= share;
   }
   squares_.push_back(std::move(a));
   if constexpr (std::is_same_v<N, double>)  // 2^11 steps are beyond the smallest double
     for (int bit = 1; bit <= 10; ++bit) squares_.push_back(times(squares_.back(), squares_.back()));
+}
+
+template <class N>
+Vec3<N> BoundaryKind<N>::after(const std::vector<Vec3<N>>& points) const {
+  const auto count = static_cast<std::size_t>(faces_);
+  if (state_ == VertexState::kOrdinary) return (points[0] + points[count]) * (N(1) / N(8));
+  Vec3<N> near{}, far{};
+  for (std::size_t i = 0; i < count && state_ == VertexState::kDart; ++i)
+    near += points[i], far += points[2 * count + 2 + i];
+  return (near * N(6) + far) * (N(1) / (N(4) * N(faces_) * N(faces_)));
+}
+
+template <class N>
+Vec3<N> BoundaryKind<N>::to_limit(const std::vector<Vec3<N>>& points) const {
+  const auto count = static_cast<std::size_t>(faces_);
+  if (state_ == VertexState::kOrdinary) return (points[0] + points[count]) * (N(1) / N(6));
+  if (state_ == VertexState::kHeld) return {};
+  const std::span<const Vec3<N>> all(points);
+  return weighted(dart_limit_weights<N>(faces_), Vec3<N>{}, all.first(count),
+                  all.subspan(2 * count + 2, count));
 }
 
 template <class N>
@@ -193,7 +222,7 @@ N largest(const TwoRingPoints<N>& points) {
 
 template <class N>
 TwoRing<N>::TwoRing(const InteriorKind<N>& kind, const TwoRingPoints<N>& points)
-    : interior_(&kind), limit_(interior_limit<N>(points.c, points.e, points.f)) {
+    : interior_(&kind), limit_(kind.is_held() ? points.c : interior_limit<N>(points.c, points.e, points.f)) {
   if constexpr (kRounds<N>) size_ = detail::largest(points);
   const std::size_t n = points.e.size();
   const CircleTable<N>& circle = circle_table<N>(static_cast<long>(n));
@@ -215,11 +244,11 @@ TwoRing<N>::TwoRing(const InteriorKind<N>& kind, const TwoRingPoints<N>& points)
 }
 
 template <class N>
-TwoRing<N>::TwoRing(const BoundaryKind<N>& kind, const TwoRingPoints<N>& points)
-    : boundary_(&kind), limit_(boundary_limit(points.c, points.e.front(), points.e.back())) {
+TwoRing<N>::TwoRing(const BoundaryKind<N>& kind, const TwoRingPoints<N>& points) : boundary_(&kind) {
   if constexpr (kRounds<N>) size_ = detail::largest(points);
   for (const auto* list : {&points.e, &points.p, &points.f, &points.g, &points.h, &points.r})
     for (const Vec3<N>& x : *list) points_.push_back(x - points.c);
+  limit_ = points.c + kind.to_limit(points_);
 }
 
 template <class N>
@@ -255,7 +284,7 @@ void TwoRing<N>::interior_sector(int i, long steps, TwoRingSector<N>& s) const {
     add(s.p[0], kP, 0), add(s.p[1], kP, 1);
     add(s.g, kG, 0), add(s.h, kH, 0), add(s.r, kR, 0);
     add(s.h_before, kH, -1), add(s.g_after, kG, 1);
-    if (m == 0) {
+    if (m == 0 && !interior_->is_held()) {
       const N entries = N(static_cast<int>(n));
       s.c_after = x[kE][0] * (N(3) / (N(2) * entries)) + x[kF][0] * (N(1) / (N(4) * entries));
       s.c_to_limit = (x[kE][0] * N(4) + x[kF][0]) * (N(1) / (entries + N(5)));
@@ -288,9 +317,8 @@ void TwoRing<N>::boundary_sector(int i, long steps, TwoRingSector<N>& s) const {
   };
   s.before = side(i);
   s.after = side(count - 1 - i);
-  const Vec3<N> ends = e(0) + e(count);
-  s.c_after = ends * (N(1) / N(8));
-  s.c_to_limit = ends * (N(1) / N(6));
+  s.c_after = boundary_->after(points);
+  s.c_to_limit = boundary_->to_limit(points);
 }
 
 }  // namespace limitcheck::reference::catmull_clark

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "reference/catmull_clark/dart.h"
 #include "reference/catmull_clark/ringed_quad.h"
 #include "reference/point/normal.h"
 #include "reference/point/surface_point.h"
@@ -13,25 +14,40 @@ namespace limitcheck::reference::catmull_clark {
 /// Where a vertex goes.
 template <class N>
 Vec3<N> limit_position(const RingedCorner<Vec3<N>>& c) {
+  if (c.state == VertexState::kHeld) return c.point;
+  if (c.state == VertexState::kDart)
+    return c.point + weighted(dart_limit_weights<N>(c.face_count()), c.point, c.edge_span(), c.face_span());
   return c.on_boundary ? boundary_limit(c.point, c.edges.front(), c.edges.back())
                        : interior_limit<N>(c.point, c.edge_span(), c.face_span());
 }
 
-/// Two directions in the tangent plane, their product outward.
+/// Two directions in the tangent plane, their product outward: of a held corner its ends r_0 - c and r_K - c.
 template <class N>
 Tangents<N> limit_tangents(const RingedCorner<Vec3<N>>& c) {
+  if (c.state == VertexState::kDart) return dart_tangents<N>(c.point, c.edge_span(), c.face_span());
+  if (c.state == VertexState::kHeld && c.on_boundary) {
+    Tangents<N> t{};
+    add_difference(t.first, t.first_terms, N(1), c.edges.front(), c.point);
+    add_difference(t.second, t.second_terms, N(1), c.edges.back(), c.point);
+    return t;
+  }
   return c.on_boundary ? boundary_tangents<N>(c.point, c.edge_span(), c.face_span())
                        : interior_tangents<N>(c.point, c.edge_span(), c.face_span());
 }
 
 /// The normal of a vertex from its tangents. Where they fail, that of the faces around after one to three
 /// steps, weighted by area, else of the control faces, else (0, 0, 1). [D12] A boundary vertex of four faces
-/// and more has no tangent plane, or takes it on like 1/k only: the mask's direction is given.
+/// and more has no tangent plane, or takes it on like 1/k only; so has a held one of two faces and more, or
+/// inside: the masks' direction is given.
 template <class N>
 Normal<N> limit_normal(const RingedCorner<Vec3<N>>& corner, const Tangents<N>& tangents) {
   Normal<N> normal = unit_normal(tangents, Vec3<N>{});
   if (normal.kind == NormalKind::kRegular) {
-    if (corner.on_boundary && corner.face_count() >= 4) normal.kind = NormalKind::kNoTangentPlane;
+    const bool has_plane = corner.state == VertexState::kHeld ? corner.on_boundary && corner.face_count() == 1
+                           : corner.state == VertexState::kOrdinary
+                               ? !corner.on_boundary || corner.face_count() < 4
+                               : true;
+    if (!has_plane) normal.kind = NormalKind::kNoTangentPlane;
     return normal;
   }
   const auto sum_of = [](const RingedCorner<Vec3<N>>& c) {

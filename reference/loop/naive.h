@@ -39,7 +39,7 @@ using LeafTriangle = std::array<LeafCorner<N>, 3>;
 template <class N>
 class NaiveSubdivider {
  public:
-  /// Throws data::ArgumentError if the mesh is not manifold (Topology).
+  /// Throws data::ArgumentError if the mesh is not manifold (Topology) or has sharp edges.
   explicit NaiveSubdivider(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                   Weights weights = Weights::kLoop);

@@ -41,7 +41,9 @@ void subdivide(const RingedFace<N>& face, int depth, const std::array<LatticePoi
 
 template <class N>
 NaiveSubdivider<N>::NaiveSubdivider(const data::ControlMesh& mesh, Weights weights)
-    : NaiveSubdivider(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {}
+    : NaiveSubdivider(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {
+  if (!mesh.sharpness.empty()) throw data::ArgumentError("sharp edges are not for the naive subdivider");
+}
 
 template <class N>
 NaiveSubdivider<N>::NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,

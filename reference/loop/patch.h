@@ -109,13 +109,15 @@ Tangents<N> tangents_of(const SurfacePoint<N>& point) {
 ///                         the boundary edges and 0 along the inner one; all other mu are smaller. For K = 1
 ///                         the next is 1/4, a multiple of (a + b)^2: second derivatives exist. For K = 2 it
 ///                         is 3/8: they do not. For K >= 4 one is above 1/2.
+///   held, dart            none are said to exist. t1, t2 are along the two edges of a held corner; at a dart
+///                         along the sharp edge and across it
 ///   ring_index   of the face in the corner's ring (Topology), which is that of the control mesh
 ///   at           (a, b) towards the corner's next and previous neighbour in the face; level is not used
 template <class N>
 SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
                                      int ring_index, const ParameterGradients& at, Weights weights,
-                                     Order order) {
-  const VertexLimit<N> limit = vertex_limit(v, ring, on_boundary, weights);
+                                     Order order, VertexState state = VertexState::kOrdinary) {
+  const VertexLimit<N> limit = vertex_limit(v, ring, on_boundary, weights, state);
   SurfacePoint<N> result;
   result.at_corner = true;
   result.position = limit.position;
@@ -124,6 +126,14 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
   result.normal_condition = limit.normal.condition;
   const Vec3<N>&c = limit.tangents.first, &s = limit.tangents.second;
   const std::size_t n = ring.size();
+  if (state == VertexState::kDart || (state == VertexState::kHeld && on_boundary)) {
+    const N share = state == VertexState::kDart ? N(2) / N(static_cast<int>(n) - 1) : N(1);
+    result.t1 = result.d1 = c * share;
+    result.t2 = result.d2 = s * share;
+    result.t1_terms = limit.tangents.first_terms * share;
+    result.t2_terms = limit.tangents.second_terms * share;
+    return result;
+  }
   // The masks' sums over a regular polygon, or half of one, of radius 1: n / 2 inside and across, 2 along.
   const auto entries = static_cast<int>(n);
   const N half = N(1) / N(2), share = on_boundary ? N(2) / N(std::max(2, entries - 1)) : N(2) / N(entries);
@@ -151,7 +161,7 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
     const Vec3<N> a = towards(ring_index), b = towards(ring_index + 1);
     t1 = (a * N(at.a1) + b * N(at.b1)) * share;
     t2 = (a * N(at.a2) + b * N(at.b2)) * share;
-    first = n <= 5;
+    first = n <= 5 && state == VertexState::kOrdinary;
     second = n == 3;
     const N factor = N(4) / N(3);
     local.aa = a * factor;

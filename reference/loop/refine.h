@@ -3,21 +3,27 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "reference/loop/weights.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 #include "reference/point/surface_point.h"
 
 namespace limitcheck::reference {
 
+class Sharpness;
+
 /// One step: the new vertex points, in the order of the vertices, then the edge points, in the order
 /// of the edges.
+///   states   of the vertices of a mesh that is cut along its sharp edges
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                 Weights weights = Weights::kLoop);
+                                 Weights weights = Weights::kLoop, std::span<const VertexState> states = {});
 
 /// The control points as they are, in the number type: exact in every one but narrower ones.
 template <class N>
@@ -32,7 +38,7 @@ class RefinedMesh {
   /// Depth 0: the mesh itself. Throws data::ArgumentError if it is not manifold (Topology).
   explicit RefinedMesh(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles,
-              Weights weights = Weights::kLoop);
+              Weights weights = Weights::kLoop, const SharpTags& tags = {});
 
   /// One more step. Exact in exact arithmetic; in double each coordinate is a convex combination rounded a
   /// few times.
@@ -50,7 +56,8 @@ class RefinedMesh {
   }
   const Topology& topology() const { return topology_; }
 
-  /// Limit positions and unit normals of all vertices.
+  /// Limit positions and unit normals of all vertices; of a vertex on a sharp edge, which has a normal for
+  /// each side, that of the first face in its ring.
   /// [C14, D1, D2, D12]
   struct Limits {
     std::vector<Vec3<N>> positions, normals;
@@ -77,6 +84,7 @@ class RefinedMesh {
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> lattice_;
   Topology topology_;
+  std::shared_ptr<const Sharpness> sharpness_;  ///< none in a mesh without tags
 };
 
 /// The refined mesh after `depth` steps.

@@ -2,11 +2,14 @@
 // Definitions behind refine.h, for the .cpp files that instantiate them.
 #pragma once
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "data/error.h"
 #include "reference/loop/masks.h"
 #include "reference/loop/refine.h"
+#include "reference/loop/triangle_mesh.h"
 #include "reference/loop/triangles.h"
 #include "reference/loop/vertex_limit.h"
 
@@ -14,7 +17,7 @@ namespace limitcheck::reference {
 
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                 Weights weights) {
+                                 Weights weights, std::span<const VertexState> states) {
   std::vector<Vec3<N>> result;
   result.reserve(topology.vertex_count() + topology.edges().size());
   std::vector<Vec3<N>> ring;
@@ -22,14 +25,12 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
     const Sector sector = topology.sector(static_cast<std::int32_t>(v));
     if (sector.faces.empty()) {
       result.push_back(positions[v]);  // isolated: nothing to subdivide
-    } else if (!sector.closed) {
-      result.push_back(boundary_vertex_point(positions[v], positions[sector.neighbours.front()],
-                                             positions[sector.neighbours.back()]));
-    } else {
-      ring.clear();
-      for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
-      result.push_back(interior_vertex_point<N>(positions[v], ring, weights));
+      continue;
     }
+    ring.clear();
+    for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
+    result.push_back(vertex_point<N>(positions[v], ring, !sector.closed,
+                                     state_of(states, static_cast<std::int32_t>(v)), weights));
   }
   for (const Edge& e : topology.edges()) {
     const auto across = [&](std::int32_t face) -> const Vec3<N>& {
@@ -54,15 +55,17 @@ std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
 
 template <class N>
 RefinedMesh<N>::RefinedMesh(const data::ControlMesh& mesh, Weights weights)
-    : RefinedMesh(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {}
+    : RefinedMesh(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights, mesh.sharpness) {}
 
 template <class N>
-RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles, Weights weights)
+RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles, Weights weights,
+                            const SharpTags& tags)
     : weights_(weights),
       face_count_(triangles.size()),
       positions_(std::move(positions)),
       triangles_(std::move(triangles)),
-      topology_(positions_.size(), triangles_) {
+      topology_(positions_.size(), triangles_),
+      sharpness_(tags.empty() ? nullptr : std::make_shared<const Sharpness>(topology_, tags)) {
   lattice_.reserve(3 * face_count_);
   for (const Triangle& t : triangles_) lattice_.insert(lattice_.end(), t.begin(), t.end());
 }
@@ -73,7 +76,9 @@ void RefinedMesh<N>::refine() {
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw data::ArgumentError("refined mesh has more than 2^31 - 1 vertices");
   const auto old_vertices = static_cast<std::int32_t>(positions_.size());
-  positions_ = refine_once(topology_, positions_, weights_);
+  std::vector<Vec3<N>> refined = refine_once(topology_, positions_, weights_);
+  if (sharpness_) sharpen(topology_, *sharpness_, positions_, refined);
+  positions_ = std::move(refined);
 
   // Lattice points of even coordinates were there before; the others lie on an edge of a triangle (i, j)
   // (i+1, j) (i, j+1).
@@ -97,7 +102,9 @@ void RefinedMesh<N>::refine() {
       }
   }
   triangulate();
-  topology_ = Topology(positions_.size(), triangles_);
+  Topology finer(positions_.size(), triangles_);
+  if (sharpness_) sharpness_ = std::make_shared<const Sharpness>(sharpness_->refined(topology_, finer));
+  topology_ = std::move(finer);
 }
 
 template <class N>
@@ -121,18 +128,33 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
   result.positions.reserve(positions_.size());
   result.normals.reserve(positions_.size());
   result.kinds.reserve(positions_.size());
-  std::vector<Vec3<N>> ring;
+  const auto limit_at = [&](const Topology& topology, const std::vector<Vec3<N>>& positions, std::int32_t v,
+                            std::span<const VertexState> states) {
+    const Sector sector = topology.sector(v);
+    std::vector<Vec3<N>> ring;
+    for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
+    return vertex_limit<N>(positions[v], ring, !sector.closed, weights_, state_of(states, v));
+  };
+  std::optional<TriangleMesh<N>> cut;
+  if (sharpness_) cut.emplace(TaggedMesh<N>{topology_, positions_, *sharpness_});
+  const auto limit_of = [&](std::int32_t v) {
+    if (!cut) return limit_at(topology_, positions_, v, {});
+    const std::int32_t face = topology_.sector(v).faces[0];
+    if (cut->is_settled(face)) return limit_at(cut->topology, cut->positions, v, cut->states);
+    const Triangle corners = triangle_of(topology_, face);
+    SubFacePath path(v == corners[1] ? 1 : 0, v == corners[2] ? 1 : 0);
+    const TriangleMesh<N> near = settled_around(*cut->tagged, face, weights_, path);
+    const auto k = static_cast<std::size_t>(std::find(path.w.begin(), path.w.end(), 1) - path.w.begin());
+    return limit_at(near.topology, near.positions, near.topology.faces()[0][k], near.states);
+  };
   for (std::size_t v = 0; v < positions_.size(); ++v) {
-    const Sector sector = topology_.sector(static_cast<std::int32_t>(v));
-    ring.clear();
-    for (const std::int32_t r : sector.neighbours) ring.push_back(positions_[r]);
-    if (ring.empty()) {
+    if (topology_.sector(static_cast<std::int32_t>(v)).faces.empty()) {
       result.positions.push_back(positions_[v]);
       result.normals.push_back({N(0), N(0), N(1)});
       result.kinds.push_back(NormalKind::kArbitrary);
       continue;
     }
-    const VertexLimit<N> limit = vertex_limit<N>(positions_[v], ring, !sector.closed, weights_);
+    const VertexLimit<N> limit = limit_of(static_cast<std::int32_t>(v));
     result.positions.push_back(limit.position);
     result.normals.push_back(limit.normal.direction);
     result.kinds.push_back(limit.normal.kind);
@@ -141,11 +163,13 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
 }
 
 /// All of refine.h but `limits`, which needs square roots.
-#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                            \
-  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights); \
-  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                             \
-  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                          \
-  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights);       \
+#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                           \
+  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights, \
+                                            std::span<const VertexState>);                         \
+  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                            \
+  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                         \
+  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights,       \
+                                       const SharpTags&);                                          \
   template void RefinedMesh<N>::refine();
 
 }  // namespace limitcheck::reference

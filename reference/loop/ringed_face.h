@@ -6,7 +6,7 @@
 #include <boost/container/small_vector.hpp>
 #include <span>
 
-#include "reference/loop/masks.h"
+#include "reference/loop/vertex_limit.h"
 #include "reference/mesh/topology.h"
 
 namespace limitcheck::reference {
@@ -19,6 +19,7 @@ struct RingedCorner {
   boost::container::small_vector<Vec3<N>, 6> ring;
   int ring_index = 0;
   bool on_boundary = false;
+  VertexState state = VertexState::kOrdinary;
 
   int size() const { return static_cast<int>(ring.size()); }
   /// Neighbour i steps counter-clockwise from the face's first edge; i may be negative.
@@ -27,7 +28,9 @@ struct RingedCorner {
     return ring[on_boundary ? at : (at + size()) % size()];
   }
   std::span<const Vec3<N>> span() const { return {ring.data(), ring.size()}; }
-  bool is_regular() const { return size() == (on_boundary ? 4 : 6); }
+  bool is_regular() const {
+    return is_regular_vertex(ring.size() - (on_boundary ? 1 : 0), on_boundary, state);
+  }
 };
 
 template <class N>
@@ -38,7 +41,7 @@ struct RingedFace {
 
   /// The face of a mesh with its neighbourhood.
   static RingedFace gather(const Topology& topology, const std::vector<Vec3<N>>& positions, std::size_t face,
-                           Weights weights = Weights::kLoop) {
+                           Weights weights = Weights::kLoop, std::span<const VertexState> states = {}) {
     RingedFace result;
     result.weights = weights;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,6 +49,7 @@ struct RingedFace {
       const Sector sector = topology.sector(v);
       auto& c = result.corner[k];
       c.point = positions[v];
+      c.state = state_of(states, v);
       c.on_boundary = !sector.closed;
       c.ring_index = topology.ring_index(face, k);
       for (const std::int32_t r : sector.neighbours) c.ring.push_back(positions[r]);
@@ -71,9 +75,9 @@ class SubdividedFace {
       auto& to = vertex_[k];
       to.ring_index = from.ring_index;
       to.on_boundary = from.on_boundary;
+      to.state = from.state;
       const std::size_t n = from.ring.size();
-      to.point = from.on_boundary ? boundary_vertex_point(from.point, from.ring.front(), from.ring.back())
-                                  : interior_vertex_point<N>(from.point, from.span(), weights_);
+      to.point = vertex_point<N>(from.point, from.span(), from.on_boundary, from.state, weights_);
       to.ring.resize(n);
       for (std::size_t i = 0; i < n; ++i)
         to.ring[i] = from.on_boundary && (i == 0 || i + 1 == n)

@@ -13,6 +13,7 @@
 
 #include "data/control_mesh.h"
 #include "reference/loop/weights.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/parameter.h"
 #include "reference/point/surface_point.h"
@@ -50,7 +51,7 @@ class StamEvaluator {
   explicit StamEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   /// Control points in the number type itself.
   StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
-                Weights weights = Weights::kLoop);
+                Weights weights = Weights::kLoop, const SharpTags& tags = {});
   ~StamEvaluator();
   StamEvaluator(StamEvaluator&&) noexcept;
   StamEvaluator& operator=(StamEvaluator&&) noexcept;

@@ -4,11 +4,14 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 
 #include "data/error.h"
+#include "reference/loop/special_ring.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/stam_patches.h"
 #include "reference/loop/sub_face_location.h"
+#include "reference/loop/triangle_mesh.h"
 #include "reference/loop/two_ring_impl.h"
 
 namespace limitcheck::reference {
@@ -17,13 +20,16 @@ namespace detail {
 template <class N>
 class StamData {
  public:
-  StamData(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles, Weights weights)
+  StamData(TriangleMesh<N> mesh, Weights weights)
       : weights_(weights),
-        topology_(positions.size(), triangles),
-        control_(std::move(positions)),
-        refined_(topology_, control_, weights) {
+        mesh_(std::move(mesh)),
+        topology_(mesh_.topology),
+        control_(mesh_.positions),
+        refined_(topology_, control_, mesh_.states, weights) {
     make_two_rings();
   }
+  StamData(const StamData&) = delete;  // its members refer to each other
+  StamData& operator=(const StamData&) = delete;
 
   int face_count() const { return static_cast<int>(topology_.faces().size()); }
 
@@ -32,13 +38,17 @@ class StamData {
     if (face < 0 || face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
     const std::size_t f = face;
     const SubFaceLocation<P> location = locate<P>(l1, l2);
+    if (!mesh_.is_settled(f)) return evaluate_after_steps(f, Rational(l1), Rational(l2), order);
     SurfacePoint<N> result;
     const std::size_t corner = location.subface;
     const std::int32_t two_ring = location.subface == 3 ? -1 : two_ring_of_[topology_.faces()[f][corner]];
-    if (two_ring < 0)
+    const std::int32_t special = location.subface == 3 ? -1 : special_ring_of_[topology_.faces()[f][corner]];
+    if (two_ring < 0 && special < 0)
       evaluate_regular(f, location, order, result);
     else if (location.u + location.v == 0)
       return evaluate_corner(f, location.subface, location.gradients, order);
+    else if (special >= 0)
+      evaluate_near_special(f, location, special_rings_[special], order, result);
     else
       evaluate_near_corner(f, location, two_rings_[two_ring], order, result);
     if (order == Order::kPosition) return result;
@@ -53,11 +63,13 @@ class StamData {
  private:
   void make_two_rings() {
     two_ring_of_.assign(topology_.vertex_count(), -1);
+    special_ring_of_.assign(topology_.vertex_count(), -1);
     std::vector<Vec3<N>> r, q, p;
     for (std::size_t id = 0; id < topology_.vertex_count(); ++id) {
       const auto v = static_cast<std::int32_t>(id);
       const Sector sector = topology_.sector(v);
-      if (sector.faces.empty() || is_regular(sector)) continue;
+      const VertexState state = state_of(mesh_.states, v);
+      if (sector.faces.empty() || is_regular(sector, state)) continue;
       r.clear(), q.clear(), p.clear();
       for (const std::int32_t edge : sector.edges) r.push_back(refined_.point(refined_.edge_point(edge)));
       for (const std::int32_t neighbour : sector.neighbours) p.push_back(refined_.point(neighbour));
@@ -65,6 +77,14 @@ class StamData {
         const Triangle t = triangle_of(topology_, f);
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
         q.push_back(refined_.point(refined_.edge_point(topology_.edge(f, (k + 1) % 3))));
+      }
+      if (state != VertexState::kOrdinary) {
+        const std::tuple kind(static_cast<int>(q.size()), sector.closed, state);
+        const auto [faces, closed, what] = kind;
+        const auto& found = special_kinds_.try_emplace(kind, faces, closed, what, weights_).first->second;
+        special_ring_of_[id] = static_cast<std::int32_t>(special_rings_.size());
+        special_rings_.emplace_back(found, refined_.point(v), r, q, p);
+        continue;
       }
       const std::pair key(static_cast<int>(q.size()), !sector.closed);
       const auto modes = modes_.try_emplace(key, key.first, key.second, weights_).first;
@@ -96,29 +116,81 @@ class StamData {
     std::vector<Vec3<N>> ring;
     for (const std::int32_t r : sector.neighbours) ring.push_back(control_[r]);
     return extraordinary_corner<N>(control_[v], ring, !sector.closed, topology_.ring_index(f, k), gradients,
-                                   weights_, order);
+                                   weights_, order, state_of(mesh_.states, v));
   }
+
+  /// Near semi-sharp tags: on the piece of the face that has none.
+  SurfacePoint<N> evaluate_after_steps(std::size_t f, const Rational& l1, const Rational& l2,
+                                       Order order) const {
+    const bool beyond = l1 + l2 > 1;  // two doubles whose rounded sum is 1
+    SubFacePath path(beyond && l1 > l2 ? Rational(1 - l2) : l1, beyond && l1 <= l2 ? Rational(1 - l1) : l2);
+    const StamData piece(settled_around(*mesh_.tagged, f, weights_, path), weights_);
+    const SurfacePoint<N> p = piece.evaluate(0, path.w[1], path.w[2], order);
+    SurfacePoint<N> result = p;
+    const N first = power(N(2), path.level), second = first * first;
+    LocalPoint<N> local{p.position, p.d1, p.d2, p.d11, p.d12, p.d22, p.t1_terms, p.t2_terms};
+    set_derivatives(result, local, path.gradients(), first, second, order);
+    result.first_exist = p.first_exist;
+    result.second_exist = p.second_exist;
+    local.a = p.t1, local.b = p.t2;
+    SurfacePoint<N> tangents;
+    set_derivatives(tangents, local, path.gradients(), first, second, std::min(order, Order::kFirst));
+    result.t1 = tangents.d1, result.t2 = tangents.d2;
+    return result;
+  }
+
+  template <class P>
+  void evaluate_near_special(std::size_t f, const SubFaceLocation<P>& location, const SpecialRing<N>& ring,
+                             Order order, SurfacePoint<N>& result) const {
+    const int face = topology_.ring_index(f, location.subface);
+    const long steps = steps_to_corner(location.u, location.v);
+    const SubTriangle<P> outer(location, steps);
+    const auto s = ring.face_points(face, steps);
+    Basis<N> basis;
+    evaluate_basis(basis, number_from<N>(outer.a), number_from<N>(outer.b), order);
+    const LocalPoint<N> local = evaluate_patch<N>(
+        outer_patch(ring.kind().faces(), !ring.kind().closed(), face, s.points, s.c_after, outer.which),
+        basis, order, ring.size());
+    const N& growth = ring.kind().growth();
+    const ParameterGradients& g = location.gradients;
+    result.position = ring.limit() + (local.position - s.c_to_limit) * power(growth, steps);
+    set_derivatives(result, local, outer.which == 2 ? g.turned() : g, N(4) * power(N(2) * growth, steps),
+                    N(16) * power(N(4) * growth, steps), order);
+  }
+
+  /// The sub-triangle of outer_patch that holds a point, and the point's parameters there.
+  template <class P>
+  struct SubTriangle {
+    int which = 2;
+    P a, b;
+    SubTriangle(const SubFaceLocation<P>& location, long steps) {
+      const P u = scaled(location.u, steps + 1), v = scaled(location.v, steps + 1);  // 1 < u + v <= 2
+      a = 1 - u, b = 1 - v;
+      if (u >= 1)
+        which = 0, a = u - 1, b = v;
+      else if (v >= 1)
+        which = 1, a = u, b = v - 1;
+    }
+  };
 
   template <class P>
   void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const TwoRing<N>& two_ring,
                             Order order, SurfacePoint<N>& result) const {
     const int face = topology_.ring_index(f, location.subface);
     const long steps = steps_to_corner(location.u, location.v);
-    const P u = scaled(location.u, steps + 1), v = scaled(location.v, steps + 1);  // 1 < u + v <= 2
+    const SubTriangle<P> outer(location, steps);
+    const int which = outer.which;
     TwoRingPower<N> buffer;
     typename TwoRing<N>::FacePoints s;
     two_ring.face_points(face, two_ring.modes().power(steps, buffer), s);
-    int which = 2;
-    P a = 1 - u, b = 1 - v;
-    if (u >= 1)
-      which = 0, a = u - 1, b = v;
-    else if (v >= 1)
-      which = 1, a = u, b = v - 1;
     const ParameterGradients& g = location.gradients;
     Basis<N> basis;
-    evaluate_basis(basis, number_from<N>(a), number_from<N>(b), order);
+    evaluate_basis(basis, number_from<N>(outer.a), number_from<N>(outer.b), order);
+    const TwoRingModes<N>& modes = two_ring.modes();
+    const Vec3<N> next_c = s.c * modes.mean_eigenvalue();  // without the linear part, which vanishes at c
     const LocalPoint<N> local =
-        evaluate_patch<N>(outer_patch(two_ring.modes(), face, s, which), basis, order, two_ring.size(steps));
+        evaluate_patch<N>(outer_patch(modes.count(), modes.on_boundary(), face, s, next_c, which), basis,
+                          order, two_ring.size(steps));
 
     // Put back growth^J, the scale of the triangle, the linear part and the limit.
     const N& growth = two_ring.modes().growth();
@@ -138,8 +210,10 @@ class StamData {
   /// The control points of one of the three sub-triangles that one more step of face (c, r_i, r_{i+1}) gives
   /// away from c. On the lattice with c = (0, 0), r_i = (1, 0), r_{i+1} = (0, 1) they are
   ///   0  (r_i, p_i, q_i)    1  (r_{i+1}, q_i, p_{i+1})    2  (q_i, r_{i+1}, r_i), the middle one
-  static std::array<Vec3<N>, 12> outer_patch(const TwoRingModes<N>& modes, int face,
-                                             const typename TwoRing<N>::FacePoints& s, int which) {
+  ///   next_c   c after one more step
+  static std::array<Vec3<N>, 12> outer_patch(int count, bool on_boundary, int face,
+                                             const typename TwoRing<N>::FacePoints& s, const Vec3<N>& next_c,
+                                             int which) {
     const auto edge = [](const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
       return interior_edge_point(a, b, c, d);
     };
@@ -147,7 +221,6 @@ class StamData {
       return interior_vertex_point<N>(centre, ring);
     };
     const auto &c = s.c, *r = s.r, *q = s.q, *p = s.p;
-    const Vec3<N> next_c = c * modes.mean_eigenvalue();  // without the linear part, which vanishes at c
     const Vec3<N> r_i = edge(c, r[2], r[1], r[3]), r_next = edge(c, r[3], r[2], r[4]);
     const Vec3<N> q_i = edge(r[2], r[3], c, q[1]);
     const Vec3<N> p_i = vertex(r[2], {c, r[3], q[1], p[0], q[0], r[1]}),
@@ -155,12 +228,11 @@ class StamData {
     const Vec3<N> x_i = edge(r[2], q[1], r[3], p[0]), x_next = edge(r[3], q[1], r[2], p[1]);
     const auto before = [&] {  // r_{i-1}
       if (s.first_edge_on_boundary) return ghost_point(next_c, r_i, r_next);
-      return face == 1 && modes.on_boundary() ? boundary_edge_point(c, r[1]) : edge(c, r[1], r[0], r[2]);
+      return face == 1 && on_boundary ? boundary_edge_point(c, r[1]) : edge(c, r[1], r[0], r[2]);
     };
     const auto after = [&] {  // r_{i+2}
       if (s.last_edge_on_boundary) return ghost_point(next_c, r_next, r_i);
-      return face + 2 == modes.count() && modes.on_boundary() ? boundary_edge_point(c, r[4])
-                                                              : edge(c, r[4], r[3], r[5]);
+      return face + 2 == count && on_boundary ? boundary_edge_point(c, r[4]) : edge(c, r[4], r[3], r[5]);
     };
     const auto q_before = [&] { return edge(r[1], r[2], c, q[0]); };
     const auto q_after = [&] { return edge(r[3], r[4], c, q[2]); };
@@ -204,23 +276,28 @@ class StamData {
   }
 
   Weights weights_;
-  Topology topology_;
-  std::vector<Vec3<N>> control_;
+  TriangleMesh<N> mesh_;
+  const Topology& topology_;
+  const std::vector<Vec3<N>>& control_;
   RefinedPatches<N> refined_;
   std::vector<std::int32_t> two_ring_of_;
   std::map<std::pair<int, bool>, TwoRingModes<N>> modes_;
   std::vector<TwoRing<N>> two_rings_;
+  std::vector<std::int32_t> special_ring_of_;  ///< of each vertex, -1 where it is neither held nor a dart
+  std::map<std::tuple<int, bool, VertexState>, SpecialRingKind<N>> special_kinds_;
+  std::vector<SpecialRing<N>> special_rings_;
 };
 
 }  // namespace detail
 
 template <class N>
 StamEvaluator<N>::StamEvaluator(const data::ControlMesh& mesh, Weights weights)
-    : StamEvaluator(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {}
+    : StamEvaluator(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights, mesh.sharpness) {}
 template <class N>
 StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
-                                Weights weights)
-    : data_(std::make_unique<detail::StamData<N>>(std::move(positions), triangles, weights)) {}
+                                Weights weights, const SharpTags& tags)
+    : data_(std::make_unique<detail::StamData<N>>(TriangleMesh<N>(std::move(positions), triangles, tags),
+                                                  weights)) {}
 template <class N>
 StamEvaluator<N>::~StamEvaluator() = default;
 template <class N>

@@ -13,8 +13,8 @@
 
 namespace limitcheck::reference::detail {
 
-inline bool is_regular(const Sector& sector) {
-  return sector.neighbours.size() == (sector.closed ? 6U : 4U);
+inline bool is_regular(const Sector& sector, VertexState state) {
+  return is_regular_vertex(sector.faces.size(), !sector.closed, state);
 }
 
 template <class N>
@@ -23,9 +23,10 @@ class RefinedPatches {
   /// The twelve control points of a patch in Stam's order.
   using Patch = std::array<std::int32_t, 12>;
 
-  /// Keeps a reference to the topology.
-  RefinedPatches(const Topology& topology, const std::vector<Vec3<N>>& control, Weights weights)
-      : topology_(topology) {
+  /// Keeps a reference to the topology and to the states of its vertices.
+  RefinedPatches(const Topology& topology, const std::vector<Vec3<N>>& control,
+                 const std::vector<VertexState>& states, Weights weights)
+      : topology_(topology), states_(states) {
     refine(control, weights);
     make_patches();
   }
@@ -41,9 +42,17 @@ class RefinedPatches {
 
  private:
   /// Points after one step: vertex points, edge points, then two ghosts per boundary edge, over its halves at
-  /// a and b.
+  /// a and b; and for each held vertex of one face the two points opposite its edges.
   void refine(const std::vector<Vec3<N>>& control, Weights weights) {
-    points_ = refine_once(topology_, control, weights);
+    points_ = refine_once(topology_, control, weights, states_);
+    reflected_of_.assign(states_.size(), -1);
+    for (std::size_t id = 0; id < states_.size(); ++id) {
+      const Sector sector = topology_.sector(static_cast<std::int32_t>(id));
+      if (states_[id] != VertexState::kHeld || sector.closed || sector.faces.size() != 1) continue;
+      reflected_of_[id] = static_cast<std::int32_t>(points_.size());
+      for (const std::int32_t e : sector.edges)
+        points_.push_back(ghost_point(points_[id], points_[id], point(edge_point(e))));
+    }
     ghost_of_.assign(topology_.edges().size(), -1);
     for (std::size_t f = 0; f < topology_.faces().size(); ++f)
       for (int k = 0; k < 3; ++k) {
@@ -67,7 +76,10 @@ class RefinedPatches {
     std::array<std::int32_t, 6> ring;
     for (std::size_t i = 0; i < sector.edges.size(); ++i) ring[i] = edge_point(sector.edges[i]);
     if (!sector.closed) {
-      ring[4] = ghost(v, sector.edges[3]);
+      const std::size_t last = sector.edges.size() - 1;
+      ring[last + 1] = ghost(v, sector.edges[last]);
+      if (last == 1)
+        for (int i = 0; i < 2; ++i) ring[3 + i] = reflected_of_[v] + i;
       ring[5] = ghost(v, sector.edges[0]);
     }
     std::rotate(ring.begin(), ring.begin() + topology_.ring_index(f, k), ring.end());
@@ -121,7 +133,7 @@ class RefinedPatches {
       const std::array<std::array<std::int32_t, 6>, 3> edges{edge_ring(f, 0), edge_ring(f, 1),
                                                              edge_ring(f, 2)};
       for (int k = 0; k < 3; ++k)
-        if (is_regular(topology_.sector(topology_.faces()[f][k])))
+        if (is_regular(topology_.sector(topology_.faces()[f][k]), state_of(states_, topology_.faces()[f][k])))
           patches_[4 * f + k] = assemble(vertex_ring(f, k), edges[k], 2, edges[(k + 2) % 3], 0);
       std::array<std::int32_t, 6> first = edges[0];
       std::rotate(first.begin(), first.begin() + 1, first.end());
@@ -130,8 +142,9 @@ class RefinedPatches {
   }
 
   const Topology& topology_;
+  const std::vector<VertexState>& states_;
   std::vector<Vec3<N>> points_;
-  std::vector<std::int32_t> ghost_of_;
+  std::vector<std::int32_t> ghost_of_, reflected_of_;
   std::vector<Patch> patches_;  ///< four per face
 };
 

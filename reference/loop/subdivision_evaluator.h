@@ -3,15 +3,20 @@
 // and the basis with stam.h.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "reference/loop/weights.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/parameter.h"
 #include "reference/point/surface_point.h"
 
 namespace limitcheck::reference {
+
+template <class N>
+struct TriangleMesh;
 
 /// Subdivides the face and its ring, always into the sub-face that holds the point, until that is regular (a
 /// box spline patch, Appendix A) or the point is its corner (limit masks). The number of steps grows with
@@ -24,16 +29,18 @@ class SubdivisionEvaluator {
   /// As StamEvaluator.
   explicit SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
-                       Weights weights = Weights::kLoop);
+                       Weights weights = Weights::kLoop, const SharpTags& tags = {});
+  ~SubdivisionEvaluator();
+  SubdivisionEvaluator(SubdivisionEvaluator&&) noexcept;
+  SubdivisionEvaluator& operator=(SubdivisionEvaluator&&) noexcept;
 
-  int face_count() const { return static_cast<int>(topology_.faces().size()); }
+  int face_count() const;
   /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
   SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
                            Order order = Order::kSecond) const;
 
  private:
-  Topology topology_;
-  std::vector<Vec3<N>> positions_;
+  std::unique_ptr<const TriangleMesh<N>> mesh_;
   Weights weights_;
 };
 

@@ -9,13 +9,14 @@
 #include "reference/loop/refine.h"
 #include "reference/loop/ringed_face.h"
 #include "reference/loop/subdivision_evaluator.h"
+#include "reference/loop/triangle_mesh.h"
 #include "reference/point/parameter_exact.h"
 
 namespace limitcheck::reference {
 namespace detail {
 
 /// The twelve points of a regular face in the order of Appendix A. Two linear ghosts complete the ring of a
-/// boundary vertex.   [D10]
+/// boundary vertex.   [D10] A held vertex of one face has four, the last two by reflection in it.
 template <class N>
 std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
   std::array<std::array<Vec3<N>, 6>, 3> rings;
@@ -23,7 +24,12 @@ std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
     const auto& c = face.corner[k];
     std::array<Vec3<N>, 6> full;
     for (std::size_t i = 0; i < c.ring.size(); ++i) full[i] = c.ring[i];
-    if (c.on_boundary) {
+    if (c.state == VertexState::kHeld) {
+      full[2] = ghost_point(c.point, c.ring[1], c.ring[0]);
+      full[3] = ghost_point(c.point, c.point, c.ring[0]);
+      full[4] = ghost_point(c.point, c.point, c.ring[1]);
+      full[5] = ghost_point(c.point, c.ring[0], c.ring[1]);
+    } else if (c.on_boundary) {
       full[4] = ghost_point(c.point, c.ring[3], c.ring[2]);
       full[5] = ghost_point(c.point, c.ring[0], c.ring[1]);
     }
@@ -37,12 +43,25 @@ std::array<Vec3<N>, 12> regular_patch(const RingedFace<N>& face) {
 
 template <class N>
 SubdivisionEvaluator<N>::SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights)
-    : SubdivisionEvaluator(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {}
+    : SubdivisionEvaluator(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights, mesh.sharpness) {}
 
 template <class N>
 SubdivisionEvaluator<N>::SubdivisionEvaluator(std::vector<Vec3<N>> positions,
-                                              const std::vector<Triangle>& triangles, Weights weights)
-    : topology_(positions.size(), triangles), positions_(std::move(positions)), weights_(weights) {}
+                                              const std::vector<Triangle>& triangles, Weights weights,
+                                              const SharpTags& tags)
+    : mesh_(std::make_unique<const TriangleMesh<N>>(std::move(positions), triangles, tags)),
+      weights_(weights) {}
+template <class N>
+SubdivisionEvaluator<N>::~SubdivisionEvaluator() = default;
+template <class N>
+SubdivisionEvaluator<N>::SubdivisionEvaluator(SubdivisionEvaluator&&) noexcept = default;
+template <class N>
+SubdivisionEvaluator<N>& SubdivisionEvaluator<N>::operator=(SubdivisionEvaluator&&) noexcept = default;
+
+template <class N>
+int SubdivisionEvaluator<N>::face_count() const {
+  return static_cast<int>(mesh_->topology.faces().size());
+}
 
 template <class N>
 SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2,
@@ -54,51 +73,37 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   if (first < 0 || second < 0 || first + second > 1)
     throw data::ArgumentError("l1, l2 must be >= 0 and l1 + l2 <= 1");
 
-  std::array<Rational, 3> w{1 - first - second, first, second};  // barycentric in the current sub-face
-  std::array<std::array<int, 2>, 3> gradient{{{-1, -1}, {1, 0}, {0, 1}}};  // of w, in units of 2^level
-  long level = 0;
-  RingedFace<N> f = RingedFace<N>::gather(topology_, positions_, face, weights_);
+  SubFacePath path(first, second);
+  const auto gathered = [&](const TriangleMesh<N>& mesh, std::size_t which) {
+    return RingedFace<N>::gather(mesh.topology, mesh.positions, which, weights_, mesh.states);
+  };
+  const auto at = static_cast<std::size_t>(face);
+  RingedFace<N> f = mesh_->is_settled(at) ? gathered(*mesh_, at)
+                                          : gathered(settled_around(*mesh_->tagged, at, weights_, path), 0);
+  const auto& w = path.w;
   while (!f.is_regular()) {
     for (std::size_t k = 0; k < 3; ++k)
       if (w[k] == 1 && !f.corner[k].is_regular()) {
-        const auto next = gradient[(k + 1) % 3], before = gradient[(k + 2) % 3];
-        return extraordinary_corner<N>(f.corner[k].point, f.corner[k].span(), f.corner[k].on_boundary,
-                                       f.corner[k].ring_index,
-                                       {next[0], next[1], before[0], before[1], level}, weights_, order);
+        const auto next = path.gradient[(k + 1) % 3], before = path.gradient[(k + 2) % 3];
+        SurfacePoint<N> result = extraordinary_corner<N>(
+            f.corner[k].point, f.corner[k].span(), f.corner[k].on_boundary, f.corner[k].ring_index,
+            {next[0], next[1], before[0], before[1], path.level}, weights_, order, f.corner[k].state);
+        if (path.level > 0) scale_derivatives(result, NumberTraits<N>::scale(N(1), path.level));
+        return result;
       }
     const SubdividedFace<N> subdivided(f);
-    const Rational half(1, 2);
-    std::size_t k = 0;
-    while (k < 3 && w[k] < half) ++k;
-    ++level;
-    f = subdivided.subface(static_cast<int>(k));
-    if (k < 3) {
-      const std::size_t next = (k + 1) % 3, before = (k + 2) % 3;
-      w = {2 * w[k] - 1, 2 * w[next], 2 * w[before]};
-      gradient = {gradient[k], gradient[next], gradient[before]};
-    } else {  // e_0, e_1, e_2 are opposite corners 2, 0, 1
-      w = {1 - 2 * w[2], 1 - 2 * w[0], 1 - 2 * w[1]};
-      const auto minus = [](std::array<int, 2> g) { return std::array<int, 2>{-g[0], -g[1]}; };
-      gradient = {minus(gradient[2]), minus(gradient[0]), minus(gradient[1])};
-    }
+    f = subdivided.subface(path.descend());
   }
 
   Basis<N> basis;
-  const auto number = [](const Rational& a) {
-    if constexpr (std::is_same_v<N, double>)
-      return a.convert_to<double>();
-    else
-      return NumberTraits<N>::from_rational(a);
-  };
-  evaluate_basis<N>(basis, number(w[1]), number(w[2]), order);
+  evaluate_basis<N>(basis, number_from_rational<N>(w[1]), number_from_rational<N>(w[2]), order);
   const LocalPoint<N> s = evaluate_patch<N>(detail::regular_patch(f), basis, order);
   SurfacePoint<N> result;
   result.position = s.position;
-  const ParameterGradients at{gradient[1][0], gradient[1][1], gradient[2][0], gradient[2][1], level};
-  set_derivatives(result, s, at, NumberTraits<N>::scale(N(1), level), NumberTraits<N>::scale(N(1), 2 * level),
-                  order);
+  set_derivatives(result, s, path.gradients(), NumberTraits<N>::scale(N(1), path.level),
+                  NumberTraits<N>::scale(N(1), 2 * path.level), order);
   if (order == Order::kPosition) return result;
-  const auto corner = [&](std::size_t k) { return positions_[topology_.faces()[face][k]]; };
+  const auto corner = [&](std::size_t k) { return mesh_->positions[mesh_->topology.faces()[at][k]]; };
   set_normal(result, tangents_of(result), cross(corner(1) - corner(0), corner(2) - corner(0)));
   return result;
 }

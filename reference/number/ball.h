@@ -103,6 +103,27 @@ struct NumberTraits<Ball> {
     arb_set_d(result.raw(), a);
     return result;
   }
+  static double approximate(const Ball& a) { return arf_get_d(arb_midref(a.raw()), ARF_RND_NEAR); }
+  static Ball middle(const Ball& a) {
+    Ball result;
+    arf_set(arb_midref(result.raw()), arb_midref(a.raw()));
+    return result;
+  }
+  /// No less than any |x| of the ball, without a radius.
+  static Ball bound(const Ball& a) {
+    mag_t bound;
+    mag_init(bound);
+    arb_get_mag(bound, a.raw());
+    Ball result;
+    arf_set_mag(arb_midref(result.raw()), bound);
+    mag_clear(bound);
+    return result;
+  }
+  static Ball widened(const Ball& a, const Ball& radius) {
+    Ball result(a);
+    arb_add_error(result.raw(), radius.raw());
+    return result;
+  }
   static Ball from_rational(const Rational& a) {
     fmpq_t x;
     fmpq_init(x);

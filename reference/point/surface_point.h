@@ -61,4 +61,15 @@ struct SurfacePoint {
   bool at_corner = false;
 };
 
+/// Turns derivatives by the parameters of a piece into those by the parameters of the whole, whose sides are
+/// `factor` times as long.
+template <class N>
+void scale_derivatives(SurfacePoint<N>& point, const N& factor) {
+  const N second = factor * factor;
+  for (auto* d : {&point.d1, &point.d2, &point.t1, &point.t2}) *d *= factor;
+  for (auto* d : {&point.d11, &point.d12, &point.d22}) *d *= second;
+  point.t1_terms *= factor;
+  point.t2_terms *= factor;
+}
+
 }  // namespace limitcheck::reference

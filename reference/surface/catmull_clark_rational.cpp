@@ -5,7 +5,7 @@
 
 namespace limitcheck::reference::catmull_clark {
 
-template RefinedMesh<Rational>::RefinedMesh(data::Faces, std::vector<Vec3<Rational>>);
+template RefinedMesh<Rational>::RefinedMesh(data::Faces, std::vector<Vec3<Rational>>, const SharpTags&);
 template void RefinedMesh<Rational>::refine();
 template std::int32_t RefinedMesh<Rational>::vertex(std::size_t, std::size_t, int, int) const;
 template class SubdivisionEvaluator<Rational>;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "data/error.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/loop/stam.h"
+#include "reference/mesh/sharpness.h"
 #include "reference/number/ball.h"
 #include "reference/point/parameter_exact.h"
 
@@ -25,6 +27,24 @@ struct CertifiedEvaluator::Data {
   std::function<Position(std::int32_t)> position;  // of a vertex
   data::Scheme scheme;
   Weights weights;
+  std::optional<Sharpness> sharpness{};
+  data::TriangleRule triangles = data::TriangleRule::kCatmark;
+
+  Data(Topology mesh, std::function<Position(std::int32_t)> exact, data::Scheme by, Weights with,
+       const SharpTags& tags)
+      : topology(std::move(mesh)), position(std::move(exact)), scheme(by), weights(with) {
+    if (tags.empty()) return;
+    sharpness.emplace(topology, tags);
+    triangles = tags.triangles;
+  }
+  /// The tags of some faces, `part` of the mesh.
+  SharpTags tags_of(const data::CutOut& part, const std::vector<std::int32_t>& faces) const {
+    if (!sharpness) return {};
+    const Topology local(part.vertices.size(), part.faces);
+    SharpTags tags = sharpness->of_part(topology, local, faces, part.vertices).tags(local);
+    tags.triangles = triangles;
+    return tags;
+  }
 
   static std::unique_ptr<const Data> of(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights) {
     for (const auto& p : mesh.positions)
@@ -35,18 +55,19 @@ struct CertifiedEvaluator::Data {
       const auto& p = positions[v];
       return Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
     };
-    return std::unique_ptr<const Data>(
-        new Data{Topology(mesh.positions.size(), mesh.faces), position, scheme, weights});
+    return std::make_unique<const Data>(Topology(mesh.positions.size(), mesh.faces), position, scheme,
+                                        weights, mesh.sharpness);
   }
   static std::unique_ptr<const Data> of(const std::vector<std::array<std::string, 3>>& positions,
-                                        data::Faces faces, data::Scheme scheme, Weights weights) {
+                                        data::Faces faces, data::Scheme scheme, Weights weights,
+                                        const SharpTags& tags = {}) {
     std::vector<Position> exact;
     for (const auto& p : positions)
       exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
                        exact_value(Parameter::parse(p[2]))});
     const auto position = [exact = std::move(exact)](std::int32_t v) { return exact[v]; };
-    return std::unique_ptr<const Data>(
-        new Data{Topology(positions.size(), std::move(faces)), position, scheme, weights});
+    return std::make_unique<const Data>(Topology(positions.size(), std::move(faces)), position, scheme,
+                                        weights, tags);
   }
 };
 
@@ -77,12 +98,12 @@ bool corner_on_boundary(const Topology& topology, data::Scheme scheme, std::int3
 
 /// The point of a mesh of few faces.
 SurfacePoint<Ball> evaluate_in_balls(const data::Faces& faces, std::vector<Vec3<Ball>> positions,
-                                     data::Scheme scheme, Weights weights, int corner, const Parameter& a,
-                                     const Parameter& b) {
+                                     data::Scheme scheme, Weights weights, const SharpTags& tags, int corner,
+                                     const Parameter& a, const Parameter& b) {
   if (scheme == data::Scheme::kCatmullClark)
-    return catmull_clark::StamEvaluator<Ball>(faces, std::move(positions)).evaluate(0, corner, a, b);
+    return catmull_clark::StamEvaluator<Ball>(faces, std::move(positions), tags).evaluate(0, corner, a, b);
   if (corner != 0) throw data::ArgumentError("a triangle has one domain, with corner 0");
-  return StamEvaluator<Ball>(std::move(positions), data::Triangles(faces).to_vector(), weights)
+  return StamEvaluator<Ball>(std::move(positions), data::Triangles(faces).to_vector(), weights, tags)
       .evaluate(0, a, b);
 }
 
@@ -222,8 +243,8 @@ CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string,
                                        const std::vector<Triangle>& triangles, Weights weights)
     : data_(Data::of(positions, data::Faces(triangles), data::Scheme::kLoop, weights)) {}
 CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
-                                       const data::Faces& faces, data::Scheme scheme)
-    : data_(Data::of(positions, faces, scheme, Weights::kLoop)) {}
+                                       const data::Faces& faces, data::Scheme scheme, const SharpTags& tags)
+    : data_(Data::of(positions, faces, scheme, Weights::kLoop, tags)) {}
 
 CertifiedEvaluator::~CertifiedEvaluator() = default;
 
@@ -237,7 +258,9 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
   if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.faces().size())
     throw data::ArgumentError("no face " + std::to_string(face));
-  const data::CutOut local = data::cut_out(data_->topology.faces(), faces_near(data_->topology, face));
+  const std::vector<std::int32_t> near = faces_near(data_->topology, face);
+  const data::CutOut local = data::cut_out(data_->topology.faces(), near);
+  const SharpTags tags = data_->tags_of(local, near);
   std::vector<Data::Position> exact;
   for (const std::int32_t v : local.vertices) exact.push_back(data_->position(v));
 
@@ -256,8 +279,8 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
     for (const auto& p : exact)
       positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
                            NumberTraits<Ball>::from_rational(p[2])});
-    const SurfacePoint<Ball> s =
-        evaluate_in_balls(local.faces, std::move(positions), data_->scheme, data_->weights, corner, l1, l2);
+    const SurfacePoint<Ball> s = evaluate_in_balls(local.faces, std::move(positions), data_->scheme,
+                                                   data_->weights, tags, corner, l1, l2);
     const bool has_normal =
         s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
     if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero

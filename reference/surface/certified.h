@@ -11,6 +11,7 @@
 #include "data/control_mesh.h"
 #include "data/scheme.h"
 #include "reference/loop/weights.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/parameter.h"
 #include "reference/point/surface_point.h"
@@ -52,7 +53,7 @@ class CertifiedEvaluator {
   CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions,
                      const std::vector<Triangle>& triangles, Weights weights = Weights::kLoop);
   CertifiedEvaluator(const std::vector<std::array<std::string, 3>>& positions, const data::Faces& faces,
-                     data::Scheme scheme);
+                     data::Scheme scheme, const SharpTags& tags = {});
   ~CertifiedEvaluator();
 
   /// Evaluates a mesh of only the faces that touch the face, so that it is quick on large meshes.

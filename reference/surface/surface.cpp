@@ -8,13 +8,13 @@ namespace limitcheck::reference {
 Surface::Surface(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights)
     : evaluator_([&]() -> decltype(evaluator_) {
         if (scheme == data::Scheme::kLoop) return StamEvaluator<double>(mesh, weights);
-        return catmull_clark::StamEvaluator<double>(mesh.faces, positions_of<double>(mesh));
+        return catmull_clark::StamEvaluator<double>(mesh.faces, positions_of<double>(mesh), mesh.sharpness);
       }()) {}
 
 RefinedSurface::RefinedSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth, Weights weights)
     : refined_([&]() -> decltype(refined_) {
         if (scheme == data::Scheme::kLoop) return refine<double>(mesh, depth, weights);
-        catmull_clark::RefinedMesh<double> refined(mesh.faces, positions_of<double>(mesh));
+        catmull_clark::RefinedMesh<double> refined(mesh.faces, positions_of<double>(mesh), mesh.sharpness);
         for (int step = 0; step < depth; ++step) refined.refine();
         return refined;
       }()) {}

@@ -142,7 +142,7 @@ constexpr int kScale = 3000;
 TEST_F(EvalCommand, KnowsTheAnswersOfCatmullClarksSurface) {
   int cases = 0, samples = 0;
   for (const data::QuadAnswer& a : data::load_quad_answers()) {
-    if (a.scheme != "catmull-clark" || a.has_sharp || a.boundary != "edge" || a.triangles != "catmark")
+    if (a.scheme != "catmull-clark" || a.has_sharp() || a.boundary != "edge" || a.triangles != "catmark")
       continue;
     if (a.faces.size() > 100) continue;  // interval arithmetic at valence 50 takes its time
     const auto scaled = [](const std::string& fraction) {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "data/generators/sharp_meshes.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/error.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/shapes.h"
+#include "data/splitmix64.h"
+
+namespace limitcheck::data {
+namespace {
+
+float as_sharpness(std::uint64_t s) {
+  return static_cast<float>(std::min<std::uint64_t>(s, 10));
+}
+
+/// All edges, each from its lower to its higher vertex.
+std::vector<std::pair<std::int32_t, std::int32_t>> edges_of(const ControlMesh& mesh) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto face = mesh.faces[f];
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const std::int32_t a = face[k], b = face[(k + 1) % face.size()];
+      edges.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// The neighbours of vertex 0 of a closed fan, counter-clockwise.
+std::vector<std::int32_t> spokes(const ControlMesh& mesh) {
+  std::vector<std::pair<std::int32_t, std::int32_t>>
+      next;  // from one neighbour to the one before the far corner
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto face = mesh.faces[f];
+    const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), 0) - face.begin());
+    if (at == face.size()) continue;
+    next.emplace_back(face[(at + 1) % face.size()], face[(at + face.size() - 1) % face.size()]);
+  }
+  std::vector<std::int32_t> order{next.front().first};
+  while (order.size() < next.size())
+    order.push_back(std::find_if(next.begin(), next.end(), [&](const auto& one) {
+                      return one.first == order.back();
+                    })->second);
+  return order;
+}
+
+void check(bool good, const std::string& why) {
+  if (!good) throw InputError("NAME_BAD_PARAMETER", "", 0, why);
+}
+
+}  // namespace
+
+ControlMesh creased_cube(std::uint64_t sharpness) {
+  ControlMesh mesh = quad_cube();
+  for (const auto& [a, b] : edges_of(mesh)) mesh.sharpness.edges.push_back({a, b, as_sharpness(sharpness)});
+  return mesh;
+}
+
+ControlMesh dart(int n, bool triangles) {
+  check(n >= 3, "a dart has 3 faces and more");
+  ControlMesh mesh = triangles ? wheel(n, 3) : quad_wheel(n, 1);
+  mesh.sharpness.edges.push_back({0, spokes(mesh).front(), kInfiniteSharpness});
+  return mesh;
+}
+
+ControlMesh corner(int k, bool triangles) {
+  check(k >= 2, "a corner has 2 sharp edges and more");
+  ControlMesh mesh = triangles ? wheel(2 * k, 3) : quad_wheel(2 * k, 1);
+  const std::vector<std::int32_t> ends = spokes(mesh);
+  for (std::size_t i = 0; i < ends.size(); i += 2)
+    mesh.sharpness.edges.push_back({0, ends[i], kInfiniteSharpness});
+  return mesh;
+}
+
+ControlMesh crease_ring(std::uint64_t sharpness) {
+  ControlMesh mesh = quad_torus(12, 6);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {  // edges between vertices 0, 6, 12, ..
+    const auto face = mesh.faces[f];
+    const auto ring = [](std::int32_t v) { return v % 6; };
+    for (std::size_t k = 0; k < 4; ++k)
+      if (ring(face[k]) == 0 && ring(face[(k + 1) % 4]) == 0 && face[k] < face[(k + 1) % 4])
+        mesh.sharpness.edges.push_back({face[k], face[(k + 1) % 4], as_sharpness(sharpness)});
+  }
+  return mesh;
+}
+
+ControlMesh with_random_sharpness(ControlMesh mesh, std::uint64_t seed) {
+  SplitMix64 random(seed);
+  const auto some = [&] {
+    return random.next() % 2 == 0 ? kInfiniteSharpness : static_cast<float>(random.next() % 64 + 1) / 16;
+  };
+  for (const auto& [a, b] : edges_of(mesh))
+    if (random.next() % 10 == 0) mesh.sharpness.edges.push_back({a, b, some()});
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (random.next() % 50 == 0) mesh.sharpness.vertices.push_back({static_cast<std::int32_t>(v), some()});
+  if (random.next() % 2 == 0) mesh.sharpness.creasing = Creasing::kChaikin;
+  if (random.next() % 2 == 0) mesh.sharpness.boundary = Boundary::kEdgeAndCorner;
+  return mesh;
+}
+
+}  // namespace limitcheck::data

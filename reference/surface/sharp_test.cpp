@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+// What sharp edges do to a surface, whatever its numbers; both schemes.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "data/error.h"
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/generators/random_mesh.h"
+#include "data/generators/sharp_meshes.h"
+#include "data/shapes.h"
+#include "data/splitmix64.h"
+#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/stam.h"
+#include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/loop/refine.h"
+#include "reference/loop/stam.h"
+#include "reference/loop/subdivision_evaluator.h"
+#include "reference/number/number_exact.h"
+#include "reference/surface/surface.h"
+
+namespace limitcheck::reference {
+namespace {
+
+using data::ControlMesh;
+namespace cc = catmull_clark;
+
+template <class N>
+std::vector<Vec3<N>> positions(const ControlMesh& mesh) {
+  std::vector<Vec3<N>> result;
+  for (const auto& p : mesh.positions) result.push_back({N(p[0]), N(p[1]), N(p[2])});
+  return result;
+}
+
+using Exact = cc::SubdivisionEvaluator<Rational>;
+Exact exact(const ControlMesh& mesh) {
+  return Exact(mesh.faces, positions<Rational>(mesh), mesh.sharpness);
+}
+
+// Parameters in the faces, on edges and at corners.
+const std::vector<std::array<const char*, 2>>& places() {
+  static const std::vector<std::array<const char*, 2>> all{
+      {"1/3", "1/4"}, {"0", "1/3"}, {"1", "2/3"}, {"1/5", "0"},   {"7/8", "1"},      {"0", "0"},
+      {"1", "0"},     {"1", "1"},   {"0", "1"},   {"1/2", "1/2"}, {"1/300", "1/200"}};
+  return all;
+}
+
+void expect_same(const SurfacePoint<Rational>& a, const SurfacePoint<Rational>& b, const std::string& what) {
+  EXPECT_EQ(a.position, b.position) << what;
+  EXPECT_EQ(a.first_exist, b.first_exist) << what;
+  EXPECT_TRUE(!a.first_exist || (a.d1 == b.d1 && a.d2 == b.d2)) << what;
+  EXPECT_TRUE(!a.second_exist || (a.d11 == b.d11 && a.d12 == b.d12 && a.d22 == b.d22)) << what;
+}
+
+void expect_same_surface(const ControlMesh& a, const ControlMesh& b) {
+  const Exact left = exact(a), right = exact(b);
+  for (int f = 0; f < left.face_count(); ++f)
+    for (const auto& [u, v] : places())
+      expect_same(left.evaluate(f, 0, Parameter::parse(u), Parameter::parse(v)),
+                  right.evaluate(f, 0, Parameter::parse(u), Parameter::parse(v)),
+                  "face " + std::to_string(f) + " (" + u + ", " + v + ")");
+}
+
+// Each vertex of the crease becomes two; the faces on one side take the copies.
+TEST(SharpEdges, AClosedCreaseIsABoundaryOnEitherSide) {
+  const ControlMesh creased = data::crease_ring(10);
+  ControlMesh cut = creased;
+  cut.sharpness = {};
+  for (std::size_t f = 0; f < cut.faces.size(); ++f) {
+    const auto face = cut.faces[f];
+    bool other_side = false;  // of the crease at 0, 6, 12, ..: the side of 5, 11, 17, ..
+    for (const std::int32_t v : face) other_side = other_side || v % 6 == 5;
+    if (!other_side) continue;
+    for (std::int32_t& v : cut.faces[f])
+      if (v % 6 == 0) v = static_cast<std::int32_t>(creased.positions.size()) + v / 6;
+  }
+  for (std::size_t v = 0; v < creased.positions.size(); v += 6) cut.positions.push_back(creased.positions[v]);
+  expect_same_surface(creased, cut);
+}
+
+TEST(SharpEdges, AlongTheBoundaryChangeNothing) {
+  ControlMesh plain = data::quad_fan(3, 5), tagged = plain;
+  const Topology topology(plain.positions.size(), plain.faces);
+  for (const Edge& e : topology.edges())
+    if (e.on_boundary()) tagged.sharpness.edges.push_back({e.a, e.b, 10});
+  expect_same_surface(plain, tagged);
+  for (auto& e : tagged.sharpness.edges) e.sharpness = 1.5;
+  expect_same_surface(plain, tagged);
+  for (auto& e : tagged.sharpness.edges) e.sharpness = 0;
+  expect_same_surface(plain, tagged);
+}
+
+TEST(SharpEdges, OfTenAndMoreAreInfinite) {
+  ControlMesh ten = data::crease_ring(10), more = ten;
+  for (auto& e : more.sharpness.edges) e.sharpness = std::numeric_limits<float>::infinity();
+  expect_same_surface(ten, more);
+}
+
+// Of a crease of one sharpness: S(2.3) = 0.7 S(2) + 0.3 S(3), exactly.
+TEST(SharpEdges, BetweenWholeSharpnessesTheSurfaceIsLinear) {
+  const ControlMesh mesh = data::crease_ring(10);
+  const auto surface = [&](const char* sharpness) {
+    SharpTags tags;
+    for (const auto& e : mesh.sharpness.edges) tags.edges.push_back({e.a, e.b, Parameter::parse(sharpness)});
+    return Exact(mesh.faces, positions<Rational>(mesh), tags);
+  };
+  const Exact two = surface("2"), three = surface("3"), between = surface("23/10");
+  for (const int f : {0, 5, 6})
+    for (const auto& [u, v] : places()) {
+      const auto at = [&, &u = u, &v = v](const Exact& s) {
+        return s.evaluate(f, 0, Parameter::parse(u), Parameter::parse(v)).position;
+      };
+      EXPECT_EQ(at(between), at(two) * Rational(7, 10) + at(three) * Rational(3, 10)) << f << " " << u;
+      if (f == 0 && v == std::string("0") && u == std::string("1/5")) {
+        EXPECT_FALSE(at(two) == at(three));
+      }
+    }
+}
+
+// Faces that begin at another corner, and the mesh seen in a mirror.
+TEST(SharpEdges, KnowNeitherFirstCornersNorHandedness) {
+  for (const ControlMesh& mesh :
+       {data::dart(5, false), data::corner(3, false), data::creased_cube(2), data::dart(4, false),
+        data::with_random_sharpness(data::quad_wheel(6, 3), 4),
+        data::with_random_sharpness(data::quad_fan(4, 3), 5)}) {
+    ControlMesh turned = mesh, mirrored = mesh;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      for (std::size_t k = 0; k < 4; ++k) {
+        turned.faces[f][k] = mesh.faces[f][(k + 1) % 4];
+        mirrored.faces[f][k] = mesh.faces[f][(4 - k) % 4];
+      }
+    const Exact a = exact(mesh), b = exact(turned), c = exact(mirrored);
+    for (int f = 0; f < a.face_count(); f += 2)
+      for (const auto& [u, v] : places()) {
+        const Parameter x = Parameter::parse(u), y = Parameter::parse(v);
+        const auto p = a.evaluate(f, 0, x, y);
+        EXPECT_EQ(p.position, b.evaluate(f, 0, y, Parameter::complement(x, 0.0)).position);
+        EXPECT_EQ(p.position, c.evaluate(f, 0, y, x).position);
+      }
+  }
+}
+
+// Both evaluators, with all the digits that they have.
+template <class Left, class Right>
+double worst_difference(const Left& a, const Right& b, const ControlMesh& mesh, const std::string& name) {
+  using N = Decimal50;
+  double worst = 0;
+  data::SplitMix64 random(7);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& place = places()[random.next() % places().size()];
+      const char *u = place[0], *v = place[1];
+      const bool triangle = mesh.faces[f].size() == 3;
+      const auto corner =
+          static_cast<int>(mesh.faces[f].size() == 4 ? 0 : random.next() % mesh.faces[f].size());
+      const auto p = a(static_cast<int>(f), corner, u, v, triangle);
+      const auto q = b(static_cast<int>(f), corner, u, v, triangle);
+      const auto compare = [&](const Vec3<N>& x, const Vec3<N>& y, const char* what) {
+        const double size = std::max(1.0, magnitude(x).template convert_to<double>());
+        const double error = magnitude(x - y).template convert_to<double>() / size;
+        EXPECT_LE(error, 1e-40) << name << " face " << f << "/" << corner << " (" << u << ", " << v << ") "
+                                << what;
+        worst = std::max(worst, error);
+      };
+      compare(p.position, q.position, "position");
+      EXPECT_EQ(p.normal_kind, q.normal_kind);
+      if (p.normal_kind == NormalKind::kRegular) compare(p.normal, q.normal, "normal");
+      EXPECT_EQ(p.first_exist, q.first_exist);
+      if (p.first_exist) compare(p.d1, q.d1, "d1"), compare(p.d2, q.d2, "d2");
+      if (p.second_exist) compare(p.d11, q.d11, "d11"), compare(p.d12, q.d12, "d12");
+    }
+  return worst;
+}
+
+TEST(SharpEdges, TheEvaluatorsOfCatmullClarkAgreeOnAnything) {
+  using N = Decimal50;
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const ControlMesh mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
+    const cc::SubdivisionEvaluator<N> steps(mesh.faces, positions<N>(mesh), mesh.sharpness);
+    const cc::StamEvaluator<N> powers(mesh.faces, positions<N>(mesh), mesh.sharpness);
+    const auto by = [](const auto& evaluator) {
+      return [&evaluator](int face, int corner, const char* u, const char* v, bool) {
+        return evaluator.evaluate(face, corner, Parameter::parse(u), Parameter::parse(v));
+      };
+    };
+    worst = std::max(worst, worst_difference(by(steps), by(powers), mesh, "seed " + std::to_string(seed)));
+  }
+  std::printf("largest difference of 50 digits: %.1e\n", worst);
+}
+
+TEST(SharpEdges, TheEvaluatorsOfLoopAgreeOnAnything) {
+  using N = Decimal50;
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const ControlMesh mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
+    const SubdivisionEvaluator<N> steps(mesh);
+    const StamEvaluator<N> powers(mesh);
+    const auto by = [](const auto& evaluator) {
+      return [&evaluator](int face, int, const char* u, const char* v, bool) {
+        // From the square onto the triangle.
+        const Rational x(u), y(v), half(1, 2);
+        const Rational l1 = x * (Rational(1) - y * half), l2 = y * (Rational(1) - x * half);
+        const Rational over = l1 + l2 > 1 ? Rational(Rational(1) / (l1 + l2)) : Rational(1);
+        return evaluator.evaluate(face, Parameter::parse(Rational(l1 * over).str()),
+                                  Parameter::parse(Rational(l2 * over).str()));
+      };
+    };
+    worst = std::max(worst, worst_difference(by(steps), by(powers), mesh, "seed " + std::to_string(seed)));
+  }
+  std::printf("largest difference of 50 digits: %.1e\n", worst);
+}
+
+// The limits of a refined mesh's vertices are the points of the surface there.
+TEST(SharpEdges, RefinedVerticesGoToTheSurface) {
+  using N = Decimal50;
+  const auto expect_near = [](const Vec3<N>& a, const Vec3<N>& b, const std::string& what) {
+    EXPECT_LE(magnitude(a - b), N("1e-45") * (N(1) + magnitude(b))) << what;
+  };
+  for (const ControlMesh& mesh :
+       {data::dart(5, false), data::corner(3, false), data::creased_cube(2), data::crease_ring(3),
+        data::with_random_sharpness(data::quad_wheel(6, 3), 4)}) {
+    cc::RefinedMesh<N> refined(mesh.faces, positions<N>(mesh), mesh.sharpness);
+    const cc::StamEvaluator<N> surface(mesh.faces, positions<N>(mesh), mesh.sharpness);
+    for (int depth = 0; depth < 3; ++depth, refined.refine()) {
+      const auto limits = refined.limits();
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const int side = 1 << depth, i = static_cast<int>(f) % (side + 1), j = side - i / 2;
+        const auto p = surface.evaluate(static_cast<int>(f), 0, Parameter::fraction(i, side),
+                                        Parameter::fraction(j, side), Order::kPosition);
+        expect_near(limits.positions[static_cast<std::size_t>(refined.vertex(f, 0, i, j))], p.position,
+                    "quad " + std::to_string(f));
+      }
+    }
+  }
+  for (const ControlMesh& mesh :
+       {data::dart(5, true), data::corner(3, true), data::with_random_sharpness(data::wheel(7, 2), 4)}) {
+    RefinedMesh<N> refined(mesh);
+    const StamEvaluator<N> surface(mesh);
+    for (int depth = 0; depth < 3; ++depth, refined.refine()) {
+      const auto limits = refined.limits();
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const int side = 1 << depth, i = static_cast<int>(f) % (side + 1), j = (side - i) / 2;
+        const auto p = surface.evaluate(static_cast<int>(f), Parameter::fraction(i, side),
+                                        Parameter::fraction(j, side), Order::kPosition);
+        expect_near(limits.positions[static_cast<std::size_t>(refined.vertex(f, i, j))], p.position,
+                    "triangle " + std::to_string(f));
+      }
+    }
+  }
+}
+
+TEST(SharpEdges, ThatDoNotFitAreRefused) {
+  const auto refused = [](const data::Sharpness& sharpness) {
+    ControlMesh mesh = data::quad_cube();
+    mesh.sharpness = sharpness;
+    EXPECT_THROW(Surface(mesh, data::Scheme::kCatmullClark), data::ArgumentError);
+  };
+  const ControlMesh cube = data::quad_cube();
+  const std::int32_t a = cube.faces[0][0], b = cube.faces[0][1], across = cube.faces[0][2];
+  ControlMesh good = cube;
+  good.sharpness = {.edges = {{a, b, 1}, {b, a, 1}}, .vertices = {{a, 1}}};
+  EXPECT_NO_THROW(Surface(good, data::Scheme::kCatmullClark));
+  refused({.edges = {{a, across, 1}}, .vertices = {}});
+  refused({.edges = {{a, 8, 1}}, .vertices = {}});
+  refused({.edges = {{a, b, -1}}, .vertices = {}});
+  refused({.edges = {{a, b, std::numeric_limits<float>::quiet_NaN()}}, .vertices = {}});
+  refused({.edges = {{a, b, 1}, {b, a, 2}}, .vertices = {}});
+  refused({.edges = {}, .vertices = {{8, 1}}});
+}
+
+}  // namespace
+}  // namespace limitcheck::reference

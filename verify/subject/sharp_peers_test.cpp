@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// The reference's refinement with sharp edges and vertices against OpenSubdiv's, both schemes; and where
+// OpenSubdiv is known to differ.
+#include <gtest/gtest.h>
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/generators/random_mesh.h"
+#include "data/generators/sharp_meshes.h"
+#include "data/shapes.h"
+#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/loop/refine.h"
+#include "verify/subject/opensubdiv_mesh.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using reference::Vec3;
+using Quads = reference::catmull_clark::RefinedMesh<double>;
+using Triangles = reference::RefinedMesh<double>;
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+template <class Refined>
+Refined reference_of(const data::ControlMesh& mesh) {
+  if constexpr (std::is_same_v<Refined, Triangles>) {
+    return Triangles(mesh);
+  } else {
+    std::vector<Vec3<double>> positions;
+    for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
+    return Quads(mesh.faces, std::move(positions), mesh.sharpness);
+  }
+}
+
+std::unique_ptr<Far::TopologyRefiner> refiner_of(const data::ControlMesh& mesh, Sdc::SchemeType type) {
+  const data::Sharpness& sharpness = mesh.sharpness;
+  std::vector<int> sizes, corners(mesh.faces.corners().begin(), mesh.faces.corners().end());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) sizes.push_back(static_cast<int>(mesh.faces[f].size()));
+  std::vector<int> edges, vertices;
+  std::vector<float> edge_weights, vertex_weights;
+  for (const auto& e : sharpness.edges) {
+    edges.insert(edges.end(), {e.a, e.b});
+    edge_weights.push_back(e.sharpness);
+  }
+  for (const auto& v : sharpness.vertices) {
+    vertices.push_back(v.vertex);
+    vertex_weights.push_back(v.sharpness);
+  }
+  Far::TopologyDescriptor descriptor;
+  descriptor.numVertices = static_cast<int>(mesh.positions.size());
+  descriptor.numFaces = static_cast<int>(sizes.size());
+  descriptor.numVertsPerFace = sizes.data();
+  descriptor.vertIndicesPerFace = corners.data();
+  descriptor.numCreases = static_cast<int>(edge_weights.size());
+  descriptor.creaseVertexIndexPairs = edges.data();
+  descriptor.creaseWeights = edge_weights.data();
+  descriptor.numCorners = static_cast<int>(vertices.size());
+  descriptor.cornerVertexIndices = vertices.data();
+  descriptor.cornerWeights = vertex_weights.data();
+  Sdc::Options options;
+  options.SetVtxBoundaryInterpolation(sharpness.boundary == data::Boundary::kEdge
+                                          ? Sdc::Options::VTX_BOUNDARY_EDGE_ONLY
+                                          : Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
+  options.SetCreasingMethod(sharpness.creasing == data::Creasing::kUniform ? Sdc::Options::CREASE_UNIFORM
+                                                                           : Sdc::Options::CREASE_CHAIKIN);
+  options.SetTriangleSubdivision(sharpness.triangles == data::TriangleRule::kCatmark
+                                     ? Sdc::Options::TRI_SUB_CATMARK
+                                     : Sdc::Options::TRI_SUB_SMOOTH);
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(descriptor, Factory::Options(type, options)));
+}
+
+// The largest distance between the points of both after so many steps, over the largest coordinate.
+template <class Refined>
+double worst_difference(const data::ControlMesh& mesh, int depth) {
+  constexpr bool kQuads = std::is_same_v<Refined, Quads>;
+  const auto refiner = refiner_of(mesh, kQuads ? Sdc::SCHEME_CATMARK : Sdc::SCHEME_LOOP);
+  Far::TopologyRefiner::UniformOptions uniform(depth);
+  uniform.fullTopologyInLastLevel = true;
+  refiner->RefineUniform(uniform);
+  const Far::PrimvarRefinerReal<double> primvars(*refiner);
+  std::vector<OpenSubdivVector<double>> points;
+  double largest = 0, worst = 0;
+  for (const auto& p : mesh.positions) {
+    points.push_back({p});
+    largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  }
+  Refined ours = reference_of<Refined>(mesh);
+  std::vector<int> vertex(mesh.positions.size()), face(mesh.faces.size());  // Far's number of ours
+  for (std::size_t i = 0; i < vertex.size(); ++i) vertex[i] = static_cast<int>(i);
+  for (std::size_t i = 0; i < face.size(); ++i) face[i] = static_cast<int>(i);
+  for (int level = 1; level <= depth; ++level) {
+    std::vector<OpenSubdivVector<double>> next(
+        static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
+    primvars.Interpolate(level, points, next);
+    points.swap(next);
+    const Far::TopologyLevel& here = refiner->GetLevel(level - 1);
+    std::vector<int> next_vertex, next_face;
+    for (const int v : vertex) next_vertex.push_back(here.GetVertexChildVertex(v));
+    for (const auto& e : ours.topology().edges())
+      next_vertex.push_back(here.GetEdgeChildVertex(
+          here.FindEdge(vertex[static_cast<std::size_t>(e.a)], vertex[static_cast<std::size_t>(e.b)])));
+    if (kQuads)
+      for (const int f : face) {
+        next_vertex.push_back(here.GetFaceChildVertex(f));
+        const auto children = here.GetFaceChildFaces(f);
+        for (int k = 0; k < children.size(); ++k) next_face.push_back(children[k]);
+      }
+    vertex = std::move(next_vertex), face = std::move(next_face);
+    ours.refine();
+    for (std::size_t v = 0; v < vertex.size(); ++v) {
+      const auto& x = points[static_cast<std::size_t>(vertex[v])].x;
+      worst = std::max(worst, magnitude(ours.positions()[v] - Vec3<double>{x[0], x[1], x[2]}) / largest);
+    }
+  }
+  return worst;
+}
+
+// Sharpnesses are multiples of 1/16, which OpenSubdiv's floats hold at every level.
+TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithUniformCreasing) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kUniform;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 5));
+    mesh.sharpness.triangles = data::TriangleRule::kSmooth;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 2));
+    mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kUniform;
+    worst = std::max(worst, worst_difference<Triangles>(mesh, 5));
+  }
+  for (const auto& mesh : {data::creased_cube(2), data::creased_cube(10), data::dart(5, false),
+                           data::corner(3, false), data::crease_ring(4)})
+    worst = std::max(worst, worst_difference<Quads>(mesh, 5));
+  std::printf("units of the last place: %.2f\n", worst * 0x1p52);
+  EXPECT_LE(worst, 8 * 0x1p-52);
+}
+
+// Chaikin's means are rounded to float there; 1e-7 of the weights.
+TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithChaikinsUpToItsFloats) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kChaikin;
+    // Below 1: above, OpenSubdiv's weights of edges are wrong (see below).
+    for (auto& e : mesh.sharpness.edges)
+      if (e.sharpness < 10) e.sharpness /= 4;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 4));
+    auto triangles = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
+    triangles.sharpness.creasing = data::Creasing::kChaikin;
+    for (auto& e : triangles.sharpness.edges)
+      if (e.sharpness < 10) e.sharpness /= 4;
+    worst = std::max(worst, worst_difference<Triangles>(triangles, 4));
+  }
+  std::printf("largest difference: %.1e\n", worst);
+  EXPECT_LE(worst, 1e-6);
+}
+
+// An edge of a sharpness above 1 with a child edge of sharpness 0: OpenSubdiv weighs the midpoint with the
+// sharpness, 1.225 here, and the smooth point with what is missing to 1, -0.225. The rule is the midpoint.
+TEST(SharpEdges_OpenSubdiv, WeighAnEdgeWithMoreThanOneByChaikinsRule) {
+  data::ControlMesh mesh = data::quad_wheel(4, 301);
+  const auto spoke = [&](std::size_t f) {
+    const auto face = mesh.faces[f];
+    const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), 0) - face.begin());
+    return face[(at + 1) % 4];
+  };
+  std::vector<std::size_t> faces;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (std::find(mesh.faces[f].begin(), mesh.faces[f].end(), 0) != mesh.faces[f].end()) faces.push_back(f);
+  ASSERT_EQ(faces.size(), 4U);
+  mesh.sharpness.edges = {{0, spoke(faces[0]), 2.7F}, {0, spoke(faces[2]), 0.8F}};
+  mesh.sharpness.creasing = data::Creasing::kChaikin;
+  EXPECT_LE(worst_difference<Quads>(mesh, 1), 1e-7);
+  EXPECT_GT(worst_difference<Quads>(mesh, 2), 1e-4);
+  mesh.sharpness.creasing = data::Creasing::kUniform;
+  EXPECT_LE(worst_difference<Quads>(mesh, 4), 1e-7);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

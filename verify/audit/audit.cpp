@@ -224,11 +224,13 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   ReferenceSurface& truth = reference(judged, mesh.scheme(), depth_of(mesh), capabilities);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
   const std::string no_reference = prepare(truth, points);
+  std::vector<Use> uses = find_uses(*tessellation, points, truth.lattice(), truth.sides());
   double magnitude = 0;  // of the whole
   for (const Vector& p : session->mesh().positions) magnitude = std::max(magnitude, largest(p));
   const double diagonal = data::box_diagonal(session->mesh());
-  const Evidence evidence{rows.subject,    mesh.name, capabilities,      judged,   asked,    *tessellation,
-                          truth.lattice(), truth,     std::move(points), diagonal, magnitude};
+  const Evidence evidence{
+      rows.subject,    mesh.name, capabilities,      judged,          asked,    *tessellation,
+      truth.lattice(), truth,     std::move(points), std::move(uses), diagonal, magnitude};
   close(*session, results.front());
 
   run_checks(evidence, rows, no_reference);

@@ -32,7 +32,7 @@ std::vector<Result> check_positions(const Evidence& e) {
   // Refined points are means of control points, for which double is as good as any arithmetic.
   const Confirmation confirmation =
       limit ? confirm(
-                  e, error, [&](std::size_t) { return *r.bound; },
+                  e, error, [&](std::size_t v) { return e.point[v]; }, [&](std::size_t) { return *r.bound; },
                   [&](std::size_t v, const ExactPoint& exact) { return off(v, exact.position); })
             : Confirmation{};
   const Statistics s = summarise(error, *r.bound);

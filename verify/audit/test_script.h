@@ -96,9 +96,10 @@ class Scripted {
     reference_ = std::make_unique<ReferenceSurface>(session_->mesh(), deepest, script_.kind);
     std::vector<Lattice::Id> points = locate(*tessellation_, reference_->lattice());
     reference_->prepare(points);
+    std::vector<Use> uses = find_uses(*tessellation_, points, reference_->lattice(), reference_->sides());
     evidence_.reset(new Evidence{"scripted", "mesh", session_->capabilities(), session_->mesh(), depth_,
-                                 *tessellation_, reference_->lattice(), *reference_, std::move(points), 1,
-                                 1});
+                                 *tessellation_, reference_->lattice(), *reference_, std::move(points),
+                                 std::move(uses), 1, 1});
   }
   const Evidence& operator*() const { return *evidence_; }
   const Evidence* operator->() const { return evidence_.get(); }

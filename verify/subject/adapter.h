@@ -116,6 +116,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
     result = T::capabilities(options);
     result.schemes = LC_DOES_LOOP;
   }
+  if constexpr (requires { T::kSharp; }) result.sharp = T::kSharp;
   result.size = sizeof result;
   result.scheme = scheme;
   return result;
@@ -126,6 +127,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
 /// The function table of the adapter class T, which has
 ///   static lc_capabilities capabilities(Options&)              if it does Loop's scheme alone
 ///   static lc_capabilities capabilities(Options&, lc_scheme)   if it does both, or those of T::kSchemes
+///   static constexpr std::int32_t kSharp                       if it does sharp edges: LC_SHARP_...
 ///   T(const lc_mesh&, Options&)
 ///   void tessellate(const lc_request&, lc_tessellation&)    all memory from the request
 /// Options that T does not read are refused.

@@ -30,7 +30,7 @@ bool has_needles(const data::ControlMesh& mesh, double height) {
 }  // namespace
 
 template <class T>
-PlacedPoints<T> place(const data::ControlMesh& mesh) {
+PlacedPoints<T> place_points(const data::ControlMesh& mesh) {
   PlacedPoints<T> placed{{}, KernelPlacement<T>{}};
   if (mesh.positions.empty()) return placed;
   const Box box(mesh);
@@ -50,10 +50,20 @@ PlacedPoints<T> place(const data::ControlMesh& mesh) {
   }
   placed.placement = {{{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
                        static_cast<T>(unit)},
-                      has_needles(mesh, kNeedle * extent) ? 1 : kLocalFrom};
+                      kLocalFrom};
   return placed;
 }
 
+template <class T>
+PlacedPoints<T> place(const data::ControlMesh& mesh) {
+  PlacedPoints<T> placed = place_points<T>(mesh);
+  if (!mesh.positions.empty() && has_needles(mesh, kNeedle * Box(mesh).size()))
+    placed.placement.local_from = 1;
+  return placed;
+}
+
+template PlacedPoints<float> place_points(const data::ControlMesh&);
+template PlacedPoints<double> place_points(const data::ControlMesh&);
 template PlacedPoints<float> place(const data::ControlMesh&);
 template PlacedPoints<double> place(const data::ControlMesh&);
 template class BasicRings<ScalarNumber<float>>;

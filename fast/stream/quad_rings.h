@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What the quads around a control vertex need of it, computed once per vertex in an order that does not
+// depend on the quad.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/mesh/quad_adjacency.h"
+#include "fast/stream/quad_layout.h"
+#include "fast/stream/rings.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// How the vertices of a quad let it be evaluated.
+enum class QuadClass : std::uint8_t {
+  kRegular,  ///< all interior, of four quads: a bicubic polynomial
+  kClosed,   ///< all interior
+  kOpen      ///< some vertex on a boundary or a cut
+};
+
+/// Rings and limits of all control vertices of a mesh of quads, T float or double.
+///
+/// Order: an interior ring starts at its lexicographically smallest edge neighbour (position, then the
+/// positions that follow it), a boundary ring at the first boundary edge. So what is computed here depends on
+/// positions alone: not on the numbering of vertices and faces nor on the rotation of corners. [claim D14]
+template <class T>
+class BasicQuadRings {
+ public:
+  /// One point per vertex of the adjacency. held: one entry per vertex, not 0 where it stays in place; or
+  /// none.
+  BasicQuadRings(const QuadAdjacency& adjacency, PlacedPoints<T> points, std::span<const std::uint8_t> held);
+
+  /// The points around a vertex, three numbers each: e_0 f_0 e_1 f_1 ... A closed ring has 2 n entries and is
+  /// there twice, an open one 2 K + 1.
+  struct Ring {
+    std::int32_t first;  // into numbers()
+    std::int32_t entries;
+    bool open;
+  };
+  Ring ring(std::int32_t v) const { return rings_[v]; }
+  const T* numbers(std::int32_t v) const { return numbers_.data() + rings_[v].first; }
+  /// The head of a QuadCornerBlock.
+  const T* head(std::int32_t v) const { return heads_[v].data(); }
+  /// In the ring of its origin, the number of the edge neighbour that a half-edge points to.
+  std::int32_t slot(std::int32_t h) const { return slot_[h]; }
+
+  /// An interior vertex of four quads.
+  bool regular(std::int32_t v) const { return !rings_[v].open && rings_[v].entries == 8; }
+  QuadClass kind(std::int32_t face) const { return kinds_[face]; }
+
+  const KernelPlacement<T>& placement() const { return placement_; }
+
+ private:
+  struct Scratch {
+    std::vector<Vec3<double>> ring;
+  };
+  void lay_out(const QuadAdjacency& adjacency);
+  void make_vertex(const QuadAdjacency& adjacency, std::int32_t v, bool held, Scratch& scratch);
+
+  std::vector<ControlPoint<T>> points_;
+  std::vector<T> numbers_;
+  std::vector<Ring> rings_;
+  std::vector<std::array<T, QuadCornerBlock::kHead>> heads_;
+  std::vector<std::int32_t> slot_;
+  std::vector<QuadClass> kinds_;
+  KernelPlacement<T> placement_;
+};
+
+using QuadRings = BasicQuadRings<float>;
+
+}  // namespace limitcheck::fast::row_stream

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <span>
 
-#include "fast/mesh/quad_adjacency.h"
+#include "fast/mesh/adjacency.h"
 #include "fast/stream/quad_layout.h"
 #include "fast/stream/quad_rings.h"
 #include "fast/stream/transpose.h"

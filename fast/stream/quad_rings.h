@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/mesh/quad_adjacency.h"
+#include "fast/mesh/adjacency.h"
 #include "fast/stream/quad_layout.h"
 #include "fast/stream/rings.h"
 

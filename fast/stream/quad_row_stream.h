@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/mesh/quad_adjacency.h"
+#include "fast/mesh/adjacency.h"
 #include "fast/stream/quad_rings.h"
 #include "fast/stream/quad_targets.h"
 #include "fast/stream/row_stream.h"

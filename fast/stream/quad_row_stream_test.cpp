@@ -13,7 +13,7 @@
 
 #include "data/bounding_box.h"
 #include "data/generators/polygon_meshes.h"
-#include "fast/test_support/quad_refinement.h"
+#include "fast/test_support/refined_quads.h"
 #include "fast/test_support/shared_points.h"
 
 namespace limitcheck::fast::row_stream {

@@ -76,17 +76,17 @@ Limit open_limit(const Point& c, std::span<const Point> ring, const Point& de, b
 }  // namespace
 
 template <class T>
-BasicQuadRings<T>::BasicQuadRings(const QuadAdjacency& adjacency, PlacedPoints<T> points,
-                                  std::span<const std::uint8_t> held)
-    : points_(std::move(points.points)), placement_(points.placement) {
-  if (points_.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
-    throw data::ArgumentError("rings: " + std::to_string(points_.size()) + " points for " +
-                              std::to_string(adjacency.vertex_count()) + " vertices");
-  }
+BasicQuadRings<T>::BasicQuadRings(const QuadMesh& mesh) {
+  if (mesh.semi_sharp())
+    throw data::ArgumentError("row streaming: semi-sharp edges and vertices are not supported");
+  PlacedPoints<T> placed = place_points<T>(mesh.positions);
+  points_ = std::move(placed.points);
+  placement_ = placed.placement;
+  const QuadAdjacency& adjacency = mesh.adjacency;
   lay_out(adjacency);
   Scratch scratch;
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-    if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, !held.empty() && held[v] != 0, scratch);
+    if (adjacency.outgoing(v) >= 0) make_vertex(mesh, v, scratch);
   }
   kinds_.resize(static_cast<std::size_t>(adjacency.face_count()));
   for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
@@ -115,8 +115,9 @@ void BasicQuadRings<T>::lay_out(const QuadAdjacency& adjacency) {
 }
 
 template <class T>
-void BasicQuadRings<T>::make_vertex(const QuadAdjacency& adjacency, std::int32_t v, bool held,
-                                    Scratch& scratch) {
+void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratch& scratch) {
+  const QuadAdjacency& adjacency = mesh.adjacency;
+  const bool held = mesh.kind(v) == VertexKind::kHeld;
   const std::span<const std::int32_t> fan = adjacency.fan(v);
   const Ring at = rings_[v];
   const auto position = [&](std::int32_t w) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/mesh/adjacency.h"
+#include "fast/mesh/quad_mesh.h"
 #include "fast/stream/quad_layout.h"
 #include "fast/stream/rings.h"
 
@@ -30,9 +30,8 @@ enum class QuadClass : std::uint8_t {
 template <class T>
 class BasicQuadRings {
  public:
-  /// One point per vertex of the adjacency. held: one entry per vertex, not 0 where it stays in place; or
-  /// none.
-  BasicQuadRings(const QuadAdjacency& adjacency, PlacedPoints<T> points, std::span<const std::uint8_t> held);
+  /// Throws data::ArgumentError: something is semi-sharp.
+  explicit BasicQuadRings(const QuadMesh& mesh);
 
   /// The points around a vertex, three numbers each: e_0 f_0 e_1 f_1 ... A closed ring has 2 n entries and is
   /// there twice, an open one 2 K + 1.
@@ -59,7 +58,7 @@ class BasicQuadRings {
     std::vector<Vec3<double>> ring;
   };
   void lay_out(const QuadAdjacency& adjacency);
-  void make_vertex(const QuadAdjacency& adjacency, std::int32_t v, bool held, Scratch& scratch);
+  void make_vertex(const QuadMesh& mesh, std::int32_t v, Scratch& scratch);
 
   std::vector<ControlPoint<T>> points_;
   std::vector<T> numbers_;

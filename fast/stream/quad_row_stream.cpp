@@ -91,9 +91,8 @@ void visit_row(void* context, int j) {
 
 }  // namespace
 
-QuadRowStream::QuadRowStream(const data::ControlMesh& mesh, const QuadAdjacency& adjacency,
-                             const QuadKernel& kernel, std::span<const std::uint8_t> held)
-    : adjacency_(adjacency), kernel_(kernel), rings_(adjacency, place_points<float>(mesh), held) {}
+QuadRowStream::QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel)
+    : adjacency_(mesh.adjacency), kernel_(kernel), rings_(mesh) {}
 
 std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
   struct Key {

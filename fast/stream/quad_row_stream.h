@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "data/control_mesh.h"
-#include "fast/mesh/adjacency.h"
+#include "fast/mesh/quad_mesh.h"
 #include "fast/stream/quad_rings.h"
 #include "fast/stream/quad_targets.h"
 #include "fast/stream/row_stream.h"
@@ -28,7 +27,7 @@ struct QuadRowView {
   }
 };
 
-/// A control mesh of quads prepared for the kernel: the rings and limits of its vertices. Read-only afterwards,
+/// A mesh of quads prepared for the kernel: the rings and limits of its vertices. Read-only afterwards,
 /// so that threads may share it.
 ///
 /// Bits: each point on a side or at a corner comes out the same from every quad that has it, whatever the
@@ -40,12 +39,10 @@ struct QuadRowView {
 /// at every depth, of others about 2e-7 2^depth times what the mesh is larger than an edge.
 class QuadRowStream {
  public:
-  /// Keeps references to the adjacency and the kernel, which must outlive it. held: see BasicQuadRings.
-  QuadRowStream(const data::ControlMesh& mesh, const QuadAdjacency& adjacency,
-                const QuadKernel& kernel = quad_kernels().front(), std::span<const std::uint8_t> held = {});
-  QuadRowStream(const data::ControlMesh& mesh, QuadAdjacency&&,
-                const QuadKernel& kernel = quad_kernels().front(),
-                std::span<const std::uint8_t> held = {}) = delete;
+  /// Keeps references to the mesh's adjacency and the kernel, which must outlive it. Throws
+  /// data::ArgumentError: something is semi-sharp.
+  explicit QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel = quad_kernels().front());
+  explicit QuadRowStream(QuadMesh&&, const QuadKernel& kernel = quad_kernels().front()) = delete;
 
   const QuadKernel& kernel() const { return kernel_; }
   const QuadRings& rings() const { return rings_; }

@@ -106,10 +106,9 @@ std::vector<std::int32_t> all_of(const data::ControlMesh& mesh) {
   return faces;
 }
 
-std::vector<Vertex> evaluate(const data::ControlMesh& mesh, int depth, const QuadKernel& kernel,
-                             std::span<const std::uint8_t> held = {}) {
-  const QuadAdjacency adjacency(mesh);
-  const QuadRowStream stream(mesh, adjacency, kernel, held);
+std::vector<Vertex> evaluate(const data::ControlMesh& mesh, int depth, const QuadKernel& kernel) {
+  const QuadMesh quads(mesh);
+  const QuadRowStream stream(quads, kernel);
   Workspace workspace;
   std::vector<Vertex> out(mesh.faces.size() * static_cast<std::size_t>(side(depth) * side(depth)));
   stream.whole(all_of(mesh), depth, workspace, out.data());
@@ -245,8 +244,8 @@ void expect_equal_bits(const std::vector<NamedMesh>& meshes, int most) {
                 shared.add(other, f, i, j, n - 1, points[(f * n + j) * n + i], known);
             }
           }
-          const QuadAdjacency adjacency(other);
-          const QuadRowStream stream(other, adjacency, kernel);
+          const QuadMesh quads(other);
+          const QuadRowStream stream(quads, kernel);
           std::vector<std::int32_t> half_edges(4 * other.faces.size());
           std::iota(half_edges.begin(), half_edges.end(), 0);
           std::vector<Vertex> out(half_edges.size() * n);

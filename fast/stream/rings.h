@@ -34,7 +34,7 @@ struct PlacedPoints {
 /// sliding window has a rule of its own, by which representable control points stay exact; it would change
 /// the bits of this engine.)
 template <class T>
-PlacedPoints<T> place_points(const data::ControlMesh& mesh);
+PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions);
 
 /// The same for triangles, with local origins sooner where there are needles.
 template <class T>

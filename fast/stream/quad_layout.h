@@ -94,14 +94,18 @@ struct QuadCurve {
   static constexpr int kSize = 36;
 };
 
-/// Working memory of a kernel, in units of `lanes` numbers: three rows of each level from 1 on, what the
-/// levels take from the corners, the curves of the sides.
+/// From this depth on the limits inside a quad come from the level before the last, whose points make the last
+/// level's: half the memory, and fewer operations. Rows and columns next to the sides are as ever.
+constexpr int kFusedFrom = 5;
+
+/// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, what the levels
+/// take from the corners, the curves of the sides.
 constexpr int quad_row_size(int level) {
   return 3 * ((1 << level) + 3);
 }
 constexpr int quad_rows_offset(int level) {
   int offset = 0;
-  for (int l = 1; l < level; ++l) offset += 3 * quad_row_size(l);
+  for (int l = 1; l < level; ++l) offset += 4 * quad_row_size(l);
   return offset;
 }
 constexpr int quad_border_offset(int depth) {

@@ -130,6 +130,7 @@ class QuadPatch {
         : row_(row), unit_(N::splat(unit)), t_(N::splat(0)), step_(N::splat(step)) {
       for (int c = 0; c < 3; ++c) centre_[c] = centre[c];
     }
+    template <bool odd>
     HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
       V along[3], across[3];
       t_ = t_ + step_;  // exact
@@ -137,6 +138,7 @@ class QuadPatch {
       v.set_normal(along, across);
       v.set_square();
     }
+    template <bool odd>
     HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
       V along[3], across[3];
       t_ = t_ + step_;

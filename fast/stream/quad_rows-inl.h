@@ -131,6 +131,7 @@ class QuadLimitRow {
   }
 
   /// Position and direction of the normal of the next point.
+  template <bool odd>
   HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
     V along[3], across[3];
     s_ += 3 * L, m_ += 3 * L, n_ += 3 * L;
@@ -141,6 +142,7 @@ class QuadLimitRow {
     v.set_square();
   }
   /// The same, and the end of another vertex.
+  template <bool odd>
   HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
     V along[3], across[3];
     s_ += 3 * L, m_ += 3 * L, n_ += 3 * L;
@@ -176,26 +178,119 @@ class QuadLimitRow {
   V p0_[3], p1_[3], q0_[3], q1_[3], centre_[3], unit_, four_;
 };
 
+/// One row of the last level to its limit without that level's points: from the level before, of which a point
+/// of the last level is a point or lies halfway between two. s, m, n, o: rows q-1 .. q+2 for row 2q+1; for row
+/// 2q o is not looked at.
+template <class N, bool odd_row>
+class FusedLimitRow {
+ public:
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  static constexpr int L = N::lanes;
+
+  /// unit: of limit points of the level before. The first point to come is 1.
+  HWY_ATTR HWY_INLINE FusedLimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const Scalar* o,
+                                    const V* centre, Scalar unit)
+      : s_(s - 3 * L),
+        m_(m - 3 * L),
+        n_(n - 3 * L),
+        o_(o - 3 * L),
+        even_unit_(N::splat(unit * Scalar(odd_row ? .125 : 1))),
+        odd_unit_(N::splat(unit * Scalar(odd_row ? 1. / 64 : .125))) {
+    for (int c = 0; c < 3; ++c) {
+      centre_[c] = centre[c];
+      filter(c * L, p_[c][0], q_[c][0]);
+    }
+    next();
+    for (int c = 0; c < 3; ++c) filter(c * L, p_[c][1], q_[c][1]);
+    next();
+    for (int c = 0; c < 3; ++c) filter(c * L, p_[c][2], q_[c][2]);
+  }
+
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
+    V along[3], across[3];
+    if constexpr (odd) next();
+    for (int c = 0; c < 3; ++c) coordinate<odd>(c, v, along, across);
+    v.set_normal(along, across);
+    v.set_square();
+  }
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
+    V along[3], across[3];
+    if constexpr (odd) next();
+    other.root_1();
+    coordinate<odd>(0, v, along, across);
+    other.root_2();
+    coordinate<odd>(1, v, along, across);
+    other.root_3();
+    coordinate<odd>(2, v, along, across);
+    other.root_4();
+    v.set_normal(along, across);
+    other.scale();
+    v.set_square();
+  }
+
+ private:
+  // Halfway: a + 23 b + 23 c + d, 48 times the value, and d + 5 (c - b) - a, 8 times the derivative.
+  HWY_ATTR HWY_INLINE static V halfway(V a, V b, V c, V d) { return N::fma(N::splat(23), b + c, a + d); }
+  HWY_ATTR HWY_INLINE static V slope_halfway(V a, V b, V c, V d) { return N::fma(N::splat(5), c - b, d - a); }
+
+  HWY_ATTR HWY_INLINE void filter(int k, V& p, V& q) const {
+    const V s = N::load(s_ + k), m = N::load(m_ + k), n = N::load(n_ + k);
+    if constexpr (odd_row) {
+      const V o = N::load(o_ + k);
+      p = halfway(s, m, n, o);
+      q = slope_halfway(s, m, n, o);
+    } else {
+      p = limit_filter<N>(s, m, n);
+      q = n - s;
+    }
+  }
+  HWY_ATTR HWY_INLINE void next() { s_ += 3 * L, m_ += 3 * L, n_ += 3 * L, o_ += 3 * L; }
+
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) {
+    V *p = p_[c], *q = q_[c];
+    if constexpr (odd) {
+      V p3, q3;
+      filter(c * L, p3, q3);
+      v.position[c] = N::fma(halfway(p[0], p[1], p[2], p3), odd_unit_, centre_[c]);
+      along[c] = slope_halfway(p[0], p[1], p[2], p3);
+      across[c] = halfway(q[0], q[1], q[2], q3);
+      p[0] = p[1], p[1] = p[2], p[2] = p3;
+      q[0] = q[1], q[1] = q[2], q[2] = q3;
+    } else {
+      v.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), even_unit_, centre_[c]);
+      along[c] = p[2] - p[0];
+      across[c] = limit_filter<N>(q[0], q[1], q[2]);
+    }
+  }
+
+  const Scalar *s_, *m_, *n_, *o_;
+  V p_[3][3], q_[3][3], centre_[3], even_unit_, odd_unit_;
+};
+
 /// The inside of a row, points 1 .. size - 1, with its ends given; size even. `row` gives the points from 1 on
-/// in turn. The normal of a point is brought to length beside the arithmetic of the next: it is one chain of
+/// in turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of the next: it is one chain of
 /// dependent steps.
 template <class N, class Row>
 HWY_ATTR HWY_INLINE void scatter_row(Row& row, int size, const Vertex<N>& first, const Vertex<N>& last,
                                      typename N::Scalar* const* out, std::ptrdiff_t offset) {
   Vertex<N> a, b;
-  row.begin(b);
+  row.template begin<true>(b);
   if (size == 2) {
     b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
     N::scatter_couple(first, b, out, offset);
   } else {
-    row.begin(a, b);
+    row.template begin<false>(a, b);
     N::scatter_couple(first, b, out, offset);
     for (int i = 2;; i += 2) {
       offset += 12;
-      row.begin(b, a);
+      row.template begin<true>(b, a);
       if (i + 2 == size) break;
       Vertex<N> next;
-      row.begin(next, b);
+      row.template begin<false>(next, b);
       N::scatter_couple(a, b, out, offset);
       a = next;
     }

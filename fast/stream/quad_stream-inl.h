@@ -35,6 +35,7 @@ class QuadStream {
                       const QuadTarget<Scalar>& target)
       : batch_(batch),
         depth_(batch.depth),
+        fused_(batch.depth >= kFusedFrom),
         border_(work + quad_border_offset(batch.depth) * L),
         curves_(work + quad_curves_offset(batch.depth) * L),
         placement_(placement),
@@ -133,7 +134,7 @@ class QuadStream {
   }
 
   Scalar* border(int level, int corner) const { return border_ + kQuadBorder * (4 * level + corner) * L; }
-  Scalar* row(int level, int j) const { return rows_[level] + (j + 1) % 3 * quad_row_size(level) * L; }
+  Scalar* row(int level, int j) const { return rows_[level] + (j + 1) % 4 * quad_row_size(level) * L; }
 
   HWY_ATTR void take(int level, int corner, RingPoint p, Scalar* to_row, int i) const {
     const Scalar* from = border(level, corner) + 3 * p * L;
@@ -182,6 +183,7 @@ class QuadStream {
       return;
     }
     const int size = 1 << level;
+    if (level + 1 == depth_ && fused_) ghosts(level, j);
     if (below) {
       refine_even(below, middle, above, size, j - 1, row(level + 1, 2 * j - 2));
       receive(level + 1, 2 * j - 2);
@@ -190,18 +192,39 @@ class QuadStream {
     receive(level + 1, 2 * j - 1);
   }
 
+  // Whether row j of the level after one of this size is needed between its first and last columns: limits of
+  // rows 0 and 1, and at the other end likewise, are made from it.
+  bool whole(int size, int j) const {
+    return !fused_ || 2 * size != 1 << depth_ || j <= 2 || j >= 2 * size - 2;
+  }
+
+  // Beyond a sharp column: what continues the surface inside.
+  HWY_ATTR void ghosts(int level, int j) const {
+    Scalar* left = row(level, j);
+    Scalar* right = left + 3 * (1 << level) * L;
+    for (int c = 0; c < 3 * L; c += L) {
+      const auto ghost = [&](const Scalar* mask, Scalar* to, const Scalar* edge,
+                             const Scalar* inner) HWY_ATTR {
+        const V v = N::load(edge + c);
+        N::store(N::select(N::load(mask), (v + v) - N::load(inner + c), N::load(to + c)), to + c);
+      };
+      if (const Scalar* mask = sharp(kDA)) ghost(mask, left - 3 * L, left, left + 3 * L);
+      if (const Scalar* mask = sharp(kBC)) ghost(mask, right + 3 * L, right, right - 3 * L);
+    }
+  }
+
   // Rows and columns along the sides take these for their line. Next to a corner its ring has the last word.
   HWY_ATTR void refine_even(const Scalar* s, const Scalar* m, const Scalar* n, int size, int j,
                             Scalar* even) {
     const Scalar* mask = j == 0 ? sharp(kAB) : j == size ? sharp(kCD) : nullptr;
-    refine_even_quads<N>(s, m, n, size, mask, even);
+    if (whole(size, 2 * j)) refine_even_quads<N>(s, m, n, size, mask, even);
     if (j == 0 || j == size) return;
     refine_even_column<N>(s - 3 * L, m - 3 * L, n - 3 * L, sharp(kDA), even - 3 * L);
     const int right = 3 * (size - 1) * L;
     refine_even_column<N>(s + right, m + right, n + right, sharp(kBC), even + 3 * (2 * size - 1) * L);
   }
   HWY_ATTR void refine_odd(const Scalar* m, const Scalar* n, int size, int j, Scalar* odd) {
-    refine_odd_quads<N>(m, n, size, odd);
+    if (whole(size, 2 * j + 1)) refine_odd_quads<N>(m, n, size, odd);
     if (j < 1 || j >= size - 1) return;
     refine_odd_column<N>(m - 3 * L, n - 3 * L, sharp(kDA), odd - 3 * L);
     const int right = 3 * (size - 1) * L;
@@ -274,14 +297,33 @@ class QuadStream {
     } else {
       column_point(kDA, s, m, n, 0, j, first);
       column_point(kBC, s, m, n, size, j, last);
-      QuadLimitRow<N> row(s, m, n, 1, centre_, unit_);
-      scatter_row<N>(row, size, first, last, target_.lane, offset);
+      inside(s, m, n, j, first, last);
     }
     if (target_.row) target_.row(target_.context, j);
   }
 
+  HWY_ATTR void inside(const Scalar* s, const Scalar* m, const Scalar* n, int j, const Vertex<N>& first,
+                       const Vertex<N>& last) const {
+    const int size = 1 << depth_, q = j / 2;
+    const std::ptrdiff_t offset = j * target_.row_stride;
+    if (!fused_ || j == 1 || j == size - 1) {
+      QuadLimitRow<N> points(s, m, n, 1, centre_, unit_);
+      return scatter_row<N>(points, size, first, last, target_.lane, offset);
+    }
+    const auto before = [&](int i) { return row(depth_ - 1, i); };
+    const Scalar unit = quad_unit(placement_.unit, depth_ - 1);
+    if (j % 2 == 0) {
+      FusedLimitRow<N, false> points(before(q - 1), before(q), before(q + 1), before(q + 1), centre_, unit);
+      scatter_row<N>(points, size, first, last, target_.lane, offset);
+    } else {
+      FusedLimitRow<N, true> points(before(q - 1), before(q), before(q + 1), before(q + 2), centre_, unit);
+      scatter_row<N>(points, size, first, last, target_.lane, offset);
+    }
+  }
+
   QuadBatch<Scalar> batch_;
   int depth_;
+  bool fused_;
   Scalar *border_, *curves_;
   std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
   KernelPlacement<Scalar> placement_;

@@ -114,11 +114,10 @@ struct LaneNumber {
 
   template <class Vertex>
   HWY_ATTR static HWY_INLINE void scatter_vertex(const Vertex& a, Scalar* const* aos, std::ptrdiff_t offset) {
-    alignas(64) Scalar soa[6 * lanes];
-    a.store(soa);
-    for (int lane = 0; lane < lanes; ++lane) {
-      for (int k = 0; k < 6; ++k) aos[lane][offset + k] = soa[k * lanes + lane];
-    }
+    hn::Vec<D> v[2][4] = {{a.position[0].v, a.position[1].v, a.position[2].v, a.normal[0].v},
+                          {a.normal[1].v, a.normal[2].v, a.normal[1].v, a.normal[2].v}};
+    for (int t = 0; t < 2; ++t) transpose_blocks(v[t]);
+    for (int r = 0; r < 4; ++r) store_one<0>(v[0][r], v[1][r], aos + r, offset);
   }
 
   template <class Vertex>
@@ -165,6 +164,20 @@ struct LaneNumber {
       Scalar* to = aos[4 * b] + offset;
       for (int t = 0; t < 3; ++t) hn::StoreU(block<b>(v[t]), quarter, to + 4 * t);
       store_blocks<b + 1>(v, aos, offset);
+    }
+  }
+
+  // Block b of the first and the first half of block b of the second.
+  template <int b>
+  HWY_ATTR static HWY_INLINE void store_one(hn::Vec<D> v, hn::Vec<D> half, Scalar* const* aos,
+                                            std::ptrdiff_t offset) {
+    if constexpr (4 * b < lanes) {
+      const hn::CappedTag<Scalar, 4> quarter;
+      const hn::Half<decltype(quarter)> two;
+      Scalar* to = aos[4 * b] + offset;
+      hn::StoreU(block<b>(v), quarter, to);
+      hn::StoreU(hn::LowerHalf(two, block<b>(half)), two, to + 4);
+      store_one<b + 1>(v, half, aos, offset);
     }
   }
 

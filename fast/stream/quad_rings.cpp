@@ -88,12 +88,20 @@ BasicQuadRings<T>::BasicQuadRings(const QuadMesh& mesh) {
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
     if (adjacency.outgoing(v) >= 0) make_vertex(mesh, v, scratch);
   }
+  find_kinds(adjacency);
+}
+
+template <class T>
+void BasicQuadRings<T>::find_kinds(const QuadAdjacency& adjacency) {
   kinds_.resize(static_cast<std::size_t>(adjacency.face_count()));
   for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
     bool all = true, open = false;
     for (std::int32_t h = 4 * f; h < 4 * f + 4; ++h) {
-      all = all && regular(adjacency.origin(h));
-      open = open || rings_[adjacency.origin(h)].open;
+      const bool regular_here = regular(adjacency.origin(h));
+      corners_[h].sharp = adjacency.twin(h) < 0;
+      corners_[h].polynomial = regular_here && regular(adjacency.target(h));
+      all = all && regular_here;
+      open = open || corners_[h].open;
     }
     kinds_[f] = all ? QuadClass::kRegular : open ? QuadClass::kOpen : QuadClass::kClosed;
   }
@@ -103,7 +111,7 @@ template <class T>
 void BasicQuadRings<T>::lay_out(const QuadAdjacency& adjacency) {
   rings_.resize(static_cast<std::size_t>(adjacency.vertex_count()));
   heads_.resize(rings_.size());
-  slot_.resize(4 * static_cast<std::size_t>(adjacency.face_count()));
+  corners_.resize(4 * static_cast<std::size_t>(adjacency.face_count()));
   std::int32_t numbers = 0;
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
     const auto faces = static_cast<std::int32_t>(adjacency.fan(v).size());
@@ -137,8 +145,12 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
     start = canonical_quad_start(ring);
     std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(start), ring.end());
   }
-  for (std::size_t k = 0; k < fan.size(); ++k)
-    slot_[fan[k]] = static_cast<std::int32_t>((k + fan.size() - start / 2) % fan.size());
+  const auto count = static_cast<std::int32_t>(fan.size());
+  for (std::int32_t k = 0; k < count; ++k) {
+    const std::int32_t slot = (k + count - static_cast<std::int32_t>(start / 2)) % count;
+    const std::int32_t e = slot > 0 ? 2 * slot - 2 : at.open ? -1 : 2 * count - 2;
+    corners_[fan[k]] = {v, e < 0 ? -1 : at.first + 3 * e, at.entries, at.open, false, false};
+  }
 
   const Point c = position(v);
   Point de{}, df{};

@@ -41,11 +41,21 @@ class BasicQuadRings {
     bool open;
   };
   Ring ring(std::int32_t v) const { return rings_[v]; }
-  const T* numbers(std::int32_t v) const { return numbers_.data() + rings_[v].first; }
+
   /// The head of a QuadCornerBlock.
   const T* head(std::int32_t v) const { return heads_[v].data(); }
-  /// In the ring of its origin, the number of the edge neighbour that a half-edge points to.
-  std::int32_t slot(std::int32_t h) const { return slot_[h]; }
+  /// What a quad needs to find its way from one of its corners, by the half-edge that leaves there: a line of
+  /// memory for all four.
+  struct Corner {
+    std::int32_t vertex;
+    std::int32_t before;   // into numbers(), of e_{k-1}, where e_k is the point that the half-edge leads to;
+                           // in a closed ring, of the first of the two that are there. -1: there is none
+    std::int32_t entries;  // of the ring
+    bool open;             // the ring
+    bool sharp, polynomial;  // the side that the half-edge is
+  };
+  const Corner& corner(std::int32_t h) const { return corners_[h]; }
+  const T* numbers() const { return numbers_.data(); }
 
   /// An interior vertex of four quads.
   bool regular(std::int32_t v) const { return !rings_[v].open && rings_[v].entries == 8; }
@@ -59,12 +69,13 @@ class BasicQuadRings {
   };
   void lay_out(const QuadAdjacency& adjacency);
   void make_vertex(const QuadMesh& mesh, std::int32_t v, Scratch& scratch);
+  void find_kinds(const QuadAdjacency& adjacency);
 
   std::vector<ControlPoint<T>> points_;
   std::vector<T> numbers_;
   std::vector<Ring> rings_;
   std::vector<std::array<T, QuadCornerBlock::kHead>> heads_;
-  std::vector<std::int32_t> slot_;
+  std::vector<Corner> corners_;
   std::vector<QuadClass> kinds_;
   KernelPlacement<T> placement_;
 };

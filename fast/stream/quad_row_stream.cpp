@@ -58,7 +58,6 @@ class Queue {
 };
 
 struct Evaluation {
-  const QuadAdjacency& adjacency;
   const QuadRings& rings;
   const QuadKernel& kernel;
   std::span<const std::int32_t> faces;
@@ -71,7 +70,7 @@ struct Evaluation {
     const std::span<const std::int32_t> some(face.data(), index.size());
     const bool regular = kind == QuadClass::kRegular;
     const auto batch =
-        (regular ? gather_patches<float> : gather_quads<float>)(adjacency, rings, some, depth, kernel.lanes,
+        (regular ? gather_patches<float> : gather_quads<float>)(rings, some, depth, kernel.lanes,
                                                                 workspace.input.data());
     (regular ? kernel.patches : kernel.quads)(batch, rings.placement(), workspace.work.data(), target);
   }
@@ -92,7 +91,7 @@ void visit_row(void* context, int j) {
 }  // namespace
 
 QuadRowStream::QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel)
-    : adjacency_(mesh.adjacency), kernel_(kernel), rings_(mesh) {}
+    : kernel_(kernel), rings_(mesh) {}
 
 std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
   struct Key {
@@ -104,7 +103,7 @@ std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> fa
   for (const std::int32_t f : faces) {
     std::uint64_t key = static_cast<std::uint64_t>(rings_.kind(f));
     for (int k = 0; k < 4; ++k) {
-      const auto entries = static_cast<std::uint64_t>(rings_.ring(adjacency_.origin(4 * f + k)).entries);
+      const auto entries = static_cast<std::uint64_t>(rings_.corner(4 * f + k).entries);
       key = key << 12 | std::min<std::uint64_t>(entries, 4095);
     }
     keys.push_back({key, f});
@@ -126,7 +125,7 @@ void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspa
   std::array<float*, kMaxLanes> lane;
   for (int k = 0; k < kMaxLanes; ++k) lane[k] = workspace.row.data() + std::min(k, kernel_.lanes - 1) * pitch;
   const QuadTarget<float> target{lane.data(), 0, visit ? &visit_row : nullptr, &rows};
-  const Evaluation evaluation{adjacency_, rings_, kernel_, faces, depth, workspace};
+  const Evaluation evaluation{rings_, kernel_, faces, depth, workspace};
   Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
     rows.view.index = index;
     evaluation.run(kind, index, target);
@@ -140,7 +139,7 @@ void QuadRowStream::whole(std::span<const std::int32_t> faces, int depth, Worksp
   const auto n = static_cast<std::size_t>(side(depth));
   std::array<float*, kMaxLanes> lane;
   const QuadTarget<float> target{lane.data(), 6 * static_cast<std::ptrdiff_t>(n), nullptr, nullptr};
-  const Evaluation evaluation{adjacency_, rings_, kernel, faces, depth, workspace};
+  const Evaluation evaluation{rings_, kernel, faces, depth, workspace};
   Queue::go(rings_, faces, kernel.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(kMaxLanes); ++k)
       lane[k] = out[n * n * index[std::min(k, index.size() - 1)]].position;
@@ -178,8 +177,7 @@ void QuadRowStream::edges(std::span<const std::int32_t> half_edges, int depth, W
     const auto some = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
     for (std::size_t k = 0; k < static_cast<std::size_t>(kMaxLanes); ++k)
       lane[k] = out[n * (first + std::min(k, some.size() - 1))].position;
-    const auto batch =
-        gather_sides<float>(adjacency_, rings_, some, depth, kernel.lanes, workspace.input.data());
+    const auto batch = gather_sides<float>(rings_, some, depth, kernel.lanes, workspace.input.data());
     kernel.sides(batch, rings_.placement(), workspace.work.data(), {lane.data(), 0, nullptr, nullptr});
   }
 }

@@ -39,10 +39,9 @@ struct QuadRowView {
 /// at every depth, of others about 2e-7 2^depth times what the mesh is larger than an edge.
 class QuadRowStream {
  public:
-  /// Keeps references to the mesh's adjacency and the kernel, which must outlive it. Throws
+  /// Keeps a reference to the kernel, which must outlive it. Throws
   /// data::ArgumentError: something is semi-sharp.
   explicit QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel = quad_kernels().front());
-  explicit QuadRowStream(QuadMesh&&, const QuadKernel& kernel = quad_kernels().front()) = delete;
 
   const QuadKernel& kernel() const { return kernel_; }
   const QuadRings& rings() const { return rings_; }
@@ -71,7 +70,6 @@ class QuadRowStream {
              const QuadKernel* kernel = nullptr) const;
 
  private:
-  const QuadAdjacency& adjacency_;
   const QuadKernel& kernel_;
   QuadRings rings_;
 };

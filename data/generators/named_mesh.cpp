@@ -218,7 +218,10 @@ ControlMesh named_mesh(const std::string& specification) {
 OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& options) {
   ControlMesh mesh = named_mesh(specification);
   Triangulated triangles = triangulate(mesh, options.polygons);
-  if (triangles.cut > 0) mesh.faces = std::move(triangles.faces);
+  if (triangles.cut > 0) {
+    mesh.faces = std::move(triangles.faces);
+    mesh.holes.clear();  // no generator makes any
+  }
   if (triangles.cut > 0 || options.scheme)
     if (const auto faults = validate(mesh, options.scheme.value_or(natural_scheme(mesh))); !faults.empty())
       throw InputError(std::string(code(faults[0].fault)), specification, 0, faults[0].message);

@@ -180,6 +180,7 @@ std::vector<std::int32_t> Engine<Real>::depths(const DepthOptions& strategy, con
     if (!state_->heuristics)
       state_->heuristics.emplace(state_->mesh, state_->adjacency, state_->options.max_depth);
     depth = state_->heuristics->depths(strategy, camera);
+    for (const std::int32_t f : state_->mesh.holes) depth[f] = -1;
   });
   seconds = seconds_since(start);
   return depth;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,8 +13,12 @@
 #include "data/sharpness.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
+#include "verify/subject/model_rules.h"
 
 namespace limitcheck::verify {
+
+/// Faults of sharp edges and vertices, for every model that has them.
+std::span<const Mutation> sharp_mutations();
 
 class ModelTags {
  public:
@@ -68,8 +73,13 @@ class ModelTags {
 
   std::vector<double> edge_, vertex_;
   bool chaikin_ = false, smooth_triangles_ = false;
-  int level_ = 0;
+  bool control_ = true;  // of the control mesh
   std::string_view mutation_ = "none";
 };
+
+/// What a model declares of sharp edges; it does not do the smooth rule for triangles by itself.
+std::int32_t declared_kinds(std::string_view mutation);
+/// Throws SubjectError: a mutant that takes no mesh with tags.
+void refuse_tags(std::string_view mutation, const data::Sharpness& sharpness);
 
 }  // namespace limitcheck::verify

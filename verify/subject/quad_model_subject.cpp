@@ -134,15 +134,19 @@ class Tiles {
 class QuadModelSubject {
  public:
   static constexpr std::int32_t kSchemes = LC_DOES_CATMULL_CLARK;
-  static constexpr std::int32_t kSharp = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN |
-                                         LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
   static lc_capabilities capabilities(Options& options, lc_scheme) {
-    (void)mutation(options);
-    return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
+    lc_capabilities c{LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
+    c.sharp = declared_kinds(mutation(options)) | LC_SHARP_SMOOTH_TRIANGLES;
+    return c;
   }
 
   QuadModelSubject(const lc_mesh& mesh, Options& options) : rules_(mutation(options)) {
     control_ = control_mesh(mesh);
+    refuse_tags(mutation(options), control_.sharpness);
+    if (rules_.is("tags_by_count"))
+      control_.sharpness =
+          tags_.try_emplace({control_.positions.size(), control_.faces.size()}, control_.sharpness)
+              .first->second;
     if (rules_.is("cache_by_count"))
       control_ =
           cache_.try_emplace({control_.positions.size(), control_.faces.size()}, control_).first->second;
@@ -174,7 +178,7 @@ class QuadModelSubject {
   struct Alive {
     Alive() { ++count; }
     ~Alive() {
-      if (--count == 0) cache_.clear();
+      if (--count == 0) cache_.clear(), tags_.clear();
     }
     Alive(const Alive&) = delete;
     Alive& operator=(const Alive&) = delete;
@@ -235,6 +239,8 @@ class QuadModelSubject {
         Vertex made{points.limits[v].position, points.normal(v, inside), {}, p.part};
         auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
         if (rules_.is("u_for_v")) std::swap(i, j);
+        if (rules_.is("sides_apart_by_an_ulp") && f % 2 == 1 && points.limits[v].normals.size() > 1)
+          made.position.x = one_ulp_up(made.position.x);
         if (polygon && rules_.is("next_corner")) made.corner = domain.next(p.part);
         if (polygon && rules_.is("ulp_on_polygons")) made.position.x = one_ulp_up(made.position.x);
         if (polygon && rules_.is("flipped_on_polygons") && !domain.side_of(p, n))
@@ -287,6 +293,7 @@ class QuadModelSubject {
   // Shared by all instances, as what is forgotten in a static variable would be.
   inline static int calls_ = 0;
   inline static std::map<std::pair<std::size_t, std::size_t>, data::ControlMesh> cache_;
+  inline static std::map<std::pair<std::size_t, std::size_t>, data::Sharpness> tags_;
 };
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace limitcheck::verify {
 using reference::Topology;
 
 QuadNeighbourhood QuadNeighbourhood::around(std::int32_t vertex, std::span<const std::int32_t> ring,
-                                            const Topology& topology,
-                                            const std::vector<ModelTags::V>& points, const ModelTags& tags) {
+                                            const Topology& topology, const std::vector<ModelTags::V>& points,
+                                            const ModelTags& tags) {
   std::vector<std::int32_t> faces(ring.begin(), ring.end());
   for (const std::int32_t f : ring)
     for (const std::int32_t v : topology.faces()[f])

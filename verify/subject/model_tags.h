@@ -31,6 +31,7 @@ class ModelTags {
   /// Tags of edges that do not exist are left out.
   ModelTags(const data::Sharpness& sharpness, const reference::Topology& topology, std::string_view mutation);
 
+  bool is(std::string_view name) const { return mutation_ == name; }
   bool none() const { return vertex_.empty(); }
   bool smooth_triangles() const { return smooth_triangles_; }
 
@@ -62,7 +63,6 @@ class ModelTags {
     Rule rule;
     std::int32_t ends[2];
   };
-  bool is(std::string_view name) const { return mutation_ == name; }
   Step step(const reference::Topology& topology, std::int32_t v, bool next) const;
   V point(const Step& step, const std::vector<V>& points, std::int32_t v, const V& smooth) const;
   // What is left after a step of an edge at its end v, and of a vertex.

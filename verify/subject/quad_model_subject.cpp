@@ -45,7 +45,7 @@ double one_ulp_up(double x) {
 struct Level {
   reference::catmull_clark::RefinedMesh<double> mesh;  // where they are: its own points are not used
   std::vector<V> points;
-  std::vector<QuadModelRules::Limit> limits;
+  std::vector<ModelLimit> limits;
 
   Level(const data::ControlMesh& control, const QuadModelRules& rules, int depth)
       : mesh(control.faces, reference::positions_of<double>(control)), points(mesh.positions()) {
@@ -65,17 +65,6 @@ struct Level {
     }
     for (std::size_t v = 0; v < points.size(); ++v)
       limits.push_back(rules.limit(mesh.topology(), points, tags, static_cast<std::int32_t>(v)));
-  }
-
-  // The normal of a vertex in the quad around it in which another vertex lies opposite.
-  const V& normal(std::int32_t v, std::int32_t opposite) const {
-    const std::vector<V>& normals = limits[v].normals;
-    const auto faces = mesh.topology().sector(v).faces;
-    for (std::size_t i = 0; i < faces.size() && normals.size() > 1; ++i) {
-      const auto quad = mesh.topology().faces()[faces[i]];
-      if (std::find(quad.begin(), quad.end(), opposite) != quad.end()) return normals[i];
-    }
-    return normals[0];
   }
 };
 
@@ -236,10 +225,11 @@ class QuadModelSubject {
         const std::int32_t v = number(p.i, p.j);
         const std::int64_t most = domain.denominator(n);
         const std::int32_t inside = number(p.i < most ? p.i + 1 : p.i - 1, p.j < most ? p.j + 1 : p.j - 1);
-        Vertex made{points.limits[v].position, points.normal(v, inside), {}, p.part};
+        const ModelLimit& limit = points.limits[v];
+        Vertex made{limit.position, limit.normal(points.mesh.topology(), v, inside), {}, p.part};
         auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
         if (rules_.is("u_for_v")) std::swap(i, j);
-        if (rules_.is("sides_apart_by_an_ulp") && f % 2 == 1 && points.limits[v].normals.size() > 1)
+        if (rules_.is("sides_apart_by_an_ulp") && f % 2 == 1 && limit.normals.size() > 1)
           made.position.x = one_ulp_up(made.position.x);
         if (polygon && rules_.is("next_corner")) made.corner = domain.next(p.part);
         if (polygon && rules_.is("ulp_on_polygons")) made.position.x = one_ulp_up(made.position.x);

@@ -10,9 +10,10 @@
 
 namespace limitcheck::fast {
 
-/// Half-edge adjacency of an oriented 2-manifold triangle mesh, with or without boundary, of any valence.
+/// Half-edge adjacency of an oriented 2-manifold mesh of faces with K = 3 or 4 corners, with or without
+/// boundary, of any valence.
 ///
-/// Half-edge h = 3 f + k runs from corner k to corner (k + 1) % 3 of face f, with the face on its left.
+/// Half-edge h = K f + k runs from corner k to corner (k + 1) % K of face f, with the face on its left.
 ///
 ///              r1                  Around a vertex v, counter-clockwise:
 ///             /  \                   h0 = outgoing(v)          v -> r0
@@ -22,22 +23,31 @@ namespace limitcheck::fast {
 ///              h0                  Boundary: h0 has no twin (the edge v -> r0 is the first boundary edge),
 ///                                  every face is met, then comes -1.
 ///
-/// Time and space O(faces + vertices) for any input and valence (bench/setup_bench). Space: 9 ints per face
+/// Time and space O(faces + vertices) for any input and valence (bench/setup_bench). Space: 3 K ints per face
 /// and 2 per vertex.
-class Adjacency {
+template <int K>
+class BasicAdjacency {
  public:
-  /// Throws data::ArgumentError and names the element: index out of range, vertex repeated in a face, edge
-  /// with more than two faces or with two faces of opposite orientation, vertex with two fans (bow-tie),
-  /// interior vertex of valence below 3, more than 2^31 / 3 faces. [claims D9, D13] A vertex without faces is
-  /// allowed: valence 0, outgoing -1. The mesh itself is not kept.
-  explicit Adjacency(const data::ControlMesh& mesh);
+  /// Throws data::ArgumentError and names the element: a face that has not K corners, index out of range,
+  /// vertex repeated in a face, edge with more than two faces or with two faces of opposite orientation,
+  /// vertex with two fans (bow-tie), interior vertex of valence below 3, more than 2^31 / K faces.
+  /// [claims D9, D13] A vertex without faces is allowed: valence 0, outgoing -1. The mesh itself is not kept.
+  explicit BasicAdjacency(const data::ControlMesh& mesh);
 
-  int face_count() const { return static_cast<int>(origin_.size() / 3); }
+  /// Makes boundary edges of some that have two faces. `cuts` has one entry per half-edge, not 0 where to
+  /// cut; both half-edges of an edge must be marked. A vertex with two such edges, or with one and on the
+  /// boundary, becomes one vertex for each of its fans: the first keeps its number, the others come after all
+  /// there are. A vertex at the end of a single cut stays one, on the boundary, with the edge's other end as
+  /// its first neighbour and as its last.
+  ///   returns   for each vertex the one it was before
+  std::vector<std::int32_t> cut(std::span<const std::uint8_t> cuts);
+
+  int face_count() const { return static_cast<int>(origin_.size() / K); }
   int vertex_count() const { return static_cast<int>(outgoing_.size()); }
 
-  static std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static std::int32_t prev(std::int32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
-  static std::int32_t face(std::int32_t h) { return h / 3; }
+  static std::int32_t next(std::int32_t h) { return h % K == K - 1 ? h - (K - 1) : h + 1; }
+  static std::int32_t prev(std::int32_t h) { return h % K == 0 ? h + (K - 1) : h - 1; }
+  static std::int32_t face(std::int32_t h) { return h / K; }
 
   /// The half-edge of the same edge in the neighbouring face; -1 on the boundary.
   std::int32_t twin(std::int32_t h) const { return twin_[h]; }
@@ -45,11 +55,11 @@ class Adjacency {
   std::int32_t origin(std::int32_t h) const { return origin_[h]; }
   std::int32_t target(std::int32_t h) const { return origin(next(h)); }
   /// Vertex at corner k of a face.
-  std::int32_t corner(std::int32_t f, int k) const { return origin(3 * f + k); }
+  std::int32_t corner(std::int32_t f, int k) const { return origin(K * f + k); }
   /// The face across edge k of a face; -1 if there is none.
   std::int32_t neighbour(std::int32_t f, int k) const {
-    const std::int32_t h = twin(3 * f + k);
-    return h < 0 ? -1 : h / 3;
+    const std::int32_t h = twin(K * f + k);
+    return h < 0 ? -1 : h / K;
   }
 
   /// The canonical outgoing half-edge of a vertex: the one without twin on the boundary, else the one of
@@ -78,6 +88,7 @@ class Adjacency {
   void read_faces(const data::ControlMesh& mesh);
   void sort_by_origin();
   void link();
+  void split(const std::vector<std::vector<std::int32_t>>& added);
   [[noreturn]] void diagnose(std::int32_t v, bool closed) const;
 
   std::vector<std::int32_t> origin_;    // per half-edge
@@ -87,5 +98,12 @@ class Adjacency {
   std::vector<std::int32_t> outgoing_;  // per vertex
   int max_valence_ = 0;
 };
+
+/// Of triangles, which Loop's scheme is about, and of quads.
+using Adjacency = BasicAdjacency<3>;
+using QuadAdjacency = BasicAdjacency<4>;
+
+extern template class BasicAdjacency<3>;
+extern template class BasicAdjacency<4>;
 
 }  // namespace limitcheck::fast

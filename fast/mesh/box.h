@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "data/control_mesh.h"
 
@@ -12,8 +13,10 @@ namespace limitcheck::fast {
 
 /// Of a mesh with vertices.
 struct Box {
-  explicit Box(const data::ControlMesh& mesh) : low(mesh.positions.front()), high(low) {
-    for (const auto& p : mesh.positions) {
+  explicit Box(const data::ControlMesh& mesh) : Box(mesh.positions) {}
+  /// Of one point at least.
+  explicit Box(std::span<const std::array<double, 3>> positions) : low(positions.front()), high(low) {
+    for (const auto& p : positions) {
       for (std::size_t c = 0; c < 3; ++c) {
         low[c] = std::min(low[c], p[c]);
         high[c] = std::max(high[c], p[c]);

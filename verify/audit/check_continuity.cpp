@@ -17,7 +17,7 @@ std::vector<Result> check_continuity(const Evidence& e) {
   r.unit = "bounds";
   r.bound = 1;
   const double position =
-      2 * position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal);
+      2 * position_bound(e.capabilities.precision, e.reference.steps(), e.magnitude, e.diagonal);
   const bool normals = e.capabilities.normals && t.has_normals() && e.capabilities.points == LC_POINTS_LIMIT;
   // The first vertex at each point, and of each side.
   std::unordered_map<Lattice::Id, std::int64_t> at_point;

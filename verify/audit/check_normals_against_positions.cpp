@@ -64,7 +64,7 @@ std::vector<Result> check_normals_against_positions(const Evidence& e) {
   const auto exact = facets(e, [&](std::uint32_t v) { return e.reference.position(e.point[v]); });
   constexpr double kDegrees = 57.295779513082320877;
   const double position =
-      position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal) * e.diagonal;
+      position_bound(e.capabilities.precision, e.reference.steps(), e.magnitude, e.diagonal) * e.diagonal;
   const auto turn = [&](Sides::Id id) { return 4 * position * exact[id].sides / norm(exact[id].sum); };
   const auto excess = [&](std::size_t k, const Vector& normal) {
     const auto [vertex, id] = e.uses[k];

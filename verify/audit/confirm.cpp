@@ -54,7 +54,7 @@ Confirmation confirm(const Evidence& e, std::vector<double>& error,
 
 std::int64_t judge_angles(const Evidence& e, std::vector<double>& angle,
                           const std::function<double(std::size_t, const ExactPoint&)>& measure, Result& row) {
-  const double ordinary_bound = normal_bound(e.capabilities.precision, e.lattice.depth());
+  const double ordinary_bound = normal_bound(e.capabilities.precision, e.reference.steps());
   const auto side = [&](std::size_t k) { return e.uses[k].side; };
   const auto bound = [&](std::size_t k) { return e.normal_bound_at(side(k)); };
   const Confirmation confirmation = confirm(e, angle, side, bound, measure);

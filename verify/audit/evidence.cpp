@@ -38,7 +38,7 @@ Witness Evidence::at_use(const Use& use) const {
 
 double Evidence::normal_bound_at(Sides::Id side) const {
   return std::max(
-      normal_bound(capabilities.precision, lattice.depth()),
+      normal_bound(capabilities.precision, reference.steps()),
       conditioned_normal_bound(capabilities.precision, magnitude, reference.normal_condition(side)));
 }
 

@@ -36,6 +36,17 @@ std::array<double, 2> beside_corner(const Lattice& lattice, const Place& corner,
   return {static_cast<double>(p.i + q.i) / whole, static_cast<double>(p.j + q.j) / whole};
 }
 
+int steps_of(const data::ControlMesh& mesh, int depth) {
+  float most = 0;
+  const auto look = [&](const auto& tags) {
+    for (const auto& tag : tags)
+      if (tag.sharpness < data::kInfiniteSharpness) most = std::max(most, tag.sharpness);
+  };
+  look(mesh.sharpness.edges);
+  look(mesh.sharpness.vertices);
+  return std::max(depth, static_cast<int>(std::ceil(most)));
+}
+
 }  // namespace
 
 // The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
@@ -49,6 +60,7 @@ ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme s
     : mesh_(mesh),
       lattice_(mesh_, scheme, depth),
       sides_(lattice_),
+      steps_(points == LC_POINTS_LIMIT ? steps_of(mesh, depth) : depth),
       points_(points),
       weights_(weights),
       evaluator_(std::make_unique<Evaluator>()),

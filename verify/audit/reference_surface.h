@@ -35,6 +35,8 @@ class ReferenceSurface {
   const data::ControlMesh& mesh() const { return mesh_; }
   const Lattice& lattice() const { return lattice_; }
   const Sides& sides() const { return sides_; }
+  /// How many steps a subject takes at least: the depth, or until semi-sharp edges are smooth.
+  int steps() const { return steps_; }
   lc_points points() const { return points_; }
   reference::Weights weights() const { return weights_; }
 
@@ -68,6 +70,7 @@ class ReferenceSurface {
   data::ControlMesh mesh_;
   Lattice lattice_;
   Sides sides_;
+  int steps_;
   lc_points points_;
   reference::Weights weights_;
   std::unique_ptr<Evaluator> evaluator_;

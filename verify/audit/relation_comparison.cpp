@@ -53,7 +53,7 @@ Compared::Compared(const Evidence& e)
 
 Comparison Compared::with(const Tessellation& t, const Variant& v, double slack) const {
   Comparison c;
-  const double position_limit = slack * position_bound(e_.capabilities.precision, e_.lattice.depth(),
+  const double position_limit = slack * position_bound(e_.capabilities.precision, e_.reference.steps(),
                                                        v.magnitude, std::max(e_.diagonal, 1e-300));
   const bool normals = v.normals && t.has_normals() && e_.tessellation.has_normals();
   std::vector<bool> seen(e_.lattice.size(), false);

@@ -57,6 +57,8 @@ inline const lc_subject* subject() {
       out->max_depth = 5;
       out->per_face_depth = 1;
       out->normals = script->normals.empty() ? 0 : 1;
+      out->schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
+      out->sharp = 2 * LC_SHARP_SMOOTH_TRIANGLES - 1;
       return LC_OK;
     };
     s.create = [](const lc_mesh*, const char*, void** instance, const char**) {

@@ -45,6 +45,13 @@ inline void refuse_unusable(const lc_mesh& mesh) {
   for (std::int64_t k = 0; k < mesh.corner_count; ++k)
     if (mesh.corners[k] < 0 || mesh.corners[k] >= mesh.vertex_count)
       throw SubjectError(LC_INVALID_INPUT, "a face names a vertex that does not exist");
+  const auto exists = [&](std::int32_t vertex) { return vertex >= 0 && vertex < mesh.vertex_count; };
+  for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k)
+    if (!exists(mesh.sharp_edges[k].a) || !exists(mesh.sharp_edges[k].b))
+      throw SubjectError(LC_INVALID_INPUT, "a sharp edge names a vertex that does not exist");
+  for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k)
+    if (!exists(mesh.sharp_vertices[k].vertex))
+      throw SubjectError(LC_INVALID_INPUT, "a sharp vertex does not exist");
 }
 
 /// The depth of a request that has one for all faces; 0 where there are no faces.

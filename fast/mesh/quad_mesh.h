@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A control mesh of Catmull-Clark's scheme as the kernels read it: quads, with infinitely sharp edges cut.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/mesh/sharp_polygons.h"
+
+namespace limitcheck::fast {
+
+/// How a vertex is subdivided. Its ring is that of QuadAdjacency: e_0 .. e_{n-1} the neighbours along edges,
+/// f_i the corner opposite in the face between e_i and e_{i+1}.
+enum class VertexKind : std::uint8_t {
+  kPlain,  // inside: the smooth rule; on a boundary or cut: the curve rule, from its first and last neighbour
+  kHeld,   // it stays where it is
+  kDart    // a cut ends here: on the boundary, n faces, first and last neighbour the same point. The vertex
+           // follows the smooth rule of valence n, e_0 counted once; e_0 itself is the end of a curve. Limit
+           // and tangents are not those of a smooth vertex.
+};
+
+/// The mesh of quads that is the control mesh (steps = 0) or, if that has a face that is no quad, the control
+/// mesh after one step (steps = 1), of which quad q lies at corner q of all corners of the control faces: its
+/// own corner 0 at the control vertex, 1 in the middle of the side from it, 2 in the middle of the face, 3 in
+/// the middle of the side to it. A grid of depth d on a control face is one of depth d - 1 on its quads.
+///
+/// Infinitely sharp edges are boundaries, with a copy of their points for either side: the surface is the
+/// same, exactly. Semi-sharp edges and vertices are as they were, and stay to be dealt with.
+struct QuadMesh {
+  /// Throws data::ArgumentError: what QuadAdjacency refuses and, of meshes that have tags or other faces than
+  /// quads, what data::validate refuses.
+  explicit QuadMesh(const data::ControlMesh& mesh);
+
+  /// The quad on the other side of a cut or an ordinary edge; -1 at the boundary of the control mesh.
+  std::int32_t across(std::int32_t h) const {
+    const std::int32_t twin = adjacency.twin(h) >= 0 || cut_twin.empty() ? adjacency.twin(h) : cut_twin[h];
+    return twin < 0 ? -1 : twin / 4;
+  }
+  VertexKind kind(std::int32_t v) const { return kinds.empty() ? VertexKind::kPlain : kinds[v]; }
+  bool semi_sharp() const { return !side_sharpness.empty(); }
+
+  int steps = 0;
+  std::vector<std::array<double, 3>> positions;  // of all vertices of the adjacency
+  QuadAdjacency adjacency;
+  std::vector<std::int32_t> cut_twin;  // per half-edge: its twin before the cut, -1 elsewhere; or empty
+  std::vector<std::int32_t> uncut;     // per vertex: the one that it is a copy of, or itself; or empty
+  std::vector<VertexKind> kinds;       // per vertex, or empty: all plain
+  /// What is semi-sharp: per half-edge and per vertex, 0 elsewhere; both empty if nothing is.
+  std::vector<double> side_sharpness, vertex_sharpness;
+  data::Creasing creasing = data::Creasing::kUniform;
+
+ private:
+  QuadMesh(const data::ControlMesh& mesh, const std::optional<SharpPolygons>& sharp);
+};
+
+}  // namespace limitcheck::fast

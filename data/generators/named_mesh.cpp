@@ -143,6 +143,14 @@ const std::vector<Entry>& entries() {
        [](Parameters p) {
          return with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
        }},
+      {"smooth-triangles", "smooth-triangles:SEED[:FACES]",
+       "mixed-sharp:SEED[:FACES] with OpenSubdiv's smooth rule for triangles", 1, 2,
+       [](Parameters p) {
+         ControlMesh mesh =
+             with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
+         mesh.sharpness.triangles = TriangleRule::kSmooth;
+         return mesh;
+       }},
       {"crowd", "crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number", 1,
        1, [](Parameters p) { return crowd(as_int(p[0])); }},
   };

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The bounding box of a control mesh.
+// The bounding box of the points of a mesh.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "data/control_mesh.h"
 
 namespace limitcheck::fast {
 
-/// Of a mesh with vertices.
+/// Of one point or more.
 struct Box {
-  explicit Box(const data::ControlMesh& mesh) : low(mesh.positions.front()), high(low) {
-    for (const auto& p : mesh.positions) {
+  explicit Box(const data::ControlMesh& mesh) : Box(mesh.positions) {}
+  explicit Box(std::span<const std::array<double, 3>> positions) : low(positions.front()), high(low) {
+    for (const auto& p : positions) {
       for (std::size_t c = 0; c < 3; ++c) {
         low[c] = std::min(low[c], p[c]);
         high[c] = std::max(high[c], p[c]);

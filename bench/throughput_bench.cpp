@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Row streaming and all other routes in one run; compare the ratios of the last lines. Names:
-// route/steady|scratch/bumpy/faces:N/depth:M/threads:T. Counters: points/s distinct limit points, written/s
+// Row streaming and all other routes in one run; compare the ratios of the last lines. --scheme loop (the
+// default) or catmull-clark. Names: route/steady|scratch/shape/faces:N/depth:M/threads:T, where the shape is
+// bumpy or, of quads, quads, half-regular or regular. Counters: points/s distinct limit points, written/s
 // bytes of evaluated points, 24 each; peak: bytes by which the process grows in one run from scratch, the
 // control mesh not counted.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
+#include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "bench/contenders/contender.h"
@@ -17,18 +24,57 @@
 #include "bench/ratio_table.h"
 #include "bench/write_only.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/scheme.h"
 #include "fast/stream/targets.h"
 
 namespace {
 
 using namespace limitcheck;
 using bench::Route;
+using bench::Shape;
 
-const data::ControlMesh& mesh_of(int faces) {
-  static std::map<int, data::ControlMesh> known;
-  const auto found = known.find(faces);
-  return found != known.end() ? found->second
-                              : known.emplace(faces, data::bumpy_sphere(faces, 1)).first->second;
+/// A quad at each corner of each face, between the middles of its sides and its own middle.
+data::ControlMesh quads_of(const data::ControlMesh& mesh) {
+  data::ControlMesh out{mesh.positions, {}};
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+  const auto add_mean = [&](std::span<const std::int32_t> of) {
+    std::array<double, 3> mean{};
+    for (const std::int32_t v : of)
+      for (std::size_t c = 0; c < 3; ++c) mean[c] += mesh.positions[v][c] / static_cast<double>(of.size());
+    for (double& x : mean) x = static_cast<float>(x);
+    out.positions.push_back(mean);
+    return static_cast<std::int32_t>(out.positions.size() - 1);
+  };
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto face = mesh.faces[f];
+    const std::size_t n = face.size();
+    std::vector<std::int32_t> middle;
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto [a, b] = std::minmax(face[k], face[(k + 1) % n]);
+      const auto [at, fresh] = middles.try_emplace({a, b}, 0);
+      if (fresh) at->second = add_mean(std::array{a, b});
+      middle.push_back(at->second);
+    }
+    const std::int32_t centre = add_mean(face);
+    for (std::size_t k = 0; k < n; ++k)
+      out.faces.push_back({face[k], middle[k], centre, middle[(k + n - 1) % n]});
+  }
+  return out;
+}
+
+data::ControlMesh make_mesh(const Shape& shape) {
+  if (shape.name == "bumpy") return data::bumpy_sphere(shape.faces, 1);
+  if (shape.name == "regular") return data::quad_torus(shape.faces / 50, 50);
+  if (shape.name == "half-regular") return quads_of(quads_of(data::bumpy_sphere(shape.faces / 12, 1)));
+  return quads_of(data::bumpy_sphere(shape.faces / 3, 1));
+}
+
+const data::ControlMesh& mesh_of(const Shape& shape) {
+  static std::map<std::pair<std::string, int>, data::ControlMesh> known;
+  const auto [at, fresh] = known.try_emplace({shape.name, shape.faces});
+  if (fresh) at->second = make_mesh(shape);
+  return at->second;
 }
 
 void count(benchmark::State& state, const data::ControlMesh& mesh, int depth, double evaluated) {
@@ -38,18 +84,18 @@ void count(benchmark::State& state, const data::ControlMesh& mesh, int depth, do
   state.counters["written/s"] = Counter(24 * evaluated, Counter::kIsIterationInvariantRate);
 }
 
-void steady(benchmark::State& state, const Route& route, int faces, int depth, int threads) {
-  const auto& mesh = mesh_of(faces);
+void steady(benchmark::State& state, const Route& route, const Shape& shape, int depth, int threads) {
+  const auto& mesh = mesh_of(shape);
   const auto contender = route.make(mesh, depth, threads);
   contender->run();
   for (auto _ : state) contender->run();
   count(state, mesh, depth, contender->evaluated());
 }
 
-void from_scratch(benchmark::State& state, const Route& route, int faces, int depth) {
-  const auto& mesh = mesh_of(faces);
+void from_scratch(benchmark::State& state, const Route& route, const Shape& shape, int depth) {
+  const auto& mesh = mesh_of(shape);
   static std::map<std::string, double> peaks;  // once per case, not per repetition
-  double& peak = peaks[route.name + "/" + std::to_string(faces) + "/" + std::to_string(depth)];
+  double& peak = peaks[bench::full_name(route.name, "scratch", shape, depth, 1)];
   if (peak == 0) peak = bench::peak_memory([&] { route.make(mesh, depth, 1)->run(); });
   double evaluated = 0;
   for (auto _ : state) {
@@ -62,10 +108,10 @@ void from_scratch(benchmark::State& state, const Route& route, int faces, int de
       benchmark::Counter(peak, benchmark::Counter::kDefaults, benchmark::Counter::kIs1024);
 }
 
-void set_up(benchmark::State& state, const Route& route, int faces) {
-  const auto& mesh = mesh_of(faces);
+void set_up(benchmark::State& state, const Route& route, const Shape& shape) {
+  const auto& mesh = mesh_of(shape);
   for (auto _ : state) benchmark::DoNotOptimize(route.make(mesh, 2, 1));
-  state.counters["faces/s"] = benchmark::Counter(faces, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["faces/s"] = benchmark::Counter(shape.faces, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void write_only(benchmark::State& state, std::size_t bytes, bool streaming) {
@@ -84,50 +130,81 @@ void add(const std::string& name, Function function) {
 }
 
 /// Cases that would take more than some seconds or a few gigabytes are left out.
-bool affordable(const Route& route, int faces, int depth, bool scratch) {
-  const double points = faces * std::ldexp(1., 2 * depth) / 2;
+bool affordable(const Route& route, const Shape& shape, int depth, bool scratch) {
+  const double points = shape.faces * std::ldexp(1., 2 * depth) / (shape.name == "bumpy" ? 2 : 1);
   return points * route.bytes_per_point < 4e9 &&
-         points * route.nanoseconds_per_point < (scratch ? 4e9 : 2e9) * (faces == 4000 ? 2 : 1);
+         points * route.nanoseconds_per_point < (scratch ? 4e9 : 2e9) * (shape.faces < 5000 ? 2 : 1);
 }
 
-void add_route(const Route& route, const std::vector<int>& threads) {
-  for (const int faces : {200, 1000, 4000, 100'000, 1'000'000}) {
+void add_route(const Route& route, const std::vector<Shape>& shapes, const std::vector<int>& threads) {
+  for (const Shape& shape : shapes) {
     for (int depth = 1; depth <= 7; ++depth) {
-      if (!affordable(route, faces, depth, false)) continue;
+      if (!affordable(route, shape, depth, false)) continue;
       for (const int t : threads) {
         if (t > 1 && !route.threads) continue;
-        add(bench::full_name(route.name, "steady", faces, depth, t),
-            [=](auto& s) { steady(s, route, faces, depth, t); });
+        add(bench::full_name(route.name, "steady", shape, depth, t),
+            [=](auto& s) { steady(s, route, shape, depth, t); });
       }
-      if (affordable(route, faces, depth, true)) {
-        add(bench::full_name(route.name, "scratch", faces, depth, 1),
-            [=](auto& s) { from_scratch(s, route, faces, depth); });
+      if (affordable(route, shape, depth, true)) {
+        add(bench::full_name(route.name, "scratch", shape, depth, 1),
+            [=](auto& s) { from_scratch(s, route, shape, depth); });
       }
     }
   }
 }
 
+/// --scheme NAME or --scheme=NAME, taken out of the arguments.
+data::Scheme take_scheme(std::vector<char*>& arguments) {
+  for (std::size_t k = 1; k < arguments.size(); ++k) {
+    std::string value = arguments[k];
+    std::size_t used = 1;
+    if (value == "--scheme" && k + 1 < arguments.size()) {
+      value = arguments[k + 1], used = 2;
+    } else if (value.starts_with("--scheme=")) {
+      value = value.substr(9);
+    } else {
+      continue;
+    }
+    arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(k),
+                    arguments.begin() + static_cast<std::ptrdiff_t>(k + used));
+    for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+      if (value == name_of(scheme)) return scheme;
+    std::fprintf(stderr, "throughput_bench: the scheme is loop or catmull-clark\n");
+    std::exit(2);
+  }
+  return data::Scheme::kLoop;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  const data::Scheme scheme = take_scheme(arguments);
+  const bool triangles = scheme == data::Scheme::kLoop;
   std::vector<int> threads{1};
   if (const auto all = static_cast<int>(std::thread::hardware_concurrency()); all > 1) threads.push_back(all);
 
-  const std::vector<Route> ours = bench::our_routes();
+  const std::vector<Route> ours = triangles ? bench::our_routes() : bench::our_quad_routes();
   std::vector<Route> routes = ours;
   for (const auto& make : {bench::bfr_streaming, bench::bfr_cached_stencils, bench::far_uniform,
                            bench::far_limit_stencils, bench::cgal_refinement, bench::openmesh_refinement})
     routes.push_back(make());
-  for (const Route& route : routes) add_route(route, threads);
-  for (const int faces : {4000, 100'000, 1'000'000})
-    add("row-stream/set-up/bumpy/faces:" + std::to_string(faces),
-        [=](auto& s) { set_up(s, ours[0], faces); });
+  std::vector<Shape> shapes{bench::kQuads, bench::kHalfRegularQuads, bench::kRegularQuads, bench::kManyQuads};
+  if (triangles) {
+    shapes.clear();
+    for (const int faces : {200, 1000, 4000, 100'000, 1'000'000}) shapes.push_back({"bumpy", faces});
+  }
+  for (const Route& route : routes) add_route(route, shapes, threads);
+  for (const Shape& shape : shapes) {
+    if (shape.faces < 4000) continue;
+    add("row-stream/set-up/" + shape.name + "/faces:" + std::to_string(shape.faces),
+        [=](auto& s) { set_up(s, ours[0], shape); });
+  }
   add("write-only/first-level", [](auto& s) { write_only(s, 16 << 10, false); });
   add("write-only/cached", [](auto& s) { write_only(s, 1 << 20, false); });
   add("write-only/memory", [](auto& s) { write_only(s, 256 << 20, true); });
 
   // Hundreds of cases: a tenth of a second each unless asked otherwise.
-  std::vector<char*> arguments(argv, argv + argc);
   std::string min_time = "--benchmark_min_time=0.1";
   arguments.insert(arguments.begin() + 1, min_time.data());
   int arguments_left = static_cast<int>(arguments.size());
@@ -143,7 +220,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("flags", LIMITCHECK_FLAGS);
   benchmark::AddCustomContext("targets", targets);
 
-  bench::RatioTable table(ours.front().name, threads.back());
+  bench::RatioTable table(scheme, ours.front().name, threads.back());
   benchmark::RunSpecifiedBenchmarks(&table);
   for (const Route& route : routes) std::printf("%-26s %s\n", route.name.c_str(), route.what.c_str());
   return 0;

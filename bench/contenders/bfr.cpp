@@ -21,7 +21,8 @@ class BfrContender : public Contender {
  public:
   BfrContender(const data::ControlMesh& mesh, int depth, int threads)
       : threads_(threads), mesh_(mesh), factory_(mesh_.refiner()) {
-    const Bfr::Tessellation tessellation(Bfr::Parameterization(OpenSubdiv::Sdc::SCHEME_LOOP, 3), 1 << depth);
+    const Bfr::Tessellation tessellation(
+        Bfr::Parameterization(mesh_.refiner().GetSchemeType(), mesh_.corners()), 1 << depth);
     coords_.resize(2 * static_cast<std::size_t>(tessellation.GetNumCoords()));
     tessellation.GetCoords(coords_.data());
   }

@@ -5,7 +5,10 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/subdivision_method_3.h>
 
+#include <vector>
+
 #include "bench/contenders/contender.h"
+#include "data/scheme.h"
 
 namespace limitcheck::bench {
 
@@ -17,14 +20,23 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 class Refinement : public Contender {
  public:
   Refinement(const data::ControlMesh& mesh, int depth)
-      : depth_(depth), evaluated_(distinct_points(mesh, depth)) {
+      : depth_(depth), scheme_(data::natural_scheme(mesh)), evaluated_(distinct_points(mesh, depth)) {
     for (const auto& p : mesh.positions) mesh_.add_vertex({p[0], p[1], p[2]});
-    for (const auto& t : triangles_of(mesh)) mesh_.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2]));
+    std::vector<Mesh::Vertex_index> corners;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      corners.clear();
+      for (const std::int32_t v : mesh.faces[f]) corners.push_back(vertex(v));
+      mesh_.add_face(corners);
+    }
   }
   void run() override {
     Mesh refined = mesh_;
-    CGAL::Subdivision_method_3::Loop_subdivision(
-        refined, CGAL::parameters::number_of_iterations(static_cast<unsigned>(depth_)));
+    const auto steps = CGAL::parameters::number_of_iterations(static_cast<unsigned>(depth_));
+    if (scheme_ == data::Scheme::kLoop) {
+      CGAL::Subdivision_method_3::Loop_subdivision(refined, steps);
+    } else {
+      CGAL::Subdivision_method_3::CatmullClark_subdivision(refined, steps);
+    }
     const auto normals = refined.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:normal").first;
     CGAL::Polygon_mesh_processing::compute_vertex_normals(refined, normals);
   }
@@ -36,6 +48,7 @@ class Refinement : public Contender {
   }
   Mesh mesh_;
   int depth_;
+  data::Scheme scheme_;
   double evaluated_;
 };
 
@@ -43,7 +56,7 @@ class Refinement : public Contender {
 
 Route cgal_refinement() {
   return {"cgal/refinement",
-          "CGAL Loop_subdivision and averaged normals, double: no limit surface",
+          "CGAL Loop_subdivision or CatmullClark_subdivision and averaged normals, double: no limit surface",
           1500,
           600,
           false,

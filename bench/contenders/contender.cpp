@@ -8,11 +8,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/scheme.h"
+
 namespace limitcheck::bench {
 
 double distinct_points(const data::ControlMesh& mesh, int depth) {
   const double edges = std::ldexp(1., depth);
   const auto faces = static_cast<double>(mesh.faces.size());
+  if (data::natural_scheme(mesh) == data::Scheme::kCatmullClark)
+    return faces * (edges * edges - 1) + static_cast<double>(mesh.positions.size());
   return faces * edges * edges / 2 + static_cast<double>(mesh.positions.size()) - faces / 2;
 }
 

@@ -35,8 +35,10 @@ struct Route {
 /// Ours: row streaming on every target of this machine and in every output form, the sliding window, the
 /// naive subdivider.
 std::vector<Route> our_routes();
+/// The same for meshes of quads: row streaming of Catmull-Clark's surfaces.
+std::vector<Route> our_quad_routes();
 
-/// Each as fast as the library's own interface lets it be, in float where it can be: no plug-in interface, no
+/// Others', for meshes of triangles (Loop's scheme) or of quads (Catmull-Clark's). Each as fast as the library's own interface lets it be, in float where it can be: no plug-in interface, no
 /// provenance.
 Route bfr_streaming();
 Route bfr_cached_stencils();
@@ -45,7 +47,7 @@ Route far_limit_stencils();
 Route cgal_refinement();
 Route openmesh_refinement();
 
-/// Distinct points of a closed mesh, vertices of the control mesh included.
+/// Distinct points of a closed mesh of triangles or quads, vertices of the control mesh included.
 double distinct_points(const data::ControlMesh& mesh, int depth);
 
 /// run(first, last) for pieces of 0 .. count on that many threads; on one thread without any library.

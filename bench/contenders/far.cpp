@@ -86,7 +86,7 @@ class LimitStencils : public Contender {
   // Each point of the mesh in the first face that has it.
   Far::LimitStencilTableFactory::LocationArrayVec locations(int depth) {
     const auto& base = mesh_.refiner().GetLevel(0);
-    const int n = 1 << depth;
+    const int n = 1 << depth, sides = mesh_.corners();
     std::vector<char> vertex_done(mesh_.vertices()), edge_done(static_cast<std::size_t>(base.GetNumEdges()));
     Far::LimitStencilTableFactory::LocationArrayVec arrays;
     for (int f = 0; f < base.GetNumFaces(); ++f) {
@@ -95,15 +95,20 @@ class LimitStencils : public Contender {
       auto& s = s_.emplace_back();
       auto& t = t_.emplace_back();
       for (int j = 0; j <= n; ++j) {
-        for (int i = 0; i + j <= n; ++i) {
-          const int corner = i == n ? 1 : j == n ? 2 : i + j == 0 ? 0 : -1;
-          const int edge = j == 0 ? 0 : i + j == n ? 1 : i == 0 ? 2 : -1;
+        for (int i = 0; i <= (sides == 3 ? n - j : n); ++i) {
+          const std::array<bool, 4> on{j == 0, sides == 3 ? i + j == n : i == n, sides == 3 ? i == 0 : j == n,
+                                       sides == 4 && i == 0};
+          int corner = -1, edge = -1;
+          for (int k = sides - 1; k >= 0; --k) {
+            if (on[k]) edge = k;
+            if (on[k] && on[(k + sides - 1) % sides]) corner = k;
+          }
           if (corner >= 0 ? vertex_done[corners[corner]] : edge >= 0 && edge_done[edges[edge]]) continue;
           s.push_back(static_cast<float>(i) / static_cast<float>(n));
           t.push_back(static_cast<float>(j) / static_cast<float>(n));
         }
       }
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < sides; ++k) {
         vertex_done[corners[k]] = 1;
         edge_done[edges[k]] = 1;
       }

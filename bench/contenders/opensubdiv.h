@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "data/control_mesh.h"
+#include "data/scheme.h"
 #include "verify/subject/opensubdiv_mesh.h"
 
 namespace limitcheck::bench {
@@ -29,10 +29,12 @@ class OpenSubdivMesh {
   explicit OpenSubdivMesh(const data::ControlMesh& mesh) {
     for (const auto& p : mesh.positions)
       for (const double x : p) control_.push_back(static_cast<float>(x));
-    const verify::LentMesh lent(mesh, data::Scheme::kLoop);
+    const verify::LentMesh lent(mesh, data::natural_scheme(mesh));
     refiner_ = verify::make_refiner(lent.view());
   }
   OpenSubdiv::Far::TopologyRefiner& refiner() const { return *refiner_; }
+  /// Corners of every face.
+  int corners() const { return refiner_->GetLevel(0).GetFaceVertices(0).size(); }
   std::size_t faces() const { return static_cast<std::size_t>(refiner_->GetLevel(0).GetNumFaces()); }
   const float* control() const { return control_.data(); }
   std::size_t vertices() const { return control_.size() / 3; }

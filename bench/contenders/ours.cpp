@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <mutex>
 #include <vector>
 
 #include "bench/contenders/contender.h"
+#include "bench/contenders/pool.h"
 #include "fast/stream/compact_vertex.h"
 #include "fast/stream/row_stream.h"
 #include "fast/window/sliding_window.h"
@@ -25,28 +25,6 @@ namespace rs = fast::row_stream;
 double per_pair(std::size_t pairs, int depth) {
   return static_cast<double>(pairs) * rs::side(depth) * rs::side(depth);
 }
-
-/// A workspace for each thread that runs, kept from run to run.
-template <class T>
-class Pool {
- public:
-  template <class Make>
-  std::unique_ptr<T> take(const Make& make) {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty()) return make();
-    auto last = std::move(free_.back());
-    free_.pop_back();
-    return last;
-  }
-  void give(std::unique_ptr<T> item) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(item));
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<T>> free_;
-};
 
 /// Adjacency, uniform pairing, rings and vertex limits; then rows or whole pairs.
 class RowStreaming final : public Contender {

@@ -73,6 +73,14 @@ struct LaneNumber {
   }
 #endif
 
+  HWY_ATTR static HWY_INLINE V equal(V a, V b) {
+    const D d;
+    return {hn::IfThenElseZero(hn::Eq(a.v, b.v), hn::Set(d, Scalar(1)))};
+  }
+  HWY_ATTR static HWY_INLINE V select(V chosen, V a, V b) {
+    return {hn::IfThenElse(hn::Eq(chosen.v, hn::Zero(D())), b.v, a.v)};
+  }
+
   /// See ScalarNumber. Transposed within 128-bit blocks, which are stored as they are: that takes the fewest
   /// shuffles, which only one port can do.
   template <class Vertex>
@@ -89,6 +97,27 @@ struct LaneNumber {
       const hn::Vec<D> lanes_r[3] = {v[0][r], v[1][r], v[2][r]};
       store_blocks<0>(lanes_r, aos, lane_stride);
     }
+  }
+
+  template <class Vertex>
+  HWY_ATTR static HWY_INLINE void scatter_couple(const Vertex& a, const Vertex& b, Scalar* const* aos,
+                                                 std::ptrdiff_t offset) {
+    hn::Vec<D> v[3][4] = {{a.position[0].v, a.position[1].v, a.position[2].v, a.normal[0].v},
+                          {a.normal[1].v, a.normal[2].v, b.position[0].v, b.position[1].v},
+                          {b.position[2].v, b.normal[0].v, b.normal[1].v, b.normal[2].v}};
+    for (int t = 0; t < 3; ++t) transpose_blocks(v[t]);
+    for (int r = 0; r < 4; ++r) {
+      const hn::Vec<D> lanes_r[3] = {v[0][r], v[1][r], v[2][r]};
+      store_blocks<0>(lanes_r, aos + r, offset);
+    }
+  }
+
+  template <class Vertex>
+  HWY_ATTR static HWY_INLINE void scatter_vertex(const Vertex& a, Scalar* const* aos, std::ptrdiff_t offset) {
+    hn::Vec<D> v[2][4] = {{a.position[0].v, a.position[1].v, a.position[2].v, a.normal[0].v},
+                          {a.normal[1].v, a.normal[2].v, a.normal[1].v, a.normal[2].v}};
+    for (int t = 0; t < 2; ++t) transpose_blocks(v[t]);
+    for (int r = 0; r < 4; ++r) store_one<0>(v[0][r], v[1][r], aos + r, offset);
   }
 
   template <class Vertex>
@@ -123,6 +152,32 @@ struct LaneNumber {
       const hn::CappedTag<Scalar, 4> quarter;
       for (int t = 0; t < 3; ++t) hn::StoreU(block<b>(v[t]), quarter, aos + 4 * t);
       store_blocks<b + 1>(v, aos + 4 * lane_stride, lane_stride);
+    }
+  }
+
+  // The same where every lane has a pointer of its own.
+  template <int b>
+  HWY_ATTR static HWY_INLINE void store_blocks(const hn::Vec<D> (&v)[3], Scalar* const* aos,
+                                               std::ptrdiff_t offset) {
+    if constexpr (4 * b < lanes) {
+      const hn::CappedTag<Scalar, 4> quarter;
+      Scalar* to = aos[4 * b] + offset;
+      for (int t = 0; t < 3; ++t) hn::StoreU(block<b>(v[t]), quarter, to + 4 * t);
+      store_blocks<b + 1>(v, aos, offset);
+    }
+  }
+
+  // Block b of the first and the first half of block b of the second.
+  template <int b>
+  HWY_ATTR static HWY_INLINE void store_one(hn::Vec<D> v, hn::Vec<D> half, Scalar* const* aos,
+                                            std::ptrdiff_t offset) {
+    if constexpr (4 * b < lanes) {
+      const hn::CappedTag<Scalar, 4> quarter;
+      const hn::Half<decltype(quarter)> two;
+      Scalar* to = aos[4 * b] + offset;
+      hn::StoreU(block<b>(v), quarter, to);
+      hn::StoreU(hn::LowerHalf(two, block<b>(half)), two, to + 4);
+      store_one<b + 1>(v, half, aos, offset);
     }
   }
 

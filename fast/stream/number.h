@@ -48,6 +48,10 @@ struct ScalarNumber {
     return std::bit_cast<float>(kInverseRootMagic - (std::bit_cast<std::int32_t>(x) >> 1));
   }
 
+  /// 1 where a = b, else 0; and the choice by such numbers.
+  static V equal(const V& a, const V& b) { return T(a == b ? 1 : 0); }
+  static V select(const V& chosen, const V& a, const V& b) { return chosen == T(0) ? b : a; }
+
   /// Position and normal of a vertex to aos[lane * lane_stride + 0 .. 5] of each lane; two to 0 .. 11.
   template <class Vertex>
   static void scatter_vertex(const Vertex& a, T* aos, std::ptrdiff_t /*lane_stride*/) {
@@ -57,6 +61,15 @@ struct ScalarNumber {
   static void scatter_couple(const Vertex& a, const Vertex& b, T* aos, std::ptrdiff_t lane_stride) {
     scatter_vertex(a, aos, lane_stride);
     scatter_vertex(b, aos + 6, lane_stride);
+  }
+  /// The same to memory of each lane's own: aos[lane] + offset.
+  template <class Vertex>
+  static void scatter_vertex(const Vertex& a, T* const* aos, std::ptrdiff_t offset) {
+    scatter_vertex(a, aos[0] + offset, 0);
+  }
+  template <class Vertex>
+  static void scatter_couple(const Vertex& a, const Vertex& b, T* const* aos, std::ptrdiff_t offset) {
+    scatter_couple(a, b, aos[0] + offset, 0);
   }
 };
 

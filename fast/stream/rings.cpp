@@ -11,9 +11,10 @@ namespace limitcheck::fast::row_stream {
 
 namespace {
 
-/// Whether a mesh of many vertices has a triangle that is lower than `height`, though not flat.
-bool has_needles(const data::ControlMesh& mesh, double height) {
+/// Whether a mesh of many vertices has a triangle that is lower than kNeedle of its size, though not flat.
+bool has_needles(const data::ControlMesh& mesh) {
   if (mesh.positions.size() < kManyVertices) return false;
+  const double height = kNeedle * Box(mesh).size();
   const auto vertex = [&](std::int32_t v) {
     const auto& p = mesh.positions[v];
     return Vec3<double>{p[0], p[1], p[2]};
@@ -30,10 +31,10 @@ bool has_needles(const data::ControlMesh& mesh, double height) {
 }  // namespace
 
 template <class T>
-PlacedPoints<T> place(const data::ControlMesh& mesh) {
+PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions) {
   PlacedPoints<T> placed{{}, KernelPlacement<T>{}};
-  if (mesh.positions.empty()) return placed;
-  const Box box(mesh);
+  if (positions.empty()) return placed;
+  const Box box(positions);
   const double extent = box.size();
   std::array<double, 3> centre{};
   for (std::size_t c = 0; c < 3; ++c)
@@ -42,18 +43,27 @@ PlacedPoints<T> place(const data::ControlMesh& mesh) {
   if (extent > 0 && std::isfinite(extent)) unit = std::ldexp(1., std::clamp(std::ilogb(extent), -120, 120));
 
   const double inverse = 1 / unit;
-  placed.points.reserve(mesh.positions.size());
-  for (const auto& p : mesh.positions) {
+  placed.points.reserve(positions.size());
+  for (const auto& p : positions) {
     placed.points.push_back({static_cast<T>((p[0] - centre[0]) * inverse),
                              static_cast<T>((p[1] - centre[1]) * inverse),
                              static_cast<T>((p[2] - centre[2]) * inverse), T(0)});
   }
   placed.placement = {{{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
                        static_cast<T>(unit)},
-                      has_needles(mesh, kNeedle * extent) ? 1 : kLocalFrom};
+                      kLocalFrom};
   return placed;
 }
 
+template <class T>
+PlacedPoints<T> place(const data::ControlMesh& mesh) {
+  PlacedPoints<T> placed = place_points<T>(mesh.positions);
+  if (has_needles(mesh)) placed.placement.local_from = 1;
+  return placed;
+}
+
+template PlacedPoints<float> place_points(std::span<const std::array<double, 3>>);
+template PlacedPoints<double> place_points(std::span<const std::array<double, 3>>);
 template PlacedPoints<float> place(const data::ControlMesh&);
 template PlacedPoints<double> place(const data::ControlMesh&);
 template class BasicRings<ScalarNumber<float>>;

@@ -34,6 +34,10 @@ struct PlacedPoints {
 /// sliding window has a rule of its own, by which representable control points stay exact; it would change
 /// the bits of this engine.)
 template <class T>
+PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions);
+
+/// The same for triangles, with local origins sooner where there are needles.
+template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh);
 
 /// Rings and limits of all control vertices, for a number N of the kernel (see number.h). Needs

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// What the quads around a control vertex need of it, computed once per vertex in an order that does not
+// depend on the quad.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/mesh/quad_mesh.h"
+#include "fast/stream/quad_layout.h"
+#include "fast/stream/rings.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// How the vertices of a quad let it be evaluated.
+enum class QuadClass : std::uint8_t {
+  kRegular,  ///< all interior, of four quads: a bicubic polynomial
+  kClosed,   ///< all interior
+  kOpen      ///< some vertex on a boundary or a cut
+};
+
+/// Rings and limits of all control vertices of a mesh of quads, T float or double.
+///
+/// Order: an interior ring starts at its lexicographically smallest edge neighbour (position, then the
+/// positions that follow it), a boundary ring at the first boundary edge. So what is computed here depends on
+/// positions alone: not on the numbering of vertices and faces nor on the rotation of corners. [claim D14]
+template <class T>
+class BasicQuadRings {
+ public:
+  /// Throws data::ArgumentError: something is semi-sharp.
+  explicit BasicQuadRings(const QuadMesh& mesh);
+
+  /// The points around a vertex, three numbers each: e_0 f_0 e_1 f_1 ... A closed ring has 2 n entries and is
+  /// there twice, an open one 2 K + 1.
+  struct Ring {
+    std::int32_t first;  // into numbers()
+    std::int32_t entries;
+    bool open;
+  };
+  Ring ring(std::int32_t v) const { return rings_[v]; }
+
+  /// The head of a QuadCornerBlock.
+  const T* head(std::int32_t v) const { return heads_[v].data(); }
+  /// What a quad needs to find its way from one of its corners, by the half-edge that leaves there: a line of
+  /// memory for all four.
+  struct Corner {
+    std::int32_t vertex;
+    std::int32_t before;   // into numbers(), of e_{k-1}, where e_k is the point that the half-edge leads to;
+                           // in a closed ring, of the first of the two that are there. -1: there is none
+    std::int32_t entries;  // of the ring
+    bool open;             // the ring
+    bool sharp, polynomial;  // the side that the half-edge is
+  };
+  const Corner& corner(std::int32_t h) const { return corners_[h]; }
+  const T* numbers() const { return numbers_.data(); }
+
+  /// An interior vertex of four quads.
+  bool regular(std::int32_t v) const { return !rings_[v].open && rings_[v].entries == 8; }
+  QuadClass kind(std::int32_t face) const { return kinds_[face]; }
+
+  const KernelPlacement<T>& placement() const { return placement_; }
+
+ private:
+  struct Scratch {
+    std::vector<Vec3<double>> ring;
+  };
+  void lay_out(const QuadAdjacency& adjacency);
+  void make_vertex(const QuadMesh& mesh, std::int32_t v, Scratch& scratch);
+  void find_kinds(const QuadAdjacency& adjacency);
+
+  std::vector<ControlPoint<T>> points_;
+  std::vector<T> numbers_;
+  std::vector<Ring> rings_;
+  std::vector<std::array<T, QuadCornerBlock::kHead>> heads_;
+  std::vector<Corner> corners_;
+  std::vector<QuadClass> kinds_;
+  KernelPlacement<T> placement_;
+};
+
+using QuadRings = BasicQuadRings<float>;
+
+}  // namespace limitcheck::fast::row_stream

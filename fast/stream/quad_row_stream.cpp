@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/quad_row_stream.h"
+
+#include <algorithm>
+#include <array>
+
+#include "data/error.h"
+#include "fast/stream/memory_stream.h"
+#include "fast/stream/quad_batch.h"
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+int checked(int depth) {
+  if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
+  return depth;
+}
+
+void prepare(Workspace& workspace, int depth, int lanes) {
+  const auto n = static_cast<std::size_t>(lanes);
+  workspace.input.grow(n * static_cast<std::size_t>(quad_input_size(checked(depth))));
+  workspace.work.grow(n * static_cast<std::size_t>(quad_work_size(depth)));
+}
+
+// Floats of a row, up to a whole number of cache lines.
+std::size_t row_pitch(int depth) {
+  return (6 * static_cast<std::size_t>(side(depth)) + 15) / 16 * 16;
+}
+
+/// The quads of a list that wait for others of their class.
+class Queue {
+ public:
+  /// run(kind, indices) for batches of up to `lanes` quads of one class.
+  template <class Run>
+  static void go(const QuadRings& rings, std::span<const std::int32_t> faces, int lanes, const Run& run) {
+    std::array<Queue, 3> queues;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const QuadClass kind = rings.kind(faces[i]);
+      Queue& queue = queues[static_cast<std::size_t>(kind)];
+      queue.index_[queue.count_++] = static_cast<std::uint32_t>(i);
+      if (queue.count_ == static_cast<std::size_t>(lanes)) queue.empty(kind, run);
+    }
+    for (const QuadClass kind : {QuadClass::kRegular, QuadClass::kClosed, QuadClass::kOpen}) {
+      Queue& queue = queues[static_cast<std::size_t>(kind)];
+      if (queue.count_ > 0) queue.empty(kind, run);
+    }
+  }
+
+ private:
+  template <class Run>
+  void empty(QuadClass kind, const Run& run) {
+    run(kind, std::span<const std::uint32_t>(index_.data(), count_));
+    count_ = 0;
+  }
+  std::array<std::uint32_t, kMaxLanes> index_;
+  std::size_t count_ = 0;
+};
+
+struct Evaluation {
+  const QuadRings& rings;
+  const QuadKernel& kernel;
+  std::span<const std::int32_t> faces;
+  int depth;
+  Workspace& workspace;
+
+  void run(QuadClass kind, std::span<const std::uint32_t> index, const QuadTarget<float>& target) const {
+    std::array<std::int32_t, kMaxLanes> face;
+    for (std::size_t k = 0; k < index.size(); ++k) face[k] = faces[index[k]];
+    const std::span<const std::int32_t> some(face.data(), index.size());
+    const bool regular = kind == QuadClass::kRegular;
+    const auto batch =
+        (regular ? gather_patches<float> : gather_quads<float>)(rings, some, depth, kernel.lanes,
+                                                                workspace.input.data());
+    (regular ? kernel.patches : kernel.quads)(batch, rings.placement(), workspace.work.data(), target);
+  }
+};
+
+struct Rows {
+  QuadRowView view;
+  void (*visit)(void*, const QuadRowView&);
+  void* context;
+};
+
+void visit_row(void* context, int j) {
+  Rows& rows = *static_cast<Rows*>(context);
+  rows.view.j = j;
+  rows.visit(rows.context, rows.view);
+}
+
+}  // namespace
+
+QuadRowStream::QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel)
+    : kernel_(kernel), rings_(mesh) {}
+
+std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
+  struct Key {
+    std::uint64_t valences;
+    std::int32_t face;
+  };
+  std::vector<Key> keys;
+  keys.reserve(faces.size());
+  for (const std::int32_t f : faces) {
+    std::uint64_t key = static_cast<std::uint64_t>(rings_.kind(f));
+    for (int k = 0; k < 4; ++k) {
+      const auto entries = static_cast<std::uint64_t>(rings_.corner(4 * f + k).entries);
+      key = key << 12 | std::min<std::uint64_t>(entries, 4095);
+    }
+    keys.push_back({key, f});
+  }
+  std::stable_sort(keys.begin(), keys.end(),
+                   [](const Key& a, const Key& b) { return a.valences < b.valences; });
+  std::vector<std::int32_t> order;
+  order.reserve(faces.size());
+  for (const Key& key : keys) order.push_back(key.face);
+  return order;
+}
+
+void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                         void (*visit)(void*, const QuadRowView&), void* context) const {
+  prepare(workspace, depth, kernel_.lanes);
+  workspace.row.grow(static_cast<std::size_t>(kernel_.lanes) * row_pitch(depth));
+  const auto pitch = static_cast<std::ptrdiff_t>(row_pitch(depth));
+  Rows rows{{{}, depth, 0, workspace.row.data(), pitch}, visit, context};
+  std::array<float*, kMaxLanes> lane;
+  for (int k = 0; k < kMaxLanes; ++k) lane[k] = workspace.row.data() + std::min(k, kernel_.lanes - 1) * pitch;
+  const QuadTarget<float> target{lane.data(), 0, visit ? &visit_row : nullptr, &rows};
+  const Evaluation evaluation{rings_, kernel_, faces, depth, workspace};
+  Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
+    rows.view.index = index;
+    evaluation.run(kind, index, target);
+  });
+}
+
+void QuadRowStream::whole(std::span<const std::int32_t> faces, int depth, Workspace& workspace, Vertex* out,
+                          const QuadKernel* other) const {
+  const QuadKernel& kernel = other != nullptr ? *other : kernel_;
+  prepare(workspace, depth, kernel.lanes);
+  const auto n = static_cast<std::size_t>(side(depth));
+  std::array<float*, kMaxLanes> lane;
+  const QuadTarget<float> target{lane.data(), 6 * static_cast<std::ptrdiff_t>(n), nullptr, nullptr};
+  const Evaluation evaluation{rings_, kernel, faces, depth, workspace};
+  Queue::go(rings_, faces, kernel.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(kMaxLanes); ++k)
+      lane[k] = out[n * n * index[std::min(k, index.size() - 1)]].position;
+    evaluation.run(kind, index, target);
+  });
+}
+
+void QuadRowStream::streamed(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                             Vertex* out) const {
+  struct Lines {
+    std::array<LineStream, kMaxLanes> lane;
+    Vertex* out;
+    static void visit(void* context, const QuadRowView& view) {
+      auto& lines = *static_cast<Lines*>(context);
+      const auto n = static_cast<std::size_t>(side(view.depth));
+      for (std::size_t k = 0; k < view.index.size(); ++k) {
+        if (view.j == 0) lines.lane[k].start(reinterpret_cast<std::byte*>(lines.out + n * n * view.index[k]));
+        lines.lane[k].append(reinterpret_cast<const std::byte*>(view.vertices(k)), n * sizeof(Vertex));
+        if (view.j + 1 == static_cast<int>(n)) lines.lane[k].finish();
+      }
+    }
+  } lines;
+  lines.out = out;
+  rows(faces, depth, workspace, &Lines::visit, &lines);
+  fence_streams();
+}
+
+void QuadRowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
+                          Vertex* out, const QuadKernel* other) const {
+  const QuadKernel& kernel = other != nullptr ? *other : kernel_;
+  prepare(workspace, depth, kernel.lanes);
+  const auto lanes = static_cast<std::size_t>(kernel.lanes), n = static_cast<std::size_t>(side(depth));
+  std::array<float*, kMaxLanes> lane;
+  for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
+    const auto some = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(kMaxLanes); ++k)
+      lane[k] = out[n * (first + std::min(k, some.size() - 1))].position;
+    const auto batch = gather_sides<float>(rings_, some, depth, kernel.lanes, workspace.input.data());
+    kernel.sides(batch, rings_.placement(), workspace.work.data(), {lane.data(), 0, nullptr, nullptr});
+  }
+}
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Row streaming of quads: Catmull-Clark's surfaces, one quad per vector lane.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fast/mesh/quad_mesh.h"
+#include "fast/stream/quad_rings.h"
+#include "fast/stream/quad_targets.h"
+#include "fast/stream/row_stream.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// Row j of a batch of quads, overwritten by the next row. Row 0 runs from corner A = 0 of a face to B = 1.
+struct QuadRowView {
+  std::span<const std::uint32_t> index;  // of the quads, in the caller's list
+  int depth;
+  int j;
+  const float* base;
+  std::ptrdiff_t pitch;  // in floats
+
+  /// The side(depth) vertices of quad index[lane].
+  const Vertex* vertices(std::size_t lane) const {
+    return reinterpret_cast<const Vertex*>(base + static_cast<std::ptrdiff_t>(lane) * pitch);
+  }
+};
+
+/// A mesh of quads prepared for the kernel: the rings and limits of its vertices. Read-only afterwards,
+/// so that threads may share it.
+///
+/// Bits: each point on a side or at a corner comes out the same from every quad that has it, whatever the
+/// instruction set, the other quads of the call and their order. What lies inside depends on the quad alone.
+/// Points on sides between two regular vertices, and all points of regular quads, are the same at every depth
+/// up to 8.
+///
+/// Error in float, against the exact limit: position 1e-7 of the mesh's box; normals of regular quads 1e-6 rad
+/// at every depth, of others about 2e-7 2^depth times what the mesh is larger than an edge.
+class QuadRowStream {
+ public:
+  /// Keeps a reference to the kernel, which must outlive it. Throws
+  /// data::ArgumentError: something is semi-sharp.
+  explicit QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel = quad_kernels().front());
+
+  const QuadKernel& kernel() const { return kernel_; }
+  const QuadRings& rings() const { return rings_; }
+
+  /// The faces in an order in which neighbours in the list are quads of like valences, which makes the best
+  /// batches. Any order is right.
+  std::vector<std::int32_t> sorted(std::span<const std::int32_t> faces) const;
+
+  /// Calls visit(context, QuadRowView) for each row of each batch of quads. A batch takes quads that can go
+  /// together from anywhere in the list; its rows come one after the other.
+  void rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+            void (*visit)(void*, const QuadRowView&), void* context) const;
+
+  /// All vertices: those of faces[p] from out[p * side * side], row by row. `kernel`: another one for this
+  /// call, with the same bits.
+  void whole(std::span<const std::int32_t> faces, int depth, Workspace& workspace, Vertex* out,
+             const QuadKernel* kernel = nullptr) const;
+
+  /// The same bytes as whole(), written past the caches row after row. Nothing beyond the quads is touched.
+  /// Other threads see the output when they see what this thread writes afterwards.
+  void streamed(std::span<const std::int32_t> faces, int depth, Workspace& workspace, Vertex* out) const;
+
+  /// The points of sides at a depth of their own: those of half_edges[e], from its origin to its target, from
+  /// out[e * side]. The same bits as a quad of that depth gives them.
+  void edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
+             const QuadKernel* kernel = nullptr) const;
+
+ private:
+  const QuadKernel& kernel_;
+  QuadRings rings_;
+};
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/quad_row_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <string>
+
+#include "data/bounding_box.h"
+#include "data/generators/polygon_meshes.h"
+#include "fast/test_support/refined_quads.h"
+#include "fast/test_support/shared_points.h"
+
+namespace limitcheck::fast::row_stream {
+namespace {
+
+struct NamedMesh {
+  std::string name;
+  data::ControlMesh mesh;
+};
+
+/// A closed mesh with two vertices of valence n, which are opposite corners of n quads each; 2n of valence 3.
+data::ControlMesh trapezohedron(int n) {
+  data::ControlMesh mesh;
+  const double pi = std::numbers::pi;
+  for (int k = 0; k < 2 * n; ++k) {
+    const double t = pi * k / n;
+    mesh.positions.push_back({std::cos(t), std::sin(t), k % 2 == 0 ? .2 : -.2});
+  }
+  mesh.positions.push_back({0, 0, 1});
+  mesh.positions.push_back({0, 0, -1});
+  for (int k = 0; k < 2 * n; k += 2) {
+    const int a = k, b = (k + 1) % (2 * n), c = (k + 2) % (2 * n), d = (k + 3) % (2 * n);
+    mesh.faces.push_back({2 * n, a, b, c});
+    mesh.faces.push_back({b, 2 * n + 1, d, c});
+  }
+  return mesh;
+}
+
+/// rows x columns quads; without boundary in either direction if `closed`.
+data::ControlMesh quad_sheet(int rows, int columns) {
+  data::ControlMesh mesh;
+  for (int i = 0; i <= rows; ++i) {
+    for (int j = 0; j <= columns; ++j)
+      mesh.positions.push_back({1. * j, 1. * i, .3 * std::sin(1. * j) * std::cos(1.3 * i)});
+  }
+  const auto at = [&](int i, int j) { return static_cast<std::int32_t>(i * (columns + 1) + j); };
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j)
+      mesh.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+  return mesh;
+}
+
+std::vector<NamedMesh> closed_meshes() {
+  std::vector<NamedMesh> meshes{{"cube", data::quad_cube()},
+                                {"shaken cube", shaken(data::quad_cube(), .3, 1)},
+                                {"torus", data::quad_torus(4, 3)},
+                                {"shaken torus", shaken(data::quad_torus(6, 4), .1, 2)}};
+  for (const int n : {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50})
+    meshes.push_back({"trapezohedron " + std::to_string(n), shaken(trapezohedron(n), n > 12 ? .01 : .05, 3)});
+  for (const int n : {3, 5, 8})
+    meshes.push_back({"pawn " + std::to_string(n), shaken(data::pawn(n), .01, 4)});
+  return meshes;
+}
+
+std::vector<NamedMesh> open_meshes() {
+  std::vector<NamedMesh> meshes{{"quad", shaken(quad_sheet(1, 1), .1, 1)},
+                                {"strip", shaken(quad_sheet(1, 3), .1, 2)},
+                                {"sheet", shaken(quad_sheet(4, 5), .1, 3)},
+                                {"flat sheet", quad_sheet(3, 3)}};
+  for (const int n : {3, 4, 5, 9, 50})
+    meshes.push_back({"wheel " + std::to_string(n), data::quad_wheel(n, 5)});
+  for (const int n : {1, 2, 3, 4, 5}) meshes.push_back({"fan " + std::to_string(n), data::quad_fan(n, 6)});
+  return meshes;
+}
+
+/// Faces begin at another corner; they and the vertices have other numbers: `number` is the new one of each.
+data::ControlMesh renumbered_quads(const data::ControlMesh& mesh, std::uint64_t seed,
+                                   std::vector<std::int32_t>& number) {
+  data::SplitMix64 random(seed);
+  number.resize(mesh.positions.size());
+  std::iota(number.begin(), number.end(), 0);
+  for (std::size_t v = number.size(); v > 1; --v) std::swap(number[v - 1], number[below(random, v)]);
+  data::ControlMesh out{mesh.positions, {}};
+  for (std::size_t v = 0; v < number.size(); ++v) out.positions[number[v]] = mesh.positions[v];
+  std::vector<std::array<std::int32_t, 4>> faces;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::size_t turn = below(random, 4);
+    std::array<std::int32_t, 4> q;
+    for (std::size_t k = 0; k < 4; ++k) q[k] = number[mesh.faces[f][(k + turn) % 4]];
+    faces.push_back(q);
+  }
+  for (std::size_t f = faces.size(); f > 1; --f) std::swap(faces[f - 1], faces[below(random, f)]);
+  for (const auto& q : faces) out.faces.push_back(q);
+  return out;
+}
+
+std::vector<std::int32_t> all_of(const data::ControlMesh& mesh) {
+  std::vector<std::int32_t> faces(mesh.faces.size());
+  std::iota(faces.begin(), faces.end(), 0);
+  return faces;
+}
+
+std::vector<Vertex> evaluate(const data::ControlMesh& mesh, int depth, const QuadKernel& kernel) {
+  const QuadMesh quads(mesh);
+  const QuadRowStream stream(quads, kernel);
+  Workspace workspace;
+  std::vector<Vertex> out(mesh.faces.size() * static_cast<std::size_t>(side(depth) * side(depth)));
+  stream.whole(all_of(mesh), depth, workspace, out.data());
+  return out;
+}
+
+/// The least height of the triangles that two sides of a quad span.
+double least_height(const data::ControlMesh& mesh) {
+  double least = data::box_diagonal(mesh);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto corner = [&](std::size_t k) {
+      const auto& p = mesh.positions[mesh.faces[f][k % 4]];
+      return Point{p[0], p[1], p[2]};
+    };
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Point a = corner(k + 1) - corner(k), b = corner(k + 3) - corner(k);
+      const long double area = norm(cross_product(a, b));
+      least = std::min(least, static_cast<double>(area / std::max(norm(a), norm(b))));
+    }
+  }
+  return least;
+}
+
+struct Worst {
+  double position = 0, normal = 0;  // in diagonals, and per coordinate of the unit vector
+  std::string where = "nowhere";
+};
+
+Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const std::vector<Vertex>& got,
+                               const std::set<int>& held = {}) {
+  const RefinedQuads expected = RefinedQuads::of(mesh, depth, held);
+  const double scale = data::box_diagonal(mesh);
+  Worst worst;
+  const auto raise = [&](double& most, double error, std::size_t f, int i, int j) {
+    if (error <= most) return;
+    most = error;  // NaN too
+    worst.where = "face " + std::to_string(f) + " (" + std::to_string(i) + ", " + std::to_string(j) + ")";
+  };
+  const int n = side(depth);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const RefinedQuads::Limit e = expected.limit(f, i, j);
+        const Vertex& v = got[(f * n + j) * n + i];
+        for (int c = 0; c < 3; ++c) {
+          raise(worst.position, std::abs(v.position[c] - static_cast<double>(e.position[c])) / scale, f, i,
+                j);
+          raise(worst.normal, std::abs(v.normal[c] - static_cast<double>(e.normal[c])), f, i, j);
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+void expect_the_limit_surface(const std::vector<NamedMesh>& meshes) {
+  Worst all;
+  for (const auto& [name, mesh] : meshes) {
+    const data::ControlMesh single = shaken(mesh, 0, 0);
+    for (int depth = 0; depth <= (mesh.faces.size() > 60 ? 4 : 5); ++depth) {
+      const Worst worst =
+          worst_against_refinement(single, depth, evaluate(single, depth, quad_kernels().front()));
+      EXPECT_LE(worst.position, 1.2e-7) << name << " depth " << depth << " " << worst.where;
+      const double bound = 2.4e-7 * (1 << depth) * data::box_diagonal(mesh) / least_height(mesh);
+      EXPECT_LE(worst.normal, bound) << name << " depth " << depth << " " << worst.where;
+      all.position = std::max(all.position, worst.position);
+      all.normal = std::max(all.normal, worst.normal);
+    }
+  }
+  ::testing::Test::RecordProperty("worst_position", std::to_string(all.position * 1e9) + "e-9");
+  ::testing::Test::RecordProperty("worst_normal", std::to_string(all.normal * 1e9) + "e-9");
+}
+
+TEST(QuadStream, GivesTheLimitSurfaceOfClosedMeshes) {
+  expect_the_limit_surface(closed_meshes());
+}
+
+TEST(QuadStream, GivesTheLimitSurfaceWithItsBoundaryCurve) {
+  expect_the_limit_surface(open_meshes());
+}
+
+/// The first bits seen for each point on a side or corner, and how often others came.
+class SharedQuadPoints {
+ public:
+  void add(const data::ControlMesh& mesh, std::size_t face, int i, int j, int size, const Vertex& v,
+           const std::vector<std::int32_t>& known) {
+    const auto q = mesh.faces[face];
+    const auto name = [&](int corner) { return known.empty() ? q[corner % 4] : known[q[corner % 4]]; };
+    const int along[4] = {i, j, size - i, size - j};
+    const bool on[4] = {j == 0, i == size, j == size, i == 0};
+    for (int k = 0; k < 4; ++k) {
+      if (!on[k]) continue;
+      std::int32_t a = name(k), b = name(k + 1), at = along[k];
+      if (at == 0) b = a;
+      if (at == size) a = b, at = 0;
+      if (a > b) std::swap(a, b), at = size - at;
+      if (a == b) at = 0;
+      std::array<std::uint32_t, 6> bits;
+      std::memcpy(bits.data(), &v, sizeof bits);
+      const auto [seen, fresh] = first_.try_emplace({a, b, at}, bits);
+      if (fresh) continue;
+      ++compared_;
+      if (seen->second != bits) ++different_;
+    }
+  }
+  std::int64_t compared() const { return compared_; }
+  std::int64_t different() const { return different_; }
+
+ private:
+  std::map<std::array<std::int32_t, 3>, std::array<std::uint32_t, 6>> first_;
+  std::int64_t compared_ = 0, different_ = 0;
+};
+
+// Claim D14, on every variant the machine has: the same point has the same bits from every quad and from the
+// side alone, however the mesh is written down; and from every variant.
+void expect_equal_bits(const std::vector<NamedMesh>& meshes, int most) {
+  std::int64_t compared = 0;
+  for (const auto& [name, mesh] : meshes) {
+    const data::ControlMesh single = shaken(mesh, 0, 0);
+    for (int depth = 0; depth <= (mesh.faces.size() > 60 ? most - 2 : most); ++depth) {
+      SharedQuadPoints shared;
+      const int n = side(depth);
+      for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        std::vector<std::int32_t> number, known(mesh.positions.size());
+        const data::ControlMesh other = renumbered_quads(single, seed, number);
+        for (std::size_t v = 0; v < known.size(); ++v) known[number[v]] = static_cast<std::int32_t>(v);
+        for (const QuadKernel& kernel : quad_kernels()) {
+          if (!kernel.fused && depth > 3) continue;
+          const auto points = evaluate(other, depth, kernel);
+          for (std::size_t f = 0; f < other.faces.size(); ++f) {
+            for (int k = 0; k < n; ++k) {
+              for (const auto& [i, j] : {std::pair{k, 0}, {k, n - 1}, {0, k}, {n - 1, k}})
+                shared.add(other, f, i, j, n - 1, points[(f * n + j) * n + i], known);
+            }
+          }
+          const QuadMesh quads(other);
+          const QuadRowStream stream(quads, kernel);
+          std::vector<std::int32_t> half_edges(4 * other.faces.size());
+          std::iota(half_edges.begin(), half_edges.end(), 0);
+          std::vector<Vertex> out(half_edges.size() * n);
+          Workspace workspace;
+          stream.edges(half_edges, depth, workspace, out.data());
+          for (std::size_t h = 0; h < half_edges.size(); ++h) {
+            for (int t = 0; t < n; ++t) {
+              const int i[4] = {t, n - 1, n - 1 - t, 0}, j[4] = {0, t, n - 1, n - 1 - t};
+              shared.add(other, h / 4, i[h % 4], j[h % 4], n - 1, out[h * n + t], known);
+            }
+          }
+        }
+      }
+      EXPECT_EQ(shared.different(), 0) << name << " depth " << depth << " of " << shared.compared();
+      compared += shared.compared();
+    }
+  }
+  ::testing::Test::RecordProperty("compared", std::to_string(compared));
+}
+
+TEST(QuadStreamBits, AreEqualFromEveryQuadOfAClosedMesh) {
+  expect_equal_bits(closed_meshes(), 6);
+}
+
+TEST(QuadStreamBits, AreEqualFromEveryQuadOfAMeshWithBoundary) {
+  expect_equal_bits(open_meshes(), 6);
+}
+
+}  // namespace
+}  // namespace limitcheck::fast::row_stream

@@ -134,9 +134,7 @@ std::vector<std::int32_t> Engine<Real>::depths(const DepthOptions& strategy, con
                                                double& seconds) {
   const auto start = Clock::now();
   std::vector<std::int32_t> depth;
-  state_->arena.execute([&] {
-    depth = state_->depths(strategy, camera);
-  });
+  state_->arena.execute([&] { depth = state_->depths(strategy, camera); });
   seconds = seconds_since(start);
   return depth;
 }

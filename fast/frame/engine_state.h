@@ -30,7 +30,6 @@ struct EngineState : FrameEngine<Real> {
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
       FrameEngine<Real>::plan;
 
-
   int face_count() const final { return adjacency.face_count(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
     if (!heuristics) heuristics.emplace(mesh, adjacency, options.max_depth);

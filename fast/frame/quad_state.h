@@ -59,7 +59,8 @@ struct QuadEngineState : FrameEngine<Real> {
             out.draws.data() + at.draws,
             at.vertices};
   }
-  QuadIndexWriter<Real> index_writer(std::size_t i, const QuadIndexLayout& layout, IndexedMesh<Real>& out) const {
+  QuadIndexWriter<Real> index_writer(std::size_t i, const QuadIndexLayout& layout,
+                                     IndexedMesh<Real>& out) const {
     return {patches[i], faces, plan, layout, placement, out};
   }
 

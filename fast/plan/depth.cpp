@@ -142,8 +142,10 @@ Facing BasicDepthHeuristics<Surface>::facing(std::int32_t face, std::span<const 
 
 // A vertex is on the silhouette if a neighbour is on the other side.
 template <class Surface>
-Facing BasicDepthHeuristics<Surface>::vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const {
-  if (surface_.any_neighbour(v, [&](std::int32_t w) { return away[w] != away[v]; })) return Facing::kSilhouette;
+Facing BasicDepthHeuristics<Surface>::vertex_facing(std::int32_t v,
+                                                    std::span<const std::uint8_t> away) const {
+  if (surface_.any_neighbour(v, [&](std::int32_t w) { return away[w] != away[v]; }))
+    return Facing::kSilhouette;
   return away[v] != 0 ? Facing::kBack : Facing::kFront;
 }
 
@@ -158,7 +160,7 @@ std::vector<Facing> BasicDepthHeuristics<Surface>::facing(const Camera& camera) 
 
 template <class Surface>
 std::int32_t BasicDepthHeuristics<Surface>::project_sphere(std::int32_t face, const Camera& camera,
-                                             double target_pixels) const {
+                                                           double target_pixels) const {
   const auto& [centroid, radius] = spheres_[face];
   const double distance = std::max(length(camera.eye - centroid) - radius, camera.near);
   double pixels = 2 * radius * camera.focal_pixels() / distance;
@@ -200,7 +202,8 @@ std::int32_t BasicDepthHeuristics<Surface>::cone_depth(std::int32_t v, double co
 }
 
 template <class Surface>
-std::vector<std::int32_t> BasicDepthHeuristics<Surface>::depths(const DepthOptions& options, const Camera& camera) const {
+std::vector<std::int32_t> BasicDepthHeuristics<Surface>::depths(const DepthOptions& options,
+                                                                const Camera& camera) const {
   const bool sphere = uses_sphere(options.strategy), cone = uses_cone(options.strategy),
              cull = options.culls();
   const bool uses_depth = options.strategy == Strategy::kUniform || options.strategy == Strategy::kRandom;

@@ -168,7 +168,8 @@ struct QuadSurface {
   Point3 position(std::int32_t v) const { return to_point(faces.mesh->positions[v]); }
   template <class Visit>
   void for_each_corner(std::int32_t f, Visit&& visit) const {
-    for (std::size_t c = faces.first[f]; c < faces.first[f + 1]; ++c) visit(faces.vertex(static_cast<std::int32_t>(c)));
+    for (std::size_t c = faces.first[f]; c < faces.first[f + 1]; ++c)
+      visit(faces.vertex(static_cast<std::int32_t>(c)));
   }
   void gather(QuadRing& ring, std::int32_t v) const { ring.gather(*faces.mesh, semi_sharp, v); }
   template <class Is>

@@ -102,7 +102,8 @@ fast::DepthOptions depth_options(const Arguments& a) {
 std::string engine_of(const Arguments& a, data::Scheme scheme) {
   const bool loop = scheme == data::Scheme::kLoop;
   if (!loop && a.engine == "row-stream")
-    throw data::ArgumentError("limitcheck tessellate: row-stream does Loop's scheme only; leave out --engine");
+    throw data::ArgumentError(
+        "limitcheck tessellate: row-stream does Loop's scheme only; leave out --engine");
   return !a.engine.empty() ? a.engine : loop ? "row-stream" : "sliding-window";
 }
 
@@ -269,9 +270,10 @@ void add_tessellate(CLI::App& app, int& exit_code) {
                    "view is given")
       ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
   command
-      ->add_option("--engine", a->engine,
-                   "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
-                   "row-stream, which does Loop's scheme only, or else sliding-window")
+      ->add_option(
+          "--engine", a->engine,
+          "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
+          "row-stream, which does Loop's scheme only, or else sliding-window")
       ->check(CLI::IsMember({"row-stream", "sliding-window"}));
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
@@ -295,7 +297,9 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   auto* cull = command->add_flag(
       "--cull,!--no-cull", a->cull,
       "Leave out faces whose corners all face away; default: if the strategy depends on the view");
-  command->add_option("--centre", a->centre, "Centre of a fan: on the limit surface, or the mean of the face's corners")
+  command
+      ->add_option("--centre", a->centre,
+                   "Centre of a fan: on the limit surface, or the mean of the face's corners")
       ->check(CLI::IsMember({"limit", "flat"}))
       ->capture_default_str();
   command

@@ -53,7 +53,8 @@ class SlidingWindowSubject {
                            1,
                            settings.tessellator.cracks.centre == fast::FanCentre::kLimit ? 1 : 0};
     if (scheme == LC_SCHEME_CATMULL_CLARK)
-      result.sharp = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+      result.sharp =
+          LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
     return result;
   }
 
@@ -96,7 +97,8 @@ class SlidingWindowSubject {
 
 const lc_subject* lc_subject_sliding_window() {
   static const lc_subject subject = make_subject<SlidingWindowSubject>(
-      "sliding-window", "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000); both schemes",
+      "sliding-window",
+      "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000); both schemes",
       "precision=float|double, output=strips|indexed, repair=stitch|fan|none, "
       "centre=limit|flat|flat-control, pairing=corrected|printed");
   return &subject;

@@ -60,7 +60,7 @@ QuadMesh::QuadMesh(const data::ControlMesh& mesh, const std::optional<SharpPolyg
     cut_twin.assign(cuts.size(), -1);
     for (std::size_t h = 0; h < cuts.size(); ++h)
       if (cuts[h] != 0) cut_twin[h] = adjacency.twin(static_cast<std::int32_t>(h));
-    before = adjacency.cut(cuts);
+    uncut = before = adjacency.cut(cuts);
   }
 
   const bool semi = std::any_of(sharp->side.begin(), sharp->side.end(), is_semi_sharp) ||

@@ -47,6 +47,7 @@ struct QuadMesh {
   std::vector<std::array<double, 3>> positions;  // of all vertices of the adjacency
   QuadAdjacency adjacency;
   std::vector<std::int32_t> cut_twin;  // per half-edge: its twin before the cut, -1 elsewhere; or empty
+  std::vector<std::int32_t> uncut;     // per vertex: the one that it is a copy of, or itself; or empty
   std::vector<VertexKind> kinds;       // per vertex, or empty: all plain
   /// What is semi-sharp: per half-edge and per vertex, 0 elsewhere; both empty if nothing is.
   std::vector<double> side_sharpness, vertex_sharpness;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The limit of a vertex of a mesh of quads from its ring: position and tangents. [C21; Halstead, Kass & DeRose
+// 1993]
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "fast/rules/quad_star.h"
+#include "fast/rules/surface_vertex.h"
+
+namespace limitcheck::fast {
+
+/// Weights of the differences between the points of a ring and its centre; one entry per point.
+struct StarWeights {
+  std::vector<double> du, dv;
+  std::vector<double> position;  // of a dart; elsewhere it is a sum that star_limit() knows
+};
+
+/// For a star of so many faces. Tangents are left eigenvectors, so exact wherever there is a tangent plane;
+/// du x dv points outward.
+///   closed    n >= 3; du points to e_0
+///   boundary  n >= 1: du = e_0 - e_n along, dv across. From 4 faces on there is no tangent plane in general,
+///             and this is the plane of the mask.
+///   held      open: du = e_0 - c, dv = e_n - c, which is the tangent plane of up to two faces; closed: there
+///             is none, and these are the smooth tangents.
+///   dart      by iteration, to about 1e-14: they have no closed form
+StarWeights star_weights(int faces, bool open, VertexKind kind);
+
+/// The weights for every kind of star that a mesh has, each made when it is first asked for. Not for several
+/// threads at once.
+class StarWeightTable {
+ public:
+  const StarWeights& of(int faces, bool open, VertexKind kind);
+
+ private:
+  std::vector<std::unique_ptr<StarWeights>> list_[6];
+};
+
+/// The limit of a star without semi-sharp edges. The position is exact in a field; the tangents' weights are
+/// doubles.
+template <class W>
+LimitFrame<W> star_limit(const QuadStar<W>& star, const StarWeights& weights) {
+  using T = NumberTraits<W>;
+  using S = typename T::Scalar;
+  Vec3<W> edges{}, faces{}, du{}, dv{}, dart{};
+  const bool is_dart = star.kind == VertexKind::kDart;
+  for (int i = 0; i < star.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vec3<W> d = star.ring[i] - star.centre;
+    Vec3<W>& sum = i % 2 == 0 ? edges : faces;
+    sum = sum + d;
+    if (is_dart) dart = dart + static_cast<S>(weights.position[k]) * d;
+    du = du + static_cast<S>(weights.du[k]) * d;
+    dv = dv + static_cast<S>(weights.dv[k]) * d;
+  }
+  const Vec3<W>& v = star.centre;
+  const int n = star.faces;
+  if (star.kind == VertexKind::kHeld) return {v, du, dv};
+  if (is_dart) return {v + dart, du, dv};
+  if (star.open) return {v + T::ratio(1, 6) * ((star.edge(0) - v) + (star.edge(n) - v)), du, dv};
+  return {v + T::ratio(1, n * (n + 5)) * (T::ratio(4, 1) * edges + faces), du, dv};
+}
+
+}  // namespace limitcheck::fast

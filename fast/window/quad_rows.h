@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Rows of points of a mesh of quads, and the rows that a step makes of them.
+#pragma once
+
+#include "fast/rules/quad_corner.h"
+#include "fast/window/quad_side.h"
+
+namespace limitcheck::fast {
+
+/// The two sides that all rows end at, from the first to the last row. A row of n edges has the points 0 .. n
+/// and one more beyond each end that has a face beyond it: -1, n + 1.
+struct RowEnds {
+  const QuadSide *left, *right;
+
+  int first() const { return left->inside() ? -1 : 0; }
+  int last(int n) const { return right->inside() ? n + 1 : n; }
+};
+
+/// The row between two rows, 2 n edges of n: middles of faces, and of the edges between the rows.
+///   level, part   of the sides: the part between the two rows; -1 for rows beyond the quad
+template <class N>
+void odd_row(int n, const Vec3<N>* above, const Vec3<N>* below, const RowEnds& ends, int level, int part,
+             Vec3<N>* out) {
+  for (int i = ends.first(); i < ends.last(n); ++i)
+    out[2 * i + 1] = quad_face_point(above[i], above[i + 1], below[i + 1], below[i]);
+  const auto end = [&](const QuadSide& side, int i) {
+    if (!side.inside()) {
+      out[2 * i] = midpoint(above[i], below[i]);
+      return;
+    }
+    out[2 * i] = quad_edge_point(above[i], below[i], out[2 * i - 1], out[2 * i + 1]);
+    if (const double share = part < 0 ? 0 : side.edge_share(level, part); share > 0)
+      out[2 * i] = share < 1 ? blend(share, midpoint(above[i], below[i]), out[2 * i]) : midpoint(above[i], below[i]);
+  };
+  end(*ends.left, 0);
+  for (int i = 1; i < n; ++i)
+    out[2 * i] = quad_edge_point(above[i], below[i], out[2 * i - 1], out[2 * i + 1]);
+  end(*ends.right, n);
+}
+
+/// Blends a point on a semi-sharp line of three, of which it is the middle one.
+template <class N>
+void add_curve(double share, const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& w, Vec3<N>& point) {
+  if (share > 0) point = share < 1 ? blend(share, curve_vertex(v, e, w), point) : curve_vertex(v, e, w);
+}
+
+/// The row that a row becomes: 2 n edges of n. Its ends are those of the quad's sides.
+///   above, below           the rows next to it, and the odd rows made of them; null beyond a boundary
+///   side                   the side that this row is, or null inside
+///   level, row             of the left and right side: which point of theirs it passes; -1: their corner, and
+///                          points 0 and 2 n are left out, as are -1 and 2 n + 1
+template <class N>
+void even_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, const Vec3<N>* odd_above,
+              const Vec3<N>* odd_below, const RowEnds& ends, const QuadSide* side, int level, int row,
+              Vec3<N>* out) {
+  const bool curve = odd_above == nullptr || odd_below == nullptr;
+  const auto edge = [&](int i) {
+    if (curve) {
+      out[2 * i + 1] = midpoint(line[i], line[i + 1]);
+      return;
+    }
+    out[2 * i + 1] = quad_edge_point(line[i], line[i + 1], odd_above[2 * i + 1], odd_below[2 * i + 1]);
+    if (side == nullptr || i < 0 || i >= n) return;
+    if (const double share = side->edge_share(level, i); share > 0)
+      out[2 * i + 1] = share < 1 ? blend(share, midpoint(line[i], line[i + 1]), out[2 * i + 1])
+                                 : midpoint(line[i], line[i + 1]);
+  };
+  const auto vertex = [&](int i) {
+    if (curve) {
+      out[2 * i] = curve_vertex(line[i], line[i + 1], line[i - 1]);
+      return;
+    }
+    out[2 * i] = regular_quad_vertex(
+        line[i], QuadNeighbours<N>{line[i + 1], odd_above[2 * i + 1], above[i], odd_above[2 * i - 1], line[i - 1],
+                                   odd_below[2 * i - 1], below[i], odd_below[2 * i + 1]});
+    if (side != nullptr) add_curve(side->point_share(level, i), line[i], line[i + 1], line[i - 1], out[2 * i]);
+  };
+  for (int i = 0; i < n; ++i) edge(i);
+  for (int i = 1; i < n; ++i) vertex(i);
+  if (row < 0) return;
+  const auto end = [&](const QuadSide& at, int i, int beyond) {
+    if (!at.inside()) {
+      out[2 * i] = curve_vertex(line[i], above[i], below[i]);
+      return;
+    }
+    edge(beyond);
+    vertex(i);
+    add_curve(at.point_share(level, row), line[i], above[i], below[i], out[2 * i]);
+  };
+  end(*ends.left, 0, -1);
+  end(*ends.right, n, n);
+}
+
+/// Limit vertices of a row into every other place of `out`, points 0 and n by the caller if it is a side.
+///   row   as above: -1 where the ends are corners
+template <class N, class Surface>
+void limit_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, const RowEnds& ends,
+               const QuadSide* side, int level, int row, typename Surface::Vertex* out,
+               std::int64_t& zero_normals) {
+  const auto regular = [&](int i) {
+    const QuadNeighbours<N> ring{line[i + 1], above[i + 1], above[i],     above[i - 1],
+                                 line[i - 1], below[i - 1], below[i], below[i + 1]};
+    out[2 * i] = quad_vertex_limit<N, Surface>(line[i], ring, zero_normals);
+  };
+  for (int i = 1; i < n; ++i) {
+    if (above == nullptr)
+      out[2 * i] = quad_boundary_limit<N, Surface>(line[i], line[i - 1], below[i - 1], below[i], below[i + 1],
+                                                   line[i + 1], zero_normals);
+    else if (below == nullptr)
+      out[2 * i] = quad_boundary_limit<N, Surface>(line[i], line[i + 1], above[i + 1], above[i], above[i - 1],
+                                                   line[i - 1], zero_normals);
+    else if (side != nullptr && side->sharp_at(level, i))
+      out[2 * i] = semi_sharp_limit<N, Surface>(
+          line[i],
+          {line[i + 1], above[i + 1], above[i], above[i - 1], line[i - 1], below[i - 1], below[i], below[i + 1]},
+          side->part(level, i - 1), side->part(level, i), side->creasing(), zero_normals);
+    else
+      regular(i);
+  }
+  if (row < 0) return;
+  const auto end = [&](const QuadSide& at, int i, int in) {
+    // Seen along the side, downwards on the left and upwards on the right, so that the quad is to the left.
+    const Vec3<N>*next = in > 0 ? below : above, *previous = in > 0 ? above : below;
+    if (!at.inside())
+      out[2 * i] = quad_boundary_limit<N, Surface>(line[i], next[i], next[i + in], line[i + in], previous[i + in],
+                                                   previous[i], zero_normals);
+    else if (at.sharp_at(level, row))
+      out[2 * i] = semi_sharp_limit<N, Surface>(
+          line[i],
+          {below[i], below[i + 1], line[i + 1], above[i + 1], above[i], above[i - 1], line[i - 1], below[i - 1]},
+          at.part(level, row - 1), at.part(level, row), at.creasing(), zero_normals);
+    else
+      regular(i);
+  };
+  end(*ends.left, 0, 1);
+  end(*ends.right, n, -1);
+}
+
+}  // namespace limitcheck::fast

@@ -82,6 +82,20 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
   return open;
 }
 
+/// The centres of the corners that are darts.
+template <class T>
+void put_darts(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>::Corner* const* corner, int k,
+               int lanes, QuadBatch<T>& batch) {
+  T* out = batch.input + (quad_dart_offset(batch.depth) + k * quad_dart_size(batch.depth)) * lanes;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto* centres = rings.dart(corner[lane]->vertex);
+    if (centres != nullptr) batch.darts |= 1u << k;
+    out[lane] = T(centres != nullptr ? 1 : 0);
+    for (int t = 0; t < 3 * batch.depth; ++t)
+      out[(1 + t) * lanes + lane] = centres != nullptr ? (*centres)[t / 3][t % 3] : T(0);
+  }
+}
+
 /// Flags of one side, which begins at these corners.
 template <class T>
 void put_side(const typename BasicQuadRings<T>::Corner* const* corner, int side, int lanes,
@@ -117,6 +131,7 @@ QuadBatch<T> gather_quads(const BasicQuadRings<T>& rings, std::span<const std::i
     const bool open = detail::put_corner(rings, corner, depth, lanes,
                                          input + k * quad_block_size(depth) * lanes, batch.period[k]);
     batch.open |= static_cast<unsigned>(open) << k;
+    if (open) detail::put_darts(rings, corner, k, lanes, batch);
     detail::put_side(corner, k, lanes, batch);
     for (int lane = 0; lane < lanes; ++lane) ++corner[lane];
   }
@@ -134,9 +149,14 @@ QuadBatch<T> gather_sides(const BasicQuadRings<T>& rings, std::span<const std::i
     p[lane] = &rings.corner(h);
     q[lane] = &rings.corner(QuadAdjacency::next(h));
   }
-  if (detail::put_corner(rings, p, depth, lanes, input, batch.period[0])) batch.open |= 1;
-  if (detail::put_corner(rings, q, depth, lanes, input + quad_block_size(depth) * lanes, batch.period[1]))
-    batch.open |= 2;
+  for (int k = 0; k < 2; ++k) {
+    const auto* corner = k == 0 ? p : q;
+    if (!detail::put_corner(rings, corner, depth, lanes, input + k * quad_block_size(depth) * lanes,
+                            batch.period[k]))
+      continue;
+    batch.open |= 1u << k;
+    detail::put_darts(rings, corner, k, lanes, batch);
+  }
   detail::put_side(p, kAB, lanes, batch);
   return batch;
 }

@@ -125,6 +125,14 @@ class QuadStream {
       } else {
         refine_quad_ring<N, false, false>(block(corner), first, end);
       }
+      if (batch_.darts >> corner & 1) {
+        const Scalar* dart = batch_.input + (quad_dart_offset(depth_) + corner * quad_dart_size(depth_)) * L;
+        Scalar* centre = block(corner) + Block::kCentre * L;
+        for (int c = 0; c < 3; ++c) {
+          const V given = N::load(dart + (1 + 3 * level + c) * L);
+          N::store(N::select(N::load(dart), given, N::load(centre + c * L)), centre + c * L);
+        }
+      }
       Scalar* kept = border(level + 1, corner);
       for (int c = 0; c < 3 * L; c += L) N::store(N::load(block(corner) + Block::kCentre * L + c), kept + c);
       for (int k = 0; k < kQuadCore; ++k) {

@@ -14,10 +14,6 @@ namespace limitcheck::fast {
 /// Of one point or more.
 struct Box {
   explicit Box(const data::ControlMesh& mesh) : Box(mesh.positions) {}
-<<<<<<< HEAD
-  /// Of one point at least.
-=======
->>>>>>> quads
   explicit Box(std::span<const std::array<double, 3>> positions) : low(positions.front()), high(low) {
     for (const auto& p : positions) {
       for (std::size_t c = 0; c < 3; ++c) {

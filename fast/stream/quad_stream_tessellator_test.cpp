@@ -145,7 +145,7 @@ TEST(QuadStreamFrame, NeedsTwoHundredKilobytesPerThreadAtDepthFive) {
 
 TEST(QuadStreamFrame, OnTheFlyDeliversTheSameAsTheWholeList) {
   for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-    StreamTessellator tessellator(data::quad_torus(32, 40), quad_options(repair));
+    StreamTessellator tessellator(data::quad_torus(50, 50), quad_options(repair));
     expect_a_sink_gets_the_whole_list(tessellator);
   }
 }

@@ -294,14 +294,20 @@ class QuadStream {
     Vertex<N> first, last;
     if (j == 0 || j == size) {
       first.load(limit_of(j == 0 ? kA : kD)), last.load(limit_of(j == 0 ? kB : kC));
-      SideRow row{*this, j == 0 ? kAB : kCD, s, m, n};
-      Vertex<N> a = first, b;
-      for (int i = 0; i < size; i += 2) {
-        row.begin(b);
-        N::scatter_couple(a, b, target_.lane, offset + 6 * i);
-        if (i + 2 < size) row.begin(a);
+      const int side = j == 0 ? kAB : kCD;
+      if (((batch_.sharp | batch_.some_polynomial) >> side & 1) == 0) {
+        QuadLimitRow<N> row(s, m, n, 1, centre_, unit_);
+        scatter_row<N>(row, size, first, last, target_.lane, offset);
+      } else {
+        SideRow row{*this, side, s, m, n};
+        Vertex<N> a = first, b;
+        for (int i = 0; i < size; i += 2) {
+          row.begin(b);
+          N::scatter_couple(a, b, target_.lane, offset + 6 * i);
+          if (i + 2 < size) row.begin(a);
+        }
+        N::scatter_vertex(last, target_.lane, offset + 6 * size);
       }
-      N::scatter_vertex(last, target_.lane, offset + 6 * size);
     } else {
       column_point(kDA, s, m, n, 0, j, first);
       column_point(kBC, s, m, n, size, j, last);

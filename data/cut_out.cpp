@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace limitcheck::data {
 namespace {
@@ -71,6 +72,34 @@ std::vector<std::int32_t> split_fans(Faces& faces, std::size_t vertex_count) {
     v = vertex_of[fan];
   }
   return copies;
+}
+
+Sharpness CutOut::of(const Sharpness& whole) const {
+  Sharpness part;
+  part.boundary = whole.boundary;
+  part.creasing = whole.creasing;
+  part.triangles = whole.triangles;
+  if (!whole.edges.empty()) {
+    std::unordered_map<std::uint64_t, float> sharp;
+    for (const SharpEdge& e : whole.edges) sharp[edge(std::min(e.a, e.b), std::max(e.a, e.b))] = e.sharpness;
+    std::unordered_set<std::uint64_t> seen;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (std::size_t k = 0; k < faces[f].size(); ++k) {
+        const auto [a, b] = std::minmax(faces[f][k], faces[f][(k + 1) % faces[f].size()]);
+        const auto found =
+            sharp.find(edge(std::min(vertices[a], vertices[b]), std::max(vertices[a], vertices[b])));
+        if (found != sharp.end() && seen.insert(edge(a, b)).second)
+          part.edges.push_back({a, b, found->second});
+      }
+  }
+  if (!whole.vertices.empty()) {
+    std::unordered_map<std::int32_t, float> sharp;
+    for (const SharpVertex& v : whole.vertices) sharp[v.vertex] = v.sharpness;
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (const auto found = sharp.find(vertices[v]); found != sharp.end())
+        part.vertices.push_back({static_cast<std::int32_t>(v), found->second});
+  }
+  return part;
 }
 
 CutOut cut_out(const Faces& whole, std::span<const std::int32_t> faces) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/faces.h"
+#include "data/sharpness.h"
 
 namespace limitcheck::data {
 
@@ -31,6 +32,8 @@ struct CutOut {
     for (const std::int32_t v : vertices) part.push_back(whole[v]);
     return part;
   }
+  /// What of a whole mesh's sharp edges and vertices the part has.                       O(part + tags)
+  Sharpness of(const Sharpness& whole) const;
 };
 
 /// The given faces, each at most once, as a mesh of their own.       O(faces), however large the mesh is

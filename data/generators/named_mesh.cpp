@@ -119,6 +119,14 @@ const std::vector<Entry>& entries() {
       {"crease-ring", "crease-ring[:S]",
        "quad-torus with a crease of sharpness S around it, infinite unless given", 0, 1,
        [](Parameters p) { return crease_ring(p.empty() ? 10 : p[0]); }},
+      {"open-crease", "open-crease[:EDGES]",
+       "quad-torus with a crease of 5 edges that starts and ends, or of so many", 0, 1,
+       [](Parameters p) { return with_open_crease(quad_torus(12, 6), p.empty() ? 5 : as_int(p[0])); }},
+      {"bumpy-crease", "bumpy-crease:FACES[:EDGES]",
+       "bumpy:FACES with a crease that starts and ends, of 5 edges", 1, 2,
+       [](Parameters p) {
+         return with_open_crease(bumpy_sphere(as_int(p[0]), 1), p.size() < 2 ? 5 : as_int(p[1]));
+       }},
       {"dart", "dart:N", "wheel:N with one sharp edge at the vertex of valence N", 1, 1,
        [](Parameters p) { return dart(as_int(p[0]), true); }},
       {"quad-dart", "quad-dart:N", "quad-wheel:N with one sharp edge at the vertex of valence N", 1, 1,

@@ -2,6 +2,10 @@
 #include "data/generators/sharp_meshes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,6 +106,53 @@ ControlMesh with_random_sharpness(ControlMesh mesh, std::uint64_t seed) {
     if (random.next() % 50 == 0) mesh.sharpness.vertices.push_back({static_cast<std::int32_t>(v), some()});
   if (random.next() % 2 == 0) mesh.sharpness.creasing = Creasing::kChaikin;
   if (random.next() % 2 == 0) mesh.sharpness.boundary = Boundary::kEdgeAndCorner;
+  return mesh;
+}
+
+ControlMesh with_open_crease(ControlMesh mesh, int edges) {
+  using Point = std::array<double, 3>;
+  std::map<std::int32_t, std::set<std::int32_t>> neighbours;
+  std::map<std::pair<std::int32_t, std::int32_t>, int> sides;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t k = 0; k < mesh.faces[f].size(); ++k) {
+      const std::int32_t a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % mesh.faces[f].size()];
+      neighbours[a].insert(b), neighbours[b].insert(a);
+      ++sides[std::minmax(a, b)];
+    }
+  std::set<std::int32_t> taken;
+  for (const auto& [edge, count] : sides)
+    if (count < 2) taken.insert({edge.first, edge.second});  // the boundary
+
+  std::int32_t at = 0;
+  const auto height = [&](std::int32_t v) {
+    const Point& p = mesh.positions[static_cast<std::size_t>(v)];
+    return p[0] + p[1] + p[2];
+  };
+  for (const auto& entry : neighbours)
+    if (height(entry.first) > height(at)) at = entry.first;
+  Point ahead{1, -1, 0};
+  taken.insert(at);
+  for (int k = 0; k < edges; ++k) {
+    const Point& from = mesh.positions[static_cast<std::size_t>(at)];
+    std::int32_t best = -1;
+    double straightest = -2;
+    for (const std::int32_t v : neighbours[at]) {
+      const Point& to = mesh.positions[static_cast<std::size_t>(v)];
+      double along = 0, length = 0, before = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        along += ahead[c] * (to[c] - from[c]);
+        length += (to[c] - from[c]) * (to[c] - from[c]);
+        before += ahead[c] * ahead[c];
+      }
+      const double cosine = along / std::sqrt(std::max(length * before, 1e-300));
+      if (cosine > straightest && !taken.contains(v)) straightest = cosine, best = v;
+    }
+    check(best >= 0, "the crease has no way on");
+    for (std::size_t c = 0; c < 3; ++c)
+      ahead[c] = mesh.positions[static_cast<std::size_t>(best)][c] - from[c];
+    mesh.sharpness.edges.push_back({at, best, kInfiniteSharpness});
+    taken.insert(at = best);
+  }
   return mesh;
 }
 

@@ -62,6 +62,21 @@ class PolygonChecker {
 
 }  // namespace
 
+Sharpness sharpness_of(const PolygonSoup& soup) {
+  const auto index = [](std::int64_t v) {
+    return v < 0 || v > std::numeric_limits<std::int32_t>::max() ? -1 : static_cast<std::int32_t>(v);
+  };
+  Sharpness result = soup.choices;
+  for (const auto& tag : soup.sharp) {
+    const auto sharpness = static_cast<float>(tag.sharpness);
+    if (tag.b < 0)
+      result.vertices.push_back({index(tag.a), sharpness});
+    else
+      result.edges.push_back({index(tag.a), index(tag.b), sharpness});
+  }
+  return result;
+}
+
 Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   Examination result;
   const std::size_t polygons = soup.polygon_end.size();
@@ -110,22 +125,11 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
     result.cut = triangles.cut;
   }
 
-  // Tags, edges first, as findings number them.
-  mesh.sharpness = soup.choices;
-  std::vector<std::int64_t> tag_lines;
+  mesh.sharpness = sharpness_of(soup);
+  std::vector<std::int64_t> tag_lines;  // edges first, as findings number them
   for (const bool of_vertices : {false, true})
-    for (const auto& tag : soup.sharp) {
-      if ((tag.b < 0) != of_vertices) continue;
-      const auto index = [](std::int64_t v) {
-        return v < 0 || v > std::numeric_limits<std::int32_t>::max() ? -1 : static_cast<std::int32_t>(v);
-      };
-      const auto sharpness = static_cast<float>(tag.sharpness);
-      if (of_vertices)
-        mesh.sharpness.vertices.push_back({index(tag.a), sharpness});
-      else
-        mesh.sharpness.edges.push_back({index(tag.a), index(tag.b), sharpness});
-      tag_lines.push_back(tag.line);
-    }
+    for (const auto& tag : soup.sharp)
+      if ((tag.b < 0) == of_vertices) tag_lines.push_back(tag.line);
 
   // All of them together.
   for (MeshFinding& finding : validate(mesh, result.scheme, {soup.first, polygon_of})) {

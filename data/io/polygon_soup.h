@@ -67,6 +67,9 @@ struct Examination {
   std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
 };
 
+/// Its tags as a mesh has them; -1 for a vertex that 32 bits do not name.
+Sharpness sharpness_of(const PolygonSoup& soup);
+
 /// Finds all faults. Where a polygon is left out, its vertices may fall into two fans or have no faces: that
 /// is no fault of its own.
 Examination examine(const PolygonSoup& soup, const ReadOptions& options);

@@ -171,7 +171,7 @@ void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bo
   for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
   const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
   if (related(mesh, judged.faces.size()))
-    missing.insert(missing.end(), relation_rows().begin(), relation_rows().end());
+    for (const std::string_view row : relation_rows_of(judged, mesh.scheme())) missing.push_back(row);
   std::erase_if(missing, [&](std::string_view check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
   });
@@ -204,8 +204,9 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   } catch (const std::exception& error) {
     rows.add_failure(error, contradicts_capabilities(error, audited, mesh, asked));
     for (const Check& check : checks()) rows.add(check, Status::kNotRun, "there is no tessellation");
-    if (related(mesh, sample ? sample->part().faces.size() : mesh.mesh.faces.size()))
-      for (const std::string_view r : relation_rows())
+    const data::ControlMesh& whole_or_part = sample ? sample->part() : mesh.mesh;
+    if (related(mesh, whole_or_part.faces.size()))
+      for (const std::string_view r : relation_rows_of(whole_or_part, mesh.scheme()))
         rows.add(r, Status::kNotRun, "there is no tessellation");
     return;
   }
@@ -224,11 +225,13 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   ReferenceSurface& truth = reference(judged, mesh.scheme(), depth_of(mesh), capabilities);
   std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
   const std::string no_reference = prepare(truth, points);
+  std::vector<Use> uses = find_uses(*tessellation, points, truth.lattice(), truth.sides());
   double magnitude = 0;  // of the whole
   for (const Vector& p : session->mesh().positions) magnitude = std::max(magnitude, largest(p));
   const double diagonal = data::box_diagonal(session->mesh());
-  const Evidence evidence{rows.subject,    mesh.name, capabilities,      judged,   asked,    *tessellation,
-                          truth.lattice(), truth,     std::move(points), diagonal, magnitude};
+  const Evidence evidence{
+      rows.subject,    mesh.name, capabilities,      judged,          asked,    *tessellation,
+      truth.lattice(), truth,     std::move(points), std::move(uses), diagonal, magnitude};
   close(*session, results.front());
 
   run_checks(evidence, rows, no_reference);

@@ -27,16 +27,16 @@ Vector rounded(const reference::Enclosure3& point) {
 struct CertifiedSurface::State {
   std::mutex mutex;
   std::optional<reference::CertifiedEvaluator> evaluator;
-  std::unordered_map<Lattice::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
+  std::unordered_map<Sides::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
 };
 
-CertifiedSurface::CertifiedSurface(const Lattice& lattice, reference::Weights weights)
-    : lattice_(lattice), weights_(weights), state_(std::make_unique<State>()) {}
+CertifiedSurface::CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights)
+    : lattice_(lattice), sides_(sides), weights_(weights), state_(std::make_unique<State>()) {}
 CertifiedSurface::~CertifiedSurface() = default;
 
-const ExactPoint* CertifiedSurface::at(Lattice::Id id) const {
+const ExactPoint* CertifiedSurface::at(Sides::Id side) const {
   const std::scoped_lock lock(state_->mutex);
-  const auto [place, is_new] = state_->kept.try_emplace(id);
+  const auto [place, is_new] = state_->kept.try_emplace(side);
   std::optional<ExactPoint>& point = place->second;
   if (is_new) try {
       if (!state_->evaluator) {
@@ -45,7 +45,7 @@ const ExactPoint* CertifiedSurface::at(Lattice::Id id) const {
         else
           state_->evaluator.emplace(lattice_.mesh(), lattice_.scheme());
       }
-      const Place p = lattice_.place(id);
+      const Place p = sides_.place(side);
       const auto exact =
           state_->evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
                                       reference::Parameter::fraction(p.j, p.denominator), kDigits);

@@ -8,6 +8,7 @@
 
 #include "reference/loop/weights.h"
 #include "verify/audit/lattice.h"
+#include "verify/audit/sides.h"
 #include "verify/audit/vector.h"
 
 namespace limitcheck::verify {
@@ -22,17 +23,18 @@ struct ExactPoint {
 /// The limit surface of the lattice's control mesh (reference/surface/certified.h).
 class CertifiedSurface {
  public:
-  /// `lattice` outlives this. Nothing is computed yet: an audit without a finding never needs any of it.
-  CertifiedSurface(const Lattice& lattice, reference::Weights weights);
+  /// `lattice` and `sides` outlive this. Nothing is computed yet: an audit without a finding never needs any of it.
+  CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights);
   ~CertifiedSurface();
 
-  /// The point; nullptr where the evaluator cannot certify it. It takes some milliseconds and is kept. Any
+  /// A side of a point; nullptr where the evaluator cannot certify it. It takes some milliseconds and is kept. Any
   /// number of threads may ask.
-  const ExactPoint* at(Lattice::Id id) const;
+  const ExactPoint* at(Sides::Id side) const;
 
  private:
   struct State;
   const Lattice& lattice_;
+  const Sides& sides_;
   reference::Weights weights_;
   std::unique_ptr<State> state_;
 };

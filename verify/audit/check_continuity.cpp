@@ -17,45 +17,50 @@ std::vector<Result> check_continuity(const Evidence& e) {
   r.unit = "bounds";
   r.bound = 1;
   const double position =
-      2 * position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal);
+      2 * position_bound(e.capabilities.precision, e.reference.steps(), e.magnitude, e.diagonal);
   const bool normals = e.capabilities.normals && t.has_normals() && e.capabilities.points == LC_POINTS_LIMIT;
-  std::unordered_map<Lattice::Id, std::int64_t> first;
-  const auto jump_in_position = [&](std::int64_t v) {
-    return norm(t.position(v) - t.position(first.at(e.point[v]))) / e.diagonal / position;
+  // The first vertex at each point, and of each side.
+  std::unordered_map<Lattice::Id, std::int64_t> at_point;
+  std::unordered_map<Sides::Id, std::int64_t> of_side;
+  const auto jump_in_position = [&](const Use& use) {
+    const std::int64_t first = at_point.at(e.reference.sides().point(use.side));
+    return first == use.vertex ? -1
+                               : norm(t.position(use.vertex) - t.position(first)) / e.diagonal / position;
   };
-  std::vector<double> jump(t.vertex_count(), -1);
-  std::int64_t not_finite = 0;
-  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    const Lattice::Id id = e.point[v];
-    if (id == Lattice::kNone || !e.lattice.is_shared(id)) continue;
-    if (!is_finite(t, v)) {
-      ++not_finite;
-      continue;
-    }
-    const auto [at, is_new] = first.emplace(id, v);
-    if (is_new) continue;
-    jump[v] = jump_in_position(v);
-    if (normals && e.reference.has_normal(id))
-      jump[v] =
-          std::max(jump[v], angle_degrees(t.normal(v), t.normal(at->second)) / (2 * e.normal_bound_at(id)));
+  std::vector<double> jump(e.uses.size(), -1);
+  for (std::size_t k = 0; k < e.uses.size(); ++k) {
+    const auto& [vertex, side] = e.uses[k];
+    const Lattice::Id point = side == Lattice::kNone ? side : e.reference.sides().point(side);
+    if (point == Lattice::kNone || !e.lattice.is_shared(point) || !is_finite(t, vertex)) continue;
+    at_point.emplace(point, vertex);
+    const std::int64_t first = of_side.emplace(side, vertex).first->second;
+    jump[k] = jump_in_position(e.uses[k]);
+    if (first != vertex && normals && e.reference.has_normal(side))
+      jump[k] =
+          std::max(jump[k], angle_degrees(t.normal(vertex), t.normal(first)) / (2 * e.normal_bound_at(side)));
   }
   // Where the surface turns out to have no normal, the normals may jump.
   const Confirmation confirmation = confirm(
-      e, jump, [](std::size_t) { return 1.0; },
-      [&](std::size_t v, const ExactPoint& exact) {
-        return exact.has_normal ? jump[v] : jump_in_position(static_cast<std::int64_t>(v));
+      e, jump, [&](std::size_t k) { return e.uses[k].side; }, [](std::size_t) { return 1.0; },
+      [&](std::size_t k, const ExactPoint& exact) {
+        return exact.has_normal ? jump[k] : jump_in_position(e.uses[k]);
       });
+  std::int64_t lost = 0;  // of the vertices that count
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v)
+    lost += e.point[v] != Lattice::kNone && e.lattice.is_shared(e.point[v]) && !is_finite(t, v);
   const Statistics s = summarise(jump, 1);
   take(r, s);
   if (s.of == 0) {
     r.message = "every shared point is delivered once";
-    if (t.vertex_count() > 0 && not_finite == 0) r.status = Status::kHeld;
+    if (t.vertex_count() > 0 && lost == 0) r.status = Status::kHeld;
   }
   say(r, confirmation.message);
-  say_left_out(r, not_finite, "points");
+  say_left_out(r, lost, "points");
   if (s.worst_at >= 0) {
-    const Vector got = t.position(s.worst_at), expected = t.position(first[e.point[s.worst_at]]);
-    r.witness = e.at_vertex(s.worst_at);
+    const Use& use = e.uses[s.worst_at];
+    const Vector got = t.position(use.vertex),
+                 expected = t.position(at_point.at(e.reference.sides().point(use.side)));
+    r.witness = e.at_use(use);
     r.witness->expected = {expected.begin(), expected.end()};
     r.witness->got = {got.begin(), got.end()};
   }

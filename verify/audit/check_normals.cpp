@@ -28,31 +28,34 @@ std::vector<Result> check_normals(const Evidence& e) {
   }
 
   const std::size_t count = static_cast<std::size_t>(t.vertex_count());
-  std::vector<double> angles(count, -1), undefined(count, -1), lengths(count, -1);
+  std::vector<double> angles(e.uses.size(), -1), undefined(e.uses.size(), -1), lengths(count, -1);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const Vector got = t.normal(static_cast<std::int64_t>(v));
-    if (!is_finite(got)) return;
-    lengths[v] = std::abs(norm(got) - 1);
-    const Lattice::Id id = e.point[v];
-    if (id == Lattice::kNone || e.capabilities.points != LC_POINTS_LIMIT) return;
-    (e.reference.has_normal(id) ? angles : undefined)[v] = angle_degrees(got, e.reference.normal(id));
+    if (is_finite(got)) lengths[v] = std::abs(norm(got) - 1);
+  });
+  tbb::parallel_for(std::size_t{0}, e.uses.size(), [&](std::size_t k) {
+    const auto [vertex, side] = e.uses[k];
+    const Vector got = t.normal(vertex);
+    if (!is_finite(got) || side == Lattice::kNone || e.capabilities.points != LC_POINTS_LIMIT) return;
+    (e.reference.has_normal(side) ? angles : undefined)[k] = angle_degrees(got, e.reference.normal(side));
   });
 
   angle.unit = "degrees";
   const std::int64_t at = judge_angles(
       e, angles,
-      [&](std::size_t v, const ExactPoint& exact) {
-        const double off = angle_degrees(t.normal(static_cast<std::int64_t>(v)), exact.normal);
+      [&](std::size_t k, const ExactPoint& exact) {
+        const double off = angle_degrees(t.normal(e.uses[k].vertex), exact.normal);
         if (exact.has_normal) return off;
-        undefined[v] = off;
+        undefined[k] = off;
         return -1.0;
       },
       angle);
   if (at >= 0) {
-    const Vector got = t.normal(at);
-    Vector expected = e.reference.normal(e.point[at]);
-    angle.witness = e.at_vertex(at);
-    if (const ExactPoint* exact = is_bad(angle) ? e.reference.certified().at(e.point[at]) : nullptr) {
+    const auto [vertex, side] = e.uses[at];
+    const Vector got = t.normal(vertex);
+    Vector expected = e.reference.normal(side);
+    angle.witness = e.at_use(e.uses[at]);
+    if (const ExactPoint* exact = is_bad(angle) ? e.reference.certified().at(side) : nullptr) {
       expected = exact->normal;
       angle.witness->expected_digits = exact->normal_digits;
     }

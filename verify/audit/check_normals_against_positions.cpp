@@ -10,16 +10,17 @@
 namespace limitcheck::verify {
 namespace {
 
-// The area vectors (twice the area) of the triangles round a lattice point, summed.
+// The area vectors (twice the area) of the triangles round a lattice point, on one side, summed.
 struct Facets {
   Vector sum{};
   double sides = 0;  // of all of them
 };
 
-// At each lattice point, of the triangles whose corners were all delivered as finite points.
+// On each side of the lattice points, of the triangles whose corners were all delivered as finite points.
 template <class Position>
 std::vector<Facets> facets(const Evidence& e, Position position) {
-  std::vector<Facets> at(e.lattice.size());
+  const Sides& of_points = e.reference.sides();
+  std::vector<Facets> at(of_points.size());
   const Tessellation& t = e.tessellation;
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     if (!t.triangle_ok(k)) continue;
@@ -31,7 +32,7 @@ std::vector<Facets> facets(const Evidence& e, Position position) {
     const Vector area = cross(b - a, c - a);
     const double sides = perimeter(a, b, c);
     for (const auto v : corner) {
-      Facets& f = at[e.point[v]];
+      Facets& f = at[of_points.of(e.point[v], t.triangle_face()[k])];
       f.sum = f.sum + area;
       f.sides += sides;
     }
@@ -63,38 +64,33 @@ std::vector<Result> check_normals_against_positions(const Evidence& e) {
   const auto exact = facets(e, [&](std::uint32_t v) { return e.reference.position(e.point[v]); });
   constexpr double kDegrees = 57.295779513082320877;
   const double position =
-      position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal) * e.diagonal;
-  const auto turn = [&](Lattice::Id id) { return 4 * position * exact[id].sides / norm(exact[id].sum); };
-  const auto excess = [&](std::size_t v, const Vector& normal) {
-    const Lattice::Id id = e.point[v];
+      position_bound(e.capabilities.precision, e.reference.steps(), e.magnitude, e.diagonal) * e.diagonal;
+  const auto turn = [&](Sides::Id id) { return 4 * position * exact[id].sides / norm(exact[id].sum); };
+  const auto excess = [&](std::size_t k, const Vector& normal) {
+    const auto [vertex, id] = e.uses[k];
     const double expected = angle_degrees(normal, exact[id].sum);
-    const double got = angle_degrees(t.normal(static_cast<std::int64_t>(v)), delivered[id].sum);
+    const double got = angle_degrees(t.normal(vertex), delivered[id].sum);
     return std::isfinite(got) ? std::max(0.0, std::abs(got - expected) - turn(id) * kDegrees) : got;
   };
 
-  std::vector<double> error(t.vertex_count(), -1);
-  std::int64_t not_finite = 0;
-  for (std::size_t v = 0; v < error.size(); ++v) {
-    const auto k = static_cast<std::int64_t>(v);
-    if (!is_finite(t, k)) {
-      ++not_finite;
-      continue;
-    }
-    const Lattice::Id id = e.point[v];
-    if (id == Lattice::kNone || !e.reference.has_normal(id)) continue;
-    if (turn(id) < 0.1) error[v] = excess(v, e.reference.normal(id));  // beyond, the facets say nothing
+  std::vector<double> error(e.uses.size(), -1);
+  for (std::size_t k = 0; k < error.size(); ++k) {
+    const auto [vertex, id] = e.uses[k];
+    if (id == Lattice::kNone || !is_finite(t, vertex) || !e.reference.has_normal(id)) continue;
+    if (turn(id) < 0.1) error[k] = excess(k, e.reference.normal(id));  // beyond, the facets say nothing
   }
   const std::int64_t at = judge_angles(
       e, error,
-      [&](std::size_t v, const ExactPoint& point) {
-        return point.has_normal ? excess(v, point.normal) : -1.0;
+      [&](std::size_t k, const ExactPoint& point) {
+        return point.has_normal ? excess(k, point.normal) : -1.0;
       },
       r);
-  say_left_out(r, not_finite, "points");
+  say_left_out(r, not_finite(t), "points");
   if (at >= 0) {
-    const Vector got = t.normal(at), mean = delivered[e.point[at]].sum;
+    const auto [vertex, id] = e.uses[at];
+    const Vector got = t.normal(vertex), mean = delivered[id].sum;
     const double length = norm(mean);
-    r.witness = e.at_vertex(at);
+    r.witness = e.at_use(e.uses[at]);
     r.witness->expected = {mean[0] / length, mean[1] / length, mean[2] / length};
     r.witness->got = {got.begin(), got.end()};
   }

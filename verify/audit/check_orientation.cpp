@@ -49,7 +49,7 @@ std::vector<Result> check_orientation(const Evidence& e) {
   r.bound = 0;
   const std::int64_t count = e.tessellation.triangle_count();
   const double slack =
-      position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal) * e.diagonal;
+      position_bound(e.capabilities.precision, e.reference.steps(), e.magnitude, e.diagonal) * e.diagonal;
   std::vector<Verdict> verdict(count);
   tbb::parallel_for(std::int64_t{0}, count, [&](std::int64_t k) { verdict[k] = judge(e, k, slack); });
 

@@ -27,12 +27,12 @@ std::vector<Result> check_positions(const Evidence& e) {
     if (e.point[v] == Lattice::kNone || !is_finite(t.position(static_cast<std::int64_t>(v)))) return;
     error[v] = off(v, e.reference.position(e.point[v]));
   });
-  r.bound = position_bound(e.capabilities.precision, e.lattice.depth(), e.magnitude, e.diagonal);
+  r.bound = position_bound(e.capabilities.precision, e.reference.steps(), e.magnitude, e.diagonal);
   r.unit = "diagonal";
   // Refined points are means of control points, for which double is as good as any arithmetic.
   const Confirmation confirmation =
       limit ? confirm(
-                  e, error, [&](std::size_t) { return *r.bound; },
+                  e, error, [&](std::size_t v) { return e.point[v]; }, [&](std::size_t) { return *r.bound; },
                   [&](std::size_t v, const ExactPoint& exact) { return off(v, exact.position); })
             : Confirmation{};
   const Statistics s = summarise(error, *r.bound);

@@ -12,7 +12,8 @@
 namespace limitcheck::verify {
 namespace {
 
-// The vertices of each shared point that is delivered more than once, in ascending order.
+// The vertices of each shared point, or of each side of one, that is delivered more than once, in ascending
+// order.
 struct Groups {
   std::vector<std::int64_t> vertices;
   std::vector<std::int64_t> start;  // one more than there are groups
@@ -23,27 +24,28 @@ struct Groups {
 };
 
 // Of the vertices whose value is finite.
+//   uses   each vertex with a point, or with a side
 template <class Value>
-Groups group(const Evidence& e, Value value) {
-  const auto counts = [&](std::size_t v) {
-    return e.point[v] != Lattice::kNone && e.lattice.is_shared(e.point[v]) &&
-           is_finite(value(static_cast<std::int64_t>(v)));
+Groups group(const Evidence& e, const std::vector<Use>& uses, Value value) {
+  const auto counts = [&](const Use& use) {
+    return use.side != Lattice::kNone && e.lattice.is_shared(e.reference.sides().point(use.side)) &&
+           is_finite(value(use.vertex));
   };
-  Lattice::Id ids = 0;  // shared ids are the first ones
-  for (std::size_t v = 0; v < e.point.size(); ++v)
-    if (counts(v)) ids = std::max(ids, e.point[v] + 1);
+  Sides::Id ids = 0;  // the ids of shared points are the first ones
+  for (const Use& use : uses)
+    if (counts(use)) ids = std::max(ids, use.side + 1);
   std::vector<std::int64_t> count(static_cast<std::size_t>(ids) + 1, 0);
-  for (std::size_t v = 0; v < e.point.size(); ++v)
-    if (counts(v)) ++count[e.point[v] + 1];
+  for (const Use& use : uses)
+    if (counts(use)) ++count[use.side + 1];
   std::partial_sum(count.begin(), count.end(), count.begin());
   std::vector<std::int64_t> sorted(count.back());
   std::vector<std::int64_t> fill(count.begin(), count.end() - 1);
-  for (std::size_t v = 0; v < e.point.size(); ++v)
-    if (counts(v)) sorted[fill[e.point[v]]++] = static_cast<std::int64_t>(v);
+  for (const Use& use : uses)
+    if (counts(use)) sorted[fill[use.side]++] = use.vertex;
 
   Groups groups;
   groups.start.push_back(0);
-  for (Lattice::Id id = 0; id < ids; ++id) {
+  for (Sides::Id id = 0; id < ids; ++id) {
     if (count[id + 1] - count[id] < 2) continue;
     groups.vertices.insert(groups.vertices.end(), sorted.begin() + count[id], sorted.begin() + count[id + 1]);
     groups.start.push_back(static_cast<std::int64_t>(groups.vertices.size()));
@@ -53,8 +55,9 @@ Groups group(const Evidence& e, Value value) {
 
 // Compares each vertex of a group with the first one.
 template <class Bits, class Value, class Distance>
-void compare(const Evidence& e, Bits bits, Value value, Distance distance, Result& r) {
-  const Groups groups = group(e, value);
+void compare(const Evidence& e, const std::vector<Use>& uses, Bits bits, Value value, Distance distance,
+             Result& r) {
+  const Groups groups = group(e, uses, value);
   std::vector<double> far(groups.size(), 0);  // the largest distance in the group
   std::vector<std::int64_t> other(groups.size(), -1);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
@@ -107,8 +110,11 @@ std::vector<Result> check_shared(const Evidence& e) {
     positions.status = normals.status = Status::kNotRun;
     return {positions, normals};
   }
+  std::vector<Use> whole;  // each vertex once, whatever its sides
+  for (std::size_t v = 0; v < e.point.size(); ++v)
+    whole.push_back({static_cast<std::int64_t>(v), e.point[v]});
   compare(
-      e, [&](auto v) { return t.position_bits(v); }, [&](auto v) { return t.position(v); },
+      e, whole, [&](auto v) { return t.position_bits(v); }, [&](auto v) { return t.position(v); },
       [&](const Vector& a, const Vector& b) { return norm(a - b) / e.diagonal; }, positions);
   if (!e.capabilities.normals) {
     normals.status = Status::kNotSupported;
@@ -117,8 +123,8 @@ std::vector<Result> check_shared(const Evidence& e) {
     normals.status = Status::kNotRun;
   } else {
     compare(
-        e, [&](auto v) { return t.normal_bits(v); }, [&](auto v) { return t.normal(v); }, angle_degrees,
-        normals);
+        e, e.uses, [&](auto v) { return t.normal_bits(v); }, [&](auto v) { return t.normal(v); },
+        angle_degrees, normals);
   }
   return {positions, normals};
 }

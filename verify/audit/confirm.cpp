@@ -12,11 +12,12 @@
 namespace limitcheck::verify {
 
 Confirmation confirm(const Evidence& e, std::vector<double>& error,
+                     const std::function<Sides::Id(std::size_t)>& side,
                      const std::function<double(std::size_t)>& bound,
                      const std::function<double(std::size_t, const ExactPoint&)>& measure) {
   struct Suspect {
     double excess;
-    std::size_t vertex;
+    std::size_t at;
   };
   std::vector<Suspect> suspects;
   for (std::size_t v = 0; v < error.size(); ++v)
@@ -34,7 +35,7 @@ Confirmation confirm(const Evidence& e, std::vector<double>& error,
     }
     end_if_interrupted();
     ++c.looked;
-    const ExactPoint* exact = e.reference.certified().at(e.point[v]);
+    const ExactPoint* exact = e.reference.certified().at(side(v));
     if (exact != nullptr) error[v] = measure(v, *exact);
     if (error[v] < 0 || error[v] <= bound(v))
       ++c.acquitted;
@@ -53,9 +54,10 @@ Confirmation confirm(const Evidence& e, std::vector<double>& error,
 
 std::int64_t judge_angles(const Evidence& e, std::vector<double>& angle,
                           const std::function<double(std::size_t, const ExactPoint&)>& measure, Result& row) {
-  const double ordinary_bound = normal_bound(e.capabilities.precision, e.lattice.depth());
-  const auto bound = [&](std::size_t v) { return e.normal_bound_at(e.point[v]); };
-  const Confirmation confirmation = confirm(e, angle, bound, measure);
+  const double ordinary_bound = normal_bound(e.capabilities.precision, e.reference.steps());
+  const auto side = [&](std::size_t k) { return e.uses[k].side; };
+  const auto bound = [&](std::size_t k) { return e.normal_bound_at(side(k)); };
+  const Confirmation confirmation = confirm(e, angle, side, bound, measure);
 
   // Kept apart, because errors with another bound than the row's would distort its worst value and its
   // percentile.

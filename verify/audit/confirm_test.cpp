@@ -35,7 +35,8 @@ Asked ask(const std::function<double(std::size_t)>& truth) {
   Asked asked;
   for (int k = 0; k < 24; ++k) asked.error.push_back((5 * k) % 24);  // all different, in disorder
   asked.confirmation = confirm(
-      *scripted, asked.error, [](std::size_t) { return 10.0; },
+      *scripted, asked.error, [&](std::size_t v) { return scripted->point[v]; },
+      [](std::size_t) { return 10.0; },
       [&](std::size_t v, const ExactPoint& exact) {
         asked.order.push_back(v);
         EXPECT_LE(norm(exact.position - scripted->tessellation.position(static_cast<std::int64_t>(v))),

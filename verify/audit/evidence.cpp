@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "verify/audit/bounds.h"
 
@@ -28,10 +29,17 @@ Witness Evidence::at_vertex(std::int64_t vertex) const {
   return w;
 }
 
-double Evidence::normal_bound_at(Lattice::Id id) const {
+Witness Evidence::at_use(const Use& use) const {
+  if (use.side == Lattice::kNone || reference.sides().none()) return at_vertex(use.vertex);
+  Witness w = at(reference.sides().place(use.side));
+  w.vertex = use.vertex;
+  return w;
+}
+
+double Evidence::normal_bound_at(Sides::Id side) const {
   return std::max(
-      normal_bound(capabilities.precision, lattice.depth()),
-      conditioned_normal_bound(capabilities.precision, magnitude, reference.normal_condition(id)));
+      normal_bound(capabilities.precision, reference.steps()),
+      conditioned_normal_bound(capabilities.precision, magnitude, reference.normal_condition(side)));
 }
 
 Witness Evidence::at_point(Lattice::Id id) const {
@@ -86,6 +94,36 @@ std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice&
     ids[v] = lattice.id(tessellation.place(static_cast<std::int64_t>(v)));
   });
   return ids;
+}
+
+std::vector<Use> find_uses(const Tessellation& t, const std::vector<Lattice::Id>& point,
+                           const Lattice& lattice, const Sides& sides) {
+  std::vector<Use> uses;
+  uses.reserve(point.size());
+  if (!sides.none()) {
+    for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
+      if (!t.triangle_ok(k)) continue;
+      const std::int32_t face = t.triangle_face()[k];
+      for (const std::int64_t v : t.triangles()[k])
+        if (point[v] != Lattice::kNone && lattice.in_face(point[v], face))
+          uses.push_back({v, sides.of(point[v], face)});
+    }
+    const auto order = [](const Use& use) { return std::pair(use.vertex, use.side); };
+    std::sort(uses.begin(), uses.end(), [&](const Use& a, const Use& b) { return order(a) < order(b); });
+    const auto same = [&](const Use& a, const Use& b) { return order(a) == order(b); };
+    uses.erase(std::unique(uses.begin(), uses.end(), same), uses.end());
+  }
+  std::vector<bool> used(point.size(), false);
+  for (const Use& use : uses) used[use.vertex] = true;
+  for (std::size_t v = 0; v < point.size(); ++v)
+    if (!used[v]) {
+      const auto k = static_cast<std::int64_t>(v);
+      uses.push_back({k, point[v] == Lattice::kNone ? Lattice::kNone : sides.of(point[v], t.place(k).face)});
+    }
+  if (!sides.none())
+    std::stable_sort(uses.begin(), uses.end(),
+                     [](const Use& a, const Use& b) { return a.vertex < b.vertex; });
+  return uses;
 }
 
 }  // namespace limitcheck::verify

@@ -14,6 +14,12 @@
 
 namespace limitcheck::verify {
 
+/// A vertex as a corner of the triangles on one side of its point.
+struct Use {
+  std::int64_t vertex;
+  Sides::Id side;  // kNone: no lattice point
+};
+
 /// All references outlive the evidence. Read-only, shared by checks that may run at the same time.
 struct Evidence {
   std::string subject, mesh_name;
@@ -24,6 +30,7 @@ struct Evidence {
   const Lattice& lattice;             // of the largest depth requested
   const ReferenceSurface& reference;  // evaluated at every point named below
   std::vector<Lattice::Id> point;     // of each vertex, by its provenance; kNone: no lattice point
+  std::vector<Use> uses;              // in the order of the vertices, each with one side or more
   double diagonal = 0;                // of the bounding box of the control mesh
   double magnitude = 0;               // largest absolute coordinate of the control mesh
 
@@ -31,9 +38,11 @@ struct Evidence {
   Result result(std::string check) const;
   /// The witness for a vertex: where it lies by its provenance.
   Witness at_vertex(std::int64_t vertex) const;
-  /// How far a normal at a point that has one may be from the exact one, in degrees: normal_bound, or more
+  /// The same as the side of a use names it, if the point has several.
+  Witness at_use(const Use& use) const;
+  /// How far a normal on a side that has one may be from the exact one, in degrees: normal_bound, or more
   /// where the surface is ill-conditioned (bounds.h).
-  double normal_bound_at(Lattice::Id id) const;
+  double normal_bound_at(Sides::Id side) const;
   /// The witness for a lattice point, and for a point of a face.
   Witness at_point(Lattice::Id id) const;
   Witness at(const Place& p) const;
@@ -53,5 +62,10 @@ std::int64_t not_finite(const Tessellation& tessellation);
 
 /// Ids of all vertices of a tessellation, in parallel.
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice);
+/// The sides of all vertices: those of the triangles that they are corners of; of a vertex of no triangle,
+/// that of the face it names.
+///   point   of each vertex
+std::vector<Use> find_uses(const Tessellation& tessellation, const std::vector<Lattice::Id>& point,
+                           const Lattice& lattice, const Sides& sides);
 
 }  // namespace limitcheck::verify

@@ -71,7 +71,7 @@ Lattice::Id Lattice::id(std::int32_t face, FaceDomain::Point p, std::int64_t ste
   const std::int32_t from = vertex(face, side), to = vertex(face, its.next(side));
   if (along == 0) return from;
   const std::int64_t from_smaller = from < to ? along : n_ - along;
-  return first_edge_ + (n_ - 1) * corner_edge_[corner_number(face, side)] + from_smaller - 1;
+  return first_on_edge(corner_edge_[corner_number(face, side)]) + from_smaller - 1;
 }
 
 std::optional<int> Lattice::corner_of(std::int32_t face, Id id) const {
@@ -101,8 +101,8 @@ std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) c
     return k ? std::optional(on_side(*k, 0)) : std::nullopt;
   }
   if (is_shared(id)) {
-    const auto edge = static_cast<std::int32_t>((id - first_edge_) / (n_ - 1));
-    const std::int64_t from_smaller = (id - first_edge_) % (n_ - 1) + 1;
+    const auto edge = static_cast<std::int32_t>(edge_of(id));
+    const std::int64_t from_smaller = id - first_on_edge(edge) + 1;
     for (int k = 0; k < its.corners(); ++k)
       if (corner_edge_[corner_number(face, k)] == edge)
         return on_side(k, vertex(face, k) == edges_[edge].a ? from_smaller : n_ - from_smaller);
@@ -120,7 +120,7 @@ std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) c
 
 Place Lattice::place(Id id) const {
   const std::int32_t face = is_vertex(id)   ? vertex_face_[id]
-                            : is_shared(id) ? edges_[(id - first_edge_) / (n_ - 1)].face[0]
+                            : is_shared(id) ? edges_[edge_of(id)].face[0]
                                             : face_of_inner(id);
   return place(face, *in_face(id, face));
 }

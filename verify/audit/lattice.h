@@ -52,6 +52,8 @@ class Lattice {
   FaceDomain domain(std::int32_t face) const { return {scheme_, static_cast<int>(mesh_.faces[face].size())}; }
 
   const std::vector<Edge>& edges() const { return edges_; }
+  /// The first of the n - 1 points on an edge, whose ids follow one another from its smaller vertex on.
+  Id first_on_edge(std::size_t edge) const { return first_edge_ + (n_ - 1) * static_cast<Id>(edge); }
   /// The edge along side k of the face.
   const Edge& edge(std::int32_t face, int k) const { return edges_[corner_edge_[corner_number(face, k)]]; }
   /// The face beyond side k, or -1 at the boundary.
@@ -81,6 +83,8 @@ class Lattice {
   Place place(std::int32_t face, Coordinates at) const;
 
   bool is_vertex(Id id) const { return id < first_edge_; }
+  /// The edge on which a shared point that is no vertex lies.
+  std::size_t edge_of(Id id) const { return static_cast<std::size_t>((id - first_edge_) / (n_ - 1)); }
   /// A control vertex or a point on a control edge.
   bool is_shared(Id id) const { return id < first_inner_.front(); }
   /// The centre of a face of which no refined vertex lies there.

@@ -99,7 +99,7 @@ std::string origin_of_normals(const Evidence& e) {
     const Lattice::Id id = is_finite(positions.back()) ? e.point[v] : Lattice::kNone;
     point_of.push_back(static_cast<std::int32_t>(id));
     const Vector direction = t.normal(v);
-    if (id == Lattice::kNone || !e.reference.has_normal(id) ||
+    if (id == Lattice::kNone || e.reference.sides().several(id) || !e.reference.has_normal(id) ||
         !std::isfinite(angle_degrees(direction, e.reference.normal(id))))
       continue;
     const lc_provenance& p = t.provenance()[v];

@@ -36,6 +36,17 @@ std::array<double, 2> beside_corner(const Lattice& lattice, const Place& corner,
   return {static_cast<double>(p.i + q.i) / whole, static_cast<double>(p.j + q.j) / whole};
 }
 
+int steps_of(const data::ControlMesh& mesh, int depth) {
+  float most = 0;
+  const auto look = [&](const auto& tags) {
+    for (const auto& tag : tags)
+      if (tag.sharpness < data::kInfiniteSharpness) most = std::max(most, tag.sharpness);
+  };
+  look(mesh.sharpness.edges);
+  look(mesh.sharpness.vertices);
+  return std::max(depth, static_cast<int>(std::ceil(most)));
+}
+
 }  // namespace
 
 // The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
@@ -48,56 +59,69 @@ ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme s
                                    lc_points points, reference::Weights weights)
     : mesh_(mesh),
       lattice_(mesh_, scheme, depth),
+      sides_(lattice_),
+      steps_(points == LC_POINTS_LIMIT ? steps_of(mesh, depth) : depth),
       points_(points),
       weights_(weights),
       evaluator_(std::make_unique<Evaluator>()),
-      certified_(lattice_, weights) {
+      certified_(lattice_, sides_, weights) {
   const auto size = static_cast<std::size_t>(lattice_.size());
+  const auto sides = static_cast<std::size_t>(sides_.size());
   position_.resize(size);
   if (points_ == LC_POINTS_LIMIT) {
-    normal_.resize(size);
-    condition_.resize(size);
+    normal_.resize(sides);
+    condition_.resize(sides);
   }
-  state_.assign(size, State::kMissing);
+  state_.assign(sides, State::kMissing);
 }
 
 ReferenceSurface::~ReferenceSurface() = default;
 
+void ReferenceSurface::evaluate(Sides::Id side) {
+  const Lattice::Id point = sides_.point(side);
+  const Place p = sides_.place(side);
+  // Dyadic fractions are exact doubles; thirds are not.
+  const auto& limit = *evaluator_->limit;
+  const auto at =
+      std::has_single_bit(p.denominator)
+          ? limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
+                           static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
+          : limit.evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                           reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
+  if (side == point) position_[point] = vector_of(at.position);
+  normal_[side] = vector_of(at.normal);
+  state_[side] = at.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
+  condition_[side] = condition(at);
+  if (!lattice_.is_vertex(point)) return;
+  const auto beside = beside_corner(lattice_, p, *lattice_.corner_of(p.face, point));
+  const double near =
+      condition(limit.evaluate(p.face, p.corner, beside[0], beside[1], reference::Order::kFirst));
+  condition_[side] = std::isfinite(condition_[side]) ? std::max(condition_[side], near) : near;
+}
+
 void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
-  // What is missing, each point once.
-  std::vector<Lattice::Id> wanted;
-  for (const Lattice::Id id : ids)
-    if (id != Lattice::kNone && state_[id] == State::kMissing) {
-      state_[id] = State::kWanted;
-      wanted.push_back(id);
-    }
+  // What is missing, each side of each point once.
+  const bool limit = points_ == LC_POINTS_LIMIT;
+  std::vector<Sides::Id> wanted;
+  const auto want = [&](Sides::Id side) {
+    state_[side] = State::kWanted;
+    wanted.push_back(side);
+  };
+  for (const Lattice::Id id : ids) {
+    if (id == Lattice::kNone || state_[id] != State::kMissing) continue;
+    if (limit)
+      sides_.for_each(id, want);
+    else
+      want(id);
+  }
   if (wanted.empty()) return;
 
-  if (points_ == LC_POINTS_LIMIT) {
+  if (limit) {
     if (!evaluator_->limit)
       evaluator_->limit = std::make_unique<reference::Surface>(mesh_, lattice_.scheme(), weights_);
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
       end_if_interrupted();
-      const Lattice::Id id = wanted[k];
-      const Place p = lattice_.place(id);
-      // Dyadic fractions are exact doubles; thirds are not.
-      const auto& limit = *evaluator_->limit;
-      const auto point =
-          std::has_single_bit(p.denominator)
-              ? limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
-                               static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
-              : limit.evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
-                               reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
-      position_[id] = vector_of(point.position);
-      normal_[id] = vector_of(point.normal);
-      state_[id] = point.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
-      condition_[id] = condition(point);
-      if (lattice_.is_vertex(id)) {
-        const auto at = beside_corner(lattice_, p, *lattice_.corner_of(p.face, id));
-        const double near =
-            condition(limit.evaluate(p.face, p.corner, at[0], at[1], reference::Order::kFirst));
-        condition_[id] = std::isfinite(condition_[id]) ? std::max(condition_[id], near) : near;
-      }
+      evaluate(wanted[k]);
     });
     return;
   }

@@ -11,6 +11,7 @@
 #include "reference/loop/weights.h"
 #include "verify/audit/certified_surface.h"
 #include "verify/audit/lattice.h"
+#include "verify/audit/sides.h"
 #include "verify/audit/vector.h"
 
 namespace limitcheck::verify {
@@ -33,6 +34,9 @@ class ReferenceSurface {
 
   const data::ControlMesh& mesh() const { return mesh_; }
   const Lattice& lattice() const { return lattice_; }
+  const Sides& sides() const { return sides_; }
+  /// How many steps a subject takes at least: the depth, or until semi-sharp edges are smooth.
+  int steps() const { return steps_; }
   lc_points points() const { return points_; }
   reference::Weights weights() const { return weights_; }
 
@@ -43,26 +47,30 @@ class ReferenceSurface {
   /// All functions below are for prepared points only. The position is a double; reference/surface/surface.h
   /// says where its error is stated.
   const Vector& position(Lattice::Id id) const { return position_[id]; }
-  /// Unit normal; limit points only.
-  const Vector& normal(Lattice::Id id) const { return normal_[id]; }
-  /// False where the surface has no normal (D12: zero by the
-  /// masks; D5: boundary vertices without a tangent plane).
-  bool has_normal(Lattice::Id id) const { return state_[id] == State::kRegular; }
+  /// Unit normal of a side; limit points only.
+  const Vector& normal(Sides::Id id) const { return normal_[id]; }
+  /// False where the surface has no normal (D12: zero by the masks; D5: vertices of boundaries and creases
+  /// without a tangent plane, spikes).
+  bool has_normal(Sides::Id id) const { return state_[id] == State::kRegular; }
   /// Where there is a normal: (|t1| + |t2|) / |t1 x t2|, t1 and t2 the derivatives by l1 and l2, or by u and
   /// v. An error of e in both tangents turns the normal by e times this, in radians. Infinite if t1 x t2
   /// vanishes in double. At a control vertex, that of the middle of the finest facet there if it is larger,
   /// and in any case where the derivatives vanish: a control vertex that is extraordinary need not have any.
-  double normal_condition(Lattice::Id id) const { return condition_[id]; }
+  double normal_condition(Sides::Id id) const { return condition_[id]; }
 
   /// The same surface in certified arithmetic.
   const CertifiedSurface& certified() const { return certified_; }
 
  private:
+  void evaluate(Sides::Id side);
+
   enum class State : std::uint8_t { kMissing, kWanted, kRegular, kNoNormal };
   struct Evaluator;
 
   data::ControlMesh mesh_;
   Lattice lattice_;
+  Sides sides_;
+  int steps_;
   lc_points points_;
   reference::Weights weights_;
   std::unique_ptr<Evaluator> evaluator_;

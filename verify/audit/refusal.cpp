@@ -82,6 +82,7 @@ data::io::Examination read_broken_mesh(const std::string& file, const data::Read
   data::Triangulated triangles = data::triangulate(mesh, options.polygons);
   mesh.faces = std::move(triangles.faces);
   result.cut = triangles.cut;
+  mesh.sharpness = data::io::sharpness_of(soup);
   result.scheme = options.scheme.value_or(data::natural_scheme(mesh));
   if (data::validate(mesh, result.scheme).empty())
     throw data::ArgumentError(

@@ -16,6 +16,7 @@ using Key = std::int64_t;
 struct Placed {
   std::optional<Key> face_and_point;
   Lattice::Id id = Lattice::kNone;
+  Sides::Id side = Lattice::kNone;
 };
 
 // Where a vertex lies on the original mesh: its point, and that point together with the face that names it.
@@ -24,7 +25,7 @@ Placed place(const Evidence& e, const Variant& v, const Tessellation& t, std::in
   const Place q = v.original(t.place(vertex));
   const Lattice::Id id = e.lattice.id(q);
   if (id == Lattice::kNone) return {};
-  return {id * static_cast<Key>(v.face.size()) + q.face, id};
+  return {id * static_cast<Key>(v.face.size()) + q.face, id, e.reference.sides().of(id, q.face)};
 }
 
 // -0 and +0 are told apart.
@@ -52,7 +53,7 @@ Compared::Compared(const Evidence& e)
 
 Comparison Compared::with(const Tessellation& t, const Variant& v, double slack) const {
   Comparison c;
-  const double position_limit = slack * position_bound(e_.capabilities.precision, e_.lattice.depth(),
+  const double position_limit = slack * position_bound(e_.capabilities.precision, e_.reference.steps(),
                                                        v.magnitude, std::max(e_.diagonal, 1e-300));
   const bool normals = v.normals && t.has_normals() && e_.tessellation.has_normals();
   std::vector<bool> seen(e_.lattice.size(), false);
@@ -88,8 +89,9 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.position = std::max(c.position, off);
     bool wrong = !(off <= position_limit), bits = same_bits(p, q);
     note(position_limit > 0 ? off / position_limit : off > 0 ? 1e300 : 0, mine, q, p);
-    if (normals && e_.reference.has_normal(at.id)) {
-      const double normal_limit = slack * e_.normal_bound_at(at.id);
+    const bool same_side = e_.reference.sides().of(at.id, e_.tessellation.place(mine).face) == at.side;
+    if (normals && same_side && e_.reference.has_normal(at.side)) {
+      const double normal_limit = slack * e_.normal_bound_at(at.side);
       const Vector a = v.normal(t.normal(k)), b = e_.tessellation.normal(mine);
       const double angle = a == b ? 0 : angle_degrees(a, b);
       c.normal = std::max(c.normal, angle);

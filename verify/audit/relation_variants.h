@@ -32,6 +32,8 @@ Variant identity(const Evidence& e);
 struct Relation {
   std::string_view row;
   std::vector<Variant> (*variants)(const Evidence&);
+  /// Whether there is anything to compare; nullptr: always.
+  bool (*applies)(const data::ControlMesh&, const Lattice&) = nullptr;
 };
 
 /// From face-order to translation, in the order of the table (relations.h says what each is).

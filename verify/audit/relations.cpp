@@ -11,6 +11,7 @@
 #include "verify/audit/bounds.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relation_state.h"
+#include "verify/audit/sharp_variants.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -59,6 +60,49 @@ class Relations {
     // A size that the subject does not take is no fault, nor does it undo what was compared at others.
     if (r.status == Status::kNotSupported && r.of > 0) r.status = Status::kHeld;
     return r;
+  }
+
+  Result fractional_sharpness() const {
+    RelationRow row = begin("fractional-sharpness", "bounds", 1);
+    const Blend blend = *blend_of(e_.mesh, e_.lattice);
+    std::vector<Vector> position(e_.lattice.size());
+    std::vector<int> delivered(e_.lattice.size(), 0);
+    for (const bool upper : {false, true}) {
+      const float sharpness = upper ? blend.lower + 1 : blend.lower;
+      const std::string what = fmt::format("with sharpness {}", sharpness);
+      row.ask(what, with_sharpness(e_.mesh, sharpness), [&](Session& session) {
+        const Tessellation t = session.tessellate(e_.face_depth, threads_);
+        row.inspect(what, t);
+        for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+          const Lattice::Id id = t.provenance_ok(v) ? e_.lattice.id(t.place(v)) : Lattice::kNone;
+          if (id == Lattice::kNone || delivered[id] != (upper ? 1 : 0) || !is_finite(t.position(v))) continue;
+          const double share = upper ? blend.share : 1 - blend.share;
+          for (std::size_t c = 0; c < 3; ++c) position[id][c] += share * t.position(v)[c];
+          ++delivered[id];
+        }
+      });
+    }
+    Comparison c;
+    const double limit = 2 * position_bound(e_.capabilities.precision, e_.reference.steps(), e_.magnitude,
+                                            std::max(e_.diagonal, 1e-300));
+    for (std::int64_t v = 0; v < e_.tessellation.vertex_count(); ++v) {
+      const Lattice::Id id = e_.point[v];
+      const Vector got = e_.tessellation.position(v);
+      if (id == Lattice::kNone || delivered[id] != 2 || !is_finite(got)) continue;
+      ++c.of;
+      const double off = norm(got - position[id]) / e_.diagonal;
+      c.bad += !(off <= limit);
+      c.position = std::max(c.position, off);
+      if (c.witness && off / limit <= c.worst) continue;
+      c.worst = off / limit;
+      c.witness = e_.at_vertex(v);
+      c.witness->expected = {position[id].begin(), position[id].end()};
+      c.witness->got = {got.begin(), got.end()};
+    }
+    row.judge(fmt::format("against {:.3g} of sharpness {} and {:.3g} of {}", 1 - blend.share, blend.lower,
+                          blend.share, blend.lower + 1),
+              c, false);
+    return row.take();
   }
 
   Result degenerate_geometry() const {
@@ -139,9 +183,20 @@ const std::vector<std::string_view>& relation_rows() {
   static const std::vector<std::string_view> rows = [] {
     std::vector<std::string_view> names{"determinism"};
     for (const Relation& r : variant_relations()) names.push_back(r.row);
+    for (const Relation& r : sharp_relations()) names.push_back(r.row);
+    names.emplace_back("fractional-sharpness");
     names.insert(names.end(), {"state", "degenerate-geometry", "rejected-inputs"});
     return names;
   }();
+  return rows;
+}
+
+std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, data::Scheme scheme) {
+  std::vector<std::string_view> rows = relation_rows();
+  const Lattice lattice(mesh, scheme, 0);
+  for (const Relation& r : sharp_relations())
+    if (!r.applies(mesh, lattice)) std::erase(rows, r.row);
+  if (!blend_of(mesh, lattice)) std::erase(rows, "fractional-sharpness");
   return rows;
 }
 
@@ -165,6 +220,10 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
   };
   add("determinism", [&] { return relations.determinism(); });
   for (const Relation& r : variant_relations()) add(r.row, [&] { return relations.relation(r); });
+  for (const Relation& r : sharp_relations())
+    if (r.applies(e.mesh, e.lattice)) add(r.row, [&] { return relations.relation(r); });
+  if (blend_of(e.mesh, e.lattice))
+    add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
   add("state", [&] { return relations.state(results.front()); });
   add("degenerate-geometry", [&] { return relations.degenerate_geometry(); });
   add("rejected-inputs", [&] { return relations.rejected_inputs(refusals); });

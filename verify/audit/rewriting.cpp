@@ -37,6 +37,8 @@ void Rewriting::number_vertices(const std::vector<std::int32_t>& number) {
   for (std::size_t v = 0; v < number.size(); ++v) mesh.positions[number[v]] = positions[v];
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (std::int32_t& v : mesh.faces[f]) v = number[v];
+  for (data::SharpEdge& e : mesh.sharpness.edges) e = {number[e.a], number[e.b], e.sharpness};
+  for (data::SharpVertex& v : mesh.sharpness.vertices) v.vertex = number[v.vertex];
 }
 
 void Rewriting::order_faces(const std::vector<std::int32_t>& order) {

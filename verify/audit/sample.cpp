@@ -40,7 +40,8 @@ MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_
       faces_.push_back(static_cast<std::int32_t>(f));
     }
   data::CutOut cut = data::cut_out(whole.faces, faces_);
-  part_ = {cut.of(whole.positions), std::move(cut.faces)};
+  part_ = {cut.of(whole.positions), {}, cut.of(whole.sharpness)};
+  part_.faces = std::move(cut.faces);
   vertices_ = std::move(cut.vertices);
 }
 
@@ -59,6 +60,7 @@ std::vector<std::int32_t> MeshSample::depths_of_part(std::span<const std::int32_
 ControlMesh MeshSample::part_with(const ControlMesh& positions) const {
   ControlMesh mesh;
   mesh.faces = part_.faces;
+  mesh.sharpness = part_.sharpness;
   mesh.positions.reserve(vertices_.size());
   for (const std::int32_t v : vertices_) mesh.positions.push_back(positions.positions[v]);
   return mesh;

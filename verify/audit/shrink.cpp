@@ -18,7 +18,8 @@ using Faces = std::vector<std::int32_t>;  // of the mesh being shrunk, ascending
 // The mesh of some faces, cut apart where they touch in a vertex only.
 AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   data::CutOut cut = data::cut_out(whole.mesh.faces, faces);
-  AuditMesh out{whole.name, {cut.of(whole.mesh.positions), std::move(cut.faces)}};
+  AuditMesh out{whole.name, {cut.of(whole.mesh.positions), {}, cut.of(whole.mesh.sharpness)}};
+  out.mesh.faces = std::move(cut.faces);
   out.asked_scheme = whole.asked_scheme;
   if (!whole.face_depth.empty())
     for (const std::int32_t f : faces) out.face_depth.push_back(whole.face_depth[f]);
@@ -39,6 +40,11 @@ AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
     if (corners.size() > 2) left.push_back(static_cast<std::int32_t>(f));
   }
   out.mesh.faces = std::move(faces);
+  const auto moved = [&](std::int32_t v) { return v == b ? a : v; };
+  data::Sharpness& sharp = out.mesh.sharpness;
+  for (data::SharpEdge& e : sharp.edges) e = {moved(e.a), moved(e.b), e.sharpness};
+  std::erase_if(sharp.edges, [](const data::SharpEdge& e) { return e.a == e.b; });
+  std::erase_if(sharp.vertices, [&](const data::SharpVertex& v) { return v.vertex == b; });
   return part(out, left);
 }
 
@@ -66,7 +72,7 @@ class Shrinker {
       }
     }
     ball(face);
-    while (!late() && (remove_chunks() || collapse_edges())) {
+    while (!late() && (remove_chunks() || collapse_edges() || remove_tags())) {
     }
     return std::move(best_);
   }
@@ -135,6 +141,32 @@ class Shrinker {
       any = any || smaller;
       if (!smaller) chunk /= 2;
     }
+    return any;
+  }
+
+  // Sharp edges and vertices one by one, and the choices that go with them.
+  bool remove_tags() {
+    bool any = false;
+    const auto attempt = [&](const std::function<void(data::Sharpness&)>& remove) {
+      AuditMesh candidate = best_.mesh;
+      remove(candidate.mesh.sharpness);
+      const bool taken =
+          !(candidate.mesh.sharpness == best_.mesh.mesh.sharpness) && take(std::move(candidate));
+      any = any || taken;
+      return taken;
+    };
+    attempt([](data::Sharpness& s) { s.boundary = data::Boundary::kEdge; });
+    attempt([](data::Sharpness& s) { s.creasing = data::Creasing::kUniform; });
+    attempt([](data::Sharpness& s) { s.triangles = data::TriangleRule::kCatmark; });
+    for (std::size_t k = 0; k < best_.mesh.mesh.sharpness.edges.size() && !late();)
+      if (!attempt(
+              [&](data::Sharpness& s) { s.edges.erase(s.edges.begin() + static_cast<std::ptrdiff_t>(k)); }))
+        ++k;
+    for (std::size_t k = 0; k < best_.mesh.mesh.sharpness.vertices.size() && !late();)
+      if (!attempt([&](data::Sharpness& s) {
+            s.vertices.erase(s.vertices.begin() + static_cast<std::ptrdiff_t>(k));
+          }))
+        ++k;
     return any;
   }
 

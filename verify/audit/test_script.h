@@ -57,6 +57,8 @@ inline const lc_subject* subject() {
       out->max_depth = 5;
       out->per_face_depth = 1;
       out->normals = script->normals.empty() ? 0 : 1;
+      out->schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
+      out->sharp = 2 * LC_SHARP_SMOOTH_TRIANGLES - 1;
       return LC_OK;
     };
     s.create = [](const lc_mesh*, const char*, void** instance, const char**) {
@@ -96,9 +98,10 @@ class Scripted {
     reference_ = std::make_unique<ReferenceSurface>(session_->mesh(), deepest, script_.kind);
     std::vector<Lattice::Id> points = locate(*tessellation_, reference_->lattice());
     reference_->prepare(points);
+    std::vector<Use> uses = find_uses(*tessellation_, points, reference_->lattice(), reference_->sides());
     evidence_.reset(new Evidence{"scripted", "mesh", session_->capabilities(), session_->mesh(), depth_,
-                                 *tessellation_, reference_->lattice(), *reference_, std::move(points), 1,
-                                 1});
+                                 *tessellation_, reference_->lattice(), *reference_, std::move(points),
+                                 std::move(uses), 1, 1});
   }
   const Evidence& operator*() const { return *evidence_; }
   const Evidence* operator->() const { return evidence_.get(); }

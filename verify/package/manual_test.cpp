@@ -146,7 +146,7 @@ TEST_F(Completion, OffersCommandsOptionsChoicesSubjectsAndMeshes) {
   EXPECT_EQ(offers("audit naiv"), Offer{"naive"});
   EXPECT_EQ(offers("audit naive oct"), Offer{"octahedron"});
   EXPECT_EQ(offers("eval oct"), Offer{"octahedron"});
-  EXPECT_EQ(offers("eval quad-c"), Offer{"quad-cube"});
+  EXPECT_EQ(offers("eval quad-cu"), Offer{"quad-cube"});
   EXPECT_EQ(offers("tessellate cube --scheme ''"), (Offer{"loop", "catmull-clark"}));
   EXPECT_EQ(offers("check cage.obj --triangulate ''"), (Offer{"fan", "shortest-diagonal"}));
   EXPECT_EQ(offers("audit --json ''"), Offer{});  // a file: bash's own

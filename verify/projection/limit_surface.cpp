@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "data/error.h"
 #include "reference/catmull_clark/refined_mesh.h"
 
 namespace limitcheck::verify {
@@ -12,6 +13,12 @@ bool has_other_faces(const data::ControlMesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     if (mesh.faces[f].size() != 4) return true;
   return false;
+}
+
+const data::ControlMesh& without_tags(const data::ControlMesh& mesh) {
+  if (!mesh.sharpness.empty())
+    throw data::ArgumentError("the surface of a control mesh with sharp edges is not searched for points");
+  return mesh;
 }
 
 std::unique_ptr<const data::ControlMesh> refined_once(const data::ControlMesh& mesh, data::Scheme scheme) {
@@ -34,7 +41,7 @@ std::vector<std::int32_t> faces_of_corners(const data::ControlMesh& mesh) {
 }  // namespace
 
 LimitSurface::LimitSurface(const data::ControlMesh& mesh, data::Scheme scheme)
-    : control_(mesh),
+    : control_(without_tags(mesh)),
       scheme_(scheme),
       refined_(refined_once(mesh, scheme)),
       control_face_(refined_ ? faces_of_corners(mesh) : std::vector<std::int32_t>()),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fast/frame/sink.h"
+#include "reference/loop/refine_impl.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/subdivision_evaluator_impl.h"
 #include "verify/proof/coefficient.h"

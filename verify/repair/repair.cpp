@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace limitcheck::verify {
 namespace {
@@ -21,14 +24,16 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 using Polygon = std::vector<std::size_t>;
 
-struct CountTurned : pmp::Default_orientation_visitor {
+struct WatchOrientation : pmp::Default_orientation_visitor {
   std::int64_t* turned;  // the visitor is copied
+  std::vector<std::pair<std::size_t, std::size_t>>* copies;
   void polygon_orientation_reversed(std::size_t) { ++*turned; }
+  void duplicated_vertex(std::size_t vertex, std::size_t copy) { copies->emplace_back(vertex, copy); }
 };
 
 class Repair {
  public:
-  explicit Repair(const data::io::PolygonSoup& soup) {
+  explicit Repair(const data::io::PolygonSoup& soup) : tags_(soup.sharp), choices_(soup.choices) {
     for (const auto& p : soup.positions) points_.emplace_back(p[0], p[1], p[2]);
     std::int64_t no_vertex = 0;
     std::size_t begin = 0;
@@ -57,7 +62,11 @@ class Repair {
   void weld() {
     // Only finite points have an order, so unused vertices are dropped first.
     drop_unused();
+    const std::vector<Point> before = points_;
     const std::size_t merged = pmp::merge_duplicate_points_in_polygon_soup(points_, polygons_);
+    std::map<Point, std::size_t> number;
+    for (std::size_t v = 0; v < points_.size(); ++v) number[points_[v]] = v;
+    move_tags([&](std::size_t v) { return v < before.size() ? number.at(before[v]) : v; });
     note("welded", static_cast<std::int64_t>(merged), "vertex", "that lay exactly where another one does");
     drop_repeated_corners("whose corners fell together when vertices were welded");
   }
@@ -76,8 +85,11 @@ class Repair {
   void orient() {
     const std::size_t vertices = points_.size();
     std::int64_t turned = 0;
+    std::vector<std::pair<std::size_t, std::size_t>> copies;
     // False: it had to cut, which the points it added show.
-    (void)pmp::orient_polygon_soup(points_, polygons_, CGAL::parameters::visitor(CountTurned{{}, &turned}));
+    (void)pmp::orient_polygon_soup(points_, polygons_,
+                                   CGAL::parameters::visitor(WatchOrientation{{}, &turned, &copies}));
+    for (const auto& [vertex, copy] : copies) copy_tags(vertex, copy);
     note("turned", turned, "face", "so that neighbours run the same way round");
     note("added", static_cast<std::int64_t>(points_.size() - vertices), "vertex",
          "where the mesh was cut apart: at edges of three faces or more, and where fans touch in a vertex");
@@ -97,6 +109,30 @@ class Repair {
     points_ = std::move(kept);
     for (Polygon& p : polygons_)
       for (std::size_t& v : p) v = to[v];
+    constexpr std::size_t kGone = std::numeric_limits<std::size_t>::max();
+    move_tags([&](std::size_t v) { return v < used.size() && used[v] ? to[v] : kGone; });
+  }
+
+  /// Sharp edges and vertices that are none any more go; of several at one place the sharpest stays.
+  void drop_tags() {
+    std::map<std::pair<std::int64_t, std::int64_t>, double> most;
+    for (const Polygon& p : polygons_)
+      for (std::size_t k = 0; k < p.size(); ++k) {
+        const auto a = static_cast<std::int64_t>(p[k]), b = static_cast<std::int64_t>(p[(k + 1) % p.size()]);
+        most[std::minmax(a, b)] = most[{-1, a}] = -1;
+      }
+    for (const Tag& t : tags_)
+      if (const auto at = most.find(ends(t)); at != most.end())
+        at->second = std::max(at->second, t.sharpness);
+    const std::size_t before = tags_.size();
+    std::erase_if(tags_, [&](const Tag& t) {
+      const auto at = most.find(ends(t));
+      const bool stays = t.sharpness >= 0 && at != most.end() && at->second == t.sharpness;
+      if (stays) most.erase(at);
+      return !stays;
+    });
+    note("dropped", static_cast<std::int64_t>(before - tags_.size()), "sharpness",
+         "of no edge or vertex, or of one that has a larger one");
   }
 
   Repaired take() {
@@ -106,14 +142,43 @@ class Repair {
       for (const std::size_t v : p) result.soup.corners.push_back(static_cast<std::int64_t>(v));
       result.soup.close_polygon();
     }
+    result.soup.sharp = std::move(tags_);
+    result.soup.choices = choices_;
     result.changes = std::move(changes_);
     return result;
   }
 
  private:
+  using Tag = data::io::PolygonSoup::SharpTag;
+
+  static std::pair<std::int64_t, std::int64_t> ends(const Tag& t) { return std::minmax(t.a, t.b); }
+  template <class To>
+  void move_tags(To to) {
+    const auto move = [&](std::int64_t& v) {
+      if (v >= 0) v = static_cast<std::int64_t>(to(static_cast<std::size_t>(v)));
+    };
+    std::erase_if(tags_, [&](Tag& t) {
+      const bool edge = t.b >= 0;
+      move(t.a);
+      move(t.b);
+      return t.a < 0 || (edge && t.b < 0);
+    });
+  }
+  void copy_tags(std::size_t vertex, std::size_t copy) {
+    const auto from = static_cast<std::int64_t>(vertex), to = static_cast<std::int64_t>(copy);
+    for (std::size_t k = 0, count = tags_.size(); k < count; ++k) {
+      Tag t = tags_[k];
+      if (t.a != from && t.b != from) continue;
+      (t.a == from ? t.a : t.b) = to;
+      tags_.push_back(t);
+    }
+  }
+
   void note(std::string_view verb, std::int64_t count, std::string_view what, std::string_view which) {
     if (count == 0) return;
-    const std::string many = what == "vertex" ? "vertices" : fmt::format("{}s", what);
+    const std::string many = what == "vertex"      ? "vertices"
+                             : what == "sharpness" ? "sharpnesses"
+                                                   : fmt::format("{}s", what);
     changes_.push_back(fmt::format("{} {} {} {}", verb, count, count == 1 ? what : many, which));
   }
 
@@ -131,6 +196,8 @@ class Repair {
 
   std::vector<Point> points_;
   std::vector<Polygon> polygons_;
+  std::vector<Tag> tags_;
+  data::Sharpness choices_;
   std::vector<std::string> changes_;
 };
 
@@ -142,6 +209,7 @@ Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options)
   work.drop_duplicates();
   work.orient();
   work.drop_unused();
+  work.drop_tags();
   return work.take();
 }
 

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace limitcheck::verify {
 namespace {
@@ -48,6 +49,35 @@ TEST(Repair, LeavesAValidMeshAsItIs) {
   EXPECT_TRUE(r.changes.empty());
   EXPECT_EQ(faces_of(r.soup), kTetrahedron);
   EXPECT_EQ(r.soup.positions, mesh.positions);
+}
+
+using Tag = std::tuple<std::int64_t, std::int64_t, double>;
+std::vector<Tag> tags_of(const PolygonSoup& s) {
+  std::vector<Tag> tags;
+  for (const auto& t : s.sharp) tags.emplace_back(t.a, t.b, t.sharpness);
+  return tags;
+}
+
+TEST(Repair, SharpEdgesAndVerticesGoWithTheirVertices) {
+  // Vertex 1 is not used, and 5 and 6 lie where 0 and 3 do.
+  PolygonSoup mesh = soup(7, {{0, 2, 3}, {5, 6, 4}});
+  mesh.positions[5] = mesh.positions[0];
+  mesh.positions[6] = mesh.positions[3];
+  mesh.sharp = {{3, 0, 2.5, 1}, {5, 6, 1, 2}, {4, -1, 10, 3}, {1, 2, 3, 4}, {2, 4, 3, 5}, {0, 99, 1, 6}};
+  mesh.choices.creasing = data::Creasing::kChaikin;
+  const Repaired apart = repair(mesh);
+  EXPECT_EQ(tags_of(apart.soup), (std::vector<Tag>{{2, 0, 2.5}, {4, 5, 1}, {3, -1, 10}}));
+  EXPECT_TRUE(is_valid(apart.soup));
+  EXPECT_EQ(apart.soup.choices, mesh.choices);
+  const Repaired welded = repair(mesh, {.weld = true});
+  EXPECT_EQ(tags_of(welded.soup), (std::vector<Tag>{{2, 0, 2.5}, {3, -1, 10}})) << "the sharper of two stays";
+  EXPECT_TRUE(is_valid(welded.soup));
+  // Where a mesh is cut apart, the copies are sharp as well.
+  PolygonSoup book = soup(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  book.sharp = {{0, 1, 3, 1}};
+  const Repaired cut = repair(book);
+  EXPECT_TRUE(is_valid(cut.soup));
+  EXPECT_GE(cut.soup.sharp.size(), 2U);
 }
 
 TEST(Repair, DropsWhatNamesNothingOrItself) {

@@ -45,6 +45,13 @@ inline void refuse_unusable(const lc_mesh& mesh) {
   for (std::int64_t k = 0; k < mesh.corner_count; ++k)
     if (mesh.corners[k] < 0 || mesh.corners[k] >= mesh.vertex_count)
       throw SubjectError(LC_INVALID_INPUT, "a face names a vertex that does not exist");
+  const auto exists = [&](std::int32_t vertex) { return vertex >= 0 && vertex < mesh.vertex_count; };
+  for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k)
+    if (!exists(mesh.sharp_edges[k].a) || !exists(mesh.sharp_edges[k].b))
+      throw SubjectError(LC_INVALID_INPUT, "a sharp edge names a vertex that does not exist");
+  for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k)
+    if (!exists(mesh.sharp_vertices[k].vertex))
+      throw SubjectError(LC_INVALID_INPUT, "a sharp vertex does not exist");
 }
 
 /// The depth of a request that has one for all faces; 0 where there are no faces.
@@ -116,6 +123,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
     result = T::capabilities(options);
     result.schemes = LC_DOES_LOOP;
   }
+  if constexpr (requires { T::kSharp; }) result.sharp = T::kSharp;
   result.size = sizeof result;
   result.scheme = scheme;
   return result;
@@ -126,6 +134,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
 /// The function table of the adapter class T, which has
 ///   static lc_capabilities capabilities(Options&)              if it does Loop's scheme alone
 ///   static lc_capabilities capabilities(Options&, lc_scheme)   if it does both, or those of T::kSchemes
+///   static constexpr std::int32_t kSharp                       if it does sharp edges: LC_SHARP_...
 ///   T(const lc_mesh&, Options&)
 ///   void tessellate(const lc_request&, lc_tessellation&)    all memory from the request
 /// Options that T does not read are refused.

@@ -21,6 +21,14 @@ inline data::ControlMesh control_mesh(const lc_mesh& mesh) {
     result.faces.push_back(std::span(corner, size));
     corner += size;
   }
+  for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k)
+    result.sharpness.edges.push_back(
+        {mesh.sharp_edges[k].a, mesh.sharp_edges[k].b, mesh.sharp_edges[k].sharpness});
+  for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k)
+    result.sharpness.vertices.push_back({mesh.sharp_vertices[k].vertex, mesh.sharp_vertices[k].sharpness});
+  if (mesh.creasing == LC_CREASING_CHAIKIN) result.sharpness.creasing = data::Creasing::kChaikin;
+  if (mesh.corners_held != 0) result.sharpness.boundary = data::Boundary::kEdgeAndCorner;
+  if (mesh.smooth_triangles != 0) result.sharpness.triangles = data::TriangleRule::kSmooth;
   return result;
 }
 

@@ -6,15 +6,20 @@
 // Debian's build asserts, and an assertion ends the process: on the fourth float of a vertex, which it
 // reads as 16 bytes, and on the sizes of its arrays. So vertices are padded, and what it has no room for is
 // refused.
+//
+// Sharp edges and vertices: an infinite sharpness is an infinite float; what is semi-sharp falls by 1 in each
+// step, there is no other way of creasing and no other rule for triangles.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "data/sharpness.h"
 #include "verify/subject/evaluated_faces.h"
 #include "verify/subject/registry.h"
 
@@ -59,6 +64,7 @@ class FaceOfGeometry {
 class EmbreeSubject {
  public:
   static constexpr std::int32_t kSchemes = LC_DOES_CATMULL_CLARK;
+  static constexpr std::int32_t kSharp = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CORNERS;
 
   static lc_capabilities capabilities(Options&, lc_scheme) {
     return {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 0};
@@ -81,7 +87,10 @@ class EmbreeSubject {
     auto* const size =
         buffer<std::uint32_t>(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, sizeof(std::uint32_t), mesh.face_count);
     std::copy(mesh.face_sizes, mesh.face_sizes + mesh.face_count, size);
-    rtcSetGeometrySubdivisionMode(geometry_.get(), 0, RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY);
+    hand_over_sharpness();
+    rtcSetGeometrySubdivisionMode(geometry_.get(), 0,
+                                  mesh.corners_held != 0 ? RTC_SUBDIVISION_MODE_PIN_CORNERS
+                                                         : RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY);
     rtcCommitGeometry(geometry_.get());
     // It joins the faces when a scene is committed.
     scene_.reset(rtcNewScene(device_.get()));
@@ -104,6 +113,34 @@ class EmbreeSubject {
         rtcSetNewGeometryBuffer(geometry_.get(), type, 0, format, stride, static_cast<std::size_t>(count));
     if (memory == nullptr) throw SubjectError(LC_FAILED, "Embree makes no buffer");
     return static_cast<T*>(memory);
+  }
+
+  void hand_over_sharpness() {
+    const auto weight = [](float sharpness) {
+      return sharpness >= limitcheck::data::kInfiniteSharpness ? std::numeric_limits<float>::infinity() : sharpness;
+    };
+    if (mesh_.sharp_edge_count > 0) {
+      auto* const ends = buffer<std::uint32_t>(RTC_BUFFER_TYPE_EDGE_CREASE_INDEX, RTC_FORMAT_UINT2,
+                                               2 * sizeof(std::uint32_t), mesh_.sharp_edge_count);
+      auto* const weights = buffer<float>(RTC_BUFFER_TYPE_EDGE_CREASE_WEIGHT, RTC_FORMAT_FLOAT, sizeof(float),
+                                          mesh_.sharp_edge_count);
+      for (std::int64_t k = 0; k < mesh_.sharp_edge_count; ++k) {
+        const lc_sharp_edge& edge = mesh_.sharp_edges[k];
+        ends[2 * k] = static_cast<std::uint32_t>(edge.a);
+        ends[2 * k + 1] = static_cast<std::uint32_t>(edge.b);
+        weights[k] = weight(edge.sharpness);
+      }
+    }
+    if (mesh_.sharp_vertex_count > 0) {
+      auto* const vertices = buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT,
+                                                   sizeof(std::uint32_t), mesh_.sharp_vertex_count);
+      auto* const weights = buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT,
+                                          sizeof(float), mesh_.sharp_vertex_count);
+      for (std::int64_t k = 0; k < mesh_.sharp_vertex_count; ++k) {
+        vertices[k] = static_cast<std::uint32_t>(mesh_.sharp_vertices[k].vertex);
+        weights[k] = weight(mesh_.sharp_vertices[k].sharpness);
+      }
+    }
   }
 
   void refuse_beyond_its_arrays() const {

@@ -44,8 +44,21 @@ std::string impossible(const lc_capabilities& c) {
       return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
     return fmt::format("schemes is {}", c.schemes);
+  if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_SMOOTH_TRIANGLES) return fmt::format("sharp is {}", c.sharp);
   if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
   return {};
+}
+
+// "semi-sharp edges, sharp vertices".
+std::string name_of_kinds(std::int32_t kinds) {
+  std::string names;
+  for (const auto& [bit, name] : {std::pair{std::int32_t{LC_SHARP_CREASES}, "edges that stay sharp"},
+                                  {LC_SHARP_SEMI, "semi-sharp edges and vertices"},
+                                  {LC_SHARP_CHAIKIN, "Chaikin's creasing"},
+                                  {LC_SHARP_CORNERS, "sharp vertices"},
+                                  {LC_SHARP_SMOOTH_TRIANGLES, "the smooth rule for triangles"}})
+    if ((kinds & bit) != 0) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
 }
 
 // What a subject did to the mesh that it was lent.
@@ -65,6 +78,7 @@ std::string changes(const LentMesh& before, const LentMesh& after) {
         before.face_sizes[f] != after.face_sizes[f] || !compare(before.corners, after.corners, corner, size);
     corner += size;
   }
+  if (changed == 0) return "the subject changed the sharpness of edges or vertices";
   return fmt::format("the subject changed {} vertices or faces of the control mesh", changed);
 }
 
@@ -93,6 +107,8 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   capabilities_ = verify::capabilities(subject, options_, scheme);
   if (!does(capabilities_, scheme))
     throw NotAsked(fmt::format("{}: does not subdivide by {}", subject.name, data::name_of(scheme)));
+  if (const std::int32_t beyond = sharp_kinds(mesh, scheme) & ~capabilities_.sharp; beyond != 0)
+    throw NotAsked(fmt::format("{}: does not do {}", subject.name, name_of_kinds(beyond)));
   const bool single = capabilities_.precision == LC_FLOAT32;
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)

@@ -85,7 +85,10 @@ class Instance {
     for (std::size_t v = 0; v <= last; ++v)
       for (std::size_t k = 0; k < 3; ++k)
         other.positions[3 * (last - v) + k] = 2 * mesh_.positions[3 * v + k];
-    for (std::int32_t& v : other.corners) v = static_cast<std::int32_t>(last) - v;
+    const auto renumber = [last](std::int32_t& v) { v = static_cast<std::int32_t>(last) - v; };
+    for (std::int32_t& v : other.corners) renumber(v);
+    for (lc_sharp_edge& e : other.sharp_edges) renumber(e.a), renumber(e.b);
+    for (lc_sharp_vertex& v : other.sharp_vertices) renumber(v.vertex);
     return std::make_unique<Instance>(std::move(other), options_);
   }
 

@@ -25,10 +25,35 @@ constexpr bool does(const lc_capabilities& c, data::Scheme scheme) {
   return (schemes & (scheme == data::Scheme::kLoop ? LC_DOES_LOOP : LC_DOES_CATMULL_CLARK)) != 0;
 }
 
+/// What a subject has to do of sharp edges and vertices, LC_SHARP_..., to subdivide this mesh.
+inline std::int32_t sharp_kinds(const data::ControlMesh& mesh, data::Scheme scheme) {
+  const data::Sharpness& sharp = mesh.sharpness;
+  std::int32_t kinds = 0;
+  bool semi_sharp_edge = false;
+  for (const data::SharpEdge& e : sharp.edges) {
+    if (e.sharpness >= data::kInfiniteSharpness)
+      kinds |= LC_SHARP_CREASES;
+    else if (e.sharpness > 0)
+      kinds |= LC_SHARP_SEMI, semi_sharp_edge = true;
+  }
+  for (const data::SharpVertex& v : sharp.vertices)
+    if (v.sharpness > 0)
+      kinds |= LC_SHARP_CORNERS | (v.sharpness < data::kInfiniteSharpness ? LC_SHARP_SEMI : 0);
+  if (sharp.boundary == data::Boundary::kEdgeAndCorner) kinds |= LC_SHARP_CORNERS;
+  if (sharp.creasing == data::Creasing::kChaikin && semi_sharp_edge) kinds |= LC_SHARP_CHAIKIN;
+  if (sharp.triangles == data::TriangleRule::kSmooth && scheme == data::Scheme::kCatmullClark)
+    kinds |= LC_SHARP_SMOOTH_TRIANGLES;
+  return kinds;
+}
+
 /// A copy, which a subject may write to without spoiling anybody else's.
 struct LentMesh {
   std::vector<double> positions;
   std::vector<std::int32_t> corners, face_sizes;
+  std::vector<lc_sharp_edge> sharp_edges;
+  std::vector<lc_sharp_vertex> sharp_vertices;
+  lc_creasing creasing = LC_CREASING_UNIFORM;
+  bool corners_held = false, smooth_triangles = false;
   data::Scheme scheme = data::Scheme::kLoop;
 
   LentMesh() = default;
@@ -39,12 +64,24 @@ struct LentMesh {
     face_sizes.reserve(mesh.faces.size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       face_sizes.push_back(static_cast<std::int32_t>(mesh.faces[f].size()));
+    for (const data::SharpEdge& e : mesh.sharpness.edges)
+      if (e.sharpness > 0) sharp_edges.push_back({e.a, e.b, e.sharpness});
+    for (const data::SharpVertex& v : mesh.sharpness.vertices)
+      if (v.sharpness > 0) sharp_vertices.push_back({v.vertex, v.sharpness});
+    if (mesh.sharpness.creasing == data::Creasing::kChaikin) creasing = LC_CREASING_CHAIKIN;
+    corners_held = mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
+    smooth_triangles = mesh.sharpness.triangles == data::TriangleRule::kSmooth;
   }
   /// A copy of a mesh that somebody else lent.
   explicit LentMesh(const lc_mesh& mesh)
       : positions(mesh.positions, mesh.positions + 3 * mesh.vertex_count),
         corners(mesh.corners, mesh.corners + mesh.corner_count),
         face_sizes(mesh.face_sizes, mesh.face_sizes + mesh.face_count),
+        sharp_edges(mesh.sharp_edges, mesh.sharp_edges + mesh.sharp_edge_count),
+        sharp_vertices(mesh.sharp_vertices, mesh.sharp_vertices + mesh.sharp_vertex_count),
+        creasing(mesh.creasing),
+        corners_held(mesh.corners_held != 0),
+        smooth_triangles(mesh.smooth_triangles != 0),
         scheme(scheme_of(mesh.scheme)) {}
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(positions.size() / 3); }
@@ -62,7 +99,14 @@ struct LentMesh {
             corners.data(),
             static_cast<std::int64_t>(corners.size()),
             face_sizes.data(),
-            faces()};
+            faces(),
+            sharp_edges.data(),
+            static_cast<std::int64_t>(sharp_edges.size()),
+            sharp_vertices.data(),
+            static_cast<std::int64_t>(sharp_vertices.size()),
+            creasing,
+            corners_held,
+            smooth_triangles};
   }
 
   /// By bytes: what a subject writes may be a NaN.
@@ -71,7 +115,8 @@ struct LentMesh {
       return x.size() == y.size() &&
              (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0);
     };
-    return same(a.positions, b.positions) && same(a.corners, b.corners) && same(a.face_sizes, b.face_sizes);
+    return same(a.positions, b.positions) && same(a.corners, b.corners) && same(a.face_sizes, b.face_sizes) &&
+           same(a.sharp_edges, b.sharp_edges) && same(a.sharp_vertices, b.sharp_vertices);
   }
 };
 

@@ -28,14 +28,13 @@ using Factory = Bfr::RefinerSurfaceFactory<Cache>;
 template <class Real>
 class FaceSurface {
  public:
-  FaceSurface(const Factory& factory, const std::vector<Real>& control, bool closed_only)
-      : factory_(factory), control_(control), closed_only_(closed_only) {}
+  FaceSurface(const Factory& factory, const std::vector<Real>& control)
+      : factory_(factory), control_(control) {}
 
   void begin(std::int32_t face) {
     const OpenSubdivErrors errors;
     if (!factory_.InitVertexSurface(face, &surface_))
-      throw SubjectError(closed_only_ ? LC_NOT_SUPPORTED : LC_FAILED,
-                         "Bfr has no limit surface for face " + std::to_string(face));
+      throw SubjectError(LC_NOT_SUPPORTED, "Bfr has no limit surface for face " + std::to_string(face));
     errors.check();
     points_.resize(3 * static_cast<std::size_t>(surface_.GetNumPatchPoints()));
     surface_.PreparePatchPoints(control_.data(), 3, points_.data(), 3);
@@ -51,13 +50,14 @@ class FaceSurface {
  private:
   const Factory& factory_;
   const std::vector<Real>& control_;
-  const bool closed_only_;
   Bfr::Surface<Real> surface_;
   std::vector<Real> points_;
 };
 
 class BfrSubject {
  public:
+  static constexpr std::int32_t kSharp = kOpenSubdivSharp;
+
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
     (void)approx_level(options);
@@ -68,8 +68,7 @@ class BfrSubject {
   BfrSubject(const lc_mesh& mesh, Options& options)
       : mesh_(mesh),
         wide_(capabilities(options, mesh.scheme).precision == LC_FLOAT64),
-        closed_only_(without_boundary(options)),
-        refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(options))) {
+        refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(mesh, options))) {
     Factory::Options level;
     if (const int given = approx_level(options); given >= 0)
       level.SetApproxLevelSmooth(given).SetApproxLevelSharp(given);
@@ -89,11 +88,11 @@ class BfrSubject {
     const std::vector<Real> control(mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count);
     const FacePatterns patterns(mesh_, request, opensubdiv_triangle);
     tessellate_faces<Real>(mesh_, patterns, request, out,
-                           [&] { return FaceSurface<Real>(*factory_, control, closed_only_); });
+                           [&] { return FaceSurface<Real>(*factory_, control); });
   }
 
   const lc_mesh mesh_;
-  const bool wide_, closed_only_;
+  const bool wide_;
   std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> refiner_;
   std::unique_ptr<Factory> factory_;
 };

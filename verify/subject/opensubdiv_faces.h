@@ -45,9 +45,8 @@ inline FacePattern opensubdiv_triangle(int depth) {
 inline bool without_boundary(Options& options) {
   return options.choice("boundary", {"edge", "none"}) == 1;
 }
-inline OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary_rule(Options& options) {
-  using Rules = OpenSubdiv::Sdc::Options;
-  return without_boundary(options) ? Rules::VTX_BOUNDARY_NONE : Rules::VTX_BOUNDARY_EDGE_ONLY;
+inline OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary_rule(const lc_mesh& mesh, Options& options) {
+  return without_boundary(options) ? OpenSubdiv::Sdc::Options::VTX_BOUNDARY_NONE : boundary_rule(mesh);
 }
 inline lc_boundary boundary_of(Options& options) {
   return without_boundary(options) ? LC_BOUNDARY_NONE : LC_BOUNDARY_SPLINE;

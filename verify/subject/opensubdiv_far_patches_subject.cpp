@@ -33,8 +33,8 @@ template <class Real>
 class FacePatches {
  public:
   FacePatches(const Far::PatchTable& table, const Far::PatchMap& map, const Far::PtexIndices& ptex,
-              const std::vector<Vector<Real>>& points, bool closed_only)
-      : table_(table), map_(map), ptex_(ptex), points_(points), closed_only_(closed_only) {}
+              const std::vector<Vector<Real>>& points)
+      : table_(table), map_(map), ptex_(ptex), points_(points) {}
 
   void begin(std::int32_t face) { face_ = face; }
   // The parts of a face are its ptex faces.
@@ -42,8 +42,7 @@ class FacePatches {
     const auto* patch =
         map_.FindPatch(ptex_.GetFaceId(face_) + part, static_cast<double>(uv[0]), static_cast<double>(uv[1]));
     if (patch == nullptr)
-      throw SubjectError(closed_only_ ? LC_NOT_SUPPORTED : LC_FAILED,
-                         "Far has no patch on face " + std::to_string(face_));
+      throw SubjectError(LC_NOT_SUPPORTED, "Far has no patch on face " + std::to_string(face_));
     constexpr std::size_t kMost = 20;  // control points of a patch
     std::array<Real, kMost> w{}, wu{}, wv{};
     table_.EvaluateBasis(*patch, uv[0], uv[1], w.data(), wu.data(), wv.data());
@@ -65,7 +64,6 @@ class FacePatches {
   const Far::PatchMap& map_;
   const Far::PtexIndices& ptex_;
   const std::vector<Vector<Real>>& points_;
-  const bool closed_only_;
   std::int32_t face_ = 0;
 };
 
@@ -134,6 +132,8 @@ class StencilPoints {
 
 class FarPatchesSubject {
  public:
+  static constexpr std::int32_t kSharp = kOpenSubdivSharp;
+
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     return {settings(options).wide ? LC_FLOAT64 : LC_FLOAT32,
             LC_WEIGHTS_LOOP,
@@ -148,7 +148,7 @@ class FarPatchesSubject {
   FarPatchesSubject(const lc_mesh& mesh, Options& options)
       : mesh_(mesh),
         settings_(settings(options)),
-        refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(options))) {
+        refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(mesh, options))) {
     const Settings& s = settings_;
     const OpenSubdivErrors errors;
     Patches::Options patches(static_cast<unsigned>(s.level));
@@ -156,6 +156,8 @@ class FarPatchesSubject {
                                     : Patches::Options::ENDCAP_GREGORY_BASIS);
     // By default a boundary vertex of one face gets the patch of a sharp corner, which is another surface.
     patches.generateLegacySharpCornerPatches = s.legacy_corners;
+    patches.useInfSharpPatch = s.infinite_creases;
+    patches.useSingleCreasePatch = s.single_crease;
     s.wide ? patches.SetPatchPrecision<double>() : patches.SetPatchPrecision<float>();
     refiner_->RefineAdaptive(patches.GetRefineAdaptiveOptions());
     table_.reset(Patches::Create(*refiner_, patches));
@@ -171,7 +173,7 @@ class FarPatchesSubject {
 
  private:
   struct Settings {
-    bool wide, bspline, legacy_corners, closed_only, stencils;
+    bool wide, bspline, legacy_corners, infinite_creases, single_crease, stencils;
     int level;
   };
   static Settings settings(Options& options) {
@@ -179,9 +181,11 @@ class FarPatchesSubject {
     const bool bspline = options.choice("end-cap", {"gregory", "bspline"}) == 1;
     const bool legacy_corners = options.choice("corners", {"legacy", "smooth"}) == 0;
     const bool stencils = options.choice("evaluate", {"patches", "limit-stencils"}) == 1;
-    return {wide,           bspline,
-            legacy_corners, without_boundary(options),
-            stencils,       options.integer("level", 2, 1, 10)};
+    const bool infinite_creases = options.choice("inf-sharp", {"off", "on"}) == 1;
+    const bool single_crease = options.choice("single-crease", {"off", "on"}) == 1;
+    (void)without_boundary(options);
+    return {wide,          bspline,  legacy_corners,                     infinite_creases,
+            single_crease, stencils, options.integer("level", 2, 1, 10)};
   }
 
   template <class Real>
@@ -210,7 +214,7 @@ class FarPatchesSubject {
     if (table_->GetNumLocalPoints() > 0)
       table_->GetLocalPointStencilTable<Real>()->UpdateValues(points.data(), points.data() + refined);
     tessellate_faces<Real>(mesh_, patterns, request, out, [&] {
-      return FacePatches<Real>(*table_, *map_, *ptex_, points, settings_.closed_only);
+      return FacePatches<Real>(*table_, *map_, *ptex_, points);
     });
   }
 
@@ -229,8 +233,8 @@ extern "C" const lc_subject* lc_subject_opensubdiv_far_patches() {
       "opensubdiv-far-patches", "OpenSubdiv 3.5 Far: adaptive refinement, then a PatchTable evaluated",
       "precision=float|double (default float), level=N of isolation (1 to 10, default 2), "
       "end-cap=gregory|bspline (default gregory), corners=legacy|smooth (default legacy, the library's), "
-      "evaluate=patches|limit-stencils (default patches), boundary=edge|none (default edge; none is the "
-      "library's: "
-      "closed meshes only)");
+      "evaluate=patches|limit-stencils (default patches), inf-sharp=on|off and single-crease=on|off: patches "
+      "for edges that stay sharp and for creases of one sharpness (default off, the library's), "
+      "boundary=edge|none (default edge; none is the library's: closed meshes only)");
   return &subject;
 }

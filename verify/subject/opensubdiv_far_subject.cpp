@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // OpenSubdiv Far: the whole mesh refined uniformly (PrimvarRefiner::Interpolate level by level), then limit
 // positions and tangents (PrimvarRefiner::Limit). Delivered as the library delivers it; the normal is its
-// first tangent x its second. Catmull-Clark's quads are cut along a diagonal. Limit() takes the faces
-// around a vertex for quads without a look: on a mesh of other faces its values at depth 0 mean nothing.
+// first tangent x its second, one for each vertex, on a sharp edge, too. Catmull-Clark's quads are cut along
+// a diagonal. Limit() takes the faces around a vertex for quads without a look: on a mesh of other faces its
+// values at depth 0 mean nothing.
 #include <opensubdiv/far/primvarRefiner.h>
 
 #include <algorithm>
@@ -39,6 +40,8 @@ struct Child {
 
 class FarSubject {
  public:
+  static constexpr std::int32_t kSharp = kOpenSubdivSharp;
+
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
     (void)bare(options);

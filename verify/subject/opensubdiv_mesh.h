@@ -55,11 +55,20 @@ inline OpenSubdiv::Sdc::SchemeType opensubdiv_scheme(const lc_mesh& mesh) {
   return mesh.scheme == LC_SCHEME_LOOP ? OpenSubdiv::Sdc::SCHEME_LOOP : OpenSubdiv::Sdc::SCHEME_CATMARK;
 }
 
-/// The refiner of a control mesh: by default boundary vertices on the B-spline curve, none of them a corner.
+/// What the library does of sharp edges: all of it. A sharpness of 10 and more is infinite there, too.
+inline constexpr std::int32_t kOpenSubdivSharp =
+    LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+
+/// Boundary vertices on the B-spline curve, those of one face held or not as the mesh says.
+inline OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary_rule(const lc_mesh& mesh) {
+  using Rules = OpenSubdiv::Sdc::Options;
+  return mesh.corners_held != 0 ? Rules::VTX_BOUNDARY_EDGE_AND_CORNER : Rules::VTX_BOUNDARY_EDGE_ONLY;
+}
+
+/// The refiner of a control mesh with its sharp edges and vertices.
 inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
     const lc_mesh& mesh, OpenSubdiv::Sdc::SchemeType type,
-    OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary =
-        OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY) {
+    OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary) {
   using namespace OpenSubdiv;
   const OpenSubdivErrors errors;
   Far::TopologyDescriptor descriptor;
@@ -67,8 +76,26 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
   descriptor.numFaces = static_cast<int>(mesh.face_count);
   descriptor.numVertsPerFace = mesh.face_sizes;
   descriptor.vertIndicesPerFace = mesh.corners;
+  std::vector<int> edges, vertices;
+  std::vector<float> of_edges, of_vertices;
+  for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k) {
+    edges.insert(edges.end(), {mesh.sharp_edges[k].a, mesh.sharp_edges[k].b});
+    of_edges.push_back(mesh.sharp_edges[k].sharpness);
+  }
+  for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k) {
+    vertices.push_back(mesh.sharp_vertices[k].vertex);
+    of_vertices.push_back(mesh.sharp_vertices[k].sharpness);
+  }
+  descriptor.numCreases = static_cast<int>(of_edges.size());
+  descriptor.creaseVertexIndexPairs = edges.data();
+  descriptor.creaseWeights = of_edges.data();
+  descriptor.numCorners = static_cast<int>(of_vertices.size());
+  descriptor.cornerVertexIndices = vertices.data();
+  descriptor.cornerWeights = of_vertices.data();
   Sdc::Options scheme;
   scheme.SetVtxBoundaryInterpolation(boundary);
+  if (mesh.creasing == LC_CREASING_CHAIKIN) scheme.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
+  if (mesh.smooth_triangles != 0) scheme.SetTriangleSubdivision(Sdc::Options::TRI_SUB_SMOOTH);
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(descriptor, Factory::Options(type, scheme)));
   errors.check();
@@ -76,7 +103,7 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
   return refiner;
 }
 inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const lc_mesh& mesh) {
-  return make_refiner(mesh, opensubdiv_scheme(mesh));
+  return make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(mesh));
 }
 
 }  // namespace limitcheck::verify

@@ -3,71 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "reference/catmull_clark/masks.h"
 
 namespace limitcheck::verify {
 
 using V = QuadModelRules::V;
 
-std::span<const Mutation> quad_mutations() {
-  static const std::vector<Mutation> list{
-      {"none", "nothing: right in every check", ""},
-      // Subdivision.
-      {"face_weight_1e-6", "face points lean by 1e-6 to the first corner", "positions"},
-      {"polygons_as_quads", "the face point of any face is the mean of its first four corners", "positions"},
-      {"centroid_by_area", "face points are centroids by area", "positions"},
-      {"six_corners_at_most", "a face point counts six corners and no more", "positions"},
-      {"edge_points_without_ends", "edge points are the means of two face points", "positions"},
-      {"midpoints", "edge points half and half", "positions"},
-      {"smooth_triangles", "OpenSubdiv's weights beside triangles, in the first step", "positions"},
-      {"ends_for_midpoints", "the vertex rule takes edge points in place of the neighbours", "positions"},
-      {"weights_of_valence_4", "the vertex rule of valence 4 at every valence", "positions"},
-      {"weights_of_valence_8", "a table of weights that ends at valence 8", "positions"},
-      {"weight_1e-6_at_valence_5", "a vertex of valence 5 is moved by 1e-6 of its step too far", "positions"},
-      {"vertices_stay", "vertices are not moved by a step", "positions"},
-      {"one_step_missing", "one step less than asked for at the vertices", "positions"},
-      // Boundary.
-      {"boundary_two_thirds", "boundary vertices 1/6, 2/3, 1/6: the limit mask taken for the rule",
-       "positions"},
-      {"boundary_vertices_stay", "boundary vertices stay where they are", "positions"},
-      {"boundary_as_inside", "boundary vertices by the rule of those inside", "positions"},
-      {"corners_stay", "boundary vertices of one face stay where they are", "positions"},
-      {"boundary_edge_flap", "boundary edge points take an eighth of the face point", "positions"},
-      {"boundary_limit_3_5", "boundary limits 1/5, 3/5, 1/5", "positions"},
-      {"boundary_tangent_trap", "the tangent mask of another boundary rule from three faces on", "normals"},
-      {"boundary_tangent_mean", "across the boundary: towards the mean of the neighbours", "normals"},
-      // Limit.
-      {"no_limit", "points of the refined mesh instead of the limit", "positions"},
-      {"limit_of_valence_4", "the limit mask of valence 4 at every valence", "positions"},
-      {"limit_at_valence_3", "at valence 3 the limit is the mean of the faces around", "positions"},
-      {"limit_weights_1e-5", "all limit weights are 1e-5 off", "positions"},
-      {"tangents_of_valence_4", "tangents take f_i with the weight of valence 4", "normals"},
-      {"tangents_without_faces", "tangents of the neighbours alone", "normals"},
-      {"mean_of_facets", "normals are means of the facets around", "normals"},
-      {"flipped_on_polygons", "normals inside faces that are no quads point inward", "normals"},
-      // Places.
-      {"quarter_turn", "the inside of a quad leans by 1e-9 to its first corner", "corner-rotation"},
-      {"lower_corner", "face points lean by 1e-9 to the corner with the lowest number", "vertex-order"},
-      {"next_corner", "points of the quad at a corner are said to be of the next corner's", "positions"},
-      {"u_for_v", "u and v are exchanged", "orientation"},
-      {"one_level_more_in_polygons", "faces that are no quads are one level finer than asked for",
-       "coverage"},
-      {"middle_left_out", "faces that are no quads have a hole in the middle", "coverage"},
-      {"corner_is_null", "the corner of no point is delivered", "positions"},
-      {"clockwise_polygons", "triangles of faces that are no quads run clockwise", "orientation"},
-      // Frames.
-      {"unstitched", "faces beside deeper ones are not stitched to them", "watertight"},
-      {"stitched_on_side_0", "faces are stitched to deeper ones on their first side only", "t-vertices"},
-      {"ulp_on_polygons", "points of faces that are no quads are one ulp off", "shared-positions"},
-      {"culled_are_holes", "culled faces are left out before the first step", "positions"},
-      {"cache_by_count", "a mesh of as many vertices and faces is taken for the one before", "state"},
-      {"every_other_time", "every other frame has a point one ulp off", "determinism"},
-  };
-  return list;
-}
-
 namespace {
+
+constexpr double kPi = std::numbers::pi;
 
 V mean(const std::vector<V>& points, std::span<const std::int32_t> which, std::size_t most) {
   V sum{};
@@ -100,6 +45,18 @@ std::int32_t opposite(std::span<const std::int32_t> quad, std::int32_t v) {
 }
 
 }  // namespace
+
+V unit_or_up(const V& n) {
+  const double size = length(n);
+  return size > 0 ? n * (1 / size) : V{0, 0, 1};
+}
+
+V mean_of_facets(const QuadRing& ring) {
+  V sum{};
+  for (std::size_t i = 0; i < ring.f.size(); ++i)
+    sum += cross(ring.e[i] - ring.c, ring.e[(i + 1) % ring.e.size()] - ring.c);
+  return unit_or_up(sum);
+}
 
 V QuadModelRules::face_point(std::span<const std::int32_t> corners, const std::vector<V>& points,
                              int level) const {
@@ -141,7 +98,7 @@ V QuadModelRules::vertex_point(const reference::Topology& topology, const std::v
 }
 
 std::vector<V> QuadModelRules::refine(const reference::Topology& topology, const std::vector<V>& points,
-                                      int level) const {
+                                      const ModelTags& tags, int level) const {
   const std::size_t vertices = points.size(), edges = topology.edges().size();
   std::vector<V> refined(vertices + edges + topology.faces().size());
   for (std::size_t f = 0; f < topology.faces().size(); ++f)
@@ -157,7 +114,8 @@ std::vector<V> QuadModelRules::refine(const reference::Topology& topology, const
     }
     const V faces = left + refined[vertices + edges + edge.right_face];
     double w = 0.25;
-    if (is("smooth_triangles") && level == 0) {
+    const bool smooth = tags.smooth_triangles() && !is("triangles_not_smooth");
+    if (level == 0 && (smooth || is("smooth_triangles"))) {
       const auto of = [&](std::int32_t f) { return topology.faces()[f].size() == 3 ? 0.47 : 0.25; };
       w = (of(edge.left_face) + of(edge.right_face)) / 2;
     }
@@ -167,65 +125,62 @@ std::vector<V> QuadModelRules::refine(const reference::Topology& topology, const
   }
   for (std::size_t v = 0; v < vertices; ++v)
     refined[v] = vertex_point(topology, points, refined, static_cast<std::int32_t>(v));
+  if (!tags.none()) tags.sharpen(topology, points, refined);
   return refined;
 }
 
-V QuadModelRules::limit(const reference::Topology& topology, const std::vector<V>& points,
-                        std::int32_t v) const {
+QuadRing QuadModelRules::ring(const reference::Topology& topology, const std::vector<V>& points,
+                              std::int32_t v) {
   const reference::Sector sector = topology.sector(v);
-  const V& c = points[v];
-  if (is("no_limit") || sector.faces.empty()) return c;
-  if (!sector.closed) {
-    const V ends = points[sector.neighbours.front()] + points[sector.neighbours.back()];
+  QuadRing ring{points[v], {}, {}, sector.closed};
+  for (const std::int32_t e : sector.neighbours) ring.e.push_back(points[e]);
+  for (const std::int32_t f : sector.faces) ring.f.push_back(points[opposite(topology.faces()[f], v)]);
+  return ring;
+}
+
+V QuadModelRules::limit(const QuadRing& ring) const {
+  const V& c = ring.c;
+  if (is("no_limit") || ring.f.empty()) return c;
+  if (!ring.closed) {
+    const V ends = ring.e.front() + ring.e.back();
     return is("boundary_limit_3_5") ? c * (3. / 5) + ends * (1. / 5) : c * (2. / 3) + ends * (1. / 6);
   }
   V near{}, far{};
-  for (const std::int32_t e : sector.neighbours) near += points[e];
-  for (const std::int32_t f : sector.faces) far += points[opposite(topology.faces()[f], v)];
-  const auto count = static_cast<double>(sector.faces.size());
+  for (const V& e : ring.e) near += e;
+  for (const V& f : ring.f) far += f;
+  const auto count = static_cast<double>(ring.f.size());
   double n = is("limit_of_valence_4") ? 4 : count;
   if (is("limit_weights_1e-5")) n *= 1 + 1e-5;
   if (is("limit_at_valence_3") && count == 3) return (c * 3 + near * 2 + far) * (1. / 12);
   return (c * n + near * (4 / count) + far * (1 / count)) * (1 / (n + 5));
 }
 
-V QuadModelRules::normal(const reference::Topology& topology, const std::vector<V>& points,
-                         std::int32_t v) const {
-  const reference::Sector sector = topology.sector(v);
-  const V& c = points[v];
-  std::vector<V> e, f;
-  for (const std::int32_t k : sector.neighbours) e.push_back(points[k]);
-  for (const std::int32_t k : sector.faces) f.push_back(points[opposite(topology.faces()[k], v)]);
-  if (is("mean_of_facets")) {
-    V sum{};
-    for (std::size_t i = 0; i < f.size(); ++i) sum += cross(e[i] - c, e[(i + 1) % e.size()] - c);
-    return sum * (1 / length(sum));
-  }
-  if (is("tangents_without_faces") && sector.closed) f.assign(f.size(), c);
-  if (is("tangents_of_valence_4") && sector.closed) {
+V QuadModelRules::normal(const QuadRing& ring) const {
+  const V& c = ring.c;
+  const std::vector<V>& e = ring.e;
+  std::vector<V> f = ring.f;
+  if (is("mean_of_facets")) return mean_of_facets(ring);
+  if (is("tangents_without_faces") && ring.closed) f.assign(f.size(), c);
+  if (is("tangents_of_valence_4") && ring.closed) {
     // f_i as the mask of valence 4 has it, in proportion.
-    const double n = static_cast<double>(f.size()), t = 2 * 3.14159265358979323846 / n;
+    const double n = static_cast<double>(f.size()), t = 2 * kPi / n;
     const double cosine = std::cos(t),
                  right = (1 + cosine + std::cos(t / 2) * std::sqrt(2 * (9 + cosine))) / 4;
     for (V& p : f) p = c + (p - c) * right;
   }
-  auto t = sector.closed ? reference::catmull_clark::interior_tangents<double>(c, e, f)
-                         : reference::catmull_clark::boundary_tangents<double>(c, e, f);
-  if (!sector.closed && (is("boundary_tangent_mean") || (is("boundary_tangent_trap") && f.size() >= 3))) {
+  QuadTangents t = quad_tangents({c, e, f, ring.closed});
+  if (!ring.closed && (is("boundary_tangent_mean") || (is("boundary_tangent_trap") && f.size() >= 3))) {
     V sum{};
     for (const V& p : e) sum += p - c;
     for (const V& p : f) sum += p - c;
     if (is("boundary_tangent_trap")) {  // the eigenvector of another rule: without the faces
       sum = {};
       for (std::size_t i = 1; i + 1 < e.size(); ++i)
-        sum += (e[i] - c) *
-               std::sin(3.14159265358979323846 * static_cast<double>(i) / static_cast<double>(f.size()));
+        sum += (e[i] - c) * std::sin(kPi * static_cast<double>(i) / static_cast<double>(f.size()));
     }
     t.second = sum;
   }
-  const V n = cross(t.first, t.second);
-  const double size = length(n);
-  return size > 0 ? n * (1 / size) : V{0, 0, 1};
+  return unit_or_up(cross(t.first, t.second));
 }
 
 }  // namespace limitcheck::verify

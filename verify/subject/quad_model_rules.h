@@ -9,6 +9,8 @@
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 #include "verify/subject/model_rules.h"
+#include "verify/subject/model_tags.h"
+#include "verify/subject/quad_model_ring.h"
 
 namespace limitcheck::verify {
 
@@ -23,18 +25,41 @@ class QuadModelRules {
 
   bool is(std::string_view name) const { return mutation_ == name; }
 
+  /// None if the mesh has no sharp edges.
+  ModelTags tags(const data::Sharpness& sharpness, const reference::Topology& topology) const;
+
   /// The step from `level` to the next: vertex points, then edge points, then face points.
-  std::vector<V> refine(const reference::Topology& topology, const std::vector<V>& points, int level) const;
+  std::vector<V> refine(const reference::Topology& topology, const std::vector<V>& points,
+                        const ModelTags& tags, int level) const;
+
   /// Of a mesh of quads.
-  V limit(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
-  V normal(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v) const;
+  static QuadRing ring(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v);
+  /// Of a vertex without tags, or of what lies to one side of sharp edges.
+  V limit(const QuadRing& ring) const;
+  V normal(const QuadRing& ring) const;
+
+  /// Of any vertex of a mesh of quads: its position and the normals in the faces around it, in the order of
+  /// its sector; one normal if all are the same.
+  struct Limit {
+    V position;
+    std::vector<V> normals;
+  };
+  Limit limit(const reference::Topology& topology, const std::vector<V>& points, const ModelTags& tags,
+              std::int32_t v) const;
 
  private:
   V face_point(std::span<const std::int32_t> corners, const std::vector<V>& points, int level) const;
   V vertex_point(const reference::Topology& topology, const std::vector<V>& points,
                  const std::vector<V>& refined, std::int32_t v) const;
+  Limit sharp_limit(const reference::Topology& topology, const std::vector<V>& points, const ModelTags& tags,
+                    std::int32_t v, std::span<const std::int32_t> faces) const;
 
   std::string_view mutation_;
 };
+
+/// Of unit length; (0, 0, 1) for the zero vector.
+QuadModelRules::V unit_or_up(const QuadModelRules::V& n);
+/// Of the triangles between a vertex and its neighbours.
+QuadModelRules::V mean_of_facets(const QuadRing& ring);
 
 }  // namespace limitcheck::verify

@@ -44,21 +44,38 @@ double one_ulp_up(double x) {
 // Points and normals at the vertices of one level.
 struct Level {
   reference::catmull_clark::RefinedMesh<double> mesh;  // where they are: its own points are not used
-  std::vector<V> points, limits, normals;
+  std::vector<V> points;
+  std::vector<QuadModelRules::Limit> limits;
 
   Level(const data::ControlMesh& control, const QuadModelRules& rules, int depth)
       : mesh(control.faces, reference::positions_of<double>(control)), points(mesh.positions()) {
+    ModelTags tags = rules.tags(control.sharpness, mesh.topology());
     for (int step = 0; step < depth; ++step) {
-      std::vector<V> next = rules.refine(mesh.topology(), points, step);
+      std::vector<V> next = rules.refine(mesh.topology(), points, tags, step);
       if (step > 0 && step + 1 == depth && rules.is("one_step_missing"))
         std::copy(points.begin(), points.end(), next.begin());
       points = std::move(next);
+      if (tags.none()) {
+        mesh.refine();
+        continue;
+      }
+      const reference::Topology before = mesh.topology();
       mesh.refine();
+      tags = tags.refined(before, mesh.topology());
     }
-    for (std::size_t v = 0; v < points.size(); ++v) {
-      limits.push_back(rules.limit(mesh.topology(), points, static_cast<std::int32_t>(v)));
-      normals.push_back(rules.normal(mesh.topology(), points, static_cast<std::int32_t>(v)));
+    for (std::size_t v = 0; v < points.size(); ++v)
+      limits.push_back(rules.limit(mesh.topology(), points, tags, static_cast<std::int32_t>(v)));
+  }
+
+  // The normal of a vertex in the quad around it in which another vertex lies opposite.
+  const V& normal(std::int32_t v, std::int32_t opposite) const {
+    const std::vector<V>& normals = limits[v].normals;
+    const auto faces = mesh.topology().sector(v).faces;
+    for (std::size_t i = 0; i < faces.size() && normals.size() > 1; ++i) {
+      const auto quad = mesh.topology().faces()[faces[i]];
+      if (std::find(quad.begin(), quad.end(), opposite) != quad.end()) return normals[i];
     }
+    return normals[0];
   }
 };
 
@@ -117,6 +134,8 @@ class Tiles {
 class QuadModelSubject {
  public:
   static constexpr std::int32_t kSchemes = LC_DOES_CATMULL_CLARK;
+  static constexpr std::int32_t kSharp = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN |
+                                         LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     (void)mutation(options);
     return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
@@ -206,9 +225,14 @@ class QuadModelSubject {
       const auto [at, is_new] =
           known.try_emplace({p.part, p.i, p.j}, static_cast<std::uint32_t>(vertices_.size()));
       if (is_new) {
-        const std::int32_t v = points.mesh.vertex(face_of_level, static_cast<std::size_t>(p.part),
-                                                  static_cast<int>(p.i), static_cast<int>(p.j));
-        Vertex made{points.limits[v], points.normals[v], {}, p.part};
+        const auto number = [&](std::int64_t i, std::int64_t j) {
+          return points.mesh.vertex(face_of_level, static_cast<std::size_t>(p.part), static_cast<int>(i),
+                                    static_cast<int>(j));
+        };
+        const std::int32_t v = number(p.i, p.j);
+        const std::int64_t most = domain.denominator(n);
+        const std::int32_t inside = number(p.i < most ? p.i + 1 : p.i - 1, p.j < most ? p.j + 1 : p.j - 1);
+        Vertex made{points.limits[v].position, points.normal(v, inside), {}, p.part};
         auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
         if (rules_.is("u_for_v")) std::swap(i, j);
         if (polygon && rules_.is("next_corner")) made.corner = domain.next(p.part);

@@ -3,7 +3,6 @@
 // OpenSubdiv is known to differ.
 #include <gtest/gtest.h>
 #include <opensubdiv/far/primvarRefiner.h>
-#include <opensubdiv/far/topologyDescriptor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +27,6 @@ using reference::Vec3;
 using Quads = reference::catmull_clark::RefinedMesh<double>;
 using Triangles = reference::RefinedMesh<double>;
 namespace Far = OpenSubdiv::Far;
-namespace Sdc = OpenSubdiv::Sdc;
 
 template <class Refined>
 Refined reference_of(const data::ControlMesh& mesh) {
@@ -41,49 +39,12 @@ Refined reference_of(const data::ControlMesh& mesh) {
   }
 }
 
-std::unique_ptr<Far::TopologyRefiner> refiner_of(const data::ControlMesh& mesh, Sdc::SchemeType type) {
-  const data::Sharpness& sharpness = mesh.sharpness;
-  std::vector<int> sizes, corners(mesh.faces.corners().begin(), mesh.faces.corners().end());
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) sizes.push_back(static_cast<int>(mesh.faces[f].size()));
-  std::vector<int> edges, vertices;
-  std::vector<float> edge_weights, vertex_weights;
-  for (const auto& e : sharpness.edges) {
-    edges.insert(edges.end(), {e.a, e.b});
-    edge_weights.push_back(e.sharpness);
-  }
-  for (const auto& v : sharpness.vertices) {
-    vertices.push_back(v.vertex);
-    vertex_weights.push_back(v.sharpness);
-  }
-  Far::TopologyDescriptor descriptor;
-  descriptor.numVertices = static_cast<int>(mesh.positions.size());
-  descriptor.numFaces = static_cast<int>(sizes.size());
-  descriptor.numVertsPerFace = sizes.data();
-  descriptor.vertIndicesPerFace = corners.data();
-  descriptor.numCreases = static_cast<int>(edge_weights.size());
-  descriptor.creaseVertexIndexPairs = edges.data();
-  descriptor.creaseWeights = edge_weights.data();
-  descriptor.numCorners = static_cast<int>(vertices.size());
-  descriptor.cornerVertexIndices = vertices.data();
-  descriptor.cornerWeights = vertex_weights.data();
-  Sdc::Options options;
-  options.SetVtxBoundaryInterpolation(sharpness.boundary == data::Boundary::kEdge
-                                          ? Sdc::Options::VTX_BOUNDARY_EDGE_ONLY
-                                          : Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
-  options.SetCreasingMethod(sharpness.creasing == data::Creasing::kUniform ? Sdc::Options::CREASE_UNIFORM
-                                                                           : Sdc::Options::CREASE_CHAIKIN);
-  options.SetTriangleSubdivision(sharpness.triangles == data::TriangleRule::kCatmark
-                                     ? Sdc::Options::TRI_SUB_CATMARK
-                                     : Sdc::Options::TRI_SUB_SMOOTH);
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(descriptor, Factory::Options(type, options)));
-}
-
 // The largest distance between the points of both after so many steps, over the largest coordinate.
 template <class Refined>
 double worst_difference(const data::ControlMesh& mesh, int depth) {
   constexpr bool kQuads = std::is_same_v<Refined, Quads>;
-  const auto refiner = refiner_of(mesh, kQuads ? Sdc::SCHEME_CATMARK : Sdc::SCHEME_LOOP);
+  const LentMesh lent(mesh, kQuads ? data::Scheme::kCatmullClark : data::Scheme::kLoop);
+  const auto refiner = make_refiner(lent.view());
   Far::TopologyRefiner::UniformOptions uniform(depth);
   uniform.fullTopologyInLastLevel = true;
   refiner->RefineUniform(uniform);

@@ -25,6 +25,11 @@
  *                 for each corner k: from c_k to the middle of the side to c_k+1, to the middle of the face,
  *                 to the middle of the side from c_k-1. Each has a (u, v) of its own, (0, 0) at c_k.
  *
+ * Sharp edges follow DeRose, Kass and Truong 1998 as OpenSubdiv has it, in both schemes: a sharpness is the
+ * number of steps in which an edge or a vertex is sharp, its fraction blends, and 10 and more is for ever.
+ * On an edge that stays sharp the surface has a normal for each side: a vertex there has that of the faces
+ * whose triangles it is a corner of.
+ *
  * Versions: what interface 2 added stands at the end of each structure, behind what interface 1 has, so that
  * a subject built for 1 is called as it always was; it is asked for Loop's scheme on triangles alone. The
  * members `size` say how many bytes the host knows: a subject built for a later interface may not touch more.
@@ -57,6 +62,33 @@ typedef enum lc_scheme { LC_SCHEME_LOOP = 0, LC_SCHEME_CATMULL_CLARK = 1 } lc_sc
 
 /* Sets of schemes, to be or-ed. */
 enum { LC_DOES_LOOP = 1, LC_DOES_CATMULL_CLARK = 2 };
+
+/* What of sharp edges and vertices there is to do, to be or-ed. */
+enum {
+  LC_SHARP_CREASES = 1,          /* edges that stay sharp: a sharpness of 10 and more */
+  LC_SHARP_SEMI = 2,             /* edges and vertices of a sharpness between 0 and 10 */
+  LC_SHARP_CHAIKIN = 4,          /* Chaikin's way of letting sharpness fall */
+  LC_SHARP_CORNERS = 8,          /* sharp vertices, and boundary vertices of one face that are held */
+  LC_SHARP_SMOOTH_TRIANGLES = 16 /* the smooth rule for Catmull-Clark's triangles */
+};
+
+/* An edge between two vertices of the control mesh, 0 < sharpness. */
+typedef struct lc_sharp_edge {
+  int32_t a, b;
+  float sharpness;
+} lc_sharp_edge;
+
+/* A vertex of the control mesh, 0 < sharpness. */
+typedef struct lc_sharp_vertex {
+  int32_t vertex;
+  float sharpness;
+} lc_sharp_vertex;
+
+/* How sharpness falls from step to step. */
+typedef enum lc_creasing {
+  LC_CREASING_UNIFORM = 0, /* by 1 */
+  LC_CREASING_CHAIKIN = 1  /* by 1, after a mean with the neighbours along the crease: OpenSubdiv's */
+} lc_creasing;
 
 /* Of positions and normals. */
 typedef enum lc_precision { LC_FLOAT32 = 0, LC_FLOAT64 = 1 } lc_precision;
@@ -94,6 +126,7 @@ typedef struct lc_capabilities {
   uint32_t size;    /* of this structure, as the host knows it */
   lc_scheme scheme; /* what is asked about: the answer may differ by the scheme */
   int32_t schemes;  /* which there are, LC_DOES_LOOP | LC_DOES_CATMULL_CLARK; 0: Loop's alone */
+  int32_t sharp;    /* what it does of sharp edges, LC_SHARP_CREASES | ..; 0: nothing */
 } lc_capabilities;
 
 /* A valid control mesh: an oriented 2-manifold, boundaries allowed. The arrays are the host's. */
@@ -110,6 +143,14 @@ typedef struct lc_mesh {
   int64_t corner_count;
   const int32_t* face_sizes; /* face_count numbers of corners, 3 or more */
   int64_t face_count;
+  const lc_sharp_edge* sharp_edges; /* sharp_edge_count, each edge once; boundary edges are always sharp */
+  int64_t sharp_edge_count;
+  const lc_sharp_vertex* sharp_vertices; /* sharp_vertex_count, each vertex once */
+  int64_t sharp_vertex_count;
+  lc_creasing creasing;
+  int32_t corners_held; /* 1: a boundary vertex of one face stays where it is */
+  int32_t
+      smooth_triangles; /* 1: Catmull-Clark's first step gives edges of triangles OpenSubdiv's smooth rule */
 } lc_mesh;
 
 /* One tessellation that is asked for. */

@@ -106,6 +106,16 @@ std::int32_t schemes_of(const Header& header) {
   return schemes;
 }
 
+std::int32_t sharp_of(const Header& header) {
+  if (!header.has("sharp")) return 0;
+  const nlohmann::json& list = header.at("sharp");
+  if (!list.is_array()) throw Error(R"("sharp" is no list)");
+  std::int32_t kinds = 0;
+  for (const auto& [name, bit] : kSharpKinds)
+    if (std::find(list.begin(), list.end(), name) != list.end()) kinds |= bit;
+  return kinds;
+}
+
 std::size_t real_size(const Capabilities& capabilities) {
   return capabilities.values.precision == LC_FLOAT32 ? sizeof(float) : sizeof(double);
 }
@@ -145,6 +155,11 @@ std::string ask_create(const lc_mesh& mesh, const std::string& options, const Ca
     question["scheme"] = name_of(mesh.scheme);
     question["faces"] = mesh.face_count;
     question["corners"] = mesh.corner_count;
+    question["sharp_edges"] = mesh.sharp_edge_count;
+    question["sharp_vertices"] = mesh.sharp_vertex_count;
+    question["creasing"] = mesh.creasing == LC_CREASING_CHAIKIN ? "chaikin" : "uniform";
+    question["corners_held"] = mesh.corners_held != 0;
+    question["smooth_triangles"] = mesh.smooth_triangles != 0;
   } else {
     question["triangles"] = mesh.triangle_count;
   }
@@ -154,6 +169,12 @@ std::string ask_create(const lc_mesh& mesh, const std::string& options, const Ca
     const std::int32_t* corner = mesh.corners;
     for (std::int64_t f = 0; f < mesh.face_count; corner += mesh.face_sizes[f++])
       append_rows(text, corner, 1, mesh.face_sizes[f]);
+    for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k) {
+      const lc_sharp_edge& e = mesh.sharp_edges[k];
+      text += fmt::format("{} {} {}\n", e.a, e.b, e.sharpness);
+    }
+    for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k)
+      text += fmt::format("{} {}\n", mesh.sharp_vertices[k].vertex, mesh.sharp_vertices[k].sharpness);
     return text;
   }
   const auto array = [&](const auto* data, std::int64_t count) {
@@ -162,6 +183,10 @@ std::string ask_create(const lc_mesh& mesh, const std::string& options, const Ca
   array(mesh.positions, 3 * mesh.vertex_count);
   if (polygons) array(mesh.face_sizes, mesh.face_count);
   array(mesh.corners, mesh.corner_count);
+  if (polygons) {
+    array(mesh.sharp_edges, mesh.sharp_edge_count);
+    array(mesh.sharp_vertices, mesh.sharp_vertex_count);
+  }
   return text;
 }
 
@@ -204,6 +229,7 @@ Capabilities read_capabilities(Source& source) {
   c.per_face_depth = header.flag("per_face_depth");
   c.exact_lattice = header.flag("exact_lattice");
   c.schemes = version == 1 ? std::int32_t{LC_DOES_LOOP} : schemes_of(header);
+  c.sharp = version == 1 ? 0 : sharp_of(header);
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
   return result;

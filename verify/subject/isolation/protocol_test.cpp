@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -57,15 +58,36 @@ TEST(Protocol, AsksInOneLineAndAPayload) {
             "{\"request\":\"tessellate\",\"threads\":2,\"triangles\":2}\n3\n-1\n");
   // Version 2 has faces of any size, and says which scheme.
   const std::int32_t quad[] = {0, 1, 2, 1}, four[] = {4};
-  const lc_mesh polygons{positions, 3, nullptr, 0, sizeof(lc_mesh), LC_SCHEME_CATMULL_CLARK,
-                         quad,      4, four,    1};
+  const lc_sharp_edge edges[] = {{2, 1, 2.3F}};
+  const lc_sharp_vertex corners[] = {{1, INFINITY}};
+  const lc_mesh polygons{positions,
+                         3,
+                         nullptr,
+                         0,
+                         sizeof(lc_mesh),
+                         LC_SCHEME_CATMULL_CLARK,
+                         quad,
+                         4,
+                         four,
+                         1,
+                         edges,
+                         1,
+                         corners,
+                         1,
+                         LC_CREASING_CHAIKIN,
+                         1,
+                         0};
   const std::string question =
-      "{\"corners\":4,\"faces\":1,\"options\":\"\",\"request\":\"create\",\"scheme\":\"catmull-clark\","
-      "\"vertices\":3}\n";
+      "{\"corners\":4,\"corners_held\":true,\"creasing\":\"chaikin\",\"faces\":1,\"options\":\"\","
+      "\"request\":\"create\",\"scheme\":\"catmull-clark\",\"sharp_edges\":1,\"sharp_vertices\":1,"
+      "\"smooth_triangles\":false,\"vertices\":3}\n";
   EXPECT_EQ(ask_create(polygons, "", program(Payload::kText, 2)),
-            question + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2 1\n");
+            question + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2 1\n2 1 2.3\n1 inf\n");
   const std::string arrays = ask_create(polygons, "", program(Payload::kBinary, 2)).substr(question.size());
-  ASSERT_EQ(arrays.size(), sizeof positions + sizeof four + sizeof quad);
+  const std::size_t before = sizeof positions + sizeof four + sizeof quad;
+  ASSERT_EQ(arrays.size(), before + sizeof edges + sizeof corners);
+  EXPECT_EQ(std::memcmp(arrays.data() + before, edges, sizeof edges), 0);
+  EXPECT_EQ(std::memcmp(arrays.data() + before + sizeof edges, corners, sizeof corners), 0);
   EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions, four, sizeof four), 0);
   EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions + sizeof four, quad, sizeof quad), 0);
   EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, program(Payload::kText, 2)),

@@ -88,6 +88,8 @@ Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& m
     source.read(bytes(mesh.positions, 3 * mesh.vertex_count));
     source.read(bytes(mesh.corners, mesh.corner_count));
     source.read(bytes(mesh.face_sizes, mesh.face_count));
+    source.read(bytes(mesh.sharp_edges, mesh.sharp_edge_count));
+    source.read(bytes(mesh.sharp_vertices, mesh.sharp_vertex_count));
   }
   return {header.flag("release_threw")};
 }

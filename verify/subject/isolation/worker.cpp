@@ -95,6 +95,13 @@ nlohmann::json scheme_names(const lc_capabilities& c) {
   return names;
 }
 
+nlohmann::json sharp_names(const lc_capabilities& c) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto& [name, bit] : protocol::kSharpKinds)
+    if ((c.sharp & bit) != 0) names.push_back(name);
+  return names;
+}
+
 nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options,
                                    data::Scheme scheme) {
   lc_capabilities c{};
@@ -110,6 +117,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"boundary", c.boundary == LC_BOUNDARY_SPLINE ? "spline" : "none"},
           {"points", c.points == LC_POINTS_LIMIT ? "limit" : "refined"},
           {"schemes", scheme_names(c)},
+          {"sharp", sharp_names(c)},
           {"max_depth", c.max_depth},
           {"normals", c.normals != 0},
           {"per_face_depth", c.per_face_depth != 0},
@@ -166,6 +174,8 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
     host.write(std::as_bytes(std::span(loaded.mesh.positions)));
     host.write(std::as_bytes(std::span(loaded.mesh.corners)));
     host.write(std::as_bytes(std::span(loaded.mesh.face_sizes)));
+    host.write(std::as_bytes(std::span(loaded.mesh.sharp_edges)));
+    host.write(std::as_bytes(std::span(loaded.mesh.sharp_vertices)));
   }
 }
 
@@ -190,6 +200,12 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
     lent.positions = host.array<double>(3 * header.integer("vertices", 0, INT32_MAX));
     lent.face_sizes = host.array<std::int32_t>(header.integer("faces", 0, INT32_MAX));
     lent.corners = host.array<std::int32_t>(header.integer("corners", 0, INT32_MAX));
+    lent.sharp_edges = host.array<lc_sharp_edge>(header.integer("sharp_edges", 0, INT32_MAX));
+    lent.sharp_vertices = host.array<lc_sharp_vertex>(header.integer("sharp_vertices", 0, INT32_MAX));
+    lent.creasing =
+        header.choice("creasing", {"uniform", "chaikin"}) == 0 ? LC_CREASING_UNIFORM : LC_CREASING_CHAIKIN;
+    lent.corners_held = header.flag("corners_held");
+    lent.smooth_triangles = header.flag("smooth_triangles");
     const lc_mesh mesh = lent.view();
     detail::call(subject, "create", [&](const char** message) {
       return subject.create(&mesh, loaded->option_text(), &loaded->instance, message);

@@ -46,7 +46,11 @@ class QuadRowStream {
 
   const QuadKernel& kernel() const { return kernel_; }
   const QuadRings& rings() const { return rings_; }
-  /// The limit point of a vertex.
+  /// A vertex of the mesh, rounded; and its limit point.
+  Vec3<float> control(std::int32_t v) const {
+    const float* x = rings_.head(v) + QuadCornerBlock::kCentre;
+    return rings_.placement()(Vec3<float>{x[0], x[1], x[2]});
+  }
   SurfaceVertex<float> limit(std::int32_t v) const {
     const float* x = rings_.head(v) + QuadCornerBlock::kLimit;
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};

@@ -29,18 +29,6 @@ QuadStreamState::QuadStreamState(const data::ControlMesh& given, const Tessellat
   for (const std::int32_t quad : stream.sorted(all)) rank[quad] = place++;
 }
 
-void QuadStreamState::prepare() {
-  if (plan.fans > 0 && !control) make_control();
-  worker_bytes = 0;
-}
-
-// The centres of fans may be other points than those of the lattice; they come from the sliding window.
-void QuadStreamState::make_control() {
-  std::vector<Vec3<float>> positions;
-  for (const auto& p : place_points<float>(quads.positions).points) positions.push_back({p[0], p[1], p[2]});
-  control.emplace(quads, std::move(positions));
-}
-
 void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
   run(first, last, [&](std::size_t i) { return draw_writer(first, i, out); });
 }
@@ -85,8 +73,7 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
 template <class MakeWriter>
 void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
   make_batches(first, last);
-  const QuadStreamFrame frame{
-      stream, narrow, faces, plan, patches, control ? &*control : nullptr, options.cracks.centre};
+  const QuadStreamFrame frame{stream, narrow, faces, plan, patches, options.cracks.centre};
   run_batches<QuadStreamWorker>(arena, batches.size(), parts.size(),
                                 [&](QuadStreamWorker& worker, std::size_t b) {
                                   worker.run(frame, batches[b], make_writer);

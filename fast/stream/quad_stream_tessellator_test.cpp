@@ -52,28 +52,33 @@ TEST(QuadStreamFrame, HasTheDrawsAndThePointsOfTheWindowInDouble) {
   meshes.push_back(data::quad_wheel(9, 2));
   for (const auto& mesh : meshes) {
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-      StreamTessellator ours(mesh, quad_options(repair));
-      Tessellator<double> window(mesh, quad_options(repair));
-      for (std::uint64_t seed = 0; seed < 6; ++seed) {
-        const auto depth = random_depths(mesh.faces.size(), -1, seed == 0 ? 6 : 4, seed);
-        DrawList<float> got;
-        DrawList<double> want;
-        ours.frame(depth, got);
-        window.frame(depth, want);
-        ASSERT_EQ(got.vertices.size(), want.vertices.size());
-        ASSERT_EQ(got.draws.size(), want.draws.size());
-        ASSERT_EQ(got.provenance, want.provenance);
-        double position = 0, normal = 0;
-        for (std::size_t v = 0; v < got.vertices.size(); ++v) {
-          const auto& a = got.vertices[v];
-          const auto& b = want.vertices[v];
-          position = std::max({position, std::abs(a.position.x - b.position.x),
-                               std::abs(a.position.y - b.position.y), std::abs(a.position.z - b.position.z)});
-          normal = std::max({normal, std::abs(a.normal.x - b.normal.x), std::abs(a.normal.y - b.normal.y),
-                             std::abs(a.normal.z - b.normal.z)});
+      for (const FanCentre centre : {FanCentre::kLimit, FanCentre::kFlatLimit, FanCentre::kFlatControl}) {
+        TessellatorOptions options = quad_options(repair);
+        options.cracks.centre = centre;
+        StreamTessellator ours(mesh, options);
+        Tessellator<double> window(mesh, options);
+        for (std::uint64_t seed = 0; seed < 6; ++seed) {
+          const auto depth = random_depths(mesh.faces.size(), -1, seed == 0 ? 6 : 4, seed);
+          DrawList<float> got;
+          DrawList<double> want;
+          ours.frame(depth, got);
+          window.frame(depth, want);
+          ASSERT_EQ(got.vertices.size(), want.vertices.size());
+          ASSERT_EQ(got.draws.size(), want.draws.size());
+          ASSERT_EQ(got.provenance, want.provenance);
+          double position = 0, normal = 0;
+          for (std::size_t v = 0; v < got.vertices.size(); ++v) {
+            const auto& a = got.vertices[v];
+            const auto& b = want.vertices[v];
+            position =
+                std::max({position, std::abs(a.position.x - b.position.x),
+                          std::abs(a.position.y - b.position.y), std::abs(a.position.z - b.position.z)});
+            normal = std::max({normal, std::abs(a.normal.x - b.normal.x), std::abs(a.normal.y - b.normal.y),
+                               std::abs(a.normal.z - b.normal.z)});
+          }
+          EXPECT_LE(position / data::box_diagonal(mesh), 1.2e-7) << seed;
+          EXPECT_LE(normal, 1e-3) << seed;
         }
-        EXPECT_LE(position / data::box_diagonal(mesh), 1.2e-7) << seed;
-        EXPECT_LE(normal, 1e-3) << seed;
       }
     }
   }

@@ -3,15 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+
 #include <span>
 #include <vector>
 
 #include "fast/frame/quad_patch.h"
+#include "fast/rules/masks.h"
 #include "fast/stream/quad_row_stream.h"
-#include "fast/window/quad_frame_worker.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -34,7 +35,7 @@ struct QuadStreamFrame {
   const QuadFaces& faces;
   const CrackPlan& plan;
   std::span<const QuadPatch> patches;
-  const PreparedQuads<float>* control;  // for the centres of fans; null if there are none
+
   FanCentre centre;
 };
 
@@ -118,9 +119,7 @@ class QuadStreamWorker {
     for (int s = 0; s < faces.sides(f); ++s)
       evaluate_border(frame, first + s, frame.plan.edge_depth[first + s], border_[s]);
     if (patch.display == Display::kFan) {
-      if (!window_) window_ = std::make_unique<QuadWindow<float>>(1, faces.mesh->adjacency.max_valence());
-      const Point centre = quad_centre(*frame.control, faces, f, frame.centre, *window_);
-      return writer.fan(placed(centre, frame.stream.rings().placement()), border_);
+      return writer.fan(centre(frame, f), border_);
     }
     quads_.clear();
     for (int part = 0; part < faces.parts(f); ++part) quads_.push_back(faces.quad(f, part));
@@ -128,6 +127,29 @@ class QuadStreamWorker {
     frame.stream.whole(quads_, patch.depth - (faces.cut() ? 1 : 0), workspace_,
                        reinterpret_cast<Vertex*>(points_.points.data()), &frame.narrow);
     writer.stitch(points_, border_);
+  }
+
+  // The centre of a face: the limit point in its middle, or the mean of its corners, with the normal of the limit.
+  Point centre(const QuadStreamFrame& frame, std::int32_t f) {
+    const QuadFaces& faces = frame.faces;
+    const auto first = static_cast<std::int32_t>(faces.first[f]);
+    Point middle;
+    if (faces.cut()) {
+      middle = frame.stream.limit(faces.mesh->adjacency.corner(first, 2));
+    } else {
+      std::array<Vertex, 9> points;  // of depth 1
+      frame.stream.whole({&f, 1}, 1, workspace_, points.data(), &frame.narrow);
+      middle = *points_of(&points[4]);
+    }
+    if (frame.centre == FanCentre::kLimit) return middle;
+    Vec3<double> sum{};
+    for (int k = 0; k < faces.sides(f); ++k) {
+      const std::int32_t v = faces.vertex(first + k);
+      sum = sum + widen<float>(frame.centre == FanCentre::kFlatControl ? frame.stream.control(v)
+                                                                       : frame.stream.limit(v).position);
+    }
+    middle.position = narrow<float>(1. / faces.sides(f) * sum);
+    return middle;
   }
 
   // Side c of a face at a depth of its own.
@@ -153,7 +175,6 @@ class QuadStreamWorker {
   std::vector<Point> strip_;
   QuadBorder<float> border_;
   FacePoints<float> points_;
-  std::unique_ptr<QuadWindow<float>> window_;
 };
 
 }  // namespace limitcheck::fast::row_stream

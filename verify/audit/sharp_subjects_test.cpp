@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "reference/mesh/topology.h"
 #include "verify/audit/audit.h"
@@ -59,7 +60,9 @@ TEST(SharpSubjects, QuadModelHasNoFinding) {
 
 TEST(SharpSubjects, OpenSubdivsPatchesAreRightButAtDarts) {
   int held = 0, darts = 0;
-  for (const test::Named& shape : test::sharp_polygons()) {
+  std::vector<test::Named> shapes = test::sharp_polygons(), of_triangles = test::sharp_triangles();
+  shapes.insert(shapes.end(), of_triangles.begin(), of_triangles.end());
+  for (const test::Named& shape : shapes) {
     if (!corners_held(shape.second)) continue;  // bfr-smooth-corner-normals, far-patches-smooth-corner
     for (const AuditSubject& subject :
          {AuditSubject{find_subject("opensubdiv-bfr"), "precision=double,approx-level=5"},
@@ -72,8 +75,8 @@ TEST(SharpSubjects, OpenSubdivsPatchesAreRightButAtDarts) {
       ++(dart ? darts : held);
     }
   }
-  EXPECT_GT(held, 100);
-  EXPECT_GT(darts, 30);
+  EXPECT_GT(held, 300);
+  EXPECT_GT(darts, 60);
 }
 
 TEST(SharpSubjects, EmbreeIsRightWhereSharpnessFallsInWholeSteps) {

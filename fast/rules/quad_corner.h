@@ -25,8 +25,8 @@ struct QuadCorner {
   WideVec3<N> centre{};  // before it was rounded
   typename PreparedQuads<N>::Sums sums{};
 
-  bool has_left() const { return star.has_face(sector + 1); }    // a face beyond edge(sector + 1)
-  bool has_right() const { return star.has_face(sector - 1); }   // a face beyond edge(sector)
+  bool has_left() const { return star.has_face(sector + 1); }   // a face beyond edge(sector + 1)
+  bool has_right() const { return star.has_face(sector - 1); }  // a face beyond edge(sector)
   const Vec3<N>& along() const { return star.edge(sector); }
   const Vec3<N>& opposite() const { return star.face(sector); }
   /// The next edges of the ring, if there are such faces.
@@ -123,9 +123,9 @@ typename Surface::Vertex quad_boundary_limit(const Vec3<N>& v, const Vec3<N>& e,
 
 /// Of a point inside a semi-sharp edge: e lies on it, before `after`, and w on the part before it. Allocates.
 template <class N, class Surface>
-typename Surface::Vertex semi_sharp_limit(const Vec3<N>& v, const QuadNeighbours<N>& r, const SidePart& before,
-                                          const SidePart& after, data::Creasing creasing,
-                                          std::int64_t& zero_normals) {
+typename Surface::Vertex semi_sharp_limit(const Vec3<N>& v, const QuadNeighbours<N>& r,
+                                          const SidePart& before, const SidePart& after,
+                                          data::Creasing creasing, std::int64_t& zero_normals) {
   using Wide = typename NumberTraits<N>::Wide;
   OwnQuadStar<Wide> own;
   own.resize(4, false, VertexKind::kPlain);

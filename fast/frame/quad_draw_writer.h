@@ -27,6 +27,15 @@ class QuadDrawWriter {
         draw_(draws),
         first_(first) {}
 
+  /// Leaves out strips that somebody else writes.
+  void skip(std::int64_t strips) {
+    const std::int64_t vertices = strips * 2 * (faces_.part_size(patch_.depth) + 1);
+    vertex_ += vertices;
+    if (provenance_ != nullptr) provenance_ += vertices;
+    draw_ += strips;
+    first_ += vertices;
+  }
+
   /// A strip of the window: 2 (m + 1) vertices between rows j = m - row and below, m = part_size(depth).
   void strip(int part, int row, const Vertex* strip) {
     const int m = faces_.part_size(patch_.depth);

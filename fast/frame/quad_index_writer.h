@@ -95,6 +95,9 @@ class QuadIndexWriter {
         m_(faces.part_size(patch.depth)),
         triangle_(layout.first_triangle[patch.face]) {}
 
+  /// Leaves out strips that somebody else writes.
+  void skip(std::int64_t strips) { triangle_ += strips * 2 * m_; }
+
   void strip(int part, int row, const Vertex* strip) {
     const int j = m_ - row;
     for (int i = 0; i <= m_; ++i) {

@@ -143,6 +143,14 @@ const std::vector<Entry>& entries() {
        [](Parameters p) {
          return with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
        }},
+      {"smooth-triangles", "smooth-triangles:SEED[:FACES]",
+       "mixed-sharp:SEED[:FACES] with OpenSubdiv's smooth rule for triangles", 1, 2,
+       [](Parameters p) {
+         ControlMesh mesh =
+             with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
+         mesh.sharpness.triangles = TriangleRule::kSmooth;
+         return mesh;
+       }},
       {"crowd", "crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number", 1,
        1, [](Parameters p) { return crowd(as_int(p[0])); }},
   };
@@ -218,7 +226,10 @@ ControlMesh named_mesh(const std::string& specification) {
 OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& options) {
   ControlMesh mesh = named_mesh(specification);
   Triangulated triangles = triangulate(mesh, options.polygons);
-  if (triangles.cut > 0) mesh.faces = std::move(triangles.faces);
+  if (triangles.cut > 0) {
+    mesh.faces = std::move(triangles.faces);
+    mesh.holes.clear();  // no generator makes any
+  }
   if (triangles.cut > 0 || options.scheme)
     if (const auto faults = validate(mesh, options.scheme.value_or(natural_scheme(mesh))); !faults.empty())
       throw InputError(std::string(code(faults[0].fault)), specification, 0, faults[0].message);

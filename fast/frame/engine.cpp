@@ -134,9 +134,8 @@ std::vector<std::int32_t> Engine<Real>::depths(const DepthOptions& strategy, con
                                                double& seconds) {
   const auto start = Clock::now();
   std::vector<std::int32_t> depth;
-  state_->arena.execute([&] {
-    depth = state_->depths(strategy, camera);
-  });
+  state_->arena.execute([&] { depth = state_->depths(strategy, camera); });
+  for (const std::int32_t f : state_->mesh.holes) depth[f] = -1;
   seconds = seconds_since(start);
   return depth;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/error.h"
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/index_writer.h"
@@ -19,13 +20,15 @@ namespace limitcheck::fast {
 /// Of pairs of triangles. An engine overrides how points are evaluated; Engine calls it.
 template <class Real>
 struct EngineState : FrameEngine<Real> {
-  /// throws   data::ArgumentError: what FrameState and Adjacency refuse
+  /// throws   data::ArgumentError: what FrameState and Adjacency refuse, and sharp edges and vertices
   EngineState(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
-      : FrameEngine<Real>(given, with), rules(by), adjacency(mesh) {}
+      : FrameEngine<Real>(given, with), rules(by), adjacency(mesh) {
+    if (!mesh.sharpness.empty())
+      throw data::ArgumentError("tessellator: no sharp edges or vertices in Loop's scheme");
+  }
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
       FrameEngine<Real>::plan;
-
 
   int face_count() const final { return adjacency.face_count(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {

@@ -90,7 +90,9 @@ class QuadDrawWriter {
   }
 
  private:
-  int depth_of(int side) const { return plan_.edge_depth[faces_.first[patch_.face] + static_cast<std::size_t>(side)]; }
+  int depth_of(int side) const {
+    return plan_.edge_depth[faces_.first[patch_.face] + static_cast<std::size_t>(side)];
+  }
   int side_points(int side) const { return 1 << depth_of(side); }
 
   void begin(DrawMode mode, Kind kind) {

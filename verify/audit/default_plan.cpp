@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <set>
 #include <string>
 
 #include "data/generators/named_mesh.h"
@@ -84,6 +83,19 @@ const std::vector<Case>& small_cases() {
       {"mixed:1:60", 3, "random:2"},
       {"mixed:1:60", 3, "view"},
       {"mixed-pawn", 2},
+      // Sharp edges and vertices, for subjects that do them.
+      {"creased-cube", 2, "uniform", true},
+      {"creased-cube:3", 1, "uniform", true},
+      {"crease-ring", 1},
+      {"crease-ring:2", 2},
+      {"quad-dart:4", 2},
+      {"quad-dart:5", 1},
+      {"quad-corner:2", 2},
+      {"quad-corner:3", 2, "random:1"},
+      {"mixed-sharp:8:60", 2, "uniform", true},
+      {"mixed-sharp:20:60", 2, "random:1"},
+      {"mixed-sharp:11:60", 1},
+      {"smooth-triangles:1:60", 1},
   };
   return all;
 }
@@ -122,15 +134,24 @@ std::vector<AuditMesh> default_plan(Level level) {
 }
 
 std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>& subjects) {
-  std::set<data::Scheme> wanted;
+  struct Does {
+    data::Scheme scheme;
+    std::int32_t sharp;
+  };
+  std::vector<Does> all;
   for (const auto scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
     for (const AuditSubject& s : subjects) try {
-        if (does(capabilities(*s.subject, s.options, scheme), scheme)) wanted.insert(scheme);
+        const lc_capabilities c = capabilities(*s.subject, s.options, scheme);
+        if (does(c, scheme)) all.push_back({scheme, c.sharp});
       } catch (const std::exception&) {  // the audit will say why
-        wanted.insert(scheme);
+        all.push_back({scheme, 0});
       }
   std::vector<AuditMesh> plan = default_plan(level);
-  std::erase_if(plan, [&](const AuditMesh& m) { return !wanted.contains(m.scheme()); });
+  std::erase_if(plan, [&](const AuditMesh& m) {
+    const std::int32_t kinds = sharp_kinds(m.mesh, m.scheme());
+    return std::none_of(all.begin(), all.end(),
+                        [&](const Does& d) { return d.scheme == m.scheme() && (kinds & ~d.sharp) == 0; });
+  });
   return plan;
 }
 

@@ -117,19 +117,19 @@ const std::vector<Mutant>& mutants() {
       const auto found = meant().find(std::string(f.name));
       const Meant to = found == meant().end() ? Meant{""} : found->second;
       all.push_back({std::string(f.name), std::string(f.description), "faulty",
-                     faulty_options(f.name, to.subject), to.check, ""});
+                     faulty_options(f.name, to.subject), to.check, "", false});
     }
     for (const Mutation& m : mutations())
       if (m.name != "none")
         all.push_back({std::string(m.name), std::string(m.description), kBase,
                        fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
-                       std::string(m.check), std::string(m.claim)});
+                       std::string(m.check), std::string(m.claim), m.sharp});
     for (const Mutation& m : quad_mutations())
       if (m.name != "none")
         all.push_back({fmt::format("quad_{}", m.name), std::string(m.description), kQuadBase,
-                       fmt::format("mutation={}", m.name), std::string(m.check), ""});
+                       fmt::format("mutation={}", m.name), std::string(m.check), "", m.sharp});
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
-                   faulty_options("wrong_edge_mask", "cgal"), "refined-positions", ""});
+                   faulty_options("wrong_edge_mask", "cgal"), "refined-positions", "", false});
     return all;
   }();
   return list;
@@ -176,6 +176,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
     for (Kill& k : table.kills) {
       const bool relation = is_relation(k.mutant->check);
       if (k.by_its_check() || (relation && !relations) || !suits(k.mutant->subject, m)) continue;
+      if (k.mutant->sharp == m.mesh.sharpness.empty()) continue;
       if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
       step(k.mutant->name, m);
       m.relations = relation;

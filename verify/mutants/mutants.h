@@ -15,6 +15,7 @@ struct Mutant {
   std::string subject, options;  // as `limitcheck audit SUBJECT:OPTIONS` takes them
   std::string check;             // the row meant for it
   std::string claim;             // of the paper, where the mutant is the paper taken literally; else empty
+  bool sharp;                    // only meshes with sharp edges or vertices bring it out
 };
 
 /// Faults planted in what a correct subject delivers, and a correct subject with one rule changed.

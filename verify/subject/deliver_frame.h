@@ -54,7 +54,8 @@ void deliver_frame(Engine& engine, std::span<const std::int32_t> depth, bool ind
   if (indexed) {
     fast::IndexedMesh<Real> mesh;
     engine.frame(depth, mesh);
-    const auto output = deliver_vertices(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size(), corners);
+    const auto output =
+        deliver_vertices(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size(), corners);
     for (const auto& t : mesh.triangles)
       for (const std::uint32_t v : t) output.triangles[at++] = v;
     std::copy(mesh.triangle_face.begin(), mesh.triangle_face.end(), output.triangle_face);

@@ -18,6 +18,7 @@ struct Mutation {
   std::string_view check;       // the row of the audit meant for it
   std::string_view claim = {};  // of the paper, where this is the paper taken literally
   bool in_float = false;        // delivered in float: small faults hide in wider bounds
+  bool sharp = false;           // only sharp edges and vertices bring it out
 };
 
 /// All mutations of the model; the first is "none".

@@ -24,7 +24,8 @@ bool is_semi_sharp(double sharpness) {
 ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology, std::string_view mutation)
     : edge_(topology.edges().size(), 0.),
       vertex_(topology.vertex_count(), 0.),
-      chaikin_(sharpness.creasing == data::Creasing::kChaikin),
+      chaikin_((sharpness.creasing == data::Creasing::kChaikin && mutation != "chaikin_as_uniform") ||
+               mutation == "uniform_as_chaikin"),
       smooth_triangles_(sharpness.triangles == data::TriangleRule::kSmooth),
       mutation_(mutation) {
   const auto value = [&](float given) -> double {
@@ -32,10 +33,9 @@ ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology,
     if (is("infinite_is_4")) return std::min(given, 4.F);
     if (is("sharpness_rounded_down")) return given >= data::kInfiniteSharpness ? kForEver : std::floor(given);
     if (is("sharpness_rounded_up")) return given >= data::kInfiniteSharpness ? kForEver : std::ceil(given);
-    if (is("infinite_from_4") && given >= 4) return kForEver;
-    if (given > data::kInfiniteSharpness) return kForEver;
-    if (given == data::kInfiniteSharpness && !is("ten_is_finite")) return kForEver;
-    return given;
+    if (is("infinite_from_3") && given >= 3) return kForEver;
+    if (is("infinite_ends_after_10")) return std::min(given, data::kInfiniteSharpness);
+    return given >= data::kInfiniteSharpness ? kForEver : given;
   };
 
   if (is("corners_always_held") ||
@@ -63,7 +63,9 @@ ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology,
     if (is("tags_lost_at_corner_0") && left.front() == e.b && left.back() == e.a) edge_[k] = 0;
   }
   for (const data::SharpVertex& v : sharpness.vertices)
-    if (!is("vertices_not_sharp")) vertex_[v.vertex] = std::max(vertex_[v.vertex], value(v.sharpness));
+    if (!is("vertices_not_sharp"))
+      vertex_[v.vertex] =
+          std::max(vertex_[v.vertex], is("vertices_never_fall") ? kForEver : value(v.sharpness));
 }
 
 double ModelTags::edge(const Topology& topology, std::int32_t e) const {
@@ -113,15 +115,14 @@ ModelTags::Step ModelTags::step(const Topology& topology, std::int32_t v, bool n
 }
 
 double ModelTags::fallen(double sharpness) const {
-  if (sharpness == kForEver) return is("infinite_ends_after_10") && level_ >= 9 ? 0 : kForEver;
-  if (is("sharpness_never_falls")) return sharpness;
+  if (sharpness == kForEver) return kForEver;
   return std::max(0., sharpness - (is("falls_by_2") ? 2 : 1));
 }
 
 double ModelTags::fallen(const Topology& topology, std::int32_t e, std::int32_t v) const {
   const double own = edge(topology, e);
   if (topology.edges()[e].on_boundary()) return kForEver;
-  if (!is_semi_sharp(own) || !chaikin_ || is("chaikin_as_uniform")) return fallen(own);
+  if (!is_semi_sharp(own) || !chaikin_) return fallen(own);
   const Edge& edge_of_mesh = topology.edges()[e];
   const std::int32_t end =
       is("chaikin_ends_exchanged") ? (edge_of_mesh.a == v ? edge_of_mesh.b : edge_of_mesh.a) : v;
@@ -202,7 +203,7 @@ void ModelTags::sharpen(const Topology& topology, const std::vector<V>& points,
 ModelTags ModelTags::refined(const Topology& topology, const Topology& finer) const {
   if (none()) return {};
   ModelTags next = *this;
-  ++next.level_;
+  next.control_ = false;
   next.edge_.assign(finer.edges().size(), 0.);
   next.vertex_.assign(finer.vertex_count(), 0.);
   const auto vertices = static_cast<std::int32_t>(topology.vertex_count());
@@ -212,6 +213,12 @@ ModelTags ModelTags::refined(const Topology& topology, const Topology& finer) co
     const std::int32_t end = std::min(e.a, e.b), middle = std::max(e.a, e.b);
     if (end < vertices && middle >= vertices && middle < vertices + edges)
       next.edge_[k] = fallen(topology, middle - vertices, end);
+    // Tags of control edges alone.
+    if (control_ && is("tags_for_one_step")) next.edge_[k] = 0;
+    if (control_ && is("tags_of_the_lower_end") && end < vertices && middle < vertices + edges) {
+      const Edge& whole = topology.edges()[middle - vertices];
+      if (end == std::max(whole.a, whole.b)) next.edge_[k] = 0;
+    }
   }
   for (std::size_t v = 0; v < vertex_.size(); ++v) next.vertex_[v] = fallen(vertex_[v]);
   return next;

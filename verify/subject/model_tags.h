@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,8 +13,12 @@
 #include "data/sharpness.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
+#include "verify/subject/model_rules.h"
 
 namespace limitcheck::verify {
+
+/// Faults of sharp edges and vertices, for every model that has them.
+std::span<const Mutation> sharp_mutations();
 
 class ModelTags {
  public:
@@ -26,6 +31,7 @@ class ModelTags {
   /// Tags of edges that do not exist are left out.
   ModelTags(const data::Sharpness& sharpness, const reference::Topology& topology, std::string_view mutation);
 
+  bool is(std::string_view name) const { return mutation_ == name; }
   bool none() const { return vertex_.empty(); }
   bool smooth_triangles() const { return smooth_triangles_; }
 
@@ -57,7 +63,6 @@ class ModelTags {
     Rule rule;
     std::int32_t ends[2];
   };
-  bool is(std::string_view name) const { return mutation_ == name; }
   Step step(const reference::Topology& topology, std::int32_t v, bool next) const;
   V point(const Step& step, const std::vector<V>& points, std::int32_t v, const V& smooth) const;
   // What is left after a step of an edge at its end v, and of a vertex.
@@ -68,8 +73,13 @@ class ModelTags {
 
   std::vector<double> edge_, vertex_;
   bool chaikin_ = false, smooth_triangles_ = false;
-  int level_ = 0;
+  bool control_ = true;  // of the control mesh
   std::string_view mutation_ = "none";
 };
+
+/// What a model declares of sharp edges; it does not do the smooth rule for triangles by itself.
+std::int32_t declared_kinds(std::string_view mutation);
+/// Throws SubjectError: a mutant that takes no mesh with tags.
+void refuse_tags(std::string_view mutation, const data::Sharpness& sharpness);
 
 }  // namespace limitcheck::verify

@@ -5,7 +5,7 @@
 namespace limitcheck::verify {
 
 std::span<const Mutation> quad_mutations() {
-  static const std::vector<Mutation> list{
+  static const std::vector<Mutation> own{
       {"none", "nothing: right in every check", ""},
       // Subdivision.
       {"face_weight_1e-6", "face points lean by 1e-6 to the first corner", "positions"},
@@ -57,7 +57,17 @@ std::span<const Mutation> quad_mutations() {
       {"culled_are_holes", "culled faces are left out before the first step", "positions"},
       {"cache_by_count", "a mesh of as many vertices and faces is taken for the one before", "state"},
       {"every_other_time", "every other frame has a point one ulp off", "determinism"},
+      // Sharp edges: those of triangles only.
+      {"triangles_not_smooth", "the smooth rule for triangles is ignored", "positions", "", false, true},
+      {"smooth_rule_for_all", "the smooth rule for triangles in all faces", "positions", "", false, true},
+      {"smooth_rule_in_every_step", "the smooth rule for triangles in later steps, too", "positions", "",
+       false, true},
   };
+  static const std::vector<Mutation> list = [] {
+    std::vector<Mutation> all = own;
+    all.insert(all.end(), sharp_mutations().begin(), sharp_mutations().end());
+    return all;
+  }();
   return list;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-
 namespace limitcheck::verify {
 
 using V = QuadModelRules::V;
@@ -115,8 +114,14 @@ std::vector<V> QuadModelRules::refine(const reference::Topology& topology, const
     const V faces = left + refined[vertices + edges + edge.right_face];
     double w = 0.25;
     const bool smooth = tags.smooth_triangles() && !is("triangles_not_smooth");
-    if (level == 0 && (smooth || is("smooth_triangles"))) {
-      const auto of = [&](std::int32_t f) { return topology.faces()[f].size() == 3 ? 0.47 : 0.25; };
+    const bool everywhere = smooth && (is("smooth_rule_for_all") || is("smooth_rule_in_every_step"));
+    if ((level == 0 && (smooth || is("smooth_triangles"))) ||
+        (level > 0 && everywhere && is("smooth_rule_in_every_step"))) {
+      const auto of = [&](std::int32_t f) {
+        return topology.faces()[f].size() == 3 || (everywhere && (level > 0 || is("smooth_rule_for_all")))
+                   ? 0.47
+                   : 0.25;
+      };
       w = (of(edge.left_face) + of(edge.right_face)) / 2;
     }
     if (is("edge_points_without_ends")) w = 0.5;

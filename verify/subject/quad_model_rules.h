@@ -9,6 +9,7 @@
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 #include "verify/subject/model_rules.h"
+#include "verify/subject/model_sides.h"
 #include "verify/subject/model_tags.h"
 #include "verify/subject/quad_model_ring.h"
 
@@ -38,21 +39,16 @@ class QuadModelRules {
   V limit(const QuadRing& ring) const;
   V normal(const QuadRing& ring) const;
 
-  /// Of any vertex of a mesh of quads: its position and the normals in the faces around it, in the order of
-  /// its sector; one normal if all are the same.
-  struct Limit {
-    V position;
-    std::vector<V> normals;
-  };
-  Limit limit(const reference::Topology& topology, const std::vector<V>& points, const ModelTags& tags,
-              std::int32_t v) const;
+  /// Of any vertex of a mesh of quads; the normals are in the order of its sector.
+  ModelLimit limit(const reference::Topology& topology, const std::vector<V>& points, const ModelTags& tags,
+                   std::int32_t v) const;
 
  private:
   V face_point(std::span<const std::int32_t> corners, const std::vector<V>& points, int level) const;
   V vertex_point(const reference::Topology& topology, const std::vector<V>& points,
                  const std::vector<V>& refined, std::int32_t v) const;
-  Limit sharp_limit(const reference::Topology& topology, const std::vector<V>& points, const ModelTags& tags,
-                    std::int32_t v, std::span<const std::int32_t> faces) const;
+  ModelLimit sharp_limit(const reference::Topology& topology, const std::vector<V>& points,
+                         const ModelTags& tags, std::int32_t v, std::span<const std::int32_t> faces) const;
 
   std::string_view mutation_;
 };

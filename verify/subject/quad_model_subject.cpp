@@ -45,7 +45,7 @@ double one_ulp_up(double x) {
 struct Level {
   reference::catmull_clark::RefinedMesh<double> mesh;  // where they are: its own points are not used
   std::vector<V> points;
-  std::vector<QuadModelRules::Limit> limits;
+  std::vector<ModelLimit> limits;
 
   Level(const data::ControlMesh& control, const QuadModelRules& rules, int depth)
       : mesh(control.faces, reference::positions_of<double>(control)), points(mesh.positions()) {
@@ -65,17 +65,6 @@ struct Level {
     }
     for (std::size_t v = 0; v < points.size(); ++v)
       limits.push_back(rules.limit(mesh.topology(), points, tags, static_cast<std::int32_t>(v)));
-  }
-
-  // The normal of a vertex in the quad around it in which another vertex lies opposite.
-  const V& normal(std::int32_t v, std::int32_t opposite) const {
-    const std::vector<V>& normals = limits[v].normals;
-    const auto faces = mesh.topology().sector(v).faces;
-    for (std::size_t i = 0; i < faces.size() && normals.size() > 1; ++i) {
-      const auto quad = mesh.topology().faces()[faces[i]];
-      if (std::find(quad.begin(), quad.end(), opposite) != quad.end()) return normals[i];
-    }
-    return normals[0];
   }
 };
 
@@ -134,15 +123,19 @@ class Tiles {
 class QuadModelSubject {
  public:
   static constexpr std::int32_t kSchemes = LC_DOES_CATMULL_CLARK;
-  static constexpr std::int32_t kSharp = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN |
-                                         LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
   static lc_capabilities capabilities(Options& options, lc_scheme) {
-    (void)mutation(options);
-    return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
+    lc_capabilities c{LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
+    c.sharp = declared_kinds(mutation(options)) | LC_SHARP_SMOOTH_TRIANGLES;
+    return c;
   }
 
   QuadModelSubject(const lc_mesh& mesh, Options& options) : rules_(mutation(options)) {
     control_ = control_mesh(mesh);
+    refuse_tags(mutation(options), control_.sharpness);
+    if (rules_.is("tags_by_count"))
+      control_.sharpness =
+          tags_.try_emplace({control_.positions.size(), control_.faces.size()}, control_.sharpness)
+              .first->second;
     if (rules_.is("cache_by_count"))
       control_ =
           cache_.try_emplace({control_.positions.size(), control_.faces.size()}, control_).first->second;
@@ -174,7 +167,7 @@ class QuadModelSubject {
   struct Alive {
     Alive() { ++count; }
     ~Alive() {
-      if (--count == 0) cache_.clear();
+      if (--count == 0) cache_.clear(), tags_.clear();
     }
     Alive(const Alive&) = delete;
     Alive& operator=(const Alive&) = delete;
@@ -232,9 +225,12 @@ class QuadModelSubject {
         const std::int32_t v = number(p.i, p.j);
         const std::int64_t most = domain.denominator(n);
         const std::int32_t inside = number(p.i < most ? p.i + 1 : p.i - 1, p.j < most ? p.j + 1 : p.j - 1);
-        Vertex made{points.limits[v].position, points.normal(v, inside), {}, p.part};
+        const ModelLimit& limit = points.limits[v];
+        Vertex made{limit.position, limit.normal(points.mesh.topology(), v, inside), {}, p.part};
         auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
         if (rules_.is("u_for_v")) std::swap(i, j);
+        if (rules_.is("sides_apart_by_an_ulp") && f % 2 == 1 && limit.normals.size() > 1)
+          made.position.x = one_ulp_up(made.position.x);
         if (polygon && rules_.is("next_corner")) made.corner = domain.next(p.part);
         if (polygon && rules_.is("ulp_on_polygons")) made.position.x = one_ulp_up(made.position.x);
         if (polygon && rules_.is("flipped_on_polygons") && !domain.side_of(p, n))
@@ -287,6 +283,7 @@ class QuadModelSubject {
   // Shared by all instances, as what is forgotten in a static variable would be.
   inline static int calls_ = 0;
   inline static std::map<std::pair<std::size_t, std::size_t>, data::ControlMesh> cache_;
+  inline static std::map<std::pair<std::size_t, std::size_t>, data::Sharpness> tags_;
 };
 
 }  // namespace

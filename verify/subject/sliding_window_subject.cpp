@@ -42,16 +42,20 @@ struct Settings {
 
 class SlidingWindowSubject {
  public:
-  static lc_capabilities capabilities(Options& options, lc_scheme) {
+  static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
     const Settings settings(options);
-    return {settings.wide ? LC_FLOAT64 : LC_FLOAT32,
-            LC_WEIGHTS_LOOP,
-            LC_BOUNDARY_SPLINE,
-            LC_POINTS_LIMIT,
-            fast::kDeepest,
-            1,
-            1,
-            settings.tessellator.cracks.centre == fast::FanCentre::kLimit ? 1 : 0};
+    lc_capabilities result{settings.wide ? LC_FLOAT64 : LC_FLOAT32,
+                           LC_WEIGHTS_LOOP,
+                           LC_BOUNDARY_SPLINE,
+                           LC_POINTS_LIMIT,
+                           fast::kDeepest,
+                           1,
+                           1,
+                           settings.tessellator.cracks.centre == fast::FanCentre::kLimit ? 1 : 0};
+    if (scheme == LC_SCHEME_CATMULL_CLARK)
+      result.sharp =
+          LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+    return result;
   }
 
   SlidingWindowSubject(const lc_mesh& mesh, Options& options)
@@ -93,7 +97,8 @@ class SlidingWindowSubject {
 
 const lc_subject* lc_subject_sliding_window() {
   static const lc_subject subject = make_subject<SlidingWindowSubject>(
-      "sliding-window", "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000); both schemes",
+      "sliding-window",
+      "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000); both schemes",
       "precision=float|double, output=strips|indexed, repair=stitch|fan|none, "
       "centre=limit|flat|flat-control, pairing=corrected|printed");
   return &subject;

@@ -71,5 +71,21 @@ TEST_F(Versions, NeitherIsAskedForCatmullClark) {
     }
 }
 
+// A dart needs edges that stay sharp, which neither version 1 can say that it does.
+TEST_F(Versions, NeitherIsAskedForSharpEdges) {
+  for (const std::string& subject :
+       {library("interface_1"), library("interface_1_whatever_is_asked"), kVersion1Program}) {
+    const json report = report_of(subject + " dart:5 --depth 0", 2);
+    for (const json& row : report["results"]) {
+      EXPECT_TRUE(row["status"] == "not-supported" || row["status"] == "not-run") << row;
+      if (row["check"] == "tessellates") {
+        EXPECT_NE(row["message"].get<std::string>().find("does not do edges that stay sharp"),
+                  std::string::npos)
+            << row;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace limitcheck::cli

@@ -38,6 +38,7 @@ class Sharpness {
   Sharpness(const Topology& topology, const SharpTags& tags);
 
   const Rational& edge(std::int32_t e) const { return edge_[static_cast<std::size_t>(e)]; }
+  bool is_chaikin() const { return chaikin_; }
   static bool is_infinite(const Rational& s) { return s >= 10; }
   static bool is_semi_sharp(const Rational& s) { return s > 0 && s < 10; }
 
@@ -134,12 +135,15 @@ struct TaggedMesh {
   std::vector<Vec3<N>> positions;
   Sharpness sharpness;
 
-  /// The faces that touch the corners of one face, which becomes face 0: all that its surface depends on.
+  /// The faces that touch the corners of one face, which becomes face 0: all that its surface depends on. By
+  /// Chaikin's creasing it depends on the sharpness of the edges at the far ends of edges, too.
   TaggedMesh around(std::size_t face) const {
     std::vector<std::int32_t> faces{static_cast<std::int32_t>(face)};
-    for (const std::int32_t v : topology.faces()[face])
-      for (const std::int32_t f : topology.sector(v).faces)
-        if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+    for (int ring = 0; ring < (sharpness.is_chaikin() ? 2 : 1); ++ring)
+      for (std::size_t k = 0, count = faces.size(); k < count; ++k)
+        for (const std::int32_t v : topology.faces()[static_cast<std::size_t>(faces[k])])
+          for (const std::int32_t f : topology.sector(v).faces)
+            if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
     const data::CutOut part = data::cut_out(topology.faces(), faces);
     Topology local(part.vertices.size(), part.faces);
     Sharpness sharp = sharpness.of_part(topology, local, faces, part.vertices);

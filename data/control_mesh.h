@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "data/faces.h"
@@ -14,11 +15,13 @@ namespace limitcheck::data {
 ///   positions   one (x, y, z) per vertex, finite
 ///   faces       vertex indices 0..positions.size()-1, counter-clockwise seen from outside
 ///   sharpness   sharp edges and vertices; empty for a surface that is smooth but for its boundary
+///   holes       faces that are not shown, but shape those around them; ascending
 /// The container does not check any of this; `validate` (data/validate.h) does.
 struct ControlMesh {
   std::vector<std::array<double, 3>> positions;
   Faces faces;
   Sharpness sharpness = {};
+  std::vector<std::int32_t> holes = {};
 
   friend bool operator==(const ControlMesh&, const ControlMesh&) = default;
 };

@@ -59,6 +59,7 @@ class Validator {
     check_fans();
     check_isolated();
     check_sharpness();
+    check_holes();
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const MeshFinding& a, const MeshFinding& b) { return a.fault < b.fault; });
     return std::move(findings_);
@@ -365,6 +366,17 @@ class Validator {
             of_vertex.emplace(v.vertex, none).first->second);
   }
 
+  void check_holes() {
+    std::int32_t before = -1;
+    for (const std::int32_t f : mesh_.holes) {
+      if (f < 0 || static_cast<std::size_t>(f) >= mesh_.faces.size())
+        report(MeshFault::kHole, {f}, fmt::format("the hole {} is no face", f + numbering_.first), -1);
+      else if (f <= before)
+        report(MeshFault::kHole, {f}, fmt::format("the hole {} is out of order", f + numbering_.first), f);
+      before = f;
+    }
+  }
+
   std::string vertices_of(std::span<const std::int32_t> corners) const {
     std::vector<std::int64_t> numbers;
     for (const std::int32_t v : corners) numbers.push_back(vertex(v));
@@ -414,6 +426,8 @@ std::string_view code(MeshFault fault) {
       return "MESH_ISOLATED_VERTEX";
     case MeshFault::kSharpness:
       return "MESH_SHARPNESS";
+    case MeshFault::kHole:
+      return "MESH_HOLE";
   }
   return "MESH_UNKNOWN";
 }

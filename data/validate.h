@@ -30,6 +30,7 @@ enum class MeshFault {
   kPolygon,           ///< a face that is no triangle, where the scheme is Loop's      [face]
   kIsolatedVertex,    ///< a vertex that no face names                                 [vertex]
   kSharpness,         ///< sharpness of no edge or vertex, below 0, or two of one      [v0, v1, or vertex]
+  kHole,              ///< a hole that is no face, or not after the one before it        [face]
 };
 
 /// The stable name: "MESH_NONMANIFOLD_EDGE", ...

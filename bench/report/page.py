@@ -33,6 +33,8 @@ MORE_PICTURES = {
     "picture-error": ("Errors", "A control mesh of 200 faces, and uniform depth 2 of it: how far each triangle's middle is off the surface, from "
                                 "10⁻⁴ of the diagonal (violet) to 10⁻² (yellow)."),
     "picture-cracks": ("Cracks", "Figures 6 and 7 beside each other."),
+    "picture-sharp": ("A sharp edge that starts and ends", "A torus of quads with five sharp edges (red), its limit surface, and how far OpenSubdiv's "
+                      "limit points at depth 4 are off, from 10⁻⁷ of the diagonal (violet) to 10⁻³ (yellow): at both ends of the crease (C85)."),
 }
 CHARTS = {
     "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres; logarithmic, and below on a linear scale with the uniform depths that "
@@ -146,7 +148,7 @@ def write(folder, record):
     section("matched", "At equal error", result("matched", tables.matched), figure(
         folder, "error", "Error", "Error on the screen against triangles drawn, each strategy from coarse to fine settings: lower and "
         "further left is better.", record))
-    pictures = shown(PICTURES) + shown({"picture-cracks": MORE_PICTURES["picture-cracks"]})
+    pictures = shown(PICTURES) + shown({name: MORE_PICTURES[name] for name in ("picture-cracks", "picture-sharp")})
     section("pictures", "Pictures", depth_bar() if pictures else "", pictures)
     viewer = view(folder)
     section("view", "In three dimensions", viewer, origin("view", record) if viewer else "")

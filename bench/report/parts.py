@@ -190,7 +190,8 @@ def parts():
     for number, title in ((3, "normal cone"), (6, "cracks"), (7, "cracks repaired"), (8, "centres of fans"), (10, "bumpy spheres"),
                           (13, "random depths"), (14, "depth by curvature")):
         yield f"figure-{number}", Part(f"figure-{number}: {title}", picture(f"figure-{number}"), [f"figure-{number}.png"])
-    for name, title in (("error", "an error map beside its control mesh"), ("cracks", "cracks and their repair")):
+    for name, title in (("error", "an error map beside its control mesh"), ("cracks", "cracks and their repair"),
+                        ("sharp", "a crease that starts and ends")):
         yield f"picture-{name}", Part(f"picture-{name}: {title}", picture(f"picture-{name}"), [f"picture-{name}.png"])
     yield "claims", Part("the paper's claims", claims, ["claims.json"])
     yield "audit", Part("audit of the built-in tessellators", audit, ["audit.json"])

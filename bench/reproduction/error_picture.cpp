@@ -12,18 +12,6 @@ namespace limitcheck::bench {
 
 namespace {
 
-/// Dark to light, readable without colour vision; from 0 to 1.
-Colour heat(double t) {
-  constexpr std::array<Colour, 5> stops{
-      {{.27f, 0, .33f}, {.23f, .32f, .55f}, {.13f, .57f, .55f}, {.37f, .79f, .38f}, {.99f, .91f, .15f}}};
-  const double x = std::clamp(t, 0., 1.) * (stops.size() - 1);
-  const auto k = std::min(static_cast<std::size_t>(x), stops.size() - 2);
-  Colour c{};
-  for (std::size_t j = 0; j < 3; ++j)
-    c[j] = stops[k][j] + static_cast<float>(x - static_cast<double>(k)) * (stops[k + 1][j] - stops[k][j]);
-  return c;
-}
-
 /// The control mesh itself as triangles with normals of their own.
 fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
   fast::DrawList<float> list;

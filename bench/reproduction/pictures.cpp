@@ -150,6 +150,7 @@ const std::vector<Picture> kPictures{
     {"figure-14", by_curvature},
     {"picture-cracks", cracks_and_repair},
     {"picture-error", error_beside_control_mesh},
+    {"picture-sharp", open_crease},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -32,6 +33,18 @@ inline Colour depth_colour(int depth) {
   constexpr Colour scale[] = {{.99f, .91f, .15f}, {.56f, .84f, .27f}, {.13f, .66f, .52f},
                               {.17f, .45f, .56f}, {.25f, .27f, .53f}, {.27f, .0f, .33f}};
   return scale[std::min(depth, 5)];
+}
+
+/// Dark to light, readable without colour vision; from 0 to 1.
+inline Colour heat(double t) {
+  constexpr std::array<Colour, 5> stops{
+      {{.27f, 0, .33f}, {.23f, .32f, .55f}, {.13f, .57f, .55f}, {.37f, .79f, .38f}, {.99f, .91f, .15f}}};
+  const double x = std::clamp(t, 0., 1.) * (stops.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>(x), stops.size() - 2);
+  Colour c{};
+  for (std::size_t j = 0; j < 3; ++j)
+    c[j] = stops[k][j] + static_cast<float>(x - static_cast<double>(k)) * (stops[k + 1][j] - stops[k][j]);
+  return c;
 }
 
 struct Lines {
@@ -95,6 +108,9 @@ Image cracks_close_up(fast::Repair repair);
 Image cracks_and_repair();
 /// One fan, every triangle in one shade: its centre on the flat triangle, and on the limit surface.
 Image fan_centres();
+/// A control mesh with a crease that starts and ends, its surface, and how far OpenSubdiv's limit points are
+/// off.
+Image open_crease();
 /// A control mesh, and its coarse tessellation coloured by how far each triangle is off the surface.
 Image error_beside_control_mesh();
 

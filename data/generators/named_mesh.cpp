@@ -116,9 +116,9 @@ const std::vector<Entry>& entries() {
        [](Parameters p) { return mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}); }},
       {"creased-cube", "creased-cube[:S]", "quad-cube with edges of sharpness S, infinite unless given", 0, 1,
        [](Parameters p) { return creased_cube(p.empty() ? 10 : p[0]); }},
-      {"crease-ring", "crease-ring[:S]",
-       "quad-torus with a crease of sharpness S around it, infinite unless given", 0, 1,
-       [](Parameters p) { return crease_ring(p.empty() ? 10 : p[0]); }},
+      {"crease-ring", "crease-ring[:S[:TENTHS]]",
+       "quad-torus with a crease of sharpness S around it, infinite unless given", 0, 2,
+       [](Parameters p) { return crease_ring(p.empty() ? 10 : p[0], p.size() > 1 ? p[1] : 0); }},
       {"open-crease", "open-crease[:EDGES]",
        "quad-torus with a crease of 5 edges that starts and ends, or of so many", 0, 1,
        [](Parameters p) { return with_open_crease(quad_torus(12, 6), p.empty() ? 5 : as_int(p[0])); }},
@@ -226,7 +226,10 @@ ControlMesh named_mesh(const std::string& specification) {
 OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& options) {
   ControlMesh mesh = named_mesh(specification);
   Triangulated triangles = triangulate(mesh, options.polygons);
-  if (triangles.cut > 0) mesh.faces = std::move(triangles.faces);
+  if (triangles.cut > 0) {
+    mesh.faces = std::move(triangles.faces);
+    mesh.holes.clear();  // no generator makes any
+  }
   if (triangles.cut > 0 || options.scheme)
     if (const auto faults = validate(mesh, options.scheme.value_or(natural_scheme(mesh))); !faults.empty())
       throw InputError(std::string(code(faults[0].fault)), specification, 0, faults[0].message);

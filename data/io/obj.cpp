@@ -5,6 +5,8 @@
 //   t interpolateboundary 1/0/0 1|2      1: vertices of one face are held, 2: they are not, as without it
 //   t creasemethod 0/0/1 normal|chaikin
 //   t smoothtriangles 0/0/1 catmark|smooth
+//   t hole 2/0/0 F G                     faces that are not shown
+// A sharpness is a decimal number or a fraction, 23/10.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -108,13 +110,24 @@ class ObjReader {
     }
     Tag tag;
     for (std::int64_t i = 0; i < count[0]; ++i) tag.integers.push_back(scanner_.integer("an index"));
-    for (std::int64_t i = 0; i < count[1]; ++i) tag.numbers.push_back(scanner_.number("a sharpness"));
+    for (std::int64_t i = 0; i < count[1]; ++i) tag.numbers.push_back(sharpness());
     for (std::int64_t i = 0; i < count[2]; ++i) {
       tag.words.push_back(scanner_.word());
       if (tag.words.back().empty()) scanner_.syntax_error(fmt::format("tag {} ends too early", quoted(name)));
     }
     scanner_.end_of_line();
     return tag;
+  }
+
+  // The quotient of two doubles is rounded once, as a decimal number is.
+  double sharpness() {
+    const std::string_view word = scanner_.word();
+    const std::size_t slash = word.find('/');
+    const auto above = to_double(word.substr(0, slash));
+    const auto below = slash == std::string_view::npos ? 1.0 : to_double(word.substr(slash + 1));
+    if (!above || !below || !(*below > 0))
+      scanner_.syntax_error(fmt::format("a sharpness is a number or a fraction, not {}", quoted(word)));
+    return *above / *below;
   }
 
   void read_tag() {
@@ -130,6 +143,10 @@ class ObjReader {
         if (a < 0 || (each == 2 && b < 0)) scanner_.syntax_error("tags have indices from 0");
         soup_.sharp.push_back({a, b, tag.numbers[tag.numbers.size() == 1 ? 0 : i], scanner_.line()});
       }
+      return;
+    }
+    if (name == "hole") {
+      for (const std::int64_t f : tag.integers) soup_.holes.push_back({f, scanner_.line()});
       return;
     }
     const auto choose = [&](auto& choice, const auto& value, std::string_view first, auto first_choice,

@@ -131,6 +131,20 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
     for (const auto& tag : soup.sharp)
       if ((tag.b < 0) == of_vertices) tag_lines.push_back(tag.line);
 
+  for (const auto& hole : soup.holes)
+    if (hole.polygon < 0 || hole.polygon >= static_cast<std::int64_t>(polygons))
+      result.faults.push_back(
+          {std::string(code(MeshFault::kHole)), hole.line,
+           fmt::format("the hole {} is no face (holes have numbers from 0)", hole.polygon), -1});
+  if (!soup.holes.empty()) {
+    std::vector<bool> is_hole(polygons, false);
+    for (const auto& hole : soup.holes)
+      if (hole.polygon >= 0 && hole.polygon < static_cast<std::int64_t>(polygons))
+        is_hole[hole.polygon] = true;
+    for (std::size_t f = 0; f < polygon_of.size(); ++f)
+      if (is_hole[polygon_of[f]]) mesh.holes.push_back(static_cast<std::int32_t>(f));
+  }
+
   // All of them together.
   for (MeshFinding& finding : validate(mesh, result.scheme, {soup.first, polygon_of})) {
     const auto of_bad_polygons = [&] {

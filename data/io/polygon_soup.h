@@ -34,6 +34,11 @@ struct PolygonSoup {
   };
   std::vector<SharpTag> sharp;
   Sharpness choices;
+  // Polygons that are not shown.
+  struct Hole {
+    std::int64_t polygon, line;
+  };
+  std::vector<Hole> holes;
 
   void close_polygon(std::int64_t line = 0) {
     polygon_end.push_back(corners.size());

@@ -49,6 +49,32 @@ TEST(Tags, OfObjCountVerticesFromZero) {
   EXPECT_TRUE(read_cube("t interpolateboundary 1/0/0 2\nt creasemethod 0/0/1 normal\n").sharpness.empty());
 }
 
+TEST(Tags, OfObjHaveFractions) {
+  const ControlMesh mesh = read_cube("t crease 2/1/0 4 5 23/10\nt corner 1/1/0 0 1/3\n");
+  EXPECT_EQ(mesh.sharpness.edges.at(0).sharpness, 2.3F);
+  EXPECT_EQ(mesh.sharpness.vertices.at(0).sharpness, 1.F / 3);
+  for (const char* wrong : {"1/0", "1/", "/2", "1/-2", "1/2/3", "x"})
+    EXPECT_EQ(error_of(std::string("t corner 1/1/0 0 ") + wrong + "\n"), "FILE_SYNTAX:15") << wrong;
+}
+
+TEST(Tags, OfObjHaveHoles) {
+  const ControlMesh mesh = read_cube("t hole 2/0/0 4 1\nt hole 1/0/0 4\n");
+  EXPECT_EQ(mesh.holes, (std::vector<std::int32_t>{1, 4}));
+  EXPECT_TRUE(validate(mesh).empty());
+  EXPECT_EQ(read_mesh(mesh_content(mesh, FileFormat::kObj), FileFormat::kObj, "again.obj"), mesh);
+  EXPECT_THROW(mesh_content(mesh, FileFormat::kPly), InputError);
+  EXPECT_THROW(mesh_content(mesh, FileFormat::kOff), InputError);
+  EXPECT_EQ(error_of("t hole 1/0/0 6\n"), "MESH_HOLE:15");
+  EXPECT_EQ(error_of("t hole 1/0/0 -1\n"), "MESH_HOLE:15");
+  // Both triangles of a quad that is cut.
+  const auto cut =
+      read_mesh(kCube + "t hole 1/0/0 2\n", FileFormat::kObj, "cube.obj", {.polygons = Triangulation::kFan});
+  EXPECT_EQ(cut.holes, (std::vector<std::int32_t>{4, 5}));
+  ControlMesh wrong = mesh;
+  wrong.holes = {4, 1, 6};
+  EXPECT_EQ(validate(wrong).size(), 2U);
+}
+
 TEST(Tags, ThatAreWrongAreNamedWithTheirLine) {
   EXPECT_EQ(error_of("t crease 2/1/0 4 6 2\n"), "MESH_SHARPNESS:15");  // a diagonal
   EXPECT_EQ(error_of("t crease 2/1/0 4 8 2\n"), "MESH_SHARPNESS:15");  // no vertex
@@ -64,7 +90,6 @@ TEST(Tags, ThatAreWrongAreNamedWithTheirLine) {
   EXPECT_EQ(error_of("t crease 2/1/0 -1 5 1\n"), "FILE_SYNTAX:15");
   EXPECT_EQ(error_of("t interpolateboundary 1/0/0 0\n"), "FILE_UNSUPPORTED:15");
   EXPECT_EQ(error_of("t creasemethod 0/0/1 soft\n"), "FILE_UNSUPPORTED:15");
-  EXPECT_EQ(error_of("t hole 1/0/0 3\n"), "FILE_UNSUPPORTED:15");
 }
 
 TEST(Tags, AreReadBackAsTheyWereWritten) {

@@ -46,11 +46,14 @@ void append_obj(std::string& text, const ControlMesh& mesh) {
     text += '\n';
   }
   append_tags(text, mesh.sharpness);
+  for (const std::int32_t f : mesh.holes) fmt::format_to(std::back_inserter(text), "t hole 1/0/0 {}\n", f);
 }
 
 // A format that would lose some of it says so.
-void require_only(const char* format, const Sharpness& sharpness, bool edges) {
-  Sharpness rest = sharpness;
+void require_only(const char* format, const ControlMesh& mesh, bool edges) {
+  if (!mesh.holes.empty())
+    throw InputError("FILE_UNSUPPORTED", "", 0, fmt::format("{} has no place for holes; OBJ has", format));
+  Sharpness rest = mesh.sharpness;
   if (edges) rest.edges.clear();
   if (!rest.empty() || rest.creasing != Creasing::kUniform)
     throw InputError("FILE_UNSUPPORTED", "", 0,
@@ -162,12 +165,12 @@ std::string mesh_content(const ControlMesh& mesh, FileFormat format, const Write
       append_obj(text, mesh);
       break;
     case FileFormat::kOff:
-      require_only("OFF", mesh.sharpness, false);
+      require_only("OFF", mesh, false);
       text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.faces.size());
       append_lines(text, mesh);
       break;
     case FileFormat::kPly:
-      require_only("PLY", mesh.sharpness, true);
+      require_only("PLY", mesh, true);
       append_ply(text, mesh, options.ascii_ply);
       break;
     case FileFormat::kStl:

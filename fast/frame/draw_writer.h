@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fast/frame/crack_stitch.h"
+#include "fast/frame/frame_engine.h"
 #include "fast/frame/patch.h"
 #include "fast/frame/sink.h"
 #include "fast/mesh/placement.h"
@@ -19,11 +20,6 @@ template <class Real>
 SurfaceVertex<Real> placed(const SurfaceVertex<Real>& v, const Placement<Real>& placement) {
   return {placement(v.position), v.normal};
 }
-
-/// What a patch takes in a draw list, or where it begins.
-struct DrawSize {
-  std::int64_t vertices = 0, draws = 0, triangles = 0;
-};
 
 /// The depth of edge k of a face.
 inline int edge_depth(const CrackPlan& plan, std::int32_t face, int k) {

@@ -12,6 +12,7 @@
 
 #include "data/error.h"
 #include "fast/frame/engine_state.h"
+#include "fast/frame/frame_engine.h"
 
 namespace limitcheck::fast {
 namespace {
@@ -32,10 +33,10 @@ const data::ControlMesh& checked(const data::ControlMesh& mesh) {
 
 // Sizes a draw list for patches first .. last - 1.
 template <class Real>
-void make_room(EngineState<Real>& s, std::size_t first, std::size_t last, DrawList<Real>& out) {
+void make_room(FrameEngine<Real>& s, std::size_t first, std::size_t last, DrawList<Real>& out) {
   s.offsets.assign(1, {});
   for (std::size_t i = first; i < last; ++i) {
-    const DrawSize size = draw_size(s.patches[i], s.plan);
+    const DrawSize size = s.patch_size(i);
     const DrawSize& at = s.offsets.back();
     s.offsets.push_back({at.vertices + size.vertices, at.draws + size.draws, 0});
   }
@@ -44,39 +45,24 @@ void make_room(EngineState<Real>& s, std::size_t first, std::size_t last, DrawLi
   out.provenance.resize(s.options.provenance ? out.vertices.size() : 0);
 }
 
-// Sizes an indexed mesh for the frame.
+// Sizes an indexed mesh for the frame; returns the number of its vertices.
 template <class Real>
-IndexLayout make_room(const EngineState<Real>& s, IndexedMesh<Real>& out) {
-  IndexLayout layout = IndexLayout::of(s.adjacency, s.pairing.depth, s.plan);
-  if (layout.vertex_count > std::numeric_limits<std::uint32_t>::max())
-    throw data::ArgumentError("frame: " + std::to_string(layout.vertex_count) +
+std::int64_t make_room(FrameEngine<Real>& s, IndexedMesh<Real>& out) {
+  const DrawSize size = s.measure_index();
+  if (size.vertices > std::numeric_limits<std::uint32_t>::max())
+    throw data::ArgumentError("frame: " + std::to_string(size.vertices) +
                               " vertices are more than 32-bit indices reach");
-  out.vertices.resize(static_cast<std::size_t>(layout.vertex_count));
+  out.vertices.resize(static_cast<std::size_t>(size.vertices));
   out.provenance.resize(s.options.provenance ? out.vertices.size() : 0);
-  out.triangles.resize(static_cast<std::size_t>(layout.triangle_count));
+  out.triangles.resize(static_cast<std::size_t>(size.triangles));
   out.triangle_face.resize(out.triangles.size());
   out.triangle_kind.resize(out.triangles.size());
-  return layout;
-}
-
-template <class Real>
-void write_control_vertices(const EngineState<Real>& s, const IndexLayout& layout, IndexedMesh<Real>& out) {
-  for (std::size_t v = 0; v < layout.vertex.size(); ++v)
-    if (layout.vertex[v] != IndexLayout::kUnused)
-      out.vertices[layout.vertex[v]] = s.limit(static_cast<std::int32_t>(v));
-  if (!s.options.provenance) return;
-  for (std::int32_t f = s.adjacency.face_count() - 1; f >= 0; --f) {
-    if (s.pairing.depth[f] < 0) continue;
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t at = layout.vertex[s.adjacency.corner(f, k)];
-      out.provenance[at] = {f, k == 1 ? 1u : 0u, k == 2 ? 1u : 0u, 1};
-    }
-  }
+  return size.vertices;
 }
 
 // Hands over the draws of s.part; returns how many vertices they have, in a frame that has had `before`.
 template <class Real>
-std::int64_t deliver(const EngineState<Real>& s, std::int64_t before, DrawSink<Real>& sink) {
+std::int64_t deliver(const FrameEngine<Real>& s, std::int64_t before, DrawSink<Real>& sink) {
   const std::span vertices(s.part.vertices);
   const std::span provenance(s.part.provenance);
   for (const Draw& draw : s.part.draws) {
@@ -91,7 +77,7 @@ std::int64_t deliver(const EngineState<Real>& s, std::int64_t before, DrawSink<R
 
 // One frame: evaluate() delivers the points and returns their number.
 template <class Real, class Evaluate>
-FrameStats run_frame(EngineState<Real>& s, std::span<const std::int32_t> depth, Evaluate&& evaluate) {
+FrameStats run_frame(FrameEngine<Real>& s, std::span<const std::int32_t> depth, Evaluate&& evaluate) {
   const auto start = Clock::now();
   FrameStats stats = s.plan_frame(depth);
   const auto preparation = Clock::now();
@@ -107,8 +93,8 @@ FrameStats run_frame(EngineState<Real>& s, std::span<const std::int32_t> depth, 
 
 }  // namespace
 
-FrameState::FrameState(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
-    : mesh(checked(given)), options(with), rules(by), adjacency(mesh) {
+FrameState::FrameState(const data::ControlMesh& given, const TessellatorOptions& with)
+    : mesh(checked(given)), options(with) {
   if (options.threads < 0) throw data::ArgumentError("tessellator: a negative number of threads");
   // More threads than oneTBB has would only earn a warning on standard error.
   const auto most =
@@ -116,41 +102,8 @@ FrameState::FrameState(const data::ControlMesh& given, const TessellatorOptions&
   arena.initialize(options.threads > 0 ? std::min(options.threads, most) : tbb::task_arena::automatic);
 }
 
-FrameStats FrameState::plan_frame(std::span<const std::int32_t> depth) {
-  FrameStats stats;
-  check_depths(depth, adjacency.face_count(), kDeepest);
-  auto start = Clock::now();
-  pairing = pair_faces(adjacency, depth, rules);
-  stats.seconds_pairing = seconds_since(start);
-
-  start = Clock::now();
-  plan = plan_cracks(adjacency, pairing.depth, options.cracks, rules);
-  patches.clear();
-  max_depth = 0;
-  for (const Grid& grid : pairing.grids) {
-    const Patch& patch = patches.emplace_back(Patch::of(adjacency, grid, plan));
-    max_depth = std::max(max_depth, grid.depth);
-    stats.limit_points += limit_points_of(patch, plan);
-    const DrawSize size = draw_size(patch, plan);
-    stats.triangles += size.triangles;
-    stats.draws += size.draws;
-    stats.strips += size.draws;
-    for (const Half& half : patch.half)
-      if (!patch.full() && half.repaired()) --stats.strips;
-  }
-  for (const std::int8_t d : plan.edge_depth) max_depth = std::max<int>(max_depth, d);
-  stats.faces = adjacency.face_count();
-  stats.culled = pairing.culled;
-  stats.pairs = pairing.pair_count;
-  stats.singletons = pairing.singletons;
-  stats.fans = plan.fans;
-  stats.stitched = plan.stitched;
-  stats.seconds_planning = seconds_since(start);
-  return stats;
-}
-
 template <class Real>
-Engine<Real>::Engine(std::unique_ptr<EngineState<Real>> state) : state_(std::move(state)) {}
+Engine<Real>::Engine(std::unique_ptr<FrameEngine<Real>> state) : state_(std::move(state)) {}
 template <class Real>
 Engine<Real>::~Engine() = default;
 template <class Real>
@@ -159,8 +112,13 @@ template <class Real>
 Engine<Real>& Engine<Real>::operator=(Engine&&) noexcept = default;
 
 template <class Real>
+int Engine<Real>::face_count() const {
+  return state_->face_count();
+}
+template <class Real>
 const Adjacency& Engine<Real>::adjacency() const {
-  return state_->adjacency;
+  if (const auto* state = dynamic_cast<const EngineState<Real>*>(state_.get())) return state->adjacency;
+  throw data::ArgumentError("tessellator: a mesh of quads has no adjacency of triangles");
 }
 template <class Real>
 const PairingResult& Engine<Real>::last_pairing() const {
@@ -176,11 +134,8 @@ std::vector<std::int32_t> Engine<Real>::depths(const DepthOptions& strategy, con
                                                double& seconds) {
   const auto start = Clock::now();
   std::vector<std::int32_t> depth;
-  state_->arena.execute([&] {
-    if (!state_->heuristics)
-      state_->heuristics.emplace(state_->mesh, state_->adjacency, state_->options.max_depth);
-    depth = state_->heuristics->depths(strategy, camera);
-  });
+  state_->arena.execute([&] { depth = state_->depths(strategy, camera); });
+  for (const std::int32_t f : state_->mesh.holes) depth[f] = -1;
   seconds = seconds_since(start);
   return depth;
 }
@@ -188,8 +143,8 @@ std::vector<std::int32_t> Engine<Real>::depths(const DepthOptions& strategy, con
 template <class Real>
 FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, DrawList<Real>& out) {
   return run_frame(*state_, depth, [&] {
-    make_room(*state_, 0, state_->patches.size(), out);
-    state_->draw(0, state_->patches.size(), out);
+    make_room(*state_, 0, state_->patch_count(), out);
+    state_->draw(0, state_->patch_count(), out);
     return static_cast<std::int64_t>(out.vertices.size());
   });
 }
@@ -197,10 +152,9 @@ FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, DrawList<Rea
 template <class Real>
 FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, IndexedMesh<Real>& out) {
   return run_frame(*state_, depth, [&] {
-    const IndexLayout layout = make_room(*state_, out);
-    write_control_vertices(*state_, layout, out);
-    state_->index(layout, out);
-    return layout.vertex_count;
+    const std::int64_t vertices = make_room(*state_, out);
+    state_->write_index(out);
+    return vertices;
   });
 }
 
@@ -208,11 +162,11 @@ template <class Real>
 FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, DrawSink<Real>& sink) {
   constexpr std::int64_t kBatch = std::int64_t{1} << 18;  // vertices kept at a time
   return run_frame(*state_, depth, [&] {
-    EngineState<Real>& s = *state_;
+    FrameEngine<Real>& s = *state_;
     std::int64_t vertices = 0;
-    for (std::size_t first = 0, last = 0; first < s.patches.size(); first = last) {
-      for (std::int64_t size = 0; last < s.patches.size() && size < kBatch; ++last)
-        size += draw_size(s.patches[last], s.plan).vertices;
+    for (std::size_t first = 0, last = 0; first < s.patch_count(); first = last) {
+      for (std::int64_t size = 0; last < s.patch_count() && size < kBatch; ++last)
+        size += s.patch_size(last).vertices;
       make_room(s, first, last, s.part);
       s.draw(first, last, s.part);
       vertices += deliver(s, vertices, sink);

@@ -14,7 +14,7 @@ namespace limitcheck::fast {
 
 struct PrintedRules;  // plan/printed_rules.h, for the tests of the paper's claims
 template <class Real>
-struct EngineState;
+struct FrameEngine;
 
 /// The part that fast::Tessellator and row_stream::StreamTessellator share: a control mesh is copied and
 /// prepared once, then each call of frame() is one frame. Real is float or double.
@@ -28,6 +28,9 @@ struct EngineState;
 template <class Real>
 class Engine {
  public:
+  int face_count() const;
+  /// Of Loop's scheme.
+  ///   throws   data::ArgumentError: the scheme is Catmull-Clark's
   const Adjacency& adjacency() const;
 
   /// A frame at given depths, one per face, -1 = culled: as strips and fans in memory, as one indexed mesh,
@@ -53,17 +56,17 @@ class Engine {
   const CrackPlan& last_plan() const;
 
  protected:
-  explicit Engine(std::unique_ptr<EngineState<Real>> state);
+  explicit Engine(std::unique_ptr<FrameEngine<Real>> state);
   ~Engine();
   Engine(Engine&&) noexcept;
   Engine& operator=(Engine&&) noexcept;
 
-  EngineState<Real>& state() const { return *state_; }
+  FrameEngine<Real>& state() const { return *state_; }
 
  private:
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera, double& seconds);
 
-  std::unique_ptr<EngineState<Real>> state_;
+  std::unique_ptr<FrameEngine<Real>> state_;
 };
 
 extern template class Engine<float>;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "data/scheme.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/depth.h"
 #include "fast/plan/pairing.h"
@@ -16,6 +17,7 @@ struct TessellatorOptions {
   int max_depth = 5;        // the largest depth a strategy assigns; depths given by hand may be deeper
   int threads = 0;          // at most so many, 0: all. The output does not depend on it.
   bool provenance = false;  // fill the provenance of every vertex
+  data::Scheme scheme = data::Scheme::kLoop;
 };
 
 /// What one frame did, and how long it took.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bounding box of a control mesh.
+// The bounding box of the points of a mesh.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,9 @@
 
 namespace limitcheck::fast {
 
-/// Of a mesh with vertices.
+/// Of one point or more.
 struct Box {
   explicit Box(const data::ControlMesh& mesh) : Box(mesh.positions) {}
-  /// Of one point at least.
   explicit Box(std::span<const std::array<double, 3>> positions) : low(positions.front()), high(low) {
     for (const auto& p : positions) {
       for (std::size_t c = 0; c < 3; ++c) {

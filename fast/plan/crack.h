@@ -40,7 +40,7 @@ enum class Display : std::uint8_t {
 
 /// How each face is displayed, and the depth of each of its edges.
 struct CrackPlan {
-  std::vector<std::int8_t> edge_depth;  // 3 per face, edge k from corner k to k + 1; -1 on culled faces
+  std::vector<std::int8_t> edge_depth;  // one per side of each face, from corner k to k + 1; -1 if culled
   std::vector<Display> display;         // per face
   std::int64_t fans = 0, stitched = 0;
 };

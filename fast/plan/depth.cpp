@@ -85,74 +85,82 @@ bool DepthOptions::culls() const {
   return cull.value_or(uses_sphere(strategy) || uses_cone(strategy));
 }
 
-DepthHeuristics::DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth)
-    : mesh_(mesh), adjacency_(adjacency), max_depth_(max_depth) {
+template <class Surface>
+BasicDepthHeuristics<Surface>::BasicDepthHeuristics(const Surface& surface, int max_depth)
+    : surface_(surface), max_depth_(max_depth) {
   if (max_depth < 0 || max_depth > kDeepest) {
     refuse("the maximum " + std::to_string(max_depth) + " is not in 0.." + std::to_string(kDeepest));
   }
-  const std::size_t vertices = mesh.positions.size();
+  const std::size_t vertices = surface_.vertex_count();
   limit_.resize(vertices);
   normal_.resize(vertices);
   std::atomic<std::int64_t> degenerate_count{0};
-  tbb::enumerable_thread_specific<Ring> rings;
+  tbb::enumerable_thread_specific<typename Surface::VertexRing> rings;
   for_each_index(vertices, [&](std::int32_t v) {
-    Ring& ring = rings.local();
-    ring.gather(mesh_, adjacency_, v);
+    auto& ring = rings.local();
+    surface_.gather(ring, v);
     bool degenerate = false;
     limit_[v] = ring.limit_position();
     normal_[v] = ring.limit_normal(&degenerate);
     if (degenerate && ring.faces() > 0) ++degenerate_count;
   });
   degenerate_normals_ = degenerate_count;
-  spheres_.resize(mesh.faces.size());
+  spheres_.resize(surface_.face_count());
   for_each_index(spheres_.size(), [&](std::int32_t f) {
-    const Point3 a = to_point(mesh_.positions[adjacency_.corner(f, 0)]),
-                 b = to_point(mesh_.positions[adjacency_.corner(f, 1)]),
-                 c = to_point(mesh_.positions[adjacency_.corner(f, 2)]);
-    const Point3 centroid = (1. / 3) * (a + b + c);
-    spheres_[f] = {centroid, std::max({length(a - centroid), length(b - centroid), length(c - centroid)})};
+    Point3 sum{};
+    int corners = 0;
+    surface_.for_each_corner(f, [&](std::int32_t v) { sum = sum + surface_.position(v), ++corners; });
+    const Point3 centroid = (1. / corners) * sum;
+    double radius = 0;
+    surface_.for_each_corner(
+        f, [&](std::int32_t v) { radius = std::max(radius, length(surface_.position(v) - centroid)); });
+    spheres_[f] = {centroid, radius};
   });
 }
 
-bool DepthHeuristics::faces_away(std::int32_t v, const Camera& camera) const {
+template <class Surface>
+bool BasicDepthHeuristics<Surface>::faces_away(std::int32_t v, const Camera& camera) const {
   return dot(normal_[v], limit_[v] - camera.eye) >= 0;
 }
 
-std::vector<std::uint8_t> DepthHeuristics::away(const Camera& camera) const {
+template <class Surface>
+std::vector<std::uint8_t> BasicDepthHeuristics<Surface>::away(const Camera& camera) const {
   std::vector<std::uint8_t> result(limit_.size());
   for_each_index(result.size(), [&](std::int32_t v) { result[v] = faces_away(v, camera); });
   return result;
 }
 
-Facing DepthHeuristics::facing(std::int32_t face, std::span<const std::uint8_t> away) const {
-  const int count =
-      away[adjacency_.corner(face, 0)] + away[adjacency_.corner(face, 1)] + away[adjacency_.corner(face, 2)];
-  return count == 3 ? Facing::kBack : count == 0 ? Facing::kFront : Facing::kSilhouette;
+template <class Surface>
+Facing BasicDepthHeuristics<Surface>::facing(std::int32_t face, std::span<const std::uint8_t> away) const {
+  bool any = false, all = true;
+  surface_.for_each_corner(face, [&](std::int32_t v) {
+    any = any || away[v] != 0;
+    all = all && away[v] != 0;
+  });
+  return all ? Facing::kBack : any ? Facing::kSilhouette : Facing::kFront;
 }
 
 // A vertex is on the silhouette if a neighbour is on the other side.
-Facing DepthHeuristics::vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const {
-  const std::int32_t start = adjacency_.outgoing(v);
-  for (std::int32_t h = start; h >= 0;) {
-    if (away[adjacency_.target(h)] != away[v] || away[adjacency_.origin(Adjacency::prev(h))] != away[v]) {
-      return Facing::kSilhouette;
-    }
-    h = adjacency_.rotate(h);
-    if (h == start) break;
-  }
+template <class Surface>
+Facing BasicDepthHeuristics<Surface>::vertex_facing(std::int32_t v,
+                                                    std::span<const std::uint8_t> away) const {
+  if (surface_.any_neighbour(v, [&](std::int32_t w) { return away[w] != away[v]; }))
+    return Facing::kSilhouette;
   return away[v] != 0 ? Facing::kBack : Facing::kFront;
 }
 
-std::vector<Facing> DepthHeuristics::facing(const Camera& camera) const {
+template <class Surface>
+std::vector<Facing> BasicDepthHeuristics<Surface>::facing(const Camera& camera) const {
   camera.validate();
   const std::vector<std::uint8_t> back = away(camera);
-  std::vector<Facing> result(static_cast<std::size_t>(adjacency_.face_count()));
+  std::vector<Facing> result(surface_.face_count());
   for_each_index(result.size(), [&](std::int32_t f) { result[f] = facing(f, back); });
   return result;
 }
 
-std::int32_t DepthHeuristics::project_sphere(std::int32_t face, const Camera& camera,
-                                             double target_pixels) const {
+template <class Surface>
+std::int32_t BasicDepthHeuristics<Surface>::project_sphere(std::int32_t face, const Camera& camera,
+                                                           double target_pixels) const {
   const auto& [centroid, radius] = spheres_[face];
   const double distance = std::max(length(camera.eye - centroid) - radius, camera.near);
   double pixels = 2 * radius * camera.focal_pixels() / distance;
@@ -162,14 +170,15 @@ std::int32_t DepthHeuristics::project_sphere(std::int32_t face, const Camera& ca
 }
 
 // The cosines do not depend on the view: one pass over the vertices serves every frame and every angle.
-void DepthHeuristics::prepare_cones() const {
+template <class Surface>
+void BasicDepthHeuristics<Surface>::prepare_cones() const {
   std::call_once(cones_ready_, [&] {
     const auto levels = static_cast<std::size_t>(max_depth_) + 1;
     cones_.resize(limit_.size() * levels);
-    tbb::enumerable_thread_specific<Ring> rings;
+    tbb::enumerable_thread_specific<typename Surface::VertexRing> rings;
     for_each_index(limit_.size(), [&](std::int32_t v) {
-      Ring& ring = rings.local();
-      ring.gather(mesh_, adjacency_, v);
+      auto& ring = rings.local();
+      surface_.gather(ring, v);
       for (std::size_t l = 0; l < levels; ++l) {
         if (l > 0) ring.subdivide();
         cones_[static_cast<std::size_t>(v) * levels + l] = ring.cone_cosine(normal_[v]);
@@ -178,19 +187,23 @@ void DepthHeuristics::prepare_cones() const {
   });
 }
 
-double DepthHeuristics::cone_cosine(std::int32_t v, int l) const {
+template <class Surface>
+double BasicDepthHeuristics<Surface>::cone_cosine(std::int32_t v, int l) const {
   prepare_cones();
   return cones_[static_cast<std::size_t>(v) * (static_cast<std::size_t>(max_depth_) + 1) +
                 static_cast<std::size_t>(l)];
 }
 
-std::int32_t DepthHeuristics::cone_depth(std::int32_t v, double cos_angle) const {
+template <class Surface>
+std::int32_t BasicDepthHeuristics<Surface>::cone_depth(std::int32_t v, double cos_angle) const {
   std::int32_t level = 0;
   while (level < max_depth_ && cone_cosine(v, level) < cos_angle) ++level;
   return level;
 }
 
-std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, const Camera& camera) const {
+template <class Surface>
+std::vector<std::int32_t> BasicDepthHeuristics<Surface>::depths(const DepthOptions& options,
+                                                                const Camera& camera) const {
   const bool sphere = uses_sphere(options.strategy), cone = uses_cone(options.strategy),
              cull = options.culls();
   const bool uses_depth = options.strategy == Strategy::kUniform || options.strategy == Strategy::kRandom;
@@ -204,7 +217,7 @@ std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, c
                                       checked_cosine(options.angle_silhouette),
                                       checked_cosine(options.angle_back)};
 
-  std::vector<std::int32_t> result(static_cast<std::size_t>(adjacency_.face_count()), options.depth);
+  std::vector<std::int32_t> result(surface_.face_count(), options.depth);
   if (options.strategy == Strategy::kRandom) {
     const std::uint64_t values = static_cast<std::uint64_t>(options.depth) + 1;
     for_each_index(result.size(), [&](std::int32_t f) {
@@ -212,7 +225,7 @@ std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, c
       result[f] = static_cast<std::int32_t>((bits * values) >> 32);
     });
   } else if (options.strategy == Strategy::kCustom) {
-    for (std::int32_t f = 0; f < adjacency_.face_count(); ++f) {
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(result.size()); ++f) {
       result[f] = std::clamp(options.custom(f), kCulled, static_cast<std::int32_t>(max_depth_));
     }
   }
@@ -240,9 +253,8 @@ std::vector<std::int32_t> DepthHeuristics::depths(const DepthOptions& options, c
     }
     if (sphere) result[f] = project_sphere(f, camera, options.target_pixels);
     if (cone) {
-      const std::int32_t corners =
-          std::max({vertex_depth[adjacency_.corner(f, 0)], vertex_depth[adjacency_.corner(f, 1)],
-                    vertex_depth[adjacency_.corner(f, 2)]});
+      std::int32_t corners = kCulled;
+      surface_.for_each_corner(f, [&](std::int32_t v) { corners = std::max(corners, vertex_depth[v]); });
       result[f] = sphere ? std::max(result[f], corners) : corners;
     }
   });
@@ -260,5 +272,8 @@ void check_depths(std::span<const std::int32_t> depth, int face_count, int max_d
     }
   }
 }
+
+template class BasicDepthHeuristics<TriangleSurface>;
+template class BasicDepthHeuristics<QuadSurface>;
 
 }  // namespace limitcheck::fast

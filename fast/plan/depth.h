@@ -14,6 +14,9 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/point3.h"
 #include "fast/plan/camera.h"
+#include "fast/plan/quad_faces.h"
+#include "fast/rules/quad_ring.h"
+#include "fast/rules/ring.h"
 
 namespace limitcheck::fast {
 
@@ -26,7 +29,7 @@ enum class Strategy {
   kRandom,         // 0 .. depth, independent of each other, from `seed`
   kProjectSphere,  // the size of the face's sphere on the screen, halved per level until it is at most
                    // `target_pixels`
-  kCurvature,      // normal cone at the three corners
+  kCurvature,      // normal cone at the corners
   kCombined,       // the larger of project-sphere and curvature [C82]
   kCustom          // `custom(face)`
 };
@@ -36,7 +39,7 @@ std::string_view name(Strategy strategy);
 /// Throws data::ArgumentError and lists the names.
 Strategy parse_strategy(std::string_view text);
 
-/// Where the three corners of a face look: a corner with limit normal N and limit position L faces away if
+/// Where the corners of a face look: a corner with limit normal N and limit position L faces away if
 /// N . (L - eye) >= 0. On the silhouette some corners face away and others do not.
 enum class Facing : std::int8_t { kFront, kSilhouette, kBack };
 
@@ -46,11 +49,11 @@ struct DepthOptions {
   int depth = 3;              // uniform; the largest of random
   std::uint64_t seed = 1;     // random
   double target_pixels = 60;  // project-sphere, > 0
-  /// Largest angle between the limit normal at a corner and its incident sub-triangles, degrees, in (0, 180],
+  /// Largest angle between the limit normal at a corner and its facets around it, degrees, in (0, 180],
   /// by the class of the vertex: silhouette if it or a neighbour faces the eye and the other does not, else
   /// front or back. The last is used only if nothing is culled.
   double angle_front = 30, angle_silhouette = 30, angle_back = 30;
-  /// Whether faces whose three corners face away get kCulled. Not set: project-sphere, curvature and combined
+  /// Whether faces whose corners all face away get kCulled. Not set: project-sphere, curvature and combined
   /// cull, the others do not.
   std::optional<bool> cull;
   /// Called once per face in face order; what it returns is clamped to -1 .. max_depth.
@@ -60,14 +63,13 @@ struct DepthOptions {
 };
 
 /// Assigns depths to the faces of a mesh for one view after the other; what does not depend on the view is
-/// computed once. Keeps references to mesh and adjacency, which must outlive it. Runs in the caller's oneTBB
-/// arena; the result does not depend on the number of threads.
-class DepthHeuristics {
+/// computed once. Runs in the caller's oneTBB arena; the result does not depend on the number of threads.
+///   Surface   the control faces and the rings of their vertices, by scheme: see below
+template <class Surface>
+class BasicDepthHeuristics {
  public:
   /// `max_depth`: every depth is clamped to it. Throws data::ArgumentError if it is not in 0 .. kDeepest.
-  DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth = 5);
-  DepthHeuristics(data::ControlMesh&&, const Adjacency&, int = 5) = delete;
-  DepthHeuristics(const data::ControlMesh&, Adjacency&&, int = 5) = delete;
+  explicit BasicDepthHeuristics(const Surface& surface, int max_depth = 5);
 
   int max_depth() const { return max_depth_; }
 
@@ -85,7 +87,7 @@ class DepthHeuristics {
   /// claims.md E; C25]
   std::int32_t project_sphere(std::int32_t face, const Camera& camera, double target_pixels) const;
 
-  /// The smallest cosine between the limit normal of vertex v and the normals of the triangles round it after
+  /// The smallest cosine between the limit normal of vertex v and the normals of the facets round it after
   /// l subdivision steps.
   double cone_cosine(std::int32_t v, int l) const;
   /// The smallest l in 0 .. max_depth with cone_cosine(v, l) >= cos_angle; max_depth if there is none.
@@ -104,8 +106,7 @@ class DepthHeuristics {
   Facing vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const;
   void prepare_cones() const;
 
-  const data::ControlMesh& mesh_;
-  const Adjacency& adjacency_;
+  Surface surface_;
   int max_depth_;
   struct Sphere {
     Point3 centre;
@@ -117,6 +118,79 @@ class DepthHeuristics {
   mutable std::once_flag cones_ready_;
   mutable std::vector<double> cones_;  // max_depth + 1 per vertex: the cosines of levels 0 .. max_depth
 };
+
+/// Loop's control faces and rings.
+struct TriangleSurface {
+  using VertexRing = Ring;
+
+  const data::ControlMesh& mesh;
+  const Adjacency& adjacency;
+
+  std::size_t face_count() const { return mesh.faces.size(); }
+  std::size_t vertex_count() const { return mesh.positions.size(); }
+  Point3 position(std::int32_t v) const { return to_point(mesh.positions[v]); }
+  template <class Visit>
+  void for_each_corner(std::int32_t f, Visit&& visit) const {
+    for (int k = 0; k < 3; ++k) visit(adjacency.corner(f, k));
+  }
+  void gather(Ring& ring, std::int32_t v) const { ring.gather(mesh, adjacency, v); }
+  /// Whether any neighbour of v is one that `is` says yes to.
+  template <class Is>
+  bool any_neighbour(std::int32_t v, Is&& is) const {
+    const std::int32_t start = adjacency.outgoing(v);
+    for (std::int32_t h = start; h >= 0;) {
+      if (is(adjacency.target(h)) || is(adjacency.origin(Adjacency::prev(h)))) return true;
+      h = adjacency.rotate(h);
+      if (h == start) break;
+    }
+    return false;
+  }
+};
+
+/// Of Loop's scheme. Keeps references to mesh and adjacency, which must outlive it.
+class DepthHeuristics : public BasicDepthHeuristics<TriangleSurface> {
+ public:
+  DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth = 5)
+      : BasicDepthHeuristics(TriangleSurface{mesh, adjacency}, max_depth) {}
+  DepthHeuristics(data::ControlMesh&&, const Adjacency&, int = 5) = delete;
+  DepthHeuristics(const data::ControlMesh&, Adjacency&&, int = 5) = delete;
+};
+
+/// Of Catmull-Clark's: a vertex of the mesh of quads is what vertices are numbered by.
+struct QuadSurface {
+  using VertexRing = QuadRing;
+
+  const QuadFaces& faces;
+  const SemiSharp& semi_sharp;
+
+  std::size_t face_count() const { return static_cast<std::size_t>(faces.size()); }
+  std::size_t vertex_count() const { return faces.mesh->positions.size(); }
+  Point3 position(std::int32_t v) const { return to_point(faces.mesh->positions[v]); }
+  template <class Visit>
+  void for_each_corner(std::int32_t f, Visit&& visit) const {
+    for (std::size_t c = faces.first[f]; c < faces.first[f + 1]; ++c)
+      visit(faces.vertex(static_cast<std::int32_t>(c)));
+  }
+  void gather(QuadRing& ring, std::int32_t v) const { ring.gather(*faces.mesh, semi_sharp, v); }
+  template <class Is>
+  bool any_neighbour(std::int32_t v, Is&& is) const {
+    bool any = false;
+    faces.mesh->adjacency.for_each_neighbour(v, [&](std::int32_t w) { any = any || is(w); });
+    return any;
+  }
+};
+
+/// Of Catmull-Clark's scheme. Keeps references to the faces and tags, which must outlive it.
+class QuadDepthHeuristics : public BasicDepthHeuristics<QuadSurface> {
+ public:
+  QuadDepthHeuristics(const QuadFaces& faces, const SemiSharp& semi_sharp, int max_depth = 5)
+      : BasicDepthHeuristics(QuadSurface{faces, semi_sharp}, max_depth) {}
+  QuadDepthHeuristics(QuadFaces&&, const SemiSharp&, int = 5) = delete;
+  QuadDepthHeuristics(const QuadFaces&, SemiSharp&&, int = 5) = delete;
+};
+
+extern template class BasicDepthHeuristics<TriangleSurface>;
+extern template class BasicDepthHeuristics<QuadSurface>;
 
 /// Throws data::ArgumentError with the face if `depth` has not one entry in -1 .. max_depth per face.
 void check_depths(std::span<const std::int32_t> depth, int face_count, int max_depth);

@@ -11,6 +11,8 @@
 
 namespace limitcheck::fast {
 
+struct QuadFaces;
+
 /// How faces move between the priority sets of the pairing, step 3. [C39]
 enum class PairingRule : std::uint8_t {
   kCorrected,  // as in erratum 6: what falls to one free neighbour goes to S0, then S3 -> S2, then S2 -> S1
@@ -34,6 +36,9 @@ struct PrintedRules {
 PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                          const PrintedRules& rules);
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
+                      const CrackOptions& options, const PrintedRules& rules);
+/// Of the control faces of a mesh of quads: a cut is an edge like others, so that its sides meet.
+CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules);
 
 }  // namespace limitcheck::fast

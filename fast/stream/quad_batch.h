@@ -8,6 +8,7 @@
 #include <span>
 
 #include "fast/mesh/adjacency.h"
+#include "fast/stream/batch.h"
 #include "fast/stream/quad_layout.h"
 #include "fast/stream/quad_rings.h"
 #include "fast/stream/transpose.h"
@@ -82,6 +83,20 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
   return open;
 }
 
+/// The centres of the corners that are darts.
+template <class T>
+void put_darts(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>::Corner* const* corner, int k,
+               int lanes, QuadBatch<T>& batch) {
+  T* out = batch.input + (quad_dart_offset(batch.depth) + k * quad_dart_size(batch.depth)) * lanes;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto* centres = rings.dart(corner[lane]->vertex);
+    if (centres != nullptr) batch.darts |= 1u << k;
+    out[lane] = T(centres != nullptr ? 1 : 0);
+    for (int t = 0; t < 3 * batch.depth; ++t)
+      out[(1 + t) * lanes + lane] = centres != nullptr ? (*centres)[t / 3][t % 3] : T(0);
+  }
+}
+
 /// Flags of one side, which begins at these corners.
 template <class T>
 void put_side(const typename BasicQuadRings<T>::Corner* const* corner, int side, int lanes,
@@ -108,17 +123,19 @@ void put_side(const typename BasicQuadRings<T>::Corner* const* corner, int side,
 /// quads for QuadStream; the lanes that remain repeat the last.
 template <class T>
 QuadBatch<T> gather_quads(const BasicQuadRings<T>& rings, std::span<const std::int32_t> faces, int depth,
-                          int lanes, T* input) {
+                          int lanes, T* input, Order order = Order::kFromA) {
   QuadBatch<T> batch{input, depth, {}};
   const typename BasicQuadRings<T>::Corner* corner[kMaxLanes] = {};
-  for (int lane = 0; lane < lanes; ++lane)
-    corner[lane] = &rings.corner(4 * faces[std::min(static_cast<std::size_t>(lane), faces.size() - 1)]);
   for (int k = 0; k < 4; ++k) {
+    const int first = (k + static_cast<int>(order)) % 4;
+    for (int lane = 0; lane < lanes; ++lane)
+      corner[lane] =
+          &rings.corner(4 * faces[std::min(static_cast<std::size_t>(lane), faces.size() - 1)] + first);
     const bool open = detail::put_corner(rings, corner, depth, lanes,
                                          input + k * quad_block_size(depth) * lanes, batch.period[k]);
     batch.open |= static_cast<unsigned>(open) << k;
+    if (open) detail::put_darts(rings, corner, k, lanes, batch);
     detail::put_side(corner, k, lanes, batch);
-    for (int lane = 0; lane < lanes; ++lane) ++corner[lane];
   }
   return batch;
 }
@@ -134,9 +151,14 @@ QuadBatch<T> gather_sides(const BasicQuadRings<T>& rings, std::span<const std::i
     p[lane] = &rings.corner(h);
     q[lane] = &rings.corner(QuadAdjacency::next(h));
   }
-  if (detail::put_corner(rings, p, depth, lanes, input, batch.period[0])) batch.open |= 1;
-  if (detail::put_corner(rings, q, depth, lanes, input + quad_block_size(depth) * lanes, batch.period[1]))
-    batch.open |= 2;
+  for (int k = 0; k < 2; ++k) {
+    const auto* corner = k == 0 ? p : q;
+    if (!detail::put_corner(rings, corner, depth, lanes, input + k * quad_block_size(depth) * lanes,
+                            batch.period[k]))
+      continue;
+    batch.open |= 1u << k;
+    detail::put_darts(rings, corner, k, lanes, batch);
+  }
   detail::put_side(p, kAB, lanes, batch);
   return batch;
 }
@@ -144,7 +166,7 @@ QuadBatch<T> gather_sides(const BasicQuadRings<T>& rings, std::span<const std::i
 /// The same for regular quads and QuadPatch: kPatchSize * lanes numbers.
 template <class T>
 QuadBatch<T> gather_patches(const BasicQuadRings<T>& rings, std::span<const std::int32_t> faces, int depth,
-                            int lanes, T* input) {
+                            int lanes, T* input, Order order = Order::kFromA) {
   // Of the ring of each corner from e_{k-1} on, where a run of entries begins, its length, and the points of the
   // patch they are (4 r + k): all around A, those beyond C, and the last one beyond B and D.
   struct Run {
@@ -156,6 +178,9 @@ QuadBatch<T> gather_patches(const BasicQuadRings<T>& rings, std::span<const std:
   std::int32_t face[kMaxLanes];
   for (int lane = 0; lane < lanes; ++lane)
     face[lane] = faces[std::min(static_cast<std::size_t>(lane), faces.size() - 1)];
+  const auto half_edge = [&](int lane, int corner) {
+    return 4 * face[lane] + (corner + static_cast<int>(order)) % 4;
+  };
   const T* from[kMaxLanes];
   alignas(64) T entries[24 * kMaxLanes];
   const auto put = [&](const T* source, int point) {
@@ -163,17 +188,17 @@ QuadBatch<T> gather_patches(const BasicQuadRings<T>& rings, std::span<const std:
   };
   for (const Run& run : runs) {
     for (int lane = 0; lane < lanes; ++lane)
-      from[lane] = rings.numbers() + rings.corner(4 * face[lane] + run.corner).before + 3 * run.first;
+      from[lane] = rings.numbers() + rings.corner(half_edge(lane, run.corner)).before + 3 * run.first;
     detail::put_numbers(from, 3 * run.count, lanes, entries);
     for (int k = 0; k < run.count; ++k) put(entries + 3 * k * lanes, run.at[k]);
   }
   for (int corner = 0; corner < 4; ++corner) {
     for (int lane = 0; lane < lanes; ++lane)
-      from[lane] = rings.head(rings.corner(4 * face[lane] + corner).vertex) + QuadCornerBlock::kLimit;
+      from[lane] = rings.head(rings.corner(half_edge(lane, corner)).vertex) + QuadCornerBlock::kLimit;
     detail::put_numbers(from, 6, lanes, input + (kPatchLimits + 6 * corner) * lanes);
   }
   for (int lane = 0; lane < lanes; ++lane)
-    from[lane] = rings.head(rings.corner(4 * face[lane]).vertex) + QuadCornerBlock::kCentre;
+    from[lane] = rings.head(rings.corner(half_edge(lane, 0)).vertex) + QuadCornerBlock::kCentre;
   detail::put_numbers(from, 3, lanes, entries);
   put(entries, 5);
   return {input, depth, {}};

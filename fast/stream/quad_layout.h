@@ -56,19 +56,26 @@ constexpr int quad_block_size(int depth) {
 }
 
 /// Of quads that are streamed: four corner blocks, then per side 1 where it is sharp (a boundary or one side
-/// of a cut), then per side 1 where it is a polynomial.
+/// of a cut), then per side 1 where it is a polynomial, then per corner 1 where it is a dart, and its centre in
+/// the levels from 1 on.
 constexpr int quad_sharp_offset(int depth) {
   return 4 * quad_block_size(depth);
 }
 constexpr int quad_polynomial_offset(int depth) {
   return quad_sharp_offset(depth) + 4;
 }
+constexpr int quad_dart_size(int depth) {
+  return 1 + 3 * depth;
+}
+constexpr int quad_dart_offset(int depth) {
+  return quad_polynomial_offset(depth) + 4;
+}
 /// Of regular quads: 4 x 4 points, the row below A B first, then the limits of the four corners.
 constexpr int kPatchLimits = 48;
 constexpr int kPatchSize = kPatchLimits + 24;
 
 constexpr int quad_input_size(int depth) {
-  return std::max(quad_polynomial_offset(depth) + 4, kPatchSize);
+  return std::max(quad_dart_offset(depth) + 4 * quad_dart_size(depth), kPatchSize);
 }
 
 /// A batch of quads of one depth, in a form in which the lanes differ in numbers alone. Bits: corner or side k.
@@ -80,6 +87,7 @@ struct QuadBatch {
       period;          // entries of the ring at a corner, if all lanes have as many and the window would
                        // be longer; the window is the ring then, from e- on. Else 0.
   unsigned open = 0;   // corners where some lane's ring is open
+  unsigned darts = 0;  // corners that are darts in some lane
   unsigned sharp = 0;  // sides that are sharp in some lane
   unsigned some_polynomial = 0, all_polynomial = 0;  // sides that are polynomials in some lane, in all
 };

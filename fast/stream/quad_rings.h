@@ -5,11 +5,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "fast/mesh/quad_mesh.h"
+#include "fast/rules/quad_star.h"
 #include "fast/stream/quad_layout.h"
 #include "fast/stream/rings.h"
 
@@ -38,7 +40,6 @@ class BasicQuadRings {
   struct Ring {
     std::int32_t first;  // into numbers()
     std::int32_t entries;
-    bool open;
   };
   Ring ring(std::int32_t v) const { return rings_[v]; }
 
@@ -57,27 +58,30 @@ class BasicQuadRings {
   const Corner& corner(std::int32_t h) const { return corners_[h]; }
   const T* numbers() const { return numbers_.data(); }
 
-  /// An interior vertex of four quads.
-  bool regular(std::int32_t v) const { return !rings_[v].open && rings_[v].entries == 8; }
+  /// The centre of a dart in the levels from 1 on, each 4^level times too large; null for another vertex.
+  using DartCentres = std::array<std::array<T, 3>, kMaxDepth>;
+  const DartCentres* dart(std::int32_t v) const { return darts_.empty() ? nullptr : darts_[v].get(); }
   QuadClass kind(std::int32_t face) const { return kinds_[face]; }
 
   const KernelPlacement<T>& placement() const { return placement_; }
+  /// The number of vertices whose two limit tangents are parallel or vanish. [D12]
+  std::int64_t degenerate_normals() const { return degenerate_normals_; }
 
  private:
-  struct Scratch {
-    std::vector<Vec3<double>> ring;
-  };
+  struct Scratch;
   void lay_out(const QuadAdjacency& adjacency);
   void make_vertex(const QuadMesh& mesh, std::int32_t v, Scratch& scratch);
-  void find_kinds(const QuadAdjacency& adjacency);
+  void make_dart(std::int32_t v, const OwnQuadStar<double>& own);
+  void find_kinds(const QuadMesh& mesh);
 
-  std::vector<ControlPoint<T>> points_;
   std::vector<T> numbers_;
   std::vector<Ring> rings_;
   std::vector<std::array<T, QuadCornerBlock::kHead>> heads_;
   std::vector<Corner> corners_;
   std::vector<QuadClass> kinds_;
+  std::vector<std::unique_ptr<DartCentres>> darts_;  // per vertex, or empty
   KernelPlacement<T> placement_;
+  std::int64_t degenerate_normals_ = 0;
 };
 
 using QuadRings = BasicQuadRings<float>;

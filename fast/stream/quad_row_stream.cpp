@@ -63,6 +63,7 @@ struct Evaluation {
   std::span<const std::int32_t> faces;
   int depth;
   Workspace& workspace;
+  Order order = Order::kFromA;
 
   void run(QuadClass kind, std::span<const std::uint32_t> index, const QuadTarget<float>& target) const {
     std::array<std::int32_t, kMaxLanes> face;
@@ -71,7 +72,7 @@ struct Evaluation {
     const bool regular = kind == QuadClass::kRegular;
     const auto batch =
         (regular ? gather_patches<float> : gather_quads<float>)(rings, some, depth, kernel.lanes,
-                                                                workspace.input.data());
+                                                                workspace.input.data(), order);
     (regular ? kernel.patches : kernel.quads)(batch, rings.placement(), workspace.work.data(), target);
   }
 };
@@ -117,7 +118,7 @@ std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> fa
 }
 
 void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
-                         void (*visit)(void*, const QuadRowView&), void* context) const {
+                         void (*visit)(void*, const QuadRowView&), void* context, Order order) const {
   prepare(workspace, depth, kernel_.lanes);
   workspace.row.grow(static_cast<std::size_t>(kernel_.lanes) * row_pitch(depth));
   const auto pitch = static_cast<std::ptrdiff_t>(row_pitch(depth));
@@ -125,7 +126,7 @@ void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspa
   std::array<float*, kMaxLanes> lane;
   for (int k = 0; k < kMaxLanes; ++k) lane[k] = workspace.row.data() + std::min(k, kernel_.lanes - 1) * pitch;
   const QuadTarget<float> target{lane.data(), 0, visit ? &visit_row : nullptr, &rows};
-  const Evaluation evaluation{rings_, kernel_, faces, depth, workspace};
+  const Evaluation evaluation{rings_, kernel_, faces, depth, workspace, order};
   Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
     rows.view.index = index;
     evaluation.run(kind, index, target);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fast/mesh/quad_mesh.h"
+#include "fast/rules/surface_vertex.h"
 #include "fast/stream/quad_rings.h"
 #include "fast/stream/quad_targets.h"
 #include "fast/stream/row_stream.h"
@@ -45,15 +46,25 @@ class QuadRowStream {
 
   const QuadKernel& kernel() const { return kernel_; }
   const QuadRings& rings() const { return rings_; }
+  /// A vertex of the mesh, rounded; and its limit point.
+  Vec3<float> control(std::int32_t v) const {
+    const float* x = rings_.head(v) + QuadCornerBlock::kCentre;
+    return rings_.placement()(Vec3<float>{x[0], x[1], x[2]});
+  }
+  SurfaceVertex<float> limit(std::int32_t v) const {
+    const float* x = rings_.head(v) + QuadCornerBlock::kLimit;
+    return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+  }
 
   /// The faces in an order in which neighbours in the list are quads of like valences, which makes the best
   /// batches. Any order is right.
   std::vector<std::int32_t> sorted(std::span<const std::int32_t> faces) const;
 
   /// Calls visit(context, QuadRowView) for each row of each batch of quads. A batch takes quads that can go
-  /// together from anywhere in the list; its rows come one after the other.
+  /// together from anywhere in the list; its rows come one after the other. From C, rows and columns are counted
+  /// from that corner; the points are the same, those inside regular quads but for rounding.
   void rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
-            void (*visit)(void*, const QuadRowView&), void* context) const;
+            void (*visit)(void*, const QuadRowView&), void* context, Order order = Order::kFromA) const;
 
   /// All vertices: those of faces[p] from out[p * side * side], row by row. `kernel`: another one for this
   /// call, with the same bits.

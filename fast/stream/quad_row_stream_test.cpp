@@ -12,9 +12,12 @@
 #include <string>
 
 #include "data/bounding_box.h"
+#include "data/error.h"
 #include "data/generators/polygon_meshes.h"
+#include "data/generators/sharp_meshes.h"
 #include "fast/test_support/refined_quads.h"
 #include "fast/test_support/shared_points.h"
+#include "fast/window/quad_window.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
@@ -272,6 +275,87 @@ TEST(QuadStreamBits, AreEqualFromEveryQuadOfAClosedMesh) {
 
 TEST(QuadStreamBits, AreEqualFromEveryQuadOfAMeshWithBoundary) {
   expect_equal_bits(open_meshes(), 6);
+}
+
+// What is sharp, and faces of other than four corners, against the sliding window in double.
+TEST(QuadStream, GivesTheSurfaceOfTheWindowWhereEdgesAreSharp) {
+  std::vector<NamedMesh> meshes{{"creased cube", data::creased_cube(10)},
+                                {"crease ring", data::crease_ring(10)},
+                                {"prism", data::polygon_prism(5)},
+                                {"mixed pawn", data::mixed_pawn(5)}};
+  for (const int n : {3, 4, 5, 7}) meshes.push_back({"dart " + std::to_string(n), data::dart(n, false)});
+  for (const int k : {2, 3, 4, 5}) meshes.push_back({"corner " + std::to_string(k), data::corner(k, false)});
+  auto spike = data::quad_cube();
+  spike.sharpness.vertices.push_back({0, 10});
+  meshes.push_back({"spike", spike});
+  auto edge_and_corner = shaken(quad_sheet(2, 2), .1, 9);
+  edge_and_corner.sharpness.boundary = data::Boundary::kEdgeAndCorner;
+  meshes.push_back({"edge and corner", edge_and_corner});
+  for (const auto& [name, mesh] : meshes) {
+    data::ControlMesh single = mesh;
+    for (auto& p : single.positions)
+      for (double& x : p) x = static_cast<float>(x);
+    const QuadMesh quads(single);
+    std::vector<Vec3<double>> positions;
+    for (const auto& p : quads.positions) positions.push_back({p[0], p[1], p[2]});
+    const PreparedQuads<double> prepared(quads, positions);
+    const QuadRowStream stream(quads);
+    std::vector<std::int32_t> faces(static_cast<std::size_t>(quads.adjacency.face_count()));
+    std::iota(faces.begin(), faces.end(), 0);
+    for (int depth = 0; depth <= 6; ++depth) {
+      const int n = side(depth);
+      std::vector<Vertex> got(faces.size() * n * n);
+      Workspace workspace;
+      stream.whole(faces, depth, workspace, got.data());
+      QuadWindow<double> window(depth, quads.adjacency.max_valence());
+      double position = 0, normal = 0;
+      for (const std::int32_t f : faces) {
+        window.run(prepared, f, depth, [&](int row, const SurfaceVertex<double>* strip) {
+          for (int q = 0; q < 2 * n; ++q) {
+            const int j = n - 1 - row - q % 2;
+            const Vertex& v = got[(f * n + j) * n + q / 2];
+            const std::array p{strip[q].position.x, strip[q].position.y, strip[q].position.z};
+            const std::array w{strip[q].normal.x, strip[q].normal.y, strip[q].normal.z};
+            for (int c = 0; c < 3; ++c) {
+              position = std::max(position, std::abs(v.position[c] - p[c]));
+              normal = std::max(normal, std::abs(v.normal[c] - w[c]));
+            }
+          }
+        });
+      }
+      EXPECT_LE(position / data::box_diagonal(single), 1.2e-7) << name << " depth " << depth;
+      EXPECT_LE(normal, 1e-5 * (1 << depth)) << name << " depth " << depth;
+    }
+  }
+}
+
+TEST(QuadStream, RefusesWhatIsSemiSharp) {
+  const QuadMesh quads(data::creased_cube(2));
+  EXPECT_THROW(QuadRowStream{quads}, data::ArgumentError);
+}
+
+// The two sides of a cut have a point each, in one place.
+TEST(QuadStreamBits, PositionsAreEqualOnBothSidesOfACut) {
+  std::int64_t compared = 0;
+  for (const auto& mesh :
+       {data::creased_cube(10), data::crease_ring(10), data::dart(5, false), data::dart(3, false)}) {
+    const QuadMesh quads(mesh);
+    const QuadRowStream stream(quads);
+    for (int depth = 0; depth <= 6; ++depth) {
+      const std::size_t n = side(depth);
+      std::vector<Vertex> here(n), there(n);
+      Workspace workspace;
+      for (std::size_t i = 0; i < quads.cut_twin.size(); ++i) {
+        const auto h = static_cast<std::int32_t>(i);
+        if (quads.cut_twin[h] < 0) continue;
+        stream.edges({&h, 1}, depth, workspace, here.data());
+        stream.edges({&quads.cut_twin[h], 1}, depth, workspace, there.data());
+        for (std::size_t k = 0; k < n; ++k, ++compared)
+          EXPECT_EQ(std::memcmp(here[k].position, there[n - 1 - k].position, sizeof here[k].position), 0);
+      }
+    }
+  }
+  EXPECT_GT(compared, 1000);
 }
 
 }  // namespace

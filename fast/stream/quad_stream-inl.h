@@ -125,6 +125,14 @@ class QuadStream {
       } else {
         refine_quad_ring<N, false, false>(block(corner), first, end);
       }
+      if (batch_.darts >> corner & 1) {
+        const Scalar* dart = batch_.input + (quad_dart_offset(depth_) + corner * quad_dart_size(depth_)) * L;
+        Scalar* centre = block(corner) + Block::kCentre * L;
+        for (int c = 0; c < 3; ++c) {
+          const V given = N::load(dart + (1 + 3 * level + c) * L);
+          N::store(N::select(N::load(dart), given, N::load(centre + c * L)), centre + c * L);
+        }
+      }
       Scalar* kept = border(level + 1, corner);
       for (int c = 0; c < 3 * L; c += L) N::store(N::load(block(corner) + Block::kCentre * L + c), kept + c);
       for (int k = 0; k < kQuadCore; ++k) {
@@ -286,14 +294,20 @@ class QuadStream {
     Vertex<N> first, last;
     if (j == 0 || j == size) {
       first.load(limit_of(j == 0 ? kA : kD)), last.load(limit_of(j == 0 ? kB : kC));
-      SideRow row{*this, j == 0 ? kAB : kCD, s, m, n};
-      Vertex<N> a = first, b;
-      for (int i = 0; i < size; i += 2) {
-        row.begin(b);
-        N::scatter_couple(a, b, target_.lane, offset + 6 * i);
-        if (i + 2 < size) row.begin(a);
+      const int side = j == 0 ? kAB : kCD;
+      if (((batch_.sharp | batch_.some_polynomial) >> side & 1) == 0) {
+        QuadLimitRow<N> row(s, m, n, 1, centre_, unit_);
+        scatter_row<N>(row, size, first, last, target_.lane, offset);
+      } else {
+        SideRow row{*this, side, s, m, n};
+        Vertex<N> a = first, b;
+        for (int i = 0; i < size; i += 2) {
+          row.begin(b);
+          N::scatter_couple(a, b, target_.lane, offset + 6 * i);
+          if (i + 2 < size) row.begin(a);
+        }
+        N::scatter_vertex(last, target_.lane, offset + 6 * size);
       }
-      N::scatter_vertex(last, target_.lane, offset + 6 * size);
     } else {
       column_point(kDA, s, m, n, 0, j, first);
       column_point(kBC, s, m, n, size, j, last);

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "fast/stream/stream_tessellator.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fast/frame/engine_state.h"
+#include "fast/stream/quad_stream_state.h"
 #include "fast/stream/stream_batches.h"
+#include "fast/stream/stream_hooks.h"
 #include "fast/stream/stream_worker.h"
 
 namespace limitcheck::fast::row_stream {
@@ -31,7 +29,7 @@ const Kernel& narrow_of(const Kernel& kernel) {
 
 }  // namespace
 
-struct StreamTessellator::State final : EngineState<float> {
+struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   State(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
       : EngineState<float>(given, with, PrintedRules{}),
         stream(mesh, adjacency, kernel),
@@ -85,45 +83,37 @@ struct StreamTessellator::State final : EngineState<float> {
                             control ? &*control : nullptr,
                             options.cracks.centre,
                             max_depth};
-    tbb::enumerable_thread_specific<StreamWorker> workers;
-    std::atomic<std::size_t> done = 0;
-    std::mutex telling;
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, batches.list().size(), [&](std::size_t b) {
-        const Batch& batch = batches.list()[b];
-        StreamWorker& worker = workers.local();
-        if (worker.scratch().inner.empty()) worker.scratch().reserve(max_depth);
-        worker.run(frame, batch, make_writer);
-        const std::size_t finished = done += batch.patches.size();
-        if (progress && telling.try_lock()) {
-          progress(finished, total);
-          telling.unlock();
-        }
-      });
+    run_batches<StreamWorker>(arena, batches.list().size(), total, [&](StreamWorker& worker, std::size_t b) {
+      const Batch& batch = batches.list()[b];
+      if (worker.scratch().inner.empty()) worker.scratch().reserve(max_depth);
+      worker.run(frame, batch, make_writer);
+      return batch.patches.size();
     });
-    for (const StreamWorker& worker : workers) worker_bytes = std::max(worker_bytes, worker.bytes());
   }
 
   RowStream stream;
   const Kernel& narrow;
   std::optional<PreparedMesh<float>> control;
   StreamBatches batches;
-  std::function<void(std::size_t, std::size_t)> progress;
-  std::size_t worker_bytes = 0;
 };
+
+std::unique_ptr<FrameEngine<float>> StreamTessellator::make_state(const data::ControlMesh& mesh,
+                                                                  const TessellatorOptions& options,
+                                                                  const Kernel& kernel) {
+  if (options.scheme == data::Scheme::kLoop) return std::make_unique<State>(mesh, options, kernel);
+  const QuadKernel* quads = find_quad_kernel(kernel.name);
+  return std::make_unique<QuadStreamState>(mesh, options, quads != nullptr ? *quads : quad_kernels().front());
+}
 
 StreamTessellator::StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options,
                                      const Kernel& kernel)
-    : Engine<float>(std::make_unique<State>(mesh, options, kernel)) {}
+    : Engine<float>(make_state(mesh, options, kernel)) {}
 
-StreamTessellator::State& StreamTessellator::stream_state() const {
-  return static_cast<State&>(state());
-}
 std::size_t StreamTessellator::worker_bytes() const {
-  return stream_state().worker_bytes;
+  return dynamic_cast<const StreamHooks&>(state()).worker_bytes;
 }
 void StreamTessellator::on_progress(std::function<void(std::size_t, std::size_t)> tell) {
-  stream_state().progress = std::move(tell);
+  dynamic_cast<StreamHooks&>(state()).progress = std::move(tell);
 }
 
 }  // namespace limitcheck::fast::row_stream

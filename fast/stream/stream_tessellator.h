@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "data/control_mesh.h"
 #include "fast/frame/engine.h"
@@ -15,6 +16,10 @@ namespace limitcheck::fast::row_stream {
 /// depth are evaluated together, one in each lane of a vector; an edge between unequal depths is evaluated at
 /// its own depth, which gives the bits that a grid of that depth has there. Results do not depend on the
 /// kernel.
+///
+/// The options name the scheme: Loop's for meshes of triangles without sharp edges, or Catmull-Clark's for any
+/// polygons with infinitely sharp edges and vertices; the constructor throws data::ArgumentError where
+/// something is semi-sharp. The kernel for quads is the one of that name.
 class StreamTessellator : public Engine<float> {
  public:
   explicit StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options = {},
@@ -30,7 +35,9 @@ class StreamTessellator : public Engine<float> {
 
  private:
   struct State;
-  State& stream_state() const;
+  static std::unique_ptr<FrameEngine<float>> make_state(const data::ControlMesh& mesh,
+                                                        const TessellatorOptions& options,
+                                                        const Kernel& kernel);
 };
 
 }  // namespace limitcheck::fast::row_stream

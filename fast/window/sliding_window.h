@@ -157,17 +157,17 @@ class SlidingWindow {
     probe_.add(&WindowCounts::middle_corners, l.mcorner[0].n + l.mcorner[1].n);
 
     using Row = const Vec3<N>*;
-    using Ring = const Corner*;
+    using RingOf = const Corner*;
     const auto subdivide_half = [&](int half_row) {
-      return [&, half_row](Row t, Row b, Row ot, Row ob, Ring c0, Ring c1, Ring c2, Ring c3) {
+      return [&, half_row](Row t, Row b, Row ot, Row ob, RingOf c0, RingOf c1, RingOf c2, RingOf c3) {
         subdivide(level - 1, half_row, t, b, ot, ob, *c0, *c1, *c2, *c3, sink);
       };
     };
     const Row new_top = l.top, middle = l.middle, new_bottom = l.bottom;
     const Row new_outtop = outtop != nullptr ? l.outtop : nullptr;
     const Row new_outbottom = outbottom != nullptr ? l.outbottom : nullptr;
-    const Ring c0 = &l.corner[0], c1 = &l.corner[1], c2 = &l.corner[2], c3 = &l.corner[3];
-    const Ring mcorner0 = &l.mcorner[0], mcorner1 = &l.mcorner[1];
+    const RingOf c0 = &l.corner[0], c1 = &l.corner[1], c2 = &l.corner[2], c3 = &l.corner[3];
+    const RingOf mcorner0 = &l.mcorner[0], mcorner1 = &l.mcorner[1];
     // subdivide upper row
     Probe::upper(subdivide_half(2 * row), new_top, middle, new_outtop, new_bottom, mcorner0, mcorner1, c2,
                  c3);

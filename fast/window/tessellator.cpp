@@ -10,12 +10,15 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "data/error.h"
 #include "fast/frame/engine_state.h"
+#include "fast/frame/quad_state.h"
 #include "fast/mesh/box.h"
 #include "fast/window/frame_worker.h"
+#include "fast/window/quad_frame_worker.h"
 
 namespace limitcheck::fast {
 
@@ -24,13 +27,13 @@ namespace {
 // Where a coordinate is taken relative to: near the middle of the box, with few digits, so that subtracting
 // it rarely costs any. Near the origin only if every control point stays exact in Real; else 0.
 template <class Real>
-double exact_centre(const data::ControlMesh& mesh, const Box& box, std::size_t axis) {
+double exact_centre(std::span<const std::array<double, 3>> points, const Box& box, std::size_t axis) {
   const double size = box.size();
   const double unit = size > 0 ? std::exp2(std::floor(std::log2(size)) - 3) : 1;
   const double coarse = std::round(box.middle(axis) / unit) * unit;
   if (static_cast<double>(static_cast<Real>(coarse)) != coarse) return 0;
   if (std::abs(coarse) > 2 * size) return coarse;
-  for (const auto& p : mesh.positions) {
+  for (const auto& p : points) {
     const double x = static_cast<double>(static_cast<Real>(p[axis]));
     if (static_cast<double>(static_cast<Real>(x - coarse)) != x - coarse || x - coarse + coarse != x)
       return 0;
@@ -42,12 +45,12 @@ double exact_centre(const data::ControlMesh& mesh, const Box& box, std::size_t a
 // are representable in Real are taken exactly if the mesh lies near the origin. (Row streaming has a rule of
 // its own, see `place` in stream/rings.h.)
 template <class Real>
-std::vector<Vec3<Real>> place(const data::ControlMesh& mesh, Placement<Real>& placement) {
-  const Box box(mesh);
+std::vector<Vec3<Real>> place(std::span<const std::array<double, 3>> points, Placement<Real>& placement) {
+  const Box box(points);
   std::array<double, 3> centre{};
   double largest = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    centre[c] = exact_centre<Real>(mesh, box, c);
+    centre[c] = exact_centre<Real>(points, box, c);
     largest = std::max({largest, std::abs(box.low[c] - centre[c]), std::abs(box.high[c] - centre[c])});
   }
   int exponent = 0;
@@ -60,8 +63,8 @@ std::vector<Vec3<Real>> place(const data::ControlMesh& mesh, Placement<Real>& pl
     return static_cast<Real>(std::ldexp(p[c] - centre[c], -exponent));
   };
   std::vector<Vec3<Real>> positions;
-  positions.reserve(mesh.positions.size());
-  for (const auto& p : mesh.positions) positions.push_back({scaled(p, 0), scaled(p, 1), scaled(p, 2)});
+  positions.reserve(points.size());
+  for (const auto& p : points) positions.push_back({scaled(p, 0), scaled(p, 1), scaled(p, 2)});
   return positions;
 }
 
@@ -75,7 +78,7 @@ struct Tessellator<Real>::State final : EngineState<Real> {
 
   State(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
       : EngineState<Real>(given, with, by) {
-    prepared.emplace(adjacency, place(mesh, placement));
+    prepared.emplace(adjacency, place<Real>(mesh.positions, placement));
     for (std::int32_t f = 0; f < adjacency.face_count(); ++f)
       if (adjacency.neighbour(f, 0) < 0 && adjacency.neighbour(f, 1) < 0 && adjacency.neighbour(f, 2) < 0)
         isolated_faces = true;
@@ -134,13 +137,76 @@ struct Tessellator<Real>::State final : EngineState<Real> {
   std::int64_t zero_normals_before = 0;  // of the workers, in the frames before
 };
 
+// The same with a grid for each quad.
+template <class Real>
+struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
+  using QuadEngineState<Real>::arena, QuadEngineState<Real>::faces, QuadEngineState<Real>::max_depth,
+      QuadEngineState<Real>::options, QuadEngineState<Real>::patches, QuadEngineState<Real>::placement,
+      QuadEngineState<Real>::plan, QuadEngineState<Real>::quads;
+
+  QuadState(const data::ControlMesh& given, const TessellatorOptions& with)
+      : QuadEngineState<Real>(given, with), prepared(quads, place<Real>(quads.positions, placement)) {}
+
+  void prepare() override {
+    if (workers.empty() || max_depth > worker_depth) {
+      workers.clear();
+      worker_depth = max_depth;
+      for (int i = 0; i < arena.max_concurrency(); ++i)
+        workers.push_back(std::make_unique<QuadWorker<Real>>(worker_depth, quads.adjacency.max_valence()));
+    }
+    zero_normals_before = 0;
+    for (const auto& worker : workers) zero_normals_before += worker->zero_normals();
+  }
+
+  void draw(std::size_t first, std::size_t last, DrawList<Real>& out) override {
+    run(first, last, [&](std::size_t i) { return this->draw_writer(first, i, out); });
+  }
+  void index(const QuadIndexLayout& layout, IndexedMesh<Real>& out) override {
+    run(0, patches.size(), [&](std::size_t i) { return this->index_writer(i, layout, out); });
+  }
+  SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared.limit(v), placement); }
+  std::int64_t zero_normals() const override {
+    std::int64_t count = prepared.zero_normals() - zero_normals_before;
+    for (const auto& worker : workers) count += worker->zero_normals();
+    return count;
+  }
+
+  /// Evaluates patches first .. last - 1 in parallel, each into make_writer(i).
+  template <class MakeWriter>
+  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
+    arena.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(first, last, 16), [&](const tbb::blocked_range<std::size_t>& r) {
+            QuadWorker<Real>& worker = *workers[tbb::this_task_arena::current_thread_index()];
+            for (std::size_t i = r.begin(); i < r.end(); ++i) {
+              auto writer = make_writer(i);
+              evaluate(prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
+            }
+          });
+    });
+  }
+
+  PreparedQuads<Real> prepared;
+  std::vector<std::unique_ptr<QuadWorker<Real>>> workers;
+  int worker_depth = 0;
+  std::int64_t zero_normals_before = 0;  // of the workers, in the frames before
+};
+
+template <class Real>
+std::unique_ptr<FrameEngine<Real>> Tessellator<Real>::make_state(const data::ControlMesh& mesh,
+                                                                 const TessellatorOptions& options,
+                                                                 const PrintedRules& rules) {
+  if (options.scheme == data::Scheme::kCatmullClark) return std::make_unique<QuadState>(mesh, options);
+  return std::make_unique<State>(mesh, options, rules);
+}
+
 template <class Real>
 Tessellator<Real>::Tessellator(const data::ControlMesh& mesh, const TessellatorOptions& options)
     : Tessellator(mesh, options, PrintedRules{}) {}
 template <class Real>
 Tessellator<Real>::Tessellator(const data::ControlMesh& mesh, const TessellatorOptions& options,
                                const PrintedRules& rules)
-    : Engine<Real>(std::make_unique<State>(mesh, options, rules)) {}
+    : Engine<Real>(make_state(mesh, options, rules)) {}
 
 template class Tessellator<float>;
 template class Tessellator<double>;

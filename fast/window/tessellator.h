@@ -2,13 +2,17 @@
 // The paper's tessellator: a sliding window for each pair of faces. [mueller2000, sections 4 and 5]
 #pragma once
 
+#include <memory>
+
 #include "data/control_mesh.h"
 #include "fast/frame/engine.h"
 
 namespace limitcheck::fast {
 
 /// Tessellation on the fly by sliding windows; see Engine for what it can do and what it throws. Real is
-/// float or double. Control points that are representable in Real are taken exactly.
+/// float or double. Control points that are representable in Real are taken exactly. The options name the
+/// scheme: Loop's for meshes of triangles without sharp edges, or Catmull-Clark's for any polygons and tags. A
+/// depth belongs to a control face, whatever quads that consists of. [C21]
 template <class Real>
 class Tessellator : public Engine<Real> {
  public:
@@ -18,6 +22,10 @@ class Tessellator : public Engine<Real> {
 
  private:
   struct State;
+  struct QuadState;
+  static std::unique_ptr<FrameEngine<Real>> make_state(const data::ControlMesh& mesh,
+                                                       const TessellatorOptions& options,
+                                                       const PrintedRules& rules);
 };
 
 extern template class Tessellator<float>;

@@ -12,6 +12,7 @@
 #include "reference/catmull_clark/refine.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/two_ring_impl.h"
+#include "reference/mesh/next_step.h"
 #include "reference/point/parameter_exact.h"
 
 namespace limitcheck::reference::catmull_clark {
@@ -142,8 +143,13 @@ class StamData {
  public:
   StamData(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags)
       : StamData(QuadMesh<N>(std::move(faces), std::move(positions), tags)) {}
-  explicit StamData(QuadMesh<N> mesh)
-      : mesh_(std::move(mesh)), points_(refine_once(mesh_.topology, mesh_.positions, mesh_.states)) {
+  /// `wanted` quads are those of which anybody will ask, all if it is empty.
+  explicit StamData(TaggedMesh<N> mesh, const std::vector<bool>& wanted)
+      : StamData(QuadMesh<N>(std::move(mesh)), wanted) {}
+  explicit StamData(QuadMesh<N> mesh, const std::vector<bool>& wanted = {})
+      : mesh_(std::move(mesh)),
+        next_(mesh_.needs_a_step, wanted),
+        points_(refine_once(mesh_.topology, mesh_.positions, mesh_.states)) {
     const Topology finer(points_.size(), refined_faces(mesh_.topology));
     make_two_rings(finer);
     make_patches(finer);
@@ -193,9 +199,25 @@ class StamData {
   template <class P>
   SurfacePoint<N> evaluate_after_steps(QuadParameter<P> at, Order order) const {
     long steps = 0;
-    const StamData piece(settled_around(*mesh_.tagged, at.quad, at.u, at.v, steps));
-    at.quad = 0;
-    SurfacePoint<N> result = piece.evaluate(at, order);
+    SurfacePoint<N> result;
+    if constexpr (std::is_same_v<N, double>) {
+      const StamData* level = this;
+      for (; !level->mesh_.is_settled(at.quad); ++steps) {
+        const P half = P(1) / P(2);
+        const bool right = at.u > half, up = at.v > half;
+        at.u = 2 * at.u - (right ? 1 : 0);
+        at.v = 2 * at.v - (up ? 1 : 0);
+        at.quad = level->next_.child(at.quad, up ? (right ? 2 : 3) : (right ? 1 : 0));
+        level = &level->next_.data(*level->mesh_.tagged, [](const TaggedMesh<N>& mesh) {
+          return refine_once(mesh, data::TriangleRule::kCatmark);
+        });
+      }
+      result = level->evaluate(at, order);
+    } else {  // whoever wants many digits asks for few points
+      const StamData piece(settled_around(*mesh_.tagged, at.quad, at.u, at.v, steps));
+      at.quad = 0;
+      result = piece.evaluate(at, order);
+    }
     scale_derivatives(result, power(N(2), steps));
     return result;
   }
@@ -278,6 +300,7 @@ class StamData {
   }
 
   QuadMesh<N> mesh_;
+  NextStep<N, StamData> next_;
   std::vector<Vec3<N>> points_;  ///< after one more step: vertices, edge points, face points, then ghosts
   std::vector<std::array<std::int32_t, 16>> patches_;  ///< of the quads of that step
   std::vector<std::int32_t> two_ring_of_;              ///< of each vertex of mesh_, -1 where it is regular

@@ -142,7 +142,7 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
     const std::int32_t face = topology_.sector(v).faces[0];
     if (cut->is_settled(face)) return limit_at(cut->topology, cut->positions, v, cut->states);
     const Triangle corners = triangle_of(topology_, face);
-    SubFacePath path(v == corners[1] ? 1 : 0, v == corners[2] ? 1 : 0);
+    SubFacePath<Rational> path(v == corners[1] ? 1 : 0, v == corners[2] ? 1 : 0);
     const TriangleMesh<N> near = settled_around(*cut->tagged, face, weights_, path);
     const auto k = static_cast<std::size_t>(std::find(path.w.begin(), path.w.end(), 1) - path.w.begin());
     return limit_at(near.topology, near.positions, near.topology.faces()[0][k], near.states);

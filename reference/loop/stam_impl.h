@@ -13,6 +13,7 @@
 #include "reference/loop/sub_face_location.h"
 #include "reference/loop/triangle_mesh.h"
 #include "reference/loop/two_ring_impl.h"
+#include "reference/mesh/next_step.h"
 
 namespace limitcheck::reference {
 namespace detail {
@@ -20,9 +21,13 @@ namespace detail {
 template <class N>
 class StamData {
  public:
-  StamData(TriangleMesh<N> mesh, Weights weights)
+  /// `wanted` faces are those of which anybody will ask, all if it is empty.
+  StamData(TaggedMesh<N> mesh, const std::vector<bool>& wanted, Weights weights)
+      : StamData(TriangleMesh<N>(std::move(mesh)), weights, wanted) {}
+  StamData(TriangleMesh<N> mesh, Weights weights, const std::vector<bool>& wanted = {})
       : weights_(weights),
         mesh_(std::move(mesh)),
+        next_(mesh_.needs_a_step, wanted),
         topology_(mesh_.topology),
         control_(mesh_.positions),
         refined_(topology_, control_, mesh_.states, weights) {
@@ -38,7 +43,7 @@ class StamData {
     if (face < 0 || face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
     const std::size_t f = face;
     const SubFaceLocation<P> location = locate<P>(l1, l2);
-    if (!mesh_.is_settled(f)) return evaluate_after_steps(f, Rational(l1), Rational(l2), order);
+    if (!mesh_.is_settled(f)) return evaluate_after_steps(f, l1, l2, order);
     SurfacePoint<N> result;
     const std::size_t corner = location.subface;
     const std::int32_t two_ring = location.subface == 3 ? -1 : two_ring_of_[topology_.faces()[f][corner]];
@@ -120,12 +125,28 @@ class StamData {
   }
 
   /// Near semi-sharp tags: on the piece of the face that has none.
-  SurfacePoint<N> evaluate_after_steps(std::size_t f, const Rational& l1, const Rational& l2,
-                                       Order order) const {
+  template <class P>
+  SurfacePoint<N> evaluate_after_steps(std::size_t f, const P& l1, const P& l2, Order order) const {
     const bool beyond = l1 + l2 > 1;  // two doubles whose rounded sum is 1
-    SubFacePath path(beyond && l1 > l2 ? Rational(1 - l2) : l1, beyond && l1 <= l2 ? Rational(1 - l1) : l2);
-    const StamData piece(settled_around(*mesh_.tagged, f, weights_, path), weights_);
-    const SurfacePoint<N> p = piece.evaluate(0, path.w[1], path.w[2], order);
+    SubFacePath<P> path(beyond && l1 > l2 ? P(1 - l2) : l1, beyond && l1 <= l2 ? P(1 - l1) : l2);
+    SurfacePoint<N> p;
+    if constexpr (std::is_same_v<N, double>) {
+      const StamData* level = this;
+      for (std::size_t face = f;;) {
+        if (level->mesh_.is_settled(face)) {
+          if (path.w[1] + path.w[2] > 1) path.w[1] = 1 - path.w[2];  // by rounding
+          p = level->evaluate(static_cast<int>(face), path.w[1], path.w[2], order);
+          break;
+        }
+        face = level->next_.child(face, path.descend());
+        level = &level->next_.data(
+            *level->mesh_.tagged, [&](const TaggedMesh<N>& mesh) { return refine_once(mesh, weights_); },
+            weights_);
+      }
+    } else {  // whoever wants many digits asks for few points
+      const StamData piece(settled_around(*mesh_.tagged, f, weights_, path), weights_);
+      p = piece.evaluate(0, path.w[1], path.w[2], order);
+    }
     SurfacePoint<N> result = p;
     const N first = power(N(2), path.level), second = first * first;
     LocalPoint<N> local{p.position, p.d1, p.d2, p.d11, p.d12, p.d22, p.t1_terms, p.t2_terms};
@@ -277,6 +298,7 @@ class StamData {
 
   Weights weights_;
   TriangleMesh<N> mesh_;
+  NextStep<N, StamData> next_;
   const Topology& topology_;
   const std::vector<Vec3<N>>& control_;
   RefinedPatches<N> refined_;

@@ -73,7 +73,7 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   if (first < 0 || second < 0 || first + second > 1)
     throw data::ArgumentError("l1, l2 must be >= 0 and l1 + l2 <= 1");
 
-  SubFacePath path(first, second);
+  SubFacePath<Rational> path(first, second);
   const auto gathered = [&](const TriangleMesh<N>& mesh, std::size_t which) {
     return RingedFace<N>::gather(mesh.topology, mesh.positions, which, weights_, mesh.states);
   };

@@ -76,16 +76,17 @@ struct TriangleMesh {
 };
 
 /// A point on its way down into the sub-faces.
+template <class P>
 struct SubFacePath {
-  std::array<Rational, 3> w;                                               ///< barycentric in the sub-face
+  std::array<P, 3> w;                                                      ///< barycentric in the sub-face
   std::array<std::array<int, 2>, 3> gradient{{{-1, -1}, {1, 0}, {0, 1}}};  ///< of w, in units of 2^level
   long level = 0;
 
-  SubFacePath(const Rational& l1, const Rational& l2) : w{1 - l1 - l2, l1, l2} {}
+  SubFacePath(const P& l1, const P& l2) : w{1 - l1 - l2, l1, l2} {}
 
   /// Goes on into the sub-face that holds the point, and says which: 0 .. 2 at a corner, 3 in the middle.
   int descend() {
-    const Rational half(1, 2);
+    const P half = P(1) / P(2);
     std::size_t k = 0;
     while (k < 3 && w[k] < half) ++k;
     ++level;
@@ -108,9 +109,9 @@ struct SubFacePath {
 
 /// Takes a point of a face that needs steps to the mesh of few faces in whose face 0 it is after these steps,
 /// with no semi-sharp tags left.
-template <class N>
+template <class N, class P>
 TriangleMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t face, Weights weights,
-                               SubFacePath& path) {
+                               SubFacePath<P>& path) {
   TaggedMesh<N> near = mesh.around(face);
   while (near.sharpness.needs_a_step(near.topology)[0])
     near = refine_once(near, weights).around(static_cast<std::size_t>(path.descend()));

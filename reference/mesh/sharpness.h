@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_set>
 #include <vector>
 
 #include "data/cut_out.h"
@@ -135,19 +136,22 @@ struct TaggedMesh {
   std::vector<Vec3<N>> positions;
   Sharpness sharpness;
 
-  /// The faces that touch the corners of one face, which becomes face 0: all that its surface depends on. By
-  /// Chaikin's creasing it depends on the sharpness of the edges at the far ends of edges, too.
-  TaggedMesh around(std::size_t face) const {
-    std::vector<std::int32_t> faces{static_cast<std::int32_t>(face)};
+  /// Some faces, which come first, and the faces that touch their corners: all that their surface depends on.
+  /// By Chaikin's creasing it depends on the sharpness of the edges at the far ends of edges, too.
+  TaggedMesh around(std::vector<std::int32_t> faces) const {
+    std::unordered_set<std::int32_t> known(faces.begin(), faces.end());
     for (int ring = 0; ring < (sharpness.is_chaikin() ? 2 : 1); ++ring)
       for (std::size_t k = 0, count = faces.size(); k < count; ++k)
         for (const std::int32_t v : topology.faces()[static_cast<std::size_t>(faces[k])])
           for (const std::int32_t f : topology.sector(v).faces)
-            if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+            if (known.insert(f).second) faces.push_back(f);
     const data::CutOut part = data::cut_out(topology.faces(), faces);
     Topology local(part.vertices.size(), part.faces);
     Sharpness sharp = sharpness.of_part(topology, local, faces, part.vertices);
     return {std::move(local), part.of(positions), std::move(sharp)};
+  }
+  TaggedMesh around(std::size_t face) const {
+    return around(std::vector<std::int32_t>{static_cast<std::int32_t>(face)});
   }
 };
 

@@ -190,6 +190,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   const MeshSample* sample = mesh.sample.get();
   std::vector<std::int32_t> asked = mesh.face_depth;
   if (asked.empty()) asked.assign(mesh.mesh.faces.size(), depth_of(mesh));
+  for (const std::int32_t f : mesh.mesh.holes) asked[f] = -1;
   if (sample) asked = sample->cull(std::move(asked));
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;

@@ -57,6 +57,18 @@ TEST(Audit, AGoodSubjectHoldsOnAClosedMeshInEveryCheck) {
   }
 }
 
+TEST(Audit, HolesAreNotShownAndShapeTheirNeighbours) {
+  AuditMesh mesh{"bumpy:60", data::named_mesh("bumpy:60")};
+  mesh.mesh.holes = {3, 17, 18};
+  const auto results = Auditor(2, 1).run({find_subject("naive"), ""}, mesh);
+  EXPECT_TRUE(red(results).empty()) << describe(results);
+  EXPECT_EQ(row(results, "coverage").status, Status::kHeld);
+  EXPECT_EQ(row(results, "positions").status, Status::kHeld) << "on the surface of the whole mesh";
+  // Whoever takes one depth for all faces has no holes.
+  EXPECT_EQ(row(Auditor(2, 1).run({find_subject(kBase), kBaseOptions}, mesh), "tessellates").status,
+            Status::kNotSupported);
+}
+
 struct Planted {
   const char* fault;
   std::vector<const char*> seen_by;  // these at least

@@ -21,6 +21,9 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   AuditMesh out{whole.name, {cut.of(whole.mesh.positions), {}, cut.of(whole.mesh.sharpness)}};
   out.mesh.faces = std::move(cut.faces);
   out.asked_scheme = whole.asked_scheme;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (std::binary_search(whole.mesh.holes.begin(), whole.mesh.holes.end(), faces[f]))
+      out.mesh.holes.push_back(static_cast<std::int32_t>(f));
   if (!whole.face_depth.empty())
     for (const std::int32_t f : faces) out.face_depth.push_back(whole.face_depth[f]);
   return out;

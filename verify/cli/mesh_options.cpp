@@ -77,19 +77,6 @@ OpenedMesh open_named_mesh(const std::string& specification, const MeshOptions& 
   return taken(specification, data::open_named_mesh(specification, without_scheme(options)), options);
 }
 
-void require_loop(const std::string& name, const OpenedMesh& mesh, const std::string& command) {
-  if (mesh.chosen.scheme == data::Scheme::kLoop) return;
-  const std::int64_t count = polygons(mesh.mesh);
-  if (count == 0)
-    throw data::ArgumentError(
-        fmt::format("{} knows Loop's scheme only, not --scheme catmull-clark", command));
-  throw data::ArgumentError(fmt::format(
-      "{}: {} of {} faces are no triangles: that is a mesh for Catmull-Clark's scheme, and {} knows "
-      "Loop's only. --triangulate fan or --triangulate shortest-diagonal cuts them into triangles, "
-      "which is another surface",
-      name, count, mesh.mesh.faces.size(), command));
-}
-
 std::string scheme_line(const std::vector<MeshScheme>& meshes, const MeshOptions& options) {
   const auto count = [&](data::Scheme scheme) {
     return std::count_if(meshes.begin(), meshes.end(),

@@ -44,10 +44,6 @@ OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options
 /// A generator's name only.
 OpenedMesh open_named_mesh(const std::string& specification, const MeshOptions& options);
 
-/// For commands that know Loop's scheme only. Throws data::ArgumentError, which names --triangulate, if
-/// another one was chosen; `command` is its subject: "limitcheck tessellate".
-void require_loop(const std::string& name, const OpenedMesh& mesh, const std::string& command);
-
 /// "scheme: loop (all faces are triangles)", of one mesh or of all meshes of a command.
 std::string scheme_line(const std::vector<MeshScheme>& meshes, const MeshOptions& options);
 

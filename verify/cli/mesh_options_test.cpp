@@ -62,16 +62,34 @@ TEST_F(Scheme, PolygonsAreRefusedForLoopsInASentenceThatNamesTheWaysOut) {
            {"6 of 6 faces are no triangles", "leave out --scheme loop", "--triangulate fan"})
         EXPECT_NE(o.err.find(part), std::string::npos) << command << ": " << o.err;
     }
-    // The engine knows Loop's scheme only.
-    const Outcome o = run("tessellate " + mesh);
-    EXPECT_EQ(o.code, 2) << mesh;
-    EXPECT_EQ(o.out, "") << mesh;
-    for (const char* part : {"6 of 6 faces are no triangles", "--triangulate fan"})
-      EXPECT_NE(o.err.find(part), std::string::npos) << o.err;
   }
-  const Outcome o = run("tessellate octahedron --scheme catmull-clark");
-  EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("knows Loop's scheme only"), std::string::npos) << o.err;
+}
+
+TEST_F(Scheme, OfATessellationIsThatOfTheMesh) {
+  for (const char* mesh : {"quad-cube", "prism:5", "creased-cube:2", "mixed-sharp:3"}) {
+    const auto json = nlohmann::json::parse(run(std::string("tessellate --depth 2 --json ") + mesh).out);
+    EXPECT_EQ(json["scheme"], "catmull-clark") << mesh;
+    EXPECT_EQ(json["engine"], "sliding-window") << mesh;
+    EXPECT_GT(json["triangles"], 0) << mesh;
+  }
+  EXPECT_EQ(run("tessellate octahedron --scheme catmull-clark").code, 0);
+  const Outcome stream = run("tessellate quad-cube --engine row-stream");
+  EXPECT_EQ(stream.code, 2);
+  EXPECT_NE(stream.err.find("does Loop's scheme only"), std::string::npos) << stream.err;
+  const Outcome sharp = run("tessellate corner:3");
+  EXPECT_EQ(sharp.code, 2) << "silence would be the surface without the edges";
+  EXPECT_NE(sharp.err.find("sharp edges"), std::string::npos) << sharp.err;
+}
+
+// What is written is the surface: the audit judges the files like anybody's.
+TEST_F(Scheme, TessellationsOfQuadsAreRight) {
+  for (const std::string mesh : {"quad-cube", "prism:5"}) {
+    for (const std::string file : {"out.ply", "out.glb"}) {
+      ASSERT_EQ(run("tessellate " + mesh + " --depth 3 -o " + file).code, 0);
+      const Outcome o = run("audit --control " + mesh + " --tessellation " + file);
+      EXPECT_EQ(o.code, 0) << mesh << " " << file << "\n" << o.out << o.err;
+    }
+  }
 }
 
 TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/error.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "verify/cli/commands.h"
@@ -29,7 +30,7 @@ namespace {
 struct Arguments {
   MeshOptions scheme;
   std::string mesh, output, strategy, camera, viewport = "1024x768", centre = "limit", repair = "fan", colour;
-  std::string engine = "row-stream";
+  std::string engine;  // empty: the scheme's
   std::vector<double> angles{30};
   int depth = 3, threads = 0;
   std::optional<int> max_depth;
@@ -97,6 +98,15 @@ fast::DepthOptions depth_options(const Arguments& a) {
   return options;
 }
 
+/// Row streaming has Loop's scheme only.
+std::string engine_of(const Arguments& a, data::Scheme scheme) {
+  const bool loop = scheme == data::Scheme::kLoop;
+  if (!loop && a.engine == "row-stream")
+    throw data::ArgumentError(
+        "limitcheck tessellate: row-stream does Loop's scheme only; leave out --engine");
+  return !a.engine.empty() ? a.engine : loop ? "row-stream" : "sliding-window";
+}
+
 struct Timings {
   double read = 0, prepare = 0, write = 0;
 };
@@ -107,7 +117,7 @@ nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, cons
           {"scheme", name_of(chosen.scheme)},
           {"faces_cut", chosen.cut},
           {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
-          {"engine", a.engine},
+          {"engine", engine_of(a, chosen.scheme)},
           {"strategy", std::string(fast::name(options.strategy))},
           {"seed", options.seed},
           {"faces", s.faces},
@@ -175,14 +185,16 @@ Outcome run(Engine&& tessellator, const fast::DepthOptions& options, const fast:
   return out;
 }
 
-Outcome run(const Arguments& a, const data::ControlMesh& mesh, const fast::DepthOptions& options,
+Outcome run(const Arguments& a, const OpenedMesh& opened, const fast::DepthOptions& options,
             const fast::Camera& view, Progress& progress, Lap& lap, Timings& timings) {
+  const data::ControlMesh& mesh = opened.mesh;
   fast::TessellatorOptions engine;
+  engine.scheme = opened.chosen.scheme;
   engine.cracks.centre = a.centre == "flat" ? fast::FanCentre::kFlatControl : fast::FanCentre::kLimit;
   engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
   engine.threads = std::min(a.threads, tbb::info::default_concurrency());
   engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
-  if (a.engine == "sliding-window")
+  if (engine_of(a, engine.scheme) == "sliding-window")
     return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
   fast::row_stream::StreamTessellator stream(mesh, engine);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
@@ -202,14 +214,14 @@ int tessellate(const Arguments& a) {
   Timings timings;
   progress.show(0, 3, "reading " + a.mesh);
   const OpenedMesh opened = open_mesh(a.mesh, a.scheme);
-  require_loop(a.mesh, opened, "limitcheck tessellate");
+  engine_of(a, opened.chosen.scheme);  // or a refusal, before any work
   const data::ControlMesh& mesh = opened.mesh;
   verify::require_range(a.mesh, mesh, false);
   timings.read = lap();
 
   progress.clear();
   progress.show(1, 3, fmt::format("tessellating {} faces", mesh.faces.size()));
-  const Outcome outcome = run(a, mesh, options, view, progress, lap, timings);
+  const Outcome outcome = run(a, opened, options, view, progress, lap, timings);
   const fast::FrameStats& stats = outcome.stats;
 
   if (!a.output.empty()) {
@@ -258,10 +270,11 @@ void add_tessellate(CLI::App& app, int& exit_code) {
                    "view is given")
       ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
   command
-      ->add_option("--engine", a->engine,
-                   "row-stream, or sliding-window: the paper's engine, one pair after the other")
-      ->check(CLI::IsMember({"row-stream", "sliding-window"}))
-      ->capture_default_str();
+      ->add_option(
+          "--engine", a->engine,
+          "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
+          "row-stream, which does Loop's scheme only, or else sliding-window")
+      ->check(CLI::IsMember({"row-stream", "sliding-window"}));
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
   auto* pixels =
@@ -284,7 +297,9 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   auto* cull = command->add_flag(
       "--cull,!--no-cull", a->cull,
       "Leave out faces whose corners all face away; default: if the strategy depends on the view");
-  command->add_option("--centre", a->centre, "Centre of a fan: on the limit surface, or the flat triangle's")
+  command
+      ->add_option("--centre", a->centre,
+                   "Centre of a fan: on the limit surface, or the mean of the face's corners")
       ->check(CLI::IsMember({"limit", "flat"}))
       ->capture_default_str();
   command
@@ -298,7 +313,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   command->add_option("--seed", a->seed, "Seed of the random strategy")->capture_default_str();
   command
       ->add_option("--colour,--color", a->colour,
-                   "Colour the triangles by depth or by kind (pair, singleton, fan)")
+                   "Colour the triangles by depth or by kind (pair or quad, singleton, fan)")
       ->check(CLI::IsMember({"depth", "kind"}));
   command->add_flag("--json", a->json, "Print counts and seconds as one JSON document");
   command->callback([=, &exit_code] {

@@ -16,8 +16,9 @@ bool has_other_faces(const data::ControlMesh& mesh) {
 }
 
 const data::ControlMesh& without_tags(const data::ControlMesh& mesh) {
-  if (!mesh.sharpness.empty())
-    throw data::ArgumentError("the surface of a control mesh with sharp edges is not searched for points");
+  if (!mesh.sharpness.empty() || !mesh.holes.empty())
+    throw data::ArgumentError(
+        "the surface of a control mesh with sharp edges or holes is not searched for points");
   return mesh;
 }
 

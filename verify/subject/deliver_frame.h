@@ -15,12 +15,14 @@
 namespace limitcheck::verify {
 
 /// Allocates the output of a frame and copies its vertices and where they lie.
+///   corners   the scheme is Catmull-Clark's, whose faces may be larger than quads
 template <class Real>
 Output<Real> deliver_vertices(const lc_request& request, lc_tessellation& out,
                               const std::vector<fast::SurfaceVertex<Real>>& vertices,
-                              const std::vector<fast::LatticePoint>& provenance, std::size_t triangles) {
+                              const std::vector<fast::LatticePoint>& provenance, std::size_t triangles,
+                              bool corners) {
   const auto output = allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices.size()),
-                                            static_cast<std::int64_t>(triangles), true);
+                                            static_cast<std::int64_t>(triangles), true, corners);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const auto& [position, normal] = vertices[v];
     std::size_t i = 3 * v;
@@ -28,6 +30,7 @@ Output<Real> deliver_vertices(const lc_request& request, lc_tessellation& out,
     i = 3 * v;
     for (const Real x : {normal.x, normal.y, normal.z}) output.normals[i++] = x;
     output.provenance[v] = {provenance[v].face, provenance[v].i, provenance[v].j, provenance[v].denominator};
+    if (corners) output.corner[v] = provenance[v].corner;
   }
   return output;
 }
@@ -45,13 +48,14 @@ inline void refuse_too_many_vertices(std::span<const std::int32_t> depth) {
 /// Runs one frame of a Tessellator<Real> or StreamTessellator, as one indexed mesh or as strips and fans.
 template <class Real, class Engine>
 void deliver_frame(Engine& engine, std::span<const std::int32_t> depth, bool indexed,
-                   const lc_request& request, lc_tessellation& out) {
+                   const lc_request& request, lc_tessellation& out, bool corners = false) {
   refuse_too_many_vertices(depth);
   std::size_t at = 0;
   if (indexed) {
     fast::IndexedMesh<Real> mesh;
     engine.frame(depth, mesh);
-    const auto output = deliver_vertices(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size());
+    const auto output =
+        deliver_vertices(request, out, mesh.vertices, mesh.provenance, mesh.triangles.size(), corners);
     for (const auto& t : mesh.triangles)
       for (const std::uint32_t v : t) output.triangles[at++] = v;
     std::copy(mesh.triangle_face.begin(), mesh.triangle_face.end(), output.triangle_face);
@@ -60,7 +64,7 @@ void deliver_frame(Engine& engine, std::span<const std::int32_t> depth, bool ind
   fast::DrawList<Real> list;
   const fast::FrameStats stats = engine.frame(depth, list);
   const auto output = deliver_vertices(request, out, list.vertices, list.provenance,
-                                       static_cast<std::size_t>(stats.triangles));
+                                       static_cast<std::size_t>(stats.triangles), corners);
   for (const fast::Draw& draw : list.draws) {
     for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
       output.triangle_face[at / 3] = draw.face_of(t);

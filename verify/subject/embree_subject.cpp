@@ -88,9 +88,9 @@ class EmbreeSubject {
         buffer<std::uint32_t>(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, sizeof(std::uint32_t), mesh.face_count);
     std::copy(mesh.face_sizes, mesh.face_sizes + mesh.face_count, size);
     hand_over_sharpness();
-    rtcSetGeometrySubdivisionMode(geometry_.get(), 0,
-                                  mesh.corners_held != 0 ? RTC_SUBDIVISION_MODE_PIN_CORNERS
-                                                         : RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY);
+    rtcSetGeometrySubdivisionMode(
+        geometry_.get(), 0,
+        mesh.corners_held != 0 ? RTC_SUBDIVISION_MODE_PIN_CORNERS : RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY);
     rtcCommitGeometry(geometry_.get());
     // It joins the faces when a scene is committed.
     scene_.reset(rtcNewScene(device_.get()));
@@ -117,7 +117,8 @@ class EmbreeSubject {
 
   void hand_over_sharpness() {
     const auto weight = [](float sharpness) {
-      return sharpness >= limitcheck::data::kInfiniteSharpness ? std::numeric_limits<float>::infinity() : sharpness;
+      return sharpness >= limitcheck::data::kInfiniteSharpness ? std::numeric_limits<float>::infinity()
+                                                               : sharpness;
     };
     if (mesh_.sharp_edge_count > 0) {
       auto* const ends = buffer<std::uint32_t>(RTC_BUFFER_TYPE_EDGE_CREASE_INDEX, RTC_FORMAT_UINT2,

@@ -19,7 +19,9 @@ const V& ModelLimit::normal(const Topology& topology, std::int32_t v, std::int32
   const auto faces = topology.sector(v).faces;
   for (std::size_t i = 0; i < faces.size() && normals.size() > 1; ++i) {
     const auto corners = topology.faces()[faces[i]];
-    const auto has = [&](std::int32_t w) { return std::find(corners.begin(), corners.end(), w) != corners.end(); };
+    const auto has = [&](std::int32_t w) {
+      return std::find(corners.begin(), corners.end(), w) != corners.end();
+    };
     if (has(a) && has(b)) return normals[i];
   }
   return normals[0];

@@ -45,7 +45,8 @@ inline FacePattern opensubdiv_triangle(int depth) {
 inline bool without_boundary(Options& options) {
   return options.choice("boundary", {"edge", "none"}) == 1;
 }
-inline OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary_rule(const lc_mesh& mesh, Options& options) {
+inline OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary_rule(const lc_mesh& mesh,
+                                                                        Options& options) {
   return without_boundary(options) ? OpenSubdiv::Sdc::Options::VTX_BOUNDARY_NONE : boundary_rule(mesh);
 }
 inline lc_boundary boundary_of(Options& options) {

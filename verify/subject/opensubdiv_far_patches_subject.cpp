@@ -184,8 +184,13 @@ class FarPatchesSubject {
     const bool infinite_creases = options.choice("inf-sharp", {"off", "on"}) == 1;
     const bool single_crease = options.choice("single-crease", {"off", "on"}) == 1;
     (void)without_boundary(options);
-    return {wide,          bspline,  legacy_corners,                     infinite_creases,
-            single_crease, stencils, options.integer("level", 2, 1, 10)};
+    return {wide,
+            bspline,
+            legacy_corners,
+            infinite_creases,
+            single_crease,
+            stencils,
+            options.integer("level", 2, 1, 10)};
   }
 
   template <class Real>
@@ -213,9 +218,8 @@ class FarPatchesSubject {
     }
     if (table_->GetNumLocalPoints() > 0)
       table_->GetLocalPointStencilTable<Real>()->UpdateValues(points.data(), points.data() + refined);
-    tessellate_faces<Real>(mesh_, patterns, request, out, [&] {
-      return FacePatches<Real>(*table_, *map_, *ptex_, points);
-    });
+    tessellate_faces<Real>(mesh_, patterns, request, out,
+                           [&] { return FacePatches<Real>(*table_, *map_, *ptex_, points); });
   }
 
   const lc_mesh mesh_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Row streaming as a subject. As strips and fans (the default) every face and pair delivers its border
+// Row streaming as a subject, of both schemes. As strips and fans (the default) every face and pair delivers its border
 // points itself, so that their bits can be compared; as an indexed mesh they are shared. `target` forces one
 // compiled variant.
 #include <algorithm>
@@ -42,19 +42,20 @@ struct Settings {
 
 class RowStreamSubject {
  public:
-  static lc_capabilities capabilities(Options& options) {
+  static lc_capabilities capabilities(Options& options, lc_scheme) {
     const Settings settings(options);
     return {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, rs::kMaxDepth, 1, 1, 1};
   }
 
   RowStreamSubject(const lc_mesh& mesh, Options& options) : settings_(options), mesh_(control_mesh(mesh)) {
+    settings_.tessellator.scheme = scheme_of(mesh.scheme);
     use_threads(1);
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
     deliver_frame<float>(*tessellator_, {request.face_depth, mesh_.faces.size()}, settings_.indexed, request,
-                         out);
+                         out, settings_.tessellator.scheme == data::Scheme::kCatmullClark);
   }
 
  private:
@@ -76,7 +77,8 @@ class RowStreamSubject {
 
 const lc_subject* lc_subject_row_stream() {
   static const lc_subject subject = make_subject<RowStreamSubject>(
-      "row-stream", "limitcheck's row streaming: one pair per vector lane, shared points bit-identical",
+      "row-stream",
+      "limitcheck's row streaming: one grid per vector lane, shared points bit-identical; both schemes",
       "output=strips|indexed, repair=stitch|fan|none, target=avx512|avx2|avx2/4|sse4|scalar|...");
   return &subject;
 }

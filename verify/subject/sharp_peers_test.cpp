@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
 #include "verify/subject/opensubdiv_mesh.h"
+#include "verify/subject/test_sharp_shapes.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -39,9 +42,28 @@ Refined reference_of(const data::ControlMesh& mesh) {
   }
 }
 
-// The largest distance between the points of both after so many steps, over the largest coordinate.
+// The largest differences between both.
+struct Differences {
+  double refined = 0, limit = 0;  // over the largest coordinate
+  double normal = 0;              // degrees
+  std::int64_t limits = 0, normals = 0;
+
+  void add(const Differences& d) {
+    refined = std::max(refined, d.refined), limit = std::max(limit, d.limit),
+    normal = std::max(normal, d.normal);
+    limits += d.limits, normals += d.normals;
+  }
+};
+
+double degrees(const Vec3<double>& a, const Vec3<double>& b) {
+  return std::atan2(magnitude(cross(a, b)), dot(a, b)) * 180 / 3.14159265358979323846;
+}
+
+// The points of so many steps. With limits, those of the last as well, where OpenSubdiv's masks are those of the
+// surface: not at darts; and normals not on edges that stay sharp, where it has one of several, nor where the
+// mask across a boundary is that of another rule, nor where there is none.
 template <class Refined>
-double worst_difference(const data::ControlMesh& mesh, int depth) {
+Differences differences(const data::ControlMesh& mesh, int depth, bool with_limits) {
   constexpr bool kQuads = std::is_same_v<Refined, Quads>;
   const LentMesh lent(mesh, kQuads ? data::Scheme::kCatmullClark : data::Scheme::kLoop);
   const auto refiner = make_refiner(lent.view());
@@ -50,15 +72,17 @@ double worst_difference(const data::ControlMesh& mesh, int depth) {
   refiner->RefineUniform(uniform);
   const Far::PrimvarRefinerReal<double> primvars(*refiner);
   std::vector<OpenSubdivVector<double>> points;
-  double largest = 0, worst = 0;
+  double largest = 0;
   for (const auto& p : mesh.positions) {
     points.push_back({p});
     largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
   }
+  const auto vec = [](const OpenSubdivVector<double>& a) { return Vec3<double>{a.x[0], a.x[1], a.x[2]}; };
+  Differences worst;
   Refined ours = reference_of<Refined>(mesh);
   std::vector<int> vertex(mesh.positions.size()), face(mesh.faces.size());  // Far's number of ours
-  for (std::size_t i = 0; i < vertex.size(); ++i) vertex[i] = static_cast<int>(i);
-  for (std::size_t i = 0; i < face.size(); ++i) face[i] = static_cast<int>(i);
+  std::iota(vertex.begin(), vertex.end(), 0);
+  std::iota(face.begin(), face.end(), 0);
   for (int level = 1; level <= depth; ++level) {
     std::vector<OpenSubdivVector<double>> next(
         static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
@@ -78,12 +102,79 @@ double worst_difference(const data::ControlMesh& mesh, int depth) {
       }
     vertex = std::move(next_vertex), face = std::move(next_face);
     ours.refine();
-    for (std::size_t v = 0; v < vertex.size(); ++v) {
-      const auto& x = points[static_cast<std::size_t>(vertex[v])].x;
-      worst = std::max(worst, magnitude(ours.positions()[v] - Vec3<double>{x[0], x[1], x[2]}) / largest);
-    }
+    for (std::size_t v = 0; v < vertex.size(); ++v)
+      worst.refined = std::max(
+          worst.refined,
+          magnitude(ours.positions()[v] - vec(points[static_cast<std::size_t>(vertex[v])])) / largest);
+  }
+  if (!with_limits) return worst;
+
+  std::vector<OpenSubdivVector<double>> limit(points.size()), t1(points.size()), t2(points.size());
+  primvars.Limit(points, limit, t1, t2);
+  const auto limits = ours.limits();
+  const Far::TopologyLevel& last = refiner->GetLevel(depth);
+  for (std::size_t v = 0; v < vertex.size(); ++v) {
+    using Rule = OpenSubdiv::Sdc::Crease;
+    const auto theirs = static_cast<std::size_t>(vertex[v]);
+    const auto rule = last.GetVertexRule(vertex[v]);
+    if (rule == Rule::RULE_DART) continue;
+    worst.limit = std::max(worst.limit, magnitude(limits.positions[v] - vec(limit[theirs])) / largest);
+    ++worst.limits;
+    const auto sector = ours.topology().sector(static_cast<std::int32_t>(v));
+    const std::size_t right = sector.closed ? 0 : rule == Rule::RULE_CORNER ? 1 : kQuads ? 2 : 3;
+    const bool one_side = sector.closed ? rule == Rule::RULE_SMOOTH : sector.faces.size() <= right;
+    if (!one_side || limits.kinds[v] != reference::NormalKind::kRegular) continue;
+    worst.normal =
+        std::max(worst.normal, degrees(limits.normals[v], cross(vec(t1[theirs]), vec(t2[theirs]))));
+    ++worst.normals;
   }
   return worst;
+}
+template <class Refined>
+double worst_difference(const data::ControlMesh& mesh, int depth) {
+  return differences<Refined>(mesh, depth, false).refined;
+}
+
+// 4 units of the last place; a normal has lost three bits with each of three steps and more on a steep mesh.
+void expect_a_few_ulp(const Differences& d) {
+  std::printf("units of the last place: refined %.2f, %lld limits %.2f; %lld normals %.1e degrees\n",
+              d.refined * 0x1p52, static_cast<long long>(d.limits), d.limit * 0x1p52,
+              static_cast<long long>(d.normals), d.normal);
+  EXPECT_LE(d.refined, 4 * 0x1p-52);
+  EXPECT_LE(d.limit, 4 * 0x1p-52);
+  EXPECT_LE(d.normal, 1e-9);
+  EXPECT_GT(d.normals, 1000);
+}
+
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnCubesWithAnyOfTheirEdgesSharp) {
+  Differences worst;
+  for (unsigned subset = 0; subset < 4096; ++subset)
+    for (const bool semi_sharp : {false, true})
+      worst.add(differences<Quads>(test::cube_with(subset, semi_sharp), 3, true));
+  expect_a_few_ulp(worst);
+}
+
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnEveryShapeOfPolygons) {
+  Differences worst;
+  for (const auto& [name, mesh] : test::sharp_polygons()) {
+    const Differences d = differences<Quads>(mesh, 3, true);
+    EXPECT_LE(std::max(d.refined, d.limit), 4 * 0x1p-52) << name;
+    worst.add(d);
+  }
+  expect_a_few_ulp(worst);
+}
+
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnEveryShapeOfTriangles) {
+  Differences worst, smooth;
+  for (auto& [name, mesh] : test::sharp_triangles()) {
+    const Differences d = differences<Triangles>(mesh, 3, true);
+    EXPECT_LE(std::max(d.refined, d.limit), 4 * 0x1p-52) << name;
+    worst.add(d);
+    mesh.sharpness.triangles = data::TriangleRule::kSmooth;
+    smooth.add(differences<Quads>(mesh, 3, true));
+  }
+  expect_a_few_ulp(worst);
+  expect_a_few_ulp(smooth);
 }
 
 // Sharpnesses are multiples of 1/16, which OpenSubdiv's floats hold at every level.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Our own engine, audited through the plug-in interface like every other subject: pairing, sliding window,
-// crack repair. As strips and fans (the default) every face and pair delivers its border points itself, so
+// Our own engine, audited through the plug-in interface like every other subject: pairing (of triangles; a quad
+// is a grid by itself), sliding window, crack repair. As strips and fans (the default) every face and pair delivers its border points itself, so
 // that their bits can be compared; as an indexed mesh they are shared. Cracks are stitched: the paper's fans
 // leave out the points inside a face beside a deeper one, which every face that asks for them must have.
 #include <cstdint>
@@ -42,30 +42,36 @@ struct Settings {
 
 class SlidingWindowSubject {
  public:
-  static lc_capabilities capabilities(Options& options) {
+  static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
     const Settings settings(options);
-    return {settings.wide ? LC_FLOAT64 : LC_FLOAT32,
-            LC_WEIGHTS_LOOP,
-            LC_BOUNDARY_SPLINE,
-            LC_POINTS_LIMIT,
-            fast::kDeepest,
-            1,
-            1,
-            settings.tessellator.cracks.centre == fast::FanCentre::kLimit ? 1 : 0};
+    lc_capabilities result{settings.wide ? LC_FLOAT64 : LC_FLOAT32,
+                           LC_WEIGHTS_LOOP,
+                           LC_BOUNDARY_SPLINE,
+                           LC_POINTS_LIMIT,
+                           fast::kDeepest,
+                           1,
+                           1,
+                           settings.tessellator.cracks.centre == fast::FanCentre::kLimit ? 1 : 0};
+    if (scheme == LC_SCHEME_CATMULL_CLARK)
+      result.sharp =
+          LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+    return result;
   }
 
   SlidingWindowSubject(const lc_mesh& mesh, Options& options)
       : settings_(options), mesh_(control_mesh(mesh)) {
+    settings_.tessellator.scheme = scheme_of(mesh.scheme);
     use_threads(1);
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
     const std::span<const std::int32_t> depth(request.face_depth, mesh_.faces.size());
+    const bool corners = settings_.tessellator.scheme == data::Scheme::kCatmullClark;
     if (settings_.wide)
-      deliver_frame<double>(*double_, depth, settings_.indexed, request, out);
+      deliver_frame<double>(*double_, depth, settings_.indexed, request, out, corners);
     else
-      deliver_frame<float>(*float_, depth, settings_.indexed, request, out);
+      deliver_frame<float>(*float_, depth, settings_.indexed, request, out, corners);
   }
 
  private:
@@ -91,7 +97,8 @@ class SlidingWindowSubject {
 
 const lc_subject* lc_subject_sliding_window() {
   static const lc_subject subject = make_subject<SlidingWindowSubject>(
-      "sliding-window", "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000)",
+      "sliding-window",
+      "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000); both schemes",
       "precision=float|double, output=strips|indexed, repair=stitch|fan|none, "
       "centre=limit|flat|flat-control, pairing=corrected|printed");
   return &subject;

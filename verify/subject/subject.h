@@ -155,7 +155,8 @@ typedef struct lc_mesh {
 
 /* One tessellation that is asked for. */
 typedef struct lc_request {
-  const int32_t* face_depth; /* one for each face: 0..max_depth, or -1 for a culled face. A face may be
+  const int32_t* face_depth; /* one for each face: 0..max_depth, or -1 for a culled face (or a hole of the
+                                control mesh: it is not shown, and shapes its neighbours). A face may be
                                 displayed deeper than asked for, but not deeper than a visible neighbour.
                                 Every lattice point of the depth asked for is a corner of the face's
                                 triangles, in whichever way they tile it. */

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// A crease that starts and ends: the control mesh, the surface, and where a tessellator misses it. [C85]
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "bench/reproduction/studio.h"
+#include "data/bounding_box.h"
+#include "data/generators/named_mesh.h"
+#include "verify/audit/evidence.h"
+#include "verify/subject/host.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::bench {
+namespace {
+
+using verify::Vector;
+
+constexpr int kDepth = 4;
+
+fast::SurfaceVertex<float> vertex(const Vector& p, const Vector& n) {
+  const auto narrow = [](const Vector& v) {
+    return fast::Vec3<float>{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+  };
+  return {narrow(p), narrow(n)};
+}
+
+void add(fast::DrawList<float>& list, std::int32_t face, const std::array<Vector, 3>& p,
+         const std::array<Vector, 3>& n) {
+  list.draws.push_back(
+      {static_cast<std::int64_t>(list.vertices.size()), 3, 1, face, -1, fast::DrawMode::kTriangles});
+  for (std::size_t k = 0; k < 3; ++k) list.vertices.push_back(vertex(p[k], n[k]));
+}
+
+fast::DrawList<float> flat_faces(const data::ControlMesh& mesh) {
+  fast::DrawList<float> list;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t k = 1; k + 1 < mesh.faces[f].size(); ++k) {
+      const std::array<Vector, 3> p{mesh.positions[mesh.faces[f][0]], mesh.positions[mesh.faces[f][k]],
+                                    mesh.positions[mesh.faces[f][k + 1]]};
+      const Vector area = cross(p[1] - p[0], p[2] - p[0]);
+      const double length = norm(area);
+      const Vector n{area[0] / length, area[1] / length, area[2] / length};
+      add(list, static_cast<std::int32_t>(f), p, {n, n, n});
+    }
+  return list;
+}
+
+}  // namespace
+
+Image open_crease() {
+  Studio studio(data::named_mesh("open-crease"));
+  const data::ControlMesh& mesh = studio.mesh();
+  // The library's refinement and limits, and the exact points and normals in their place.
+  verify::Session session(*lc_subject_opensubdiv_far(), mesh, "precision=double");
+  const verify::Tessellation t = session.tessellate(kDepth);
+  verify::ReferenceSurface exact(session.mesh(), kDepth, LC_POINTS_LIMIT);
+  const auto points = verify::locate(t, exact.lattice());
+  exact.prepare(points);
+
+  fast::DrawList<float> surface, missed;
+  std::map<std::int64_t, Colour> colour;
+  const double most = 1e-3 * data::box_diagonal(mesh);
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
+    std::array<Vector, 3> p, n;
+    double off = 0;
+    const std::int32_t face = t.triangle_face()[k];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto v = static_cast<std::int64_t>(t.triangles()[k][c]);
+      p[c] = exact.position(points[v]);
+      n[c] = exact.normal(exact.sides().of(points[v], face));
+      off = std::max(off, norm(t.position(v) - p[c]));
+    }
+    add(surface, face, p, n);
+    colour[static_cast<std::int64_t>(missed.vertices.size())] =
+        heat(1 + std::log10(std::max(off, 1e-12) / most) / 4);
+    add(missed, face, p, n);
+  }
+  Lines crease{{}, kRed};
+  for (const data::SharpEdge& e : mesh.sharpness.edges)
+    crease.segments.push_back({fast::to_point(mesh.positions[e.a]), fast::to_point(mesh.positions[e.b])});
+  fast::Camera camera = camera_at(45, 1.3 * data::box_diagonal(mesh));
+  Appearance control, map;
+  control.wireframe = true;
+  map.colour = [&](const fast::Draw& draw) { return colour.at(draw.first); };
+  return beside({studio.shot(flat_faces(mesh), camera, control, {crease}), studio.shot(surface, camera, {}),
+                 studio.shot(missed, camera, map)});
+}
+
+}  // namespace limitcheck::bench

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What Engine asks of the frames of a mesh, whatever the subdivision scheme.
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/frame/frame_options.h"
+#include "fast/frame/sink.h"
+#include "fast/mesh/placement.h"
+#include "fast/plan/crack.h"
+#include "fast/plan/pairing.h"
+
+namespace limitcheck::fast {
+
+/// What a patch takes in a draw list, or where it begins.
+struct DrawSize {
+  std::int64_t vertices = 0, draws = 0, triangles = 0;
+};
+
+/// A mesh, and the plan of the frame it is at.
+struct FrameState {
+  /// throws   data::ArgumentError: no faces, a coordinate that is not finite, a negative number of threads
+  FrameState(const data::ControlMesh& given, const TessellatorOptions& with);
+  virtual ~FrameState() = default;
+
+  virtual int face_count() const = 0;
+  /// The depths that a strategy assigns to the control faces. Called in the arena.
+  virtual std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) = 0;
+  /// Makes grids of the faces, plans the cracks and makes the patches. The statistics that it returns lack the
+  /// number of vertices, the zero normals, and the times of what is still to do.
+  ///   throws   data::ArgumentError: not one depth per face, a depth outside -1 .. kDeepest
+  virtual FrameStats plan_frame(std::span<const std::int32_t> depth) = 0;
+  virtual std::size_t patch_count() const = 0;
+  virtual DrawSize patch_size(std::size_t i) const = 0;
+
+  data::ControlMesh mesh;
+  TessellatorOptions options;
+  tbb::task_arena arena;
+  PairingResult pairing;
+  CrackPlan plan;
+  int max_depth = 0;  // of grids and edges
+};
+
+/// The same with points of a number type.
+template <class Real>
+struct FrameEngine : FrameState {
+  using FrameState::FrameState;
+
+  /// Called when a frame has been planned.
+  virtual void prepare() = 0;
+  /// Evaluates patches first .. last - 1 into a draw list that has room for them, offsets[] saying where.
+  virtual void draw(std::size_t first, std::size_t last, DrawList<Real>& out) = 0;
+  /// How much an indexed mesh of this frame takes (vertices, triangles); then writes it to where there is room.
+  virtual DrawSize measure_index() = 0;
+  virtual void write_index(IndexedMesh<Real>& out) = 0;
+  /// Vertices of this frame whose normal came from the rule for vanishing tangents.
+  virtual std::int64_t zero_normals() const = 0;
+
+  Placement<Real> placement;      // from the coordinates of what the writers are given to the caller's
+  std::vector<DrawSize> offsets;  // where each patch of the draw list begins, and the end
+  DrawList<Real> part;            // the part of a frame that a sink is given at a time
+};
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Frames of Catmull-Clark's scheme, and what each kind of engine does in its own way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fast/frame/frame_engine.h"
+#include "fast/frame/quad_draw_writer.h"
+#include "fast/frame/quad_index_writer.h"
+#include "fast/plan/depth.h"
+
+namespace limitcheck::fast {
+
+/// A grid for each quad. An engine overrides how points are evaluated; Engine calls it. [C21]
+template <class Real>
+struct QuadEngineState : FrameEngine<Real> {
+  /// throws   data::ArgumentError: what FrameState and QuadMesh refuse
+  QuadEngineState(const data::ControlMesh& given, const TessellatorOptions& with)
+      : FrameEngine<Real>(given, with), quads(mesh), faces(mesh.faces, quads), semi_sharp(quads) {}
+  using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
+      FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
+      FrameEngine<Real>::plan;
+
+  int face_count() const final { return faces.size(); }
+  std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
+    if (!heuristics) heuristics.emplace(faces, semi_sharp, options.max_depth);
+    return heuristics->depths(strategy, camera);
+  }
+  FrameStats plan_frame(std::span<const std::int32_t> depth) final;
+  std::size_t patch_count() const final { return patches.size(); }
+  DrawSize patch_size(std::size_t i) const final { return quad_draw_size(patches[i], faces, plan); }
+  DrawSize measure_index() final {
+    layout_ = QuadIndexLayout::of(faces, pairing.depth, plan);
+    return {layout_.vertex_count, 0, layout_.triangle_count};
+  }
+  void write_index(IndexedMesh<Real>& out) final {
+    write_control_vertices(out);
+    index(layout_, out);
+  }
+
+  /// Evaluates all patches into an indexed mesh that has room for them, through index_writer().
+  virtual void index(const QuadIndexLayout& layout, IndexedMesh<Real>& out) = 0;
+  /// The limit point of a vertex of the mesh of quads, in the caller's coordinates.
+  virtual SurfaceVertex<Real> limit(std::int32_t v) const = 0;
+
+  /// Writes patch i to its place in a draw list that begins with patch `first`.
+  QuadDrawWriter<Real> draw_writer(std::size_t first, std::size_t i, DrawList<Real>& out) const {
+    const DrawSize& at = offsets[i - first];
+    return {patches[i],
+            faces,
+            plan,
+            placement,
+            out.vertices.data() + at.vertices,
+            options.provenance ? out.provenance.data() + at.vertices : nullptr,
+            out.draws.data() + at.draws,
+            at.vertices};
+  }
+  QuadIndexWriter<Real> index_writer(std::size_t i, const QuadIndexLayout& layout,
+                                     IndexedMesh<Real>& out) const {
+    return {patches[i], faces, plan, layout, placement, out};
+  }
+
+  QuadMesh quads;
+  QuadFaces faces;
+  SemiSharp semi_sharp;
+  std::optional<QuadDepthHeuristics> heuristics;
+  std::vector<QuadPatch> patches;  // one per face that is displayed
+
+ private:
+  void write_control_vertices(IndexedMesh<Real>& out) const;
+
+  QuadIndexLayout layout_;
+};
+
+extern template struct QuadEngineState<float>;
+extern template struct QuadEngineState<double>;
+
+}  // namespace limitcheck::fast

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/quad_stream_state.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+// The variant of four lanes of the same instructions, or the kernel itself.
+const QuadKernel& narrow_of(const QuadKernel& kernel) {
+  const QuadKernel* narrow =
+      kernel.lanes > 4 ? find_quad_kernel((std::string(kernel.name) + "/4").c_str()) : nullptr;
+  return narrow != nullptr ? *narrow : kernel;
+}
+
+}  // namespace
+
+QuadStreamState::QuadStreamState(const data::ControlMesh& given, const TessellatorOptions& with,
+                                 const QuadKernel& kernel)
+    : QuadEngineState<float>(given, with), stream(quads, kernel), narrow(narrow_of(kernel)) {
+  std::vector<std::int32_t> all(static_cast<std::size_t>(quads.adjacency.face_count()));
+  std::iota(all.begin(), all.end(), 0);
+  rank.resize(all.size());
+  std::int32_t place = 0;
+  for (const std::int32_t quad : stream.sorted(all)) rank[quad] = place++;
+}
+
+void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
+  run(first, last, [&](std::size_t i) { return draw_writer(first, i, out); });
+}
+void QuadStreamState::index(const QuadIndexLayout& layout, IndexedMesh<float>& out) {
+  run(0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); });
+}
+
+// Quads of one depth and of like valences side by side, whatever faces they are parts of. In a fixed order.
+void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
+  const int cut = faces.cut() ? 1 : 0;
+  const auto depth_of = [&](std::size_t i) {
+    return patches[i].display == Display::kStrips && !corners_only(patches[i], faces) ? patches[i].depth - cut
+                                                                                      : -1;
+  };
+  parts.clear();
+  for (std::size_t i = first; i < last; ++i) {
+    const int count = depth_of(i) < 0 ? 1 : faces.parts(patches[i].face);
+    for (int k = 0; k < count; ++k) parts.push_back({i, k});
+  }
+  const auto key = [&](const QuadPart& p) {
+    return std::tuple(depth_of(p.patch), rank[faces.quad(patches[p.patch].face, p.part)]);
+  };
+  std::sort(parts.begin(), parts.end(),
+            [&](const QuadPart& a, const QuadPart& b) { return key(a) < key(b); });
+  const auto kind_of = [&](const QuadPart& p) {
+    return stream.rings().kind(faces.quad(patches[p.patch].face, p.part));
+  };
+  batches.clear();
+  const auto lanes = static_cast<std::size_t>(stream.kernel().lanes);
+  for (std::size_t at = 0, end; at < parts.size(); at = end) {
+    const int depth = depth_of(parts[at].patch);
+    const QuadClass kind = kind_of(parts[at]);
+    const std::size_t most = std::min(parts.size(), at + (depth < 0 ? 1 : lanes));
+    end = at + 1;
+    while (end < most && depth_of(parts[end].patch) == depth && kind_of(parts[end]) == kind) ++end;
+    batches.push_back({depth, std::span<const QuadPart>(parts).subspan(at, end - at)});
+  }
+}
+
+// Evaluates patches first .. last - 1 in parallel, each into make_writer(i); a writer must not care about the
+// order of patches.
+template <class MakeWriter>
+void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
+  make_batches(first, last);
+  const QuadStreamFrame frame{stream, narrow, faces, plan, patches, options.cracks.centre};
+  run_batches<QuadStreamWorker>(arena, batches.size(), parts.size(),
+                                [&](QuadStreamWorker& worker, std::size_t b) {
+                                  worker.run(frame, batches[b], make_writer);
+                                  return batches[b].parts.size();
+                                });
+}
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Frames of Catmull-Clark's scheme by row streaming.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <vector>
+
+#include "fast/frame/quad_state.h"
+#include "fast/stream/quad_stream_worker.h"
+#include "fast/stream/stream_hooks.h"
+
+namespace limitcheck::fast::row_stream {
+
+struct QuadStreamState final : QuadEngineState<float>, StreamHooks {
+  /// throws   data::ArgumentError: what QuadEngineState and QuadRowStream refuse
+  QuadStreamState(const data::ControlMesh& given, const TessellatorOptions& with, const QuadKernel& kernel);
+
+  void prepare() override { worker_bytes = 0; }
+  void draw(std::size_t first, std::size_t last, DrawList<float>& out) override;
+  void index(const QuadIndexLayout& layout, IndexedMesh<float>& out) override;
+  SurfaceVertex<float> limit(std::int32_t v) const override { return stream.limit(v); }
+  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
+
+ private:
+  void make_batches(std::size_t first, std::size_t last);
+  template <class MakeWriter>
+  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer);
+
+  QuadRowStream stream;
+  const QuadKernel& narrow;
+  std::vector<std::int32_t> rank;  // of each quad, in the order that is best for the lanes
+
+  std::vector<QuadPart> parts;
+  std::vector<QuadFrameBatch> batches;
+};
+
+}  // namespace limitcheck::fast::row_stream

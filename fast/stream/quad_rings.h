@@ -11,9 +11,14 @@
 
 #include "data/control_mesh.h"
 #include "fast/mesh/quad_mesh.h"
-#include "fast/rules/quad_star.h"
+
 #include "fast/stream/quad_layout.h"
 #include "fast/stream/rings.h"
+
+namespace limitcheck::fast {
+template <class W>
+class OwnQuadStar;
+}
 
 namespace limitcheck::fast::row_stream {
 

@@ -15,6 +15,7 @@
 #include "data/error.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "fast/stream/quad_batch.h"
 #include "fast/test_support/refined_quads.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/window/quad_window.h"
@@ -356,6 +357,66 @@ TEST(QuadStreamBits, PositionsAreEqualOnBothSidesOfACut) {
     }
   }
   EXPECT_GT(compared, 1000);
+}
+
+TEST(QuadStreamTargets, EachRunsTheCodeItNames) {
+  const QuadMesh quads(data::quad_torus(4, 4));
+  const QuadRings rings(quads);
+  const std::int32_t face = 0;
+  for (const QuadKernel& kernel : quad_kernels()) {
+    AlignedFloats input, work, row;
+    input.grow(kernel.lanes * quad_input_size(1)), work.grow(kernel.lanes * quad_work_size(1)), row.grow(64);
+    std::array<float*, kMaxLanes> lane;
+    lane.fill(row.data());
+    const QuadTarget<float> target{lane.data(), 0, nullptr, nullptr};
+    const auto run = [&](QuadKernel::Run* code, const QuadBatch<float>& batch) {
+      return code(batch, rings.placement(), work.data(), target);
+    };
+    const auto whole = gather_quads<float>(rings, {&face, 1}, 1, kernel.lanes, input.data());
+    EXPECT_STREQ(run(kernel.quads, whole), kernel.name);
+    const auto side = gather_sides<float>(rings, {&face, 1}, 1, kernel.lanes, input.data());
+    EXPECT_STREQ(run(kernel.sides, side), kernel.name);
+    const auto patch = gather_patches<float>(rings, {&face, 1}, 1, kernel.lanes, input.data());
+    EXPECT_STREQ(run(kernel.patches, patch), kernel.name);
+  }
+}
+
+// Sides between regular vertices and regular quads: a depth has the points of the depths below it, bit by bit.
+TEST(QuadStreamBits, AreEqualAtAllDepthsWhereTheSurfaceIsAPolynomial) {
+  const data::ControlMesh mesh = shaken(data::quad_torus(6, 5), .1, 7);
+  const auto deep = evaluate(mesh, 8, quad_kernels().front());
+  for (int depth = 0; depth < 8; ++depth) {
+    const auto points = evaluate(mesh, depth, quad_kernels().front());
+    const std::size_t n = side(depth), all = side(8), step = std::size_t{1} << (8 - depth);
+    std::int64_t different = 0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t i = 0; i < n; ++i)
+          different += std::memcmp(&points[(f * n + j) * n + i], &deep[(f * all + j * step) * all + i * step],
+                                   sizeof(Vertex)) != 0;
+      }
+    }
+    EXPECT_EQ(different, 0) << depth;
+  }
+}
+
+// The order of the faces and what else is evaluated with them make no difference.
+TEST(QuadStreamBits, DoNotDependOnTheBatch) {
+  const data::ControlMesh mesh = shaken(data::pawn(5), .01, 8);
+  const QuadMesh quads(mesh);
+  const QuadRowStream stream(quads);
+  const auto expected = evaluate(mesh, 5, quad_kernels().front());
+  const std::size_t n = side(5);
+  Workspace workspace;
+  std::vector<Vertex> one(n * n), all(mesh.faces.size() * n * n);
+  const auto order = stream.sorted(all_of(mesh));
+  stream.streamed(order, 5, workspace, all.data());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Vertex* want = expected.data() + static_cast<std::size_t>(order[k]) * n * n;
+    EXPECT_EQ(std::memcmp(all.data() + k * n * n, want, n * n * sizeof(Vertex)), 0) << order[k];
+    stream.whole({&order[k], 1}, 5, workspace, one.data());
+    EXPECT_EQ(std::memcmp(one.data(), want, n * n * sizeof(Vertex)), 0) << order[k];
+  }
 }
 
 }  // namespace

@@ -42,9 +42,13 @@ struct Settings {
 
 class RowStreamSubject {
  public:
-  static lc_capabilities capabilities(Options& options, lc_scheme) {
+  static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
     const Settings settings(options);
-    return {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, rs::kMaxDepth, 1, 1, 1};
+    lc_capabilities result{
+        LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, rs::kMaxDepth, 1, 1, 1};
+    if (scheme == LC_SCHEME_CATMULL_CLARK)
+      result.sharp = LC_SHARP_CREASES | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+    return result;
   }
 
   RowStreamSubject(const lc_mesh& mesh, Options& options) : settings_(options), mesh_(control_mesh(mesh)) {

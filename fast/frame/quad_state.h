@@ -11,7 +11,7 @@
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/quad_draw_writer.h"
 #include "fast/frame/quad_index_writer.h"
-#include "fast/plan/depth.h"
+#include "fast/plan/quad_depth.h"
 
 namespace limitcheck::fast {
 

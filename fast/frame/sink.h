@@ -7,21 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "fast/plan/lattice_point.h"
 #include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast {
-
-/// Where a vertex lies on `face`: l1 = i / denominator, l2 = j / denominator, or (u, v) likewise on a quad.
-/// Lattice points of depth d have denominator 2^d, the centre of a triangle's fan i = j = 1 and denominator 3.
-/// A face of Catmull-Clark's scheme that is no quad has a quad at each `corner`, with a (u, v) of its own whose
-/// denominator is 2^(d-1), at least 1.
-struct LatticePoint {
-  std::int32_t face = -1;
-  std::uint32_t i = 0, j = 0;
-  std::uint32_t denominator = 1;
-  std::int32_t corner = 0;
-  friend constexpr bool operator==(const LatticePoint&, const LatticePoint&) = default;
-};
 
 /// What a triangle is part of: a strip of a pair of faces or of a quad, a strip of a face without partner, a
 /// fan around a face's centre (section 5), or a face whose outer ring is stitched to finer borders.

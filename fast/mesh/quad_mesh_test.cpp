@@ -20,18 +20,16 @@ namespace limitcheck::fast {
 namespace {
 
 std::vector<data::ControlMesh> assorted() {
-  std::vector<data::ControlMesh> meshes{data::quad_cube(),      data::quad_wheel(3, 1),    data::quad_wheel(7, 2),
-                                        data::quad_fan(1, 3),   data::quad_fan(4, 4),      data::polygon_prism(5),
-                                        data::mixed_pawn(6),    data::creased_cube(2),     data::creased_cube(10),
-                                        data::dart(5, false),   data::dart(3, true),       data::corner(2, false),
-                                        data::corner(3, false), data::crease_ring(3)};
+  std::vector<data::ControlMesh> meshes{
+      data::quad_cube(),      data::quad_wheel(3, 1), data::quad_wheel(7, 2), data::quad_fan(1, 3),
+      data::quad_fan(4, 4),   data::polygon_prism(5), data::mixed_pawn(6),    data::creased_cube(2),
+      data::creased_cube(10), data::dart(5, false),   data::dart(3, true),    data::corner(2, false),
+      data::corner(3, false), data::crease_ring(3)};
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     meshes.push_back(data::mixed_mesh(seed));
     meshes.push_back(data::with_random_sharpness(data::mixed_mesh(seed), seed));
-    meshes.back().sharpness.creasing =
-        seed % 2 == 0 ? data::Creasing::kUniform : data::Creasing::kChaikin;
-    meshes.back().sharpness.boundary =
-        seed % 3 == 0 ? data::Boundary::kEdgeAndCorner : data::Boundary::kEdge;
+    meshes.back().sharpness.creasing = seed % 2 == 0 ? data::Creasing::kUniform : data::Creasing::kChaikin;
+    meshes.back().sharpness.boundary = seed % 3 == 0 ? data::Boundary::kEdgeAndCorner : data::Boundary::kEdge;
     meshes.back().sharpness.triangles =
         seed % 5 == 0 ? data::TriangleRule::kSmooth : data::TriangleRule::kCatmark;
   }
@@ -52,12 +50,13 @@ TEST(SharpPolygons, StepAsTheWholeMeshInLongDouble) {
       theirs = theirs.step();
       ASSERT_EQ(ours.faces.size(), theirs.faces.size());
       for (std::size_t v = 0; v < ours.positions.size(); ++v)
-        ASSERT_LE(distance(ours.positions[v], theirs.points[v]), 2e-15 * 8) << "vertex " << v << " step " << step;
+        ASSERT_LE(distance(ours.positions[v], theirs.points[v]), 2e-15 * 8)
+            << "vertex " << v << " step " << step;
       for (std::size_t f = 0; f < ours.faces.size(); ++f) {
         for (std::size_t k = 0; k < 4; ++k) {
           ASSERT_EQ(ours.faces[f][k], theirs.faces[f][k]);
-          const auto at = theirs.sharp_edges.find(
-              RefinedPolygons::edge(ours.faces[f][k], ours.faces[f][(k + 1) % 4]));
+          const auto at =
+              theirs.sharp_edges.find(RefinedPolygons::edge(ours.faces[f][k], ours.faces[f][(k + 1) % 4]));
           const double s = ours.side[4 * f + k];
           if (at == theirs.sharp_edges.end())
             ASSERT_LE(s, 1e-15);
@@ -124,7 +123,8 @@ TEST(QuadMesh, ADartIsASlitWithBothSidesAtOnePoint) {
       EXPECT_EQ(quads.cut_twin[fan.front()], QuadAdjacency::prev(fan.back()));
     }
     EXPECT_EQ(darts, 2) << "both ends of the edge";
-    EXPECT_EQ(quads.adjacency.vertex_count(), static_cast<int>(mesh.positions.size())) << "nothing is doubled";
+    EXPECT_EQ(quads.adjacency.vertex_count(), static_cast<int>(mesh.positions.size()))
+        << "nothing is doubled";
   }
 }
 

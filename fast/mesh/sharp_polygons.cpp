@@ -31,8 +31,8 @@ bool is_semi_sharp(double s) {
 // The edges of polygons in the order of their first corners.
 struct Edges {
   struct Edge {
-    std::int32_t a, b;            // the smaller vertex first
-    std::int32_t corner[2];       // where it begins in its faces; -1
+    std::int32_t a, b;       // the smaller vertex first
+    std::int32_t corner[2];  // where it begins in its faces; -1
   };
 
   explicit Edges(const data::Faces& faces) : of_corner(faces.corners().size()) {
@@ -74,8 +74,8 @@ struct Edges {
 
 // What the rule of a vertex asks for.
 struct Star {
-  int valence = 0;             // faces, and one more on the boundary
-  Point edges{}, faces{};      // sums: the other ends, the middles of the faces
+  int valence = 0;         // faces, and one more on the boundary
+  Point edges{}, faces{};  // sums: the other ends, the middles of the faces
   int sharp = 0, sharp_after = 0;
   Point ends{}, ends_after{};  // sums: the other ends of sharp edges, and of those sharp after the step
   double semi = 0;             // sum of sharpness that is not for ever

@@ -15,6 +15,7 @@
 
 #include "data/error.h"
 #include "data/splitmix64.h"
+#include "fast/plan/quad_depth.h"
 #include "fast/rules/ring.h"
 
 namespace limitcheck::fast {
@@ -63,6 +64,10 @@ void for_each_index(std::size_t count, const Body& body) {
 }
 
 }  // namespace
+
+void TriangleSurface::gather(Ring& ring, std::int32_t v) const {
+  ring.gather(mesh, adjacency, v);
+}
 
 std::string_view name(Strategy strategy) {
   for (const auto& [value, text] : kNames) {

@@ -14,11 +14,10 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/point3.h"
 #include "fast/plan/camera.h"
-#include "fast/plan/quad_faces.h"
-#include "fast/rules/quad_ring.h"
-#include "fast/rules/ring.h"
 
 namespace limitcheck::fast {
+
+class Ring;
 
 inline constexpr std::int32_t kCulled = -1;  // the depth of a face that is not displayed
 inline constexpr int kDeepest = 10;  // the largest depth that may be asked for: 4^10 triangles per face
@@ -133,7 +132,7 @@ struct TriangleSurface {
   void for_each_corner(std::int32_t f, Visit&& visit) const {
     for (int k = 0; k < 3; ++k) visit(adjacency.corner(f, k));
   }
-  void gather(Ring& ring, std::int32_t v) const { ring.gather(mesh, adjacency, v); }
+  void gather(Ring& ring, std::int32_t v) const;
   /// Whether any neighbour of v is one that `is` says yes to.
   template <class Is>
   bool any_neighbour(std::int32_t v, Is&& is) const {
@@ -156,41 +155,7 @@ class DepthHeuristics : public BasicDepthHeuristics<TriangleSurface> {
   DepthHeuristics(const data::ControlMesh&, Adjacency&&, int = 5) = delete;
 };
 
-/// Of Catmull-Clark's: a vertex of the mesh of quads is what vertices are numbered by.
-struct QuadSurface {
-  using VertexRing = QuadRing;
-
-  const QuadFaces& faces;
-  const SemiSharp& semi_sharp;
-
-  std::size_t face_count() const { return static_cast<std::size_t>(faces.size()); }
-  std::size_t vertex_count() const { return faces.mesh->positions.size(); }
-  Point3 position(std::int32_t v) const { return to_point(faces.mesh->positions[v]); }
-  template <class Visit>
-  void for_each_corner(std::int32_t f, Visit&& visit) const {
-    for (std::size_t c = faces.first[f]; c < faces.first[f + 1]; ++c)
-      visit(faces.vertex(static_cast<std::int32_t>(c)));
-  }
-  void gather(QuadRing& ring, std::int32_t v) const { ring.gather(*faces.mesh, semi_sharp, v); }
-  template <class Is>
-  bool any_neighbour(std::int32_t v, Is&& is) const {
-    bool any = false;
-    faces.mesh->adjacency.for_each_neighbour(v, [&](std::int32_t w) { any = any || is(w); });
-    return any;
-  }
-};
-
-/// Of Catmull-Clark's scheme. Keeps references to the faces and tags, which must outlive it.
-class QuadDepthHeuristics : public BasicDepthHeuristics<QuadSurface> {
- public:
-  QuadDepthHeuristics(const QuadFaces& faces, const SemiSharp& semi_sharp, int max_depth = 5)
-      : BasicDepthHeuristics(QuadSurface{faces, semi_sharp}, max_depth) {}
-  QuadDepthHeuristics(QuadFaces&&, const SemiSharp&, int = 5) = delete;
-  QuadDepthHeuristics(const QuadFaces&, SemiSharp&&, int = 5) = delete;
-};
-
 extern template class BasicDepthHeuristics<TriangleSurface>;
-extern template class BasicDepthHeuristics<QuadSurface>;
 
 /// Throws data::ArgumentError with the face if `depth` has not one entry in -1 .. max_depth per face.
 void check_depths(std::span<const std::int32_t> depth, int face_count, int max_depth);

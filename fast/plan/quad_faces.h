@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "data/faces.h"
-#include "fast/frame/sink.h"
 #include "fast/mesh/quad_mesh.h"
+#include "fast/plan/lattice_point.h"
 
 namespace limitcheck::fast {
 

@@ -30,6 +30,12 @@ Vec3<W> star_normal(const LimitFrame<W>& limit, OwnQuadStar<W>& own, bool& degen
   return degenerate ? substitute_star_normal(own, kParallel<double>) : W(1) / size * normal;
 }
 
+/// The sums of e_i - c and f_i - c over a closed ring.
+template <class W>
+struct StarSums {
+  Vec3<W> edges, faces;
+};
+
 /// Positions of the vertices in N and their limit points, computed once per mesh in a canonical order: the ring
 /// from adjacency.outgoing(v). Every face that touches a vertex delivers these very bits, at whatever depth.
 /// [D14] Read-only afterwards, so that threads may share it. Keeps a reference to the mesh, which must outlive
@@ -40,10 +46,7 @@ class PreparedQuads {
   using Vertex = typename Surface::Vertex;
   using Wide = typename NumberTraits<N>::Wide;
 
-  /// The sums of e_i - c and f_i - c over a closed ring.
-  struct Sums {
-    Vec3<Wide> edges, faces;
-  };
+  using Sums = StarSums<Wide>;
 
   /// One position per vertex of the mesh.
   PreparedQuads(const QuadMesh& mesh, std::vector<Vec3<N>> positions)

@@ -2,8 +2,7 @@
 // The corner of a quad with its whole ring, from level to level; limits of the points between corners.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,10 +22,10 @@ struct QuadCorner {
   const Vertex* limit = nullptr;
   bool by_sums = false;  // closed, smooth from the start: the centre comes from the sums below
   WideVec3<N> centre{};  // before it was rounded
-  typename PreparedQuads<N>::Sums sums{};
+  StarSums<typename NumberTraits<N>::Wide> sums{};
 
-  bool has_left() const { return star.has_face(sector + 1); }    // a face beyond edge(sector + 1)
-  bool has_right() const { return star.has_face(sector - 1); }   // a face beyond edge(sector)
+  bool has_left() const { return star.has_face(sector + 1); }   // a face beyond edge(sector + 1)
+  bool has_right() const { return star.has_face(sector - 1); }  // a face beyond edge(sector)
   const Vec3<N>& along() const { return star.edge(sector); }
   const Vec3<N>& opposite() const { return star.face(sector); }
   /// The next edges of the ring, if there are such faces.
@@ -84,6 +83,25 @@ void subdivide_corner(const QuadCorner<N, Vertex>& old, QuadCorner<N, Vertex>& o
   out.star.centre = narrow<N>(out.centre);
 }
 
+namespace detail {
+
+/// The normal that takes the place of one that is lost, for a star of these points: closed, or open if there is
+/// an odd number. Linear numbers have no sizes, and no need of it.
+template <class N, class Surface, std::size_t kPoints>
+WideVec3<N> substitute_normal_of(const Vec3<N>& v, const std::array<const Vec3<N>*, kPoints>& ring) {
+  if constexpr (requires { Surface::kLinear; }) {
+    return {};
+  } else {
+    OwnQuadStar<typename NumberTraits<N>::Wide> own;
+    own.resize(static_cast<int>(kPoints / 2), kPoints % 2 == 1, VertexKind::kPlain);
+    own.star.centre = widen<N>(v);
+    for (std::size_t i = 0; i < kPoints; ++i) own.star.ring[i] = widen<N>(*ring[i]);
+    return substitute_star_normal(own, kParallel<N>);
+  }
+}
+
+}  // namespace detail
+
 /// Limit vertices of regular points from their neighbours.
 template <class N, class Surface>
 typename Surface::Vertex quad_vertex_limit(const Vec3<N>& v, const QuadNeighbours<N>& r,
@@ -91,13 +109,8 @@ typename Surface::Vertex quad_vertex_limit(const Vec3<N>& v, const QuadNeighbour
   return Surface::vertex(
       regular_quad_limit(v, r),
       [&] {
-        using Wide = typename NumberTraits<N>::Wide;
-        OwnQuadStar<Wide> own;
-        own.resize(4, false, VertexKind::kPlain);
-        own.star.centre = widen<N>(v);
-        const Vec3<N>* ring[] = {&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se};
-        for (std::size_t i = 0; i < 8; ++i) own.star.ring[i] = widen<N>(*ring[i]);
-        return substitute_star_normal<Wide>(own, kParallel<N>);
+        return detail::substitute_normal_of<N, Surface>(
+            v, std::array<const Vec3<N>*, 8>{&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se});
       },
       zero_normals);
 }
@@ -110,22 +123,17 @@ typename Surface::Vertex quad_boundary_limit(const Vec3<N>& v, const Vec3<N>& e,
   return Surface::vertex(
       regular_quad_boundary_limit(v, e, ne, n, nw, w),
       [&] {
-        using Wide = typename NumberTraits<N>::Wide;
-        OwnQuadStar<Wide> own;
-        own.resize(2, true, VertexKind::kPlain);
-        own.star.centre = widen<N>(v);
-        const Vec3<N>* ring[] = {&e, &ne, &n, &nw, &w};
-        for (std::size_t i = 0; i < 5; ++i) own.star.ring[i] = widen<N>(*ring[i]);
-        return substitute_star_normal<Wide>(own, kParallel<N>);
+        return detail::substitute_normal_of<N, Surface>(v,
+                                                        std::array<const Vec3<N>*, 5>{&e, &ne, &n, &nw, &w});
       },
       zero_normals);
 }
 
 /// Of a point inside a semi-sharp edge: e lies on it, before `after`, and w on the part before it. Allocates.
 template <class N, class Surface>
-typename Surface::Vertex semi_sharp_limit(const Vec3<N>& v, const QuadNeighbours<N>& r, const SidePart& before,
-                                          const SidePart& after, data::Creasing creasing,
-                                          std::int64_t& zero_normals) {
+typename Surface::Vertex semi_sharp_limit(const Vec3<N>& v, const QuadNeighbours<N>& r,
+                                          const SidePart& before, const SidePart& after,
+                                          data::Creasing creasing, std::int64_t& zero_normals) {
   using Wide = typename NumberTraits<N>::Wide;
   OwnQuadStar<Wide> own;
   own.resize(4, false, VertexKind::kPlain);
@@ -138,7 +146,13 @@ typename Surface::Vertex semi_sharp_limit(const Vec3<N>& v, const QuadNeighbours
       own.star.centre, QuadNeighbours<Wide>{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)});
   return Surface::vertex(
       LimitFrame<N>{narrow<N>(limit.position), narrow<N>(limit.du), narrow<N>(limit.dv)},
-      [&] { return substitute_star_normal<Wide>(own, kParallel<N>); }, zero_normals);
+      [&]() -> Vec3<Wide> {
+        if constexpr (requires { Surface::kLinear; })
+          return {};
+        else
+          return substitute_star_normal<Wide>(own, kParallel<N>);
+      },
+      zero_normals);
 }
 
 }  // namespace limitcheck::fast

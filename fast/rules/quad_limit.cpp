@@ -79,7 +79,8 @@ Matrix product(const Matrix& a, const Matrix& b) {
 class DartMatrix {
  public:
   explicit DartMatrix(int n) : n_(n), edges_(n / 2 + 1), faces_((n + 1) / 2) {
-    step_.assign(static_cast<std::size_t>(1 + edges_ + faces_), Row(static_cast<std::size_t>(1 + edges_ + faces_)));
+    step_.assign(static_cast<std::size_t>(1 + edges_ + faces_),
+                 Row(static_cast<std::size_t>(1 + edges_ + faces_)));
     const double valence = n;
     Row& centre = step_[0];
     centre[0] = 1 - 7 / (4 * valence);
@@ -125,9 +126,8 @@ class DartMatrix {
       for (Row& row : power)
         for (double& x : row) x /= largest;
     }
-    const Row& row = *std::max_element(power.begin(), power.end(), [](const Row& a, const Row& b) {
-      return size(a) < size(b);
-    });
+    const Row& row = *std::max_element(power.begin(), power.end(),
+                                       [](const Row& a, const Row& b) { return size(a) < size(b); });
     // Towards e_0 it is positive.
     double towards = 0;
     for (int i = 0; i < edges_; ++i) towards += row[edge(i)] * std::cos(2 * pi * i / n_);

@@ -16,11 +16,11 @@ namespace limitcheck::fast {
 
 /// What is semi-sharp at a vertex in one step; see SemiSharp.
 struct StarTags {
-  std::vector<double> edges;           // per edge of the ring: how much of its point is its midpoint, 0 .. 1
-  double held = 0, crease = 0;         // the shares of both rules in the vertex's point; the rest is smooth
-  std::int32_t crease_edge[2] = {};    // whose other ends the crease rule takes
-  double sum = 0;                      // of the sharpness of all semi-sharp edges at the vertex,
-  int count = 0;                       // and their number
+  std::vector<double> edges;         // per edge of the ring: how much of its point is its midpoint, 0 .. 1
+  double held = 0, crease = 0;       // the shares of both rules in the vertex's point; the rest is smooth
+  std::int32_t crease_edge[2] = {};  // whose other ends the crease rule takes
+  double sum = 0;                    // of the sharpness of all semi-sharp edges at the vertex,
+  int count = 0;                     // and their number
 };
 
 /// A vertex and its ring counter-clockwise: e_0, f_0, e_1, f_1, ..: neighbours along edges and, between them,
@@ -63,7 +63,7 @@ void subdivide_ring(const QuadStar<N>& star, const StarTags* tags, QuadStar<N>& 
   for (int i = 0; i < star.edges(); ++i) {
     const double weight = !star.has_face(i) || !star.has_face(i - 1) ? 1
                           : tags == nullptr                          ? 0
-                                                                     : tags->edges[static_cast<std::size_t>(i)];
+                                            : tags->edges[static_cast<std::size_t>(i)];
     const Vec3<N>& end = star.edge(i);
     if (weight >= 1) {
       out.ring[2 * i] = midpoint(star.centre, end);
@@ -83,12 +83,11 @@ Vec3<N> subdivide_centre(const QuadStar<N>& star, const StarTags* tags, const Qu
   const auto curve = [&](int a, int b) { return curve_vertex(star.centre, star.edge(a), star.edge(b)); };
   const auto smooth = [&] {
     if (star.open || star.faces != 4) return smooth_star_vertex(star, next);
-    return regular_quad_vertex(star.centre, QuadNeighbours<N>{star.edge(0), next.face(0), star.edge(1),
-                                                              next.face(1), star.edge(2), next.face(2),
-                                                              star.edge(3), next.face(3)});
+    return regular_quad_vertex(
+        star.centre, QuadNeighbours<N>{star.edge(0), next.face(0), star.edge(1), next.face(1), star.edge(2),
+                                       next.face(2), star.edge(3), next.face(3)});
   };
-  if (tags == nullptr)
-    return star.open && star.kind == VertexKind::kPlain ? curve(0, star.faces) : smooth();
+  if (tags == nullptr) return star.open && star.kind == VertexKind::kPlain ? curve(0, star.faces) : smooth();
   if (tags->held >= 1) return star.centre;
   const bool only_crease = tags->held + tags->crease >= 1;
   Vec3<N> point = only_crease ? Vec3<N>{} : smooth();

@@ -60,7 +60,8 @@ double edge_crease_share(double sharpness, double half, double other_half) {
 
 double curve_share(double before, double after, data::Creasing creasing) {
   if (before <= 0 || after <= 0) return 0;
-  const double b = half_of(before, before + after, 2, creasing), a = half_of(after, before + after, 2, creasing);
+  const double b = half_of(before, before + after, 2, creasing),
+               a = half_of(after, before + after, 2, creasing);
   if (b > 0 && a > 0) return 1;
   double sum = 0, count = 0;
   if (b <= 0) sum += before, ++count;
@@ -79,7 +80,8 @@ std::vector<StarTags> straight_steps(const SidePart& before, const SidePart& aft
     const double a_near = half_towards(a, b, creasing), b_near = half_towards(b, a, creasing);
     tags.edges = {edge_crease_share(a, a_near, a_far), 0, edge_crease_share(b, b_near, b_far), 0};
     // The far half of what is near now: beyond it lies the far half.
-    const double a_next = half_towards(a_near, a_far, creasing), b_next = half_towards(b_near, b_far, creasing);
+    const double a_next = half_towards(a_near, a_far, creasing),
+                 b_next = half_towards(b_near, b_far, creasing);
     a = a_near, b = b_near, a_far = a_next, b_far = b_next;
   }
   return steps;
@@ -181,7 +183,8 @@ void SemiSharp::along(std::int32_t h, int levels, std::vector<double>& out) cons
     const std::size_t n = std::size_t{1} << level;
     const auto end = [&](std::int32_t v, double s) {
       const StarTags* tags = step(v, static_cast<std::size_t>(level));
-      return tags == nullptr ? half_of(s, 0, 0, mesh_->creasing) : half_of(s, tags->sum, tags->count, mesh_->creasing);
+      return tags == nullptr ? half_of(s, 0, 0, mesh_->creasing)
+                             : half_of(s, tags->sum, tags->count, mesh_->creasing);
     };
     for (std::size_t i = 0; i < n; ++i) {
       const double s = out[first + i];

@@ -9,7 +9,9 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,7 +21,7 @@
 namespace limitcheck::fast {
 
 struct RefinedPolygons {
-  using Edge = std::pair<int, int>;                  // the smaller vertex first
+  using Edge = std::pair<int, int>;                      // the smaller vertex first
   using EdgeEnds = std::pair<long double, long double>;  // sharpness of its halves at the smaller, larger
   static constexpr long double kInfinite = std::numeric_limits<long double>::infinity();
 
@@ -44,7 +46,8 @@ struct RefinedPolygons {
     const auto at = out.faces_of_edges();
     std::set<int> boundary;
     for (const auto& [e, list] : at)
-      if (list.size() == 1) out.sharp_edges[e] = kInfinite, boundary.insert(e.first), boundary.insert(e.second);
+      if (list.size() == 1)
+        out.sharp_edges[e] = kInfinite, boundary.insert(e.first), boundary.insert(e.second);
     if (mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner)
       for (const int v : boundary)
         if (out.faces_at(v).size() == 1) out.sharp_vertices[v] = kInfinite;
@@ -63,7 +66,8 @@ struct RefinedPolygons {
   std::vector<int> faces_at(int v) const {
     std::vector<int> result;
     for (std::size_t f = 0; f < faces.size(); ++f)
-      if (std::find(faces[f].begin(), faces[f].end(), v) != faces[f].end()) result.push_back(static_cast<int>(f));
+      if (std::find(faces[f].begin(), faces[f].end(), v) != faces[f].end())
+        result.push_back(static_cast<int>(f));
     return result;
   }
 
@@ -172,10 +176,64 @@ struct RefinedPolygons {
       const std::size_t m = faces[f].size();
       for (std::size_t k = 0; k < m; ++k)
         out.faces.push_back({faces[f][k], number[edge(faces[f][k], faces[f][(k + 1) % m])],
-                             first_face + static_cast<int>(f), number[edge(faces[f][(k + m - 1) % m], faces[f][k])]});
+                             first_face + static_cast<int>(f),
+                             number[edge(faces[f][(k + m - 1) % m], faces[f][k])]});
     }
     return out;
   }
+
+  /// The limit of a vertex that no semi-sharp edge touches and that is no dart; nothing for others.
+  std::optional<Point> limit(int v) const {
+    int sharp = 0;
+    Point ends{}, edges{}, diagonals{};
+    long double n = 0;
+    for (const auto& [e, s] : sharp_edges) {
+      if (e.first != v && e.second != v) continue;
+      if (s != kInfinite) return std::nullopt;
+      ends = ends + points[e.first == v ? e.second : e.first];
+      ++sharp;
+    }
+    if (const auto held = sharp_vertices.find(v); held != sharp_vertices.end())
+      return held->second == kInfinite ? std::optional<Point>(points[v]) : std::nullopt;
+    if (sharp == 1) return std::nullopt;
+    if (sharp > 2) return points[v];
+    if (sharp == 2) return 2.L / 3 * points[v] + 1.L / 6 * ends;
+    for (const auto& face : faces) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (face[k] != v) continue;
+        edges = edges + points[face[(k + 1) % 4]];
+        diagonals = diagonals + points[face[(k + 2) % 4]];
+        n += 1;
+      }
+    }
+    return n / (n + 5) * points[v] + 4 / (n * (n + 5)) * edges + 1 / (n * (n + 5)) * diagonals;
+  }
 };
+
+/// The vertex at a place of the mesh after enough steps: level[l] is the mesh after l of them.
+inline int vertex_at(const std::vector<RefinedPolygons>& level, const LatticePoint& at) {
+  int m = static_cast<int>(at.denominator), i = static_cast<int>(at.i), j = static_cast<int>(at.j);
+  std::size_t l = 0;
+  int face = at.face;
+  if (level[0].faces[face].size() != 4) {
+    int first = at.corner;
+    for (int f = 0; f < at.face; ++f) first += static_cast<int>(level[0].faces[f].size());
+    face = first;
+    l = 1;
+  }
+  for (; m > 1; m /= 2, ++l) {
+    const int h = m / 2, k = j <= h ? (i <= h ? 0 : 1) : i > h ? 2 : 3;
+    const std::array<std::pair<int, int>, 4> in{{{i, j}, {j, m - i}, {m - i, m - j}, {m - j, i}}};
+    std::tie(i, j) = in[k];
+    if (l > 0) {
+      face = 4 * face + k;
+      continue;
+    }
+    int first = k;
+    for (int f = 0; f < face; ++f) first += static_cast<int>(level[0].faces[f].size());
+    face = first;
+  }
+  return level[l].faces[face][j == 0 ? i : 3 - i];
+}
 
 }  // namespace limitcheck::fast

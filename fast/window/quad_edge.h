@@ -60,8 +60,8 @@ class QuadEdge {
       const Vec3<N>* const down = side_.inside() ? from->down : nullptr;
       odd_row(n, from->up, from->line, ends, s, -1, to->up);
       if (down != nullptr) odd_row(n, from->line, down, ends, s, -1, to->down);
-      even_row(n, from->line, from->up, down, to->up, down == nullptr ? nullptr : to->down, ends, &side_, s, -1,
-               to->line);
+      even_row(n, from->line, from->up, down, to->up, down == nullptr ? nullptr : to->down, ends, &side_, s,
+               -1, to->line);
       subdivide_corner(from->left, to->left);
       subdivide_corner(from->right, to->right);
       to->line[0] = to->left.star.centre;
@@ -70,8 +70,8 @@ class QuadEdge {
       std::swap(from, to);
     }
     const int n = 1 << depth;
-    limit_row<N, Surface>(n, from->line, from->up, side_.inside() ? from->down : nullptr, ends, &side_, depth, -1,
-                          strip_.data(), zero_normals_);
+    limit_row<N, Surface>(n, from->line, from->up, side_.inside() ? from->down : nullptr, ends, &side_, depth,
+                          -1, strip_.data(), zero_normals_);
     out[0] = *from->left.limit;
     for (int i = 1; i < n; ++i) out[i] = strip_[2 * static_cast<std::size_t>(i)];
     out[n] = *from->right.limit;

@@ -30,7 +30,8 @@ void odd_row(int n, const Vec3<N>* above, const Vec3<N>* below, const RowEnds& e
     }
     out[2 * i] = quad_edge_point(above[i], below[i], out[2 * i - 1], out[2 * i + 1]);
     if (const double share = part < 0 ? 0 : side.edge_share(level, part); share > 0)
-      out[2 * i] = share < 1 ? blend(share, midpoint(above[i], below[i]), out[2 * i]) : midpoint(above[i], below[i]);
+      out[2 * i] =
+          share < 1 ? blend(share, midpoint(above[i], below[i]), out[2 * i]) : midpoint(above[i], below[i]);
   };
   end(*ends.left, 0);
   for (int i = 1; i < n; ++i)
@@ -50,9 +51,9 @@ void add_curve(double share, const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& 
 ///   level, row             of the left and right side: which point of theirs it passes; -1: their corner, and
 ///                          points 0 and 2 n are left out, as are -1 and 2 n + 1
 template <class N>
-void even_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, const Vec3<N>* odd_above,
-              const Vec3<N>* odd_below, const RowEnds& ends, const QuadSide* side, int level, int row,
-              Vec3<N>* out) {
+void even_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
+              const Vec3<N>* odd_above, const Vec3<N>* odd_below, const RowEnds& ends, const QuadSide* side,
+              int level, int row, Vec3<N>* out) {
   const bool curve = odd_above == nullptr || odd_below == nullptr;
   const auto edge = [&](int i) {
     if (curve) {
@@ -71,9 +72,10 @@ void even_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* b
       return;
     }
     out[2 * i] = regular_quad_vertex(
-        line[i], QuadNeighbours<N>{line[i + 1], odd_above[2 * i + 1], above[i], odd_above[2 * i - 1], line[i - 1],
-                                   odd_below[2 * i - 1], below[i], odd_below[2 * i + 1]});
-    if (side != nullptr) add_curve(side->point_share(level, i), line[i], line[i + 1], line[i - 1], out[2 * i]);
+        line[i], QuadNeighbours<N>{line[i + 1], odd_above[2 * i + 1], above[i], odd_above[2 * i - 1],
+                                   line[i - 1], odd_below[2 * i - 1], below[i], odd_below[2 * i + 1]});
+    if (side != nullptr)
+      add_curve(side->point_share(level, i), line[i], line[i + 1], line[i - 1], out[2 * i]);
   };
   for (int i = 0; i < n; ++i) edge(i);
   for (int i = 1; i < n; ++i) vertex(i);
@@ -98,7 +100,7 @@ void limit_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* 
                const QuadSide* side, int level, int row, typename Surface::Vertex* out,
                std::int64_t& zero_normals) {
   const auto regular = [&](int i) {
-    const QuadNeighbours<N> ring{line[i + 1], above[i + 1], above[i],     above[i - 1],
+    const QuadNeighbours<N> ring{line[i + 1], above[i + 1], above[i], above[i - 1],
                                  line[i - 1], below[i - 1], below[i], below[i + 1]};
     out[2 * i] = quad_vertex_limit<N, Surface>(line[i], ring, zero_normals);
   };
@@ -110,10 +112,11 @@ void limit_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* 
       out[2 * i] = quad_boundary_limit<N, Surface>(line[i], line[i + 1], above[i + 1], above[i], above[i - 1],
                                                    line[i - 1], zero_normals);
     else if (side != nullptr && side->sharp_at(level, i))
-      out[2 * i] = semi_sharp_limit<N, Surface>(
-          line[i],
-          {line[i + 1], above[i + 1], above[i], above[i - 1], line[i - 1], below[i - 1], below[i], below[i + 1]},
-          side->part(level, i - 1), side->part(level, i), side->creasing(), zero_normals);
+      out[2 * i] = semi_sharp_limit<N, Surface>(line[i],
+                                                {line[i + 1], above[i + 1], above[i], above[i - 1],
+                                                 line[i - 1], below[i - 1], below[i], below[i + 1]},
+                                                side->part(level, i - 1), side->part(level, i),
+                                                side->creasing(), zero_normals);
     else
       regular(i);
   }
@@ -122,13 +125,14 @@ void limit_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* 
     // Seen along the side, downwards on the left and upwards on the right, so that the quad is to the left.
     const Vec3<N>*next = in > 0 ? below : above, *previous = in > 0 ? above : below;
     if (!at.inside())
-      out[2 * i] = quad_boundary_limit<N, Surface>(line[i], next[i], next[i + in], line[i + in], previous[i + in],
-                                                   previous[i], zero_normals);
+      out[2 * i] = quad_boundary_limit<N, Surface>(line[i], next[i], next[i + in], line[i + in],
+                                                   previous[i + in], previous[i], zero_normals);
     else if (at.sharp_at(level, row))
-      out[2 * i] = semi_sharp_limit<N, Surface>(
-          line[i],
-          {below[i], below[i + 1], line[i + 1], above[i + 1], above[i], above[i - 1], line[i - 1], below[i - 1]},
-          at.part(level, row - 1), at.part(level, row), at.creasing(), zero_normals);
+      out[2 * i] = semi_sharp_limit<N, Surface>(line[i],
+                                                {below[i], below[i + 1], line[i + 1], above[i + 1], above[i],
+                                                 above[i - 1], line[i - 1], below[i - 1]},
+                                                at.part(level, row - 1), at.part(level, row), at.creasing(),
+                                                zero_normals);
     else
       regular(i);
   };

@@ -168,7 +168,8 @@ class QuadWindow {
     even_row(n, lower, upper, below, to.rows[kMiddle], below == nullptr ? nullptr : to.rows[kOutBottom], ends,
              last ? &side_[0] : nullptr, s, last ? -1 : row + 1, to.rows[kBottom]);
     if (last) put_corners(to, s + 1, false);
-    probe_.add(&WindowCounts::rows, rows * (2 * n + 1 + (side_[3].inside() ? 1 : 0) + (side_[1].inside() ? 1 : 0)));
+    probe_.add(&WindowCounts::rows,
+               rows * (2 * n + 1 + (side_[3].inside() ? 1 : 0) + (side_[1].inside() ? 1 : 0)));
 
     subdivide(level - 1, 2 * row, sink);
     subdivide(level - 1, 2 * row + 1, sink);
@@ -202,13 +203,13 @@ class QuadWindow {
         strip_[2 * static_cast<std::size_t>(i)] = strip_[2 * static_cast<std::size_t>(i) + 1];
       probe_.add(&WindowCounts::carried, n + 1);
     } else {
-      limit_row<N, Surface>(n, upper, above, lower, ends, first ? &side_[2] : nullptr, depth_, first ? -1 : row,
-                            strip_.data(), zero_normals_);
+      limit_row<N, Surface>(n, upper, above, lower, ends, first ? &side_[2] : nullptr, depth_,
+                            first ? -1 : row, strip_.data(), zero_normals_);
       if (first) strip_[0] = *corner[3].limit, strip_[2 * static_cast<std::size_t>(n)] = *corner[2].limit;
       probe_.add(&WindowCounts::limit_points, n + 1);
     }
-    limit_row<N, Surface>(n, lower, upper, below, ends, last ? &side_[0] : nullptr, depth_, last ? -1 : row + 1,
-                          strip_.data() + 1, zero_normals_);
+    limit_row<N, Surface>(n, lower, upper, below, ends, last ? &side_[0] : nullptr, depth_,
+                          last ? -1 : row + 1, strip_.data() + 1, zero_normals_);
     if (last) strip_[1] = *corner[0].limit, strip_[2 * static_cast<std::size_t>(n) + 1] = *corner[1].limit;
     probe_.add(&WindowCounts::limit_points, n + 1);
     probe_.add(&WindowCounts::strips, 1);

@@ -61,7 +61,8 @@ data::ControlMesh mesh_of(const data::QuadAnswer& answer) {
     mesh.sharpness.vertices.push_back({tag.a, static_cast<float>(value(tag.sharpness))});
   mesh.sharpness.boundary =
       answer.boundary == "edge" ? data::Boundary::kEdge : data::Boundary::kEdgeAndCorner;
-  mesh.sharpness.creasing = answer.creasing == "chaikin" ? data::Creasing::kChaikin : data::Creasing::kUniform;
+  mesh.sharpness.creasing =
+      answer.creasing == "chaikin" ? data::Creasing::kChaikin : data::Creasing::kUniform;
   mesh.sharpness.triangles =
       answer.triangles == "smooth" ? data::TriangleRule::kSmooth : data::TriangleRule::kCatmark;
   return mesh;
@@ -103,13 +104,15 @@ TEST(QuadWindow, GivesTheKnownAnswers) {
         const std::array ours{at.position.x, at.position.y, at.position.z};
         for (std::size_t c = 0; c < 3; ++c)
           ASSERT_NEAR(ours[c], value(sample.position[c]), (1e-14 + moved / 100) * size)
-              << answer.id << " face " << sample.face << " (" << uv[0] << ", " << uv[1] << ") depth " << depth;
+              << answer.id << " face " << sample.face << " (" << uv[0] << ", " << uv[1] << ") depth "
+              << depth;
         ++points;
         if (!sample.normal || sample.no_tangent_plane) continue;
         const std::array normal{at.normal.x, at.normal.y, at.normal.z};
         for (std::size_t c = 0; c < 3; ++c)
           ASSERT_NEAR(normal[c], value((*sample.normal)[c]), 1e-11 + moved)
-              << answer.id << " face " << sample.face << " (" << uv[0] << ", " << uv[1] << ") depth " << depth;
+              << answer.id << " face " << sample.face << " (" << uv[0] << ", " << uv[1] << ") depth "
+              << depth;
         ++normals;
       }
     }
@@ -228,12 +231,12 @@ void compare_sides(const data::ControlMesh& mesh, int depth, std::int64_t& compa
 TEST(QuadWindow, SharedPointsHaveTheSameBits) {
   RecordProperty("claim", "C21");
   std::int64_t compared = 0;
-  std::vector<data::ControlMesh> meshes{data::quad_cube(),          data::quad_torus(4, 5),  data::quad_wheel(3, 1),
-                                        data::quad_wheel(5, 2),     data::quad_wheel(12, 3), data::quad_wheel(50, 4),
-                                        data::quad_fan(1, 3),       data::quad_fan(2, 3),    data::quad_fan(5, 4),
-                                        data::polygon_prism(5),     data::mixed_pawn(6),     data::creased_cube(2),
-                                        data::creased_cube(10),     data::dart(5, false),    data::corner(2, false),
-                                        data::corner(3, false),     data::crease_ring(3),    data::crease_ring(10)};
+  std::vector<data::ControlMesh> meshes{
+      data::quad_cube(),       data::quad_torus(4, 5),  data::quad_wheel(3, 1), data::quad_wheel(5, 2),
+      data::quad_wheel(12, 3), data::quad_wheel(50, 4), data::quad_fan(1, 3),   data::quad_fan(2, 3),
+      data::quad_fan(5, 4),    data::polygon_prism(5),  data::mixed_pawn(6),    data::creased_cube(2),
+      data::creased_cube(10),  data::dart(5, false),    data::corner(2, false), data::corner(3, false),
+      data::crease_ring(3),    data::crease_ring(10)};
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     data::ControlMesh mesh = data::with_random_sharpness(data::mixed_mesh(seed), seed);
     if (seed % 2 == 0) mesh.sharpness.creasing = data::Creasing::kChaikin;

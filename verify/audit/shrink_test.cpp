@@ -58,6 +58,54 @@ TEST(Shrink, ClosedMeshesStayClosedWhereTheFaultNeedsThat) {
   EXPECT_EQ(small.depth, 0);
 }
 
+TEST(Shrink, SharpEdgesAndVerticesThatTheFaultDoesNotNeedGo) {
+  const auto semi_sharp_inside = [](const AuditMesh& m, int) {
+    const reference::Topology topology(m.mesh.positions.size(), m.mesh.faces);
+    return std::any_of(topology.edges().begin(), topology.edges().end(), [&](const reference::Edge& e) {
+      return !e.on_boundary() && std::any_of(m.mesh.sharpness.edges.begin(), m.mesh.sharpness.edges.end(),
+                                             [&](const data::SharpEdge& tag) {
+                                               return tag.sharpness < data::kInfiniteSharpness &&
+                                                      std::minmax(tag.a, tag.b) == std::minmax(e.a, e.b);
+                                             });
+    });
+  };
+  for (const char* name : {"sharp:1", "mixed-sharp:2"}) {
+    const AuditMesh mesh{name, data::named_mesh(name)};
+    ASSERT_TRUE(semi_sharp_inside(mesh, 0)) << name;
+    const Shrunk small = shrink(mesh, 3, -1, semi_sharp_inside, 60);
+    EXPECT_EQ(small.mesh.mesh.sharpness.edges.size(), 1U) << name;
+    EXPECT_TRUE(small.mesh.mesh.sharpness.vertices.empty()) << name;
+    EXPECT_EQ(small.mesh.mesh.sharpness.boundary, data::Boundary::kEdge) << name;
+    EXPECT_LE(small.mesh.mesh.faces.size(), 4U) << name << ": the two at the edge";
+    EXPECT_TRUE(data::validate(small.mesh.mesh, small.mesh.scheme()).empty());
+  }
+}
+
+// What a face needs beyond its own tags comes along, and holes keep their faces.
+TEST(WitnessFiles, KeepSharpEdgesAndHoles) {
+  AuditMesh mesh{"creased", data::named_mesh("creased-cube:3")};
+  mesh.mesh.holes = {2};
+  Report report;
+  report.subjects = {"far"};
+  Result finding;
+  finding.subject = "far";
+  finding.mesh = mesh.name;
+  finding.check = "positions";
+  finding.status = Status::kFinding;
+  finding.witness = Witness{};
+  finding.witness->face = 1;
+  const auto folder = std::filesystem::path(testing::TempDir()) / "sharp_witness";
+  const auto place = write_witness(folder, report, finding, mesh, "quick");
+  bool found = false;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(place))
+    if (file.path().extension() == ".obj") {
+      const data::ControlMesh written = data::read_mesh(file.path());
+      found = found || written == mesh.mesh;
+    }
+  EXPECT_TRUE(found);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Shrink, TheDepthsOfTheFacesThatStayAreKept) {
   AuditMesh mesh{"sheet", data::named_mesh("sheet")};
   for (std::size_t f = 0; f < mesh.mesh.faces.size(); ++f)

@@ -89,10 +89,9 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
   EXPECT_THROW(reference::refine<double>(fin, 1), data::ArgumentError);
 }
 
-TEST(Sec4_Recursion, ServesBothSchemesByOtherRules) {
-  RecordProperty("claim", "C21");
-  // The recursion of section 4, once with each scheme's rules: no point beyond a few roundings of the exact
-  // surface, of which neither run knows anything. (The audit's bounds: verify/audit/bounds.h.)
+// Runs a subject with each scheme's rules: no point beyond a few roundings of the exact surface, of which it
+// knows nothing. (The audit's bounds: verify/audit/bounds.h.)
+void expect_both_schemes(const lc_subject* subject) {
   struct Case {
     const char* mesh;
     data::Scheme scheme;
@@ -104,10 +103,22 @@ TEST(Sec4_Recursion, ServesBothSchemesByOtherRules) {
         Case{"mixed:1:60", data::Scheme::kCatmullClark}}) {
     AuditMesh mesh{c.mesh, data::named_mesh(c.mesh)};
     mesh.asked_scheme = c.scheme;
-    const std::vector<Result> rows = Auditor(3, 1).run({lc_subject_naive(), ""}, mesh);
+    const std::vector<Result> rows = Auditor(3, 1).run({subject, ""}, mesh);
     EXPECT_GT(rows.size(), 10U);
     for (const Result& r : rows) EXPECT_FALSE(is_bad(r)) << c.mesh << ", " << r.check << ": " << r.message;
   }
+}
+
+TEST(Sec4_Recursion, ServesBothSchemesByOtherRules) {
+  RecordProperty("claim", "C21");
+  expect_both_schemes(lc_subject_naive());
+}
+
+// Depths, cracks, strips, fans, threads are the same program for both; the window has rows above and below, and
+// corners, of either.
+TEST(Sec4_SlidingWindow, ServesBothSchemesByOtherRules) {
+  RecordProperty("claim", "C21");
+  expect_both_schemes(lc_subject_sliding_window());
 }
 
 TEST(Sec3_SubFaces, ShareNoCornerPositionWithTheirParentUnlessAVertexIsTheMeanOfItsRing) {

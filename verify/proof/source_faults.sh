@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Plants the faults of source_faults.txt in the kernels' own sources, one at a time, in a copy, and asks the proof.
 # usage: verify/proof/source_faults.sh BUILD_DIRECTORY [PATTERN]   (a built tree; 10 s or more a fault; only the
-# lines that match PATTERN)
+# lines that match PATTERN). Faults of the quads' window are shown to quad_map_test.cpp.
 # Exit code 0: every fault was caught; otherwise the number that were not.
 set -u
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -22,7 +22,16 @@ ask() {
   timeout 300 "$copy/probe"
 }
 
-if ! ask; then
+quad_sources=(verify/proof/quad_map_test.cpp fast/mesh/adjacency.cpp fast/mesh/quad_mesh.cpp
+  fast/mesh/sharp_polygons.cpp fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp)
+ask_quads() {
+  (cd "$copy" && g++ "${flags[@]}" "${quad_sources[@]}" -o probe -Wl,--start-group "${libraries[@]}" \
+    "$build/data/liblimitcheck_generators.a" -Wl,--end-group -lgtest -lgtest_main) 2> "$copy/log" || return 2
+  timeout 300 "$copy/probe" --gtest_brief=1 --gtest_fail_fast | grep -m 1 "^face"
+  return "${PIPESTATUS[0]}"
+}
+
+if ! ask || ! ask_quads; then
   cat "$copy/log"
   echo "the proof fails without a fault"
   exit 1
@@ -40,7 +49,10 @@ while IFS= read -r line; do
   fi
   printf '%s\n' "${text/"$old"/"$new"}" > "$copy/$file"
   planted=$((planted + 1))
-  answer=$(ask 2>&1)
+  case $file in
+    *quad* | *sharp*) answer=$(ask_quads 2>&1) ;;
+    *) answer=$(ask 2>&1) ;;
+  esac
   case $? in
     1) echo "caught     $file: $new  ->  $answer" ;;
     0) echo "MISSED     $file: $new" && missed=$((missed + 1)) ;;

@@ -7,8 +7,9 @@
 // reads as 16 bytes, and on the sizes of its arrays. So vertices are padded, and what it has no room for is
 // refused.
 //
-// Sharp edges and vertices: an infinite sharpness is an infinite float; what is semi-sharp falls by 1 in each
-// step, there is no other way of creasing and no other rule for triangles.
+// Sharp edges and vertices: an infinite sharpness is an infinite float. There is no choice of creasing: where
+// two sharp edges meet sharpness falls by Chaikin's rule, elsewhere by 1. We ask for it as uniform, which it
+// is for creases of one sharpness. There is no other rule for triangles.
 #include <embree3/rtcore.h>
 
 #include <algorithm>

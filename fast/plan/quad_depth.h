@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// How deep each control face of Catmull-Clark's scheme is subdivided. [mueller2000, 4.1; C21]
+#pragma once
+
+#include "fast/plan/depth.h"
+#include "fast/plan/quad_faces.h"
+#include "fast/rules/quad_ring.h"
+
+namespace limitcheck::fast {
+
+/// Of Catmull-Clark's: a vertex of the mesh of quads is what vertices are numbered by.
+struct QuadSurface {
+  using VertexRing = QuadRing;
+
+  const QuadFaces& faces;
+  const SemiSharp& semi_sharp;
+
+  std::size_t face_count() const { return static_cast<std::size_t>(faces.size()); }
+  std::size_t vertex_count() const { return faces.mesh->positions.size(); }
+  Point3 position(std::int32_t v) const { return to_point(faces.mesh->positions[v]); }
+  template <class Visit>
+  void for_each_corner(std::int32_t f, Visit&& visit) const {
+    for (std::size_t c = faces.first[f]; c < faces.first[f + 1]; ++c)
+      visit(faces.vertex(static_cast<std::int32_t>(c)));
+  }
+  void gather(QuadRing& ring, std::int32_t v) const { ring.gather(*faces.mesh, semi_sharp, v); }
+  template <class Is>
+  bool any_neighbour(std::int32_t v, Is&& is) const {
+    bool any = false;
+    faces.mesh->adjacency.for_each_neighbour(v, [&](std::int32_t w) { any = any || is(w); });
+    return any;
+  }
+};
+
+/// Of Catmull-Clark's scheme. Keeps references to the faces and tags, which must outlive it.
+class QuadDepthHeuristics : public BasicDepthHeuristics<QuadSurface> {
+ public:
+  QuadDepthHeuristics(const QuadFaces& faces, const SemiSharp& semi_sharp, int max_depth = 5)
+      : BasicDepthHeuristics(QuadSurface{faces, semi_sharp}, max_depth) {}
+  QuadDepthHeuristics(QuadFaces&&, const SemiSharp&, int = 5) = delete;
+  QuadDepthHeuristics(const QuadFaces&, SemiSharp&&, int = 5) = delete;
+};
+
+extern template class BasicDepthHeuristics<QuadSurface>;
+
+}  // namespace limitcheck::fast

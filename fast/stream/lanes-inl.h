@@ -99,6 +99,13 @@ struct LaneNumber {
     }
   }
 
+  HWY_ATTR static HWY_INLINE void expect([[maybe_unused]] Scalar* const* aos,
+                                         [[maybe_unused]] std::ptrdiff_t offset) {
+    if constexpr (lanes == 16) {
+      for (int lane = 0; lane < lanes; ++lane) __builtin_prefetch(aos[lane] + offset, 1, 3);
+    }
+  }
+
   template <class Vertex>
   HWY_ATTR static HWY_INLINE void scatter_couple(const Vertex& a, const Vertex& b, Scalar* const* aos,
                                                  std::ptrdiff_t offset) {

@@ -62,7 +62,8 @@ struct ScalarNumber {
     scatter_vertex(a, aos, lane_stride);
     scatter_vertex(b, aos + 6, lane_stride);
   }
-  /// The same to memory of each lane's own: aos[lane] + offset.
+  /// The same to memory of each lane's own: aos[lane] + offset. And a word ahead that it will be written.
+  static void expect(T* const* /*aos*/, std::ptrdiff_t /*offset*/) {}
   template <class Vertex>
   static void scatter_vertex(const Vertex& a, T* const* aos, std::ptrdiff_t offset) {
     scatter_vertex(a, aos[0] + offset, 0);

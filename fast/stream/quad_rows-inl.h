@@ -273,8 +273,8 @@ class FusedLimitRow {
 
 /// The inside of a row, points 1 .. size - 1, with its ends given; size even. `row` gives the points from 1 on
 /// in turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of the next: it is one chain of
-/// dependent steps.
-template <class N, class Row>
+/// dependent steps. far: the rows leave no room for the output in the first-level cache.
+template <class N, bool far = false, class Row>
 HWY_ATTR HWY_INLINE void scatter_row(Row& row, int size, const Vertex<N>& first, const Vertex<N>& last,
                                      typename N::Scalar* const* out, std::ptrdiff_t offset) {
   Vertex<N> a, b;
@@ -291,6 +291,7 @@ HWY_ATTR HWY_INLINE void scatter_row(Row& row, int size, const Vertex<N>& first,
       if (i + 2 == size) break;
       Vertex<N> next;
       row.template begin<false>(next, b);
+      if constexpr (far) N::expect(out, offset + 48);
       N::scatter_couple(a, b, out, offset);
       a = next;
     }

@@ -149,6 +149,19 @@ TEST(QuadWindow, ComputesEveryPointOnce) {
   }
 }
 
+// Sharpness that differs from part to part of a side is looked up by the row.
+TEST(QuadWindow, CarriesRowsAtSemiSharpSides) {
+  for (std::uint64_t seed = 1; seed < 6; ++seed) {
+    data::ControlMesh mesh = data::with_random_sharpness(data::mixed_mesh(seed), seed);
+    mesh.sharpness.creasing = data::Creasing::kChaikin;
+    const QuadMesh quads(mesh);
+    const PreparedQuads<float> prepared(quads, rounded<float>(quads));
+    for (std::int32_t q = 0; q < std::min(80, quads.adjacency.face_count()); ++q)
+      ASSERT_EQ((points_of<float>(prepared, q, 4)), (points_of<float, false>(prepared, q, 4)))
+          << "quad " << q;
+  }
+}
+
 data::ControlMesh shaken(data::ControlMesh mesh, std::uint64_t seed) {
   data::SplitMix64 random(seed);
   for (auto& p : mesh.positions)

@@ -71,11 +71,20 @@ void expect_equal(const data::ControlMesh& mesh, int depth, std::int64_t& compar
         << "face " << face << " at (" << i << ", " << j << ") / " << k;
     ++compared;
   };
+  // Inside a quad all points are regular, and tangents are derivatives but for a factor.
+  const auto compare_tangents = [&](int face, int i, int j, const fast::LimitFrame<Rational>& found) {
+    const auto u = reference::Parameter::fraction(i, k), v = reference::Parameter::fraction(j, k);
+    const auto expected = exact.evaluate(face, 0, u, v, reference::Order::kFirst);
+    const Rational factor(k, 12);
+    EXPECT_TRUE(factor * found.du.x == expected.d1.x && factor * found.dv.x == expected.d2.x)
+        << "face " << face << " at (" << i << ", " << j << ") / " << k;
+  };
   for (const int face : {0, 1}) {
     if (face >= quads.adjacency.face_count()) continue;
     window.run(prepared, face, depth, [&](int row, const fast::LimitFrame<Rational>* strip) {
       for (int i = 0; i <= k; ++i) {
         compare(face, i, k - row, strip[2 * i].position);
+        if (i > 0 && i < k && row > 0) compare_tangents(face, i, k - row, strip[2 * i]);
         if (row == k - 1) compare(face, i, 0, strip[2 * i + 1].position);
       }
     });

@@ -3,7 +3,9 @@
 // weights are rational. [C21]
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/generators/polygon_meshes.h"
@@ -133,6 +135,16 @@ TEST(Proof_QuadMap, OfTheWindowWithSharpEdgesIsTheReferences) {
   }
   expect_equal(data::corner(2, false), 2, compared);
   expect_equal(data::corner(3, false), 2, compared);
+  // A semi-sharp edge runs into a crease: their vertex is held first and the crease's afterwards.
+  data::ControlMesh meeting = data::corner(2, false);
+  for (const auto& [a, b] : {std::pair{meeting.faces[0][0], meeting.faces[0][1]},
+                             std::pair{meeting.faces[0][0], meeting.faces[0][3]}})
+    if (std::none_of(
+            meeting.sharpness.edges.begin(), meeting.sharpness.edges.end(),
+            [&, from = a, to = b](const auto& e) { return std::minmax(e.a, e.b) == std::minmax(from, to); }))
+      meeting.sharpness.edges.push_back({a, b, 1.5f});
+  ASSERT_EQ(meeting.sharpness.edges.back().sharpness, 1.5f);
+  expect_equal(meeting, 2, compared);
   data::ControlMesh held = data::quad_wheel(5, 2);
   held.sharpness.vertices = {{0, 1.5f}};
   held.sharpness.boundary = data::Boundary::kEdgeAndCorner;

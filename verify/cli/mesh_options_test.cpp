@@ -120,8 +120,7 @@ TEST_F(Scheme, OfASubjectThatDoesLoopsOnlyLeadsToTriangulate) {
   EXPECT_EQ(o.code, 2) << o.out;
   EXPECT_NE(o.out.find("does Loop's scheme only needs --triangulate"), std::string::npos) << o.out;
   EXPECT_EQ(run("audit model quad-cube --depth 1 --level quick --triangulate fan").code, 0);
-  EXPECT_EQ(run("audit model quad-cube cube --depth 1 --level quick").code, 0)
-      << "one of them is judged";
+  EXPECT_EQ(run("audit model quad-cube cube --depth 1 --level quick").code, 0) << "one of them is judged";
 }
 
 TEST_F(Scheme, OfBrokenMeshesIsChosenLikewise) {

@@ -15,7 +15,10 @@
 namespace limitcheck::bench {
 namespace {
 
+using verify::cross;
+using verify::norm;
 using verify::Vector;
+using verify::operator-;
 
 constexpr int kDepth = 4;
 

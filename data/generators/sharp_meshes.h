@@ -16,8 +16,8 @@ ControlMesh dart(int n, bool triangles);
 /// An interior vertex of valence 2k at which k sharp edges meet, every second one; k >= 2. With k = 2 they
 /// are one crease, from 3 on a corner with sectors of two faces.
 ControlMesh corner(int k, bool triangles);
-/// A torus of quads, 12 x 6, with a closed crease of a sharpness around it.
-ControlMesh crease_ring(std::uint64_t sharpness);
+/// A torus of quads, 12 x 6, with a closed crease of a sharpness around it, and so many tenths.
+ControlMesh crease_ring(std::uint64_t sharpness, std::uint64_t tenths = 0);
 /// A mesh with one crease of so many edges that stay sharp, which starts and ends in smooth surroundings: from
 /// the vertex farthest along (1, 1, 1), at each vertex on as straight as it can. Throws InputError if it would
 /// meet the boundary or itself.

@@ -39,6 +39,7 @@ class Sharpness {
   Sharpness(const Topology& topology, const SharpTags& tags);
 
   const Rational& edge(std::int32_t e) const { return edge_[static_cast<std::size_t>(e)]; }
+  bool is_chaikin() const { return chaikin_; }
   static bool is_infinite(const Rational& s) { return s >= 10; }
   static bool is_semi_sharp(const Rational& s) { return s > 0 && s < 10; }
 
@@ -136,12 +137,14 @@ struct TaggedMesh {
   Sharpness sharpness;
 
   /// Some faces, which come first, and the faces that touch their corners: all that their surface depends on.
+  /// By Chaikin's creasing it depends on the sharpness of the edges at the far ends of edges, too.
   TaggedMesh around(std::vector<std::int32_t> faces) const {
     std::unordered_set<std::int32_t> known(faces.begin(), faces.end());
-    for (std::size_t k = 0, count = faces.size(); k < count; ++k)
-      for (const std::int32_t v : topology.faces()[static_cast<std::size_t>(faces[k])])
-        for (const std::int32_t f : topology.sector(v).faces)
-          if (known.insert(f).second) faces.push_back(f);
+    for (int ring = 0; ring < (sharpness.is_chaikin() ? 2 : 1); ++ring)
+      for (std::size_t k = 0, count = faces.size(); k < count; ++k)
+        for (const std::int32_t v : topology.faces()[static_cast<std::size_t>(faces[k])])
+          for (const std::int32_t f : topology.sector(v).faces)
+            if (known.insert(f).second) faces.push_back(f);
     const data::CutOut part = data::cut_out(topology.faces(), faces);
     Topology local(part.vertices.size(), part.faces);
     Sharpness sharp = sharpness.of_part(topology, local, faces, part.vertices);

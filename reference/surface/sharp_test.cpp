@@ -254,6 +254,40 @@ TEST(SharpEdges, RefinedVerticesGoToTheSurface) {
   }
 }
 
+// Chaikin's creasing keeps an edge below 1 sharp if both its halves stay so, which the edges at its far end
+// decide: whichever face is asked, the vertex at its end goes to the same point.
+TEST(SharpEdges, OfAllFacesAroundAVertexAskTheSameEdges) {
+  using N = Decimal50;
+  ControlMesh quads = data::crease_ring(10);
+  quads.sharpness.edges = {{0, 6, 3.5F}, {6, 12, 0.25F}, {12, 18, 3.5F}};
+  quads.sharpness.creasing = data::Creasing::kChaikin;
+  ControlMesh triangles = quads;
+  triangles.faces.clear();
+  for (std::size_t f = 0; f < quads.faces.size(); ++f) {
+    const auto q = quads.faces[f];
+    triangles.faces.push_back({q[0], q[1], q[2]});
+    triangles.faces.push_back({q[0], q[2], q[3]});
+  }
+  const cc::SubdivisionEvaluator<N> of_quads(quads.faces, positions<N>(quads), quads.sharpness);
+  const SubdivisionEvaluator<N> of_triangles(triangles);
+  const auto at_corner = [&](const ControlMesh& mesh, int f, int k) {
+    const auto zero = Parameter(0), one = Parameter(1);
+    return mesh.faces.are_triangles()
+               ? of_triangles.evaluate(f, k == 1 ? one : zero, k == 2 ? one : zero).position
+               : of_quads.evaluate(f, 0, k == 1 || k == 2 ? one : zero, k >= 2 ? one : zero).position;
+  };
+  for (const ControlMesh& mesh : {quads, triangles})
+    for (const std::int32_t v : {0, 6, 12, 18}) {
+      std::vector<Vec3<N>> seen;
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        for (std::size_t k = 0; k < mesh.faces[f].size(); ++k)
+          if (mesh.faces[f][k] == v)
+            seen.push_back(at_corner(mesh, static_cast<int>(f), static_cast<int>(k)));
+      ASSERT_GE(seen.size(), 4U);
+      for (const Vec3<N>& p : seen) EXPECT_LE(magnitude(p - seen[0]), N("1e-45")) << "vertex " << v;
+    }
+}
+
 TEST(SharpEdges, ThatDoNotFitAreRefused) {
   const auto refused = [](const data::Sharpness& sharpness) {
     ControlMesh mesh = data::quad_cube();

@@ -33,7 +33,10 @@ TEST(SharpAudit, ARightSubjectHasNoFindingAtAnyDepth) {
     for (const int depth : {0, 1, 3})
       for (const char* depths : {"uniform", "random:1"}) {
         Auditor auditor(depth, 1, {}, Level::kQuick);
-        for (const Result& r : auditor.run({lc_subject_quad_model(), ""}, named(name, depth, depths)))
+        const AuditMesh mesh = named(name, depth, depths);
+        const bool loop = mesh.scheme() == data::Scheme::kLoop;
+        const lc_subject* model = loop ? lc_subject_model() : lc_subject_quad_model();
+        for (const Result& r : auditor.run({model, ""}, mesh))
           EXPECT_FALSE(is_bad(r)) << name << " depth " << depth << " " << depths << " / " << r.check << ": "
                                   << r.message;
       }

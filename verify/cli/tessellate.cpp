@@ -98,26 +98,32 @@ fast::DepthOptions depth_options(const Arguments& a) {
   return options;
 }
 
-/// Row streaming has Loop's scheme only.
-std::string engine_of(const Arguments& a, data::Scheme scheme) {
-  const bool loop = scheme == data::Scheme::kLoop;
-  if (!loop && a.engine == "row-stream")
-    throw data::ArgumentError(
-        "limitcheck tessellate: row-stream does Loop's scheme only; leave out --engine");
-  return !a.engine.empty() ? a.engine : loop ? "row-stream" : "sliding-window";
+bool has_semi_sharp(const data::Sharpness& sharpness) {
+  const auto semi = [](const auto& tag) {
+    return tag.sharpness > 0 && tag.sharpness < data::kInfiniteSharpness;
+  };
+  return std::any_of(sharpness.edges.begin(), sharpness.edges.end(), semi) ||
+         std::any_of(sharpness.vertices.begin(), sharpness.vertices.end(), semi);
+}
+
+/// The one asked for, else row streaming, unless it does not do the mesh.
+std::string engine_of(const Arguments& a, const data::ControlMesh& mesh) {
+  if (!a.engine.empty()) return a.engine;
+  return has_semi_sharp(mesh.sharpness) ? "sliding-window" : "row-stream";
 }
 
 struct Timings {
   double read = 0, prepare = 0, write = 0;
 };
 
-nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, const fast::FrameStats& s,
-                              const fast::DepthOptions& options, const Timings& t) {
+nlohmann::ordered_json report(const Arguments& a, const std::string& engine, const MeshScheme& chosen,
+                              const fast::FrameStats& s, const fast::DepthOptions& options,
+                              const Timings& t) {
   return {{"mesh", a.mesh},
           {"scheme", name_of(chosen.scheme)},
           {"faces_cut", chosen.cut},
           {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
-          {"engine", engine_of(a, chosen.scheme)},
+          {"engine", engine},
           {"strategy", std::string(fast::name(options.strategy))},
           {"seed", options.seed},
           {"faces", s.faces},
@@ -194,7 +200,7 @@ Outcome run(const Arguments& a, const OpenedMesh& opened, const fast::DepthOptio
   engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
   engine.threads = std::min(a.threads, tbb::info::default_concurrency());
   engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
-  if (engine_of(a, engine.scheme) == "sliding-window")
+  if (engine_of(a, mesh) == "sliding-window")
     return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
   fast::row_stream::StreamTessellator stream(mesh, engine);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
@@ -214,7 +220,6 @@ int tessellate(const Arguments& a) {
   Timings timings;
   progress.show(0, 3, "reading " + a.mesh);
   const OpenedMesh opened = open_mesh(a.mesh, a.scheme);
-  engine_of(a, opened.chosen.scheme);  // or a refusal, before any work
   const data::ControlMesh& mesh = opened.mesh;
   verify::require_range(a.mesh, mesh, false);
   timings.read = lap();
@@ -241,7 +246,7 @@ int tessellate(const Arguments& a) {
                stats.faces);
   }
   if (a.json) {
-    fmt::print("{}\n", report(a, opened.chosen, stats, options, timings).dump(2));
+    fmt::print("{}\n", report(a, engine_of(a, mesh), opened.chosen, stats, options, timings).dump(2));
   } else {
     fmt::print("{}\n{}", scheme_line({opened.chosen}, a.scheme), summary(a, stats, timings));
   }
@@ -273,7 +278,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->add_option(
           "--engine", a->engine,
           "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
-          "row-stream, which does Loop's scheme only, or else sliding-window")
+          "row-stream, or sliding-window for semi-sharp edges and vertices, which row-stream does not do")
       ->check(CLI::IsMember({"row-stream", "sliding-window"}));
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");

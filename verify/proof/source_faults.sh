@@ -27,8 +27,10 @@ quad_sources=(verify/proof/quad_map_test.cpp fast/mesh/adjacency.cpp fast/mesh/q
 ask_quads() {
   (cd "$copy" && g++ "${flags[@]}" "${quad_sources[@]}" -o probe -Wl,--start-group "${libraries[@]}" \
     "$build/data/liblimitcheck_generators.a" -Wl,--end-group -lgtest -lgtest_main) 2> "$copy/log" || return 2
-  timeout 300 "$copy/probe" --gtest_brief=1 --gtest_fail_fast | grep -m 1 "^face"
-  return "${PIPESTATUS[0]}"
+  timeout 300 "$copy/probe" --gtest_brief=1 --gtest_fail_fast > "$copy/said"
+  local status=$?
+  grep -m 1 "^face" "$copy/said"
+  return "$status"
 }
 
 if ! ask || ! ask_quads; then

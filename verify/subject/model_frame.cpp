@@ -56,10 +56,13 @@ void ModelFrame::display(std::size_t f) {
   if (rules_.is("no_repair") || rules_.is("chords_at_depth_steps") ||
       (rules_.is("fan_needs_two") && deeper == 1))
     deeper = 0;
+  const bool tagged = !mesh_.control.sharpness.empty();
   const bool fans = d < 2 || rules_.is("one_inner_point") || rules_.is("exchanged_depths");
   if (deeper == 0) {
     tiles(f, even_tiles(d));
     if (rules_.is("one_strip_more")) repeat_tile_of(triangles.size() - 1);
+  } else if (tagged && d < 2) {  // the centre of a fan is no lattice point
+    tiles(f, cut_tiles(d, edge));
   } else if (fans) {
     fan(f, edge);
   } else {
@@ -172,11 +175,13 @@ std::uint32_t ModelFrame::put(std::size_t f, int i, int j, int d) {
   };
   const auto v = static_cast<std::size_t>(vertex(i, j));
   Vertex out{level_.limits[v],
-             level_.normals[v],
+             level_.normal(f, i * times, j * times),
              {static_cast<std::int32_t>(f), static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
               static_cast<std::uint32_t>(n)}};
   const bool border = i == 0 || j == 0 || i + j == n, odd = f % 2 == 1;
   const auto outwards = [&](double by) { out.position += out.normal * (by * mesh_.size); };
+  if (rules_.is("sides_apart_by_an_ulp") && odd && level_.sides.contains(static_cast<std::int32_t>(v)))
+    out.position.x = one_ulp_up(out.position.x);
   if (rules_.is("gap_1e-9") && border && odd) outwards(1e-9);
   if (rules_.is("by_face_number") && !border && odd) outwards(1e-9);
   if (rules_.is("by_first_corner") && !border) outwards(1e-9 * (n - i - j) / n);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The faults that the model can be told to have, each of a kind that a real tessellator could have.
 #include "verify/subject/model_rules.h"
+#include "verify/subject/model_tags.h"
 
 namespace limitcheck::verify {
 
 std::span<const Mutation> mutations() {
-  static const std::vector<Mutation> list{
+  static const std::vector<Mutation> own{
       {"none", "nothing: right in every check", ""},
       // Subdivision.
       {"warren_weights", "a(n) = 3/8 for n > 3, as Warren has it", "positions"},
@@ -154,6 +155,11 @@ std::span<const Mutation> mutations() {
       {"accepts_nan", "takes control points that are no numbers", "rejected-inputs"},
       {"accepts_anything", "takes what is no manifold, and delivers nothing", "rejected-inputs", "C06"},
   };
+  static const std::vector<Mutation> list = [] {
+    std::vector<Mutation> all = own;
+    all.insert(all.end(), sharp_mutations().begin(), sharp_mutations().end());
+    return all;
+  }();
   return list;
 }
 

@@ -163,9 +163,10 @@ bool ModelRules::taken_as_vanishing(const reference::Tangents<double>& t, const 
 
 V ModelRules::normal(const Topology& topology, const std::vector<V>& points, std::int32_t v,
                      std::size_t first) const {
-  const V& p = points[v];
-  const std::vector<V> ring = ring_of(topology, points, v, first);
-  const bool open = topology.on_boundary(v);
+  return normal(points[v], ring_of(topology, points, v, first), topology.on_boundary(v));
+}
+
+V ModelRules::normal(const V& p, const std::vector<V>& ring, bool open) const {
   const std::size_t n = ring.size();
   reference::Tangents<double> t =
       open ? reference::boundary_tangents<double>(p, ring) : reference::interior_tangents<double>(p, ring);

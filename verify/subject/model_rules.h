@@ -34,6 +34,7 @@ class ModelRules {
       : mutation_(mutation), weights_(weights), refined_(refined) {}
 
   bool is(std::string_view name) const { return mutation_ == name; }
+  std::string_view mutation() const { return mutation_; }
   reference::Weights weights() const { return weights_; }
 
   /// One step of `depth`: vertex points in the order of the vertices, then edge points in the order of the
@@ -44,6 +45,8 @@ class ModelRules {
           std::size_t first = 0) const;
   V normal(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v,
            std::size_t first = 0) const;
+  /// Of a vertex amid its ring, or with the neighbours of one side of a crease.
+  V normal(const V& p, const std::vector<V>& ring, bool open) const;
 
  private:
   double alpha(int n) const;

@@ -10,11 +10,19 @@ using reference::Topology;
 using V = ModelTags::V;
 using Rule = ModelTags::Rule;
 
-const V& ModelLimit::normal(const Topology& topology, std::int32_t v, std::int32_t in_face_with) const {
+V unit_or_up(const V& n) {
+  const double size = std::hypot(n.x, n.y, n.z);
+  return size > 0 ? n * (1 / size) : V{0, 0, 1};
+}
+
+const V& ModelLimit::normal(const Topology& topology, std::int32_t v, std::int32_t a, std::int32_t b) const {
   const auto faces = topology.sector(v).faces;
   for (std::size_t i = 0; i < faces.size() && normals.size() > 1; ++i) {
     const auto corners = topology.faces()[faces[i]];
-    if (std::find(corners.begin(), corners.end(), in_face_with) != corners.end()) return normals[i];
+    const auto has = [&](std::int32_t w) {
+      return std::find(corners.begin(), corners.end(), w) != corners.end();
+    };
+    if (has(a) && has(b)) return normals[i];
   }
   return normals[0];
 }
@@ -64,8 +72,7 @@ ModelLimit ModelSides::limit(const std::vector<V>& points, std::span<const std::
   if (tags_.is("mean_of_all_sides")) {
     V sum{};
     for (const V& n : normals) sum += n;
-    const double size = std::hypot(sum.x, sum.y, sum.z);
-    normals.assign(count, size > 0 ? sum * (1 / size) : V{0, 0, 1});
+    normals.assign(count, unit_or_up(sum));
   }
   if (stretches == 1) {
     result.normals = {normals[0]};

@@ -13,14 +13,17 @@
 
 namespace limitcheck::verify {
 
+/// Of unit length; (0, 0, 1) for the zero vector.
+ModelTags::V unit_or_up(const ModelTags::V& n);
+
 /// A limit position, and the normals in the faces around, in the order asked for; one if all are the same.
 struct ModelLimit {
   ModelTags::V position;
   std::vector<ModelTags::V> normals;
 
-  /// In the face around vertex v of which another vertex is a corner.
-  const ModelTags::V& normal(const reference::Topology& topology, std::int32_t v,
-                             std::int32_t in_face_with) const;
+  /// In the face around vertex v of which a and b are corners.
+  const ModelTags::V& normal(const reference::Topology& topology, std::int32_t v, std::int32_t a,
+                             std::int32_t b) const;
 };
 
 /// Of a vertex whose rule stays.

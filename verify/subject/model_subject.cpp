@@ -21,6 +21,7 @@
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/model_frame.h"
+#include "verify/subject/model_tags.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/weights_option.h"
 
@@ -71,6 +72,7 @@ class ModelSubject {
       c.points = LC_POINTS_REFINED;
       c.normals = c.per_face_depth = 0;
     }
+    if (!settings.refined && settings.weights == LC_WEIGHTS_LOOP) c.sharp = declared_kinds(settings.mutation);
     // A subject in C may store values that C++ does not let an enumeration hold.
     const auto set = [&](std::string_view mutation, auto& value, std::int32_t number) {
       if (settings.mutation == mutation) std::memcpy(&value, &number, sizeof value);
@@ -103,7 +105,7 @@ class ModelSubject {
   struct Alive {
     Alive() { ++count; }
     ~Alive() {
-      if (--count == 0) cache_.clear();
+      if (--count == 0) cache_.clear(), tags_.clear();
     }
     Alive(const Alive&) = delete;
     Alive& operator=(const Alive&) = delete;
@@ -114,6 +116,7 @@ class ModelSubject {
       : settings_(settings), rules_(settings.mutation, family(settings.weights), settings.refined) {
     try {
       data::ControlMesh control = control_mesh(mesh);
+      refuse_tags(settings.mutation, control.sharpness);
       if (!rules_.is("accepts_nan") && !rules_.is("accepts_wild_indices")) refuse_unusable(mesh);
       remember(control);
       mesh_ = std::make_unique<ModelMesh>(control);
@@ -138,6 +141,11 @@ class ModelSubject {
   void remember(data::ControlMesh& control) const {
     if (rules_.is("cache_by_count")) {
       control = cache_.try_emplace({control.positions.size(), control.faces.size()}, control).first->second;
+    }
+    if (rules_.is("tags_by_count")) {
+      control.sharpness =
+          tags_.try_emplace({control.positions.size(), control.faces.size()}, control.sharpness)
+              .first->second;
     }
     if (rules_.is("one_buffer")) {
       buffer_.resize(std::max(buffer_.size(), control.positions.size()));
@@ -207,6 +215,7 @@ class ModelSubject {
   // than one subject begins each with an empty cache.
   inline static int calls_ = 0;
   inline static std::map<std::pair<std::size_t, std::size_t>, data::ControlMesh> cache_;
+  inline static std::map<std::pair<std::size_t, std::size_t>, data::Sharpness> tags_;
   inline static std::vector<std::array<double, 3>> buffer_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "reference/loop/refine.h"
 #include "reference/mesh/topology.h"
 #include "verify/subject/model_rules.h"
+#include "verify/subject/model_sides.h"
 
 namespace limitcheck::verify {
 
@@ -33,6 +35,10 @@ struct ModelMesh {
 struct ModelLevel {
   reference::RefinedMesh<double> mesh;  // where they are: its own points are not used
   std::vector<ModelRules::V> points, limits, normals;
+  std::map<std::int32_t, ModelLimit> sides;  // of vertices that have more than one normal
+
+  /// Of a lattice point at (i, j) of a face, seen from that face.
+  const ModelRules::V& normal(std::size_t face, int i, int j) const;
 
   /// `shown` are the depths of the frame, -1 for culled faces.
   ModelLevel(const ModelMesh& from, const ModelRules& rules, int depth, std::span<const std::int32_t> shown);

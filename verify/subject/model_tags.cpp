@@ -31,11 +31,14 @@ ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology,
   const auto value = [&](float given) -> double {
     if (is("semi_as_infinite")) return kForEver;
     if (is("infinite_is_4")) return std::min(given, 4.F);
+    if (is("infinite_is_9")) return std::min(given, 9.F);
     if (is("sharpness_rounded_down")) return given >= data::kInfiniteSharpness ? kForEver : std::floor(given);
     if (is("sharpness_rounded_up")) return given >= data::kInfiniteSharpness ? kForEver : std::ceil(given);
     if (is("infinite_from_3") && given >= 3) return kForEver;
     if (is("infinite_ends_after_10")) return std::min(given, data::kInfiniteSharpness);
-    return given >= data::kInfiniteSharpness ? kForEver : given;
+    if (is("ten_is_finite") && given == data::kInfiniteSharpness) return given;
+    if (given >= data::kInfiniteSharpness) return kForEver;
+    return is("sharpness_in_halves") ? std::round(2 * given) / 2 : given;
   };
 
   if (is("corners_always_held") ||
@@ -58,6 +61,8 @@ ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology,
     const Edge& e = topology.edges()[k];
     const auto found = tags.find(ends(e));
     if (found != tags.end()) edge_[k] = found->second;
+    if (found != tags.end() && e.on_boundary() && is("boundary_tags_hold"))
+      vertex_[e.a] = vertex_[e.b] = kForEver;
     const auto left = topology.faces()[e.left_face];
     // An edge from the last corner of the first of its faces to corner 0.
     if (is("tags_lost_at_corner_0") && left.front() == e.b && left.back() == e.a) edge_[k] = 0;
@@ -81,7 +86,8 @@ bool ModelTags::plain(const Topology& topology, std::int32_t v) const {
 
 bool ModelTags::settled(const Topology& topology, std::int32_t v) const {
   const auto open = [&](double sharpness) {
-    return is("one_level_short") ? is_semi_sharp(sharpness) && sharpness > 1 : is_semi_sharp(sharpness);
+    return is("last_sharp_step_missing") ? is_semi_sharp(sharpness) && sharpness > 1
+                                         : is_semi_sharp(sharpness);
   };
   const Sector sector = topology.sector(v);
   return !open(vertex_[v]) && std::none_of(sector.edges.begin(), sector.edges.end(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verify/subject/model_tiling.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace limitcheck::verify {
@@ -54,6 +55,42 @@ std::vector<Tile> stitched_tiles(int depth, const std::array<int, 3>& edge, int 
         inside = next;
       }
     }
+  }
+  return tiles;
+}
+
+namespace {
+
+// Steps of 2^depth along side k of the face, or -1 beside it.
+int along(const TilePoint& p, int k) {
+  const int n = 1 << p.depth;
+  if (k == 0) return p.j == 0 ? p.i : -1;
+  if (k == 1) return p.i + p.j == n ? p.j : -1;
+  return p.i == 0 ? n - p.j : -1;
+}
+
+void cut(std::vector<Tile>& tiles, const Tile& tile, const std::array<int, 3>& edge, int depth) {
+  for (std::size_t c = 0; c < 3; ++c)
+    for (int k = 0; k < 3; ++k) {
+      const int n = 1 << depth, step = n >> edge[static_cast<std::size_t>(k)];
+      const int from = along(tile[c], k), to = along(tile[(c + 1) % 3], k);
+      if (from < 0 || to < 0 || to - from <= step) continue;
+      for (int s = from; s < to; s += step)
+        cut(tiles, {on_side(k, s, n, 0, depth), on_side(k, s + step, n, 0, depth), tile[(c + 2) % 3]}, edge,
+            depth);
+      return;
+    }
+  tiles.push_back(tile);
+}
+
+}  // namespace
+
+std::vector<Tile> cut_tiles(int depth, const std::array<int, 3>& edge) {
+  const int deepest = std::max({depth, edge[0], edge[1], edge[2]}), times = 1 << (deepest - depth);
+  std::vector<Tile> tiles;
+  for (Tile tile : even_tiles(depth)) {
+    for (TilePoint& p : tile) p = {p.i * times, p.j * times, deepest};
+    cut(tiles, tile, edge, deepest);
   }
   return tiles;
 }

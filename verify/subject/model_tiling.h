@@ -28,4 +28,8 @@ std::vector<Tile> even_tiles(int depth);
 ///          out points that those inside have
 std::vector<Tile> stitched_tiles(int depth, const std::array<int, 3>& edge, int every = 1);
 
+/// A face of any depth with deeper edges: the triangles of its own lattice, cut from the opposite corner to
+/// every point of the deeper neighbour.
+std::vector<Tile> cut_tiles(int depth, const std::array<int, 3>& edge);
+
 }  // namespace limitcheck::verify

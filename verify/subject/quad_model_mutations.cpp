@@ -57,7 +57,9 @@ std::span<const Mutation> quad_mutations() {
       {"culled_are_holes", "culled faces are left out before the first step", "positions"},
       {"cache_by_count", "a mesh of as many vertices and faces is taken for the one before", "state"},
       {"every_other_time", "every other frame has a point one ulp off", "determinism"},
-      // Sharp edges: those of triangles only.
+      // Sharp edges: what only polygons or meshes of quads bring out.
+      {"infinite_is_9", "edges that stay sharp are sharp for 9 steps", "cut-by-hand", "", false, true},
+      {"sharpness_in_halves", "a sharpness is rounded to halves", "fractional-sharpness", "", false, true},
       {"triangles_not_smooth", "the smooth rule for triangles is ignored", "positions", "", false, true},
       {"smooth_rule_for_all", "the smooth rule for triangles in all faces", "positions", "", false, true},
       {"smooth_rule_in_every_step", "the smooth rule for triangles in later steps, too", "positions", "",

@@ -45,11 +45,6 @@ std::int32_t opposite(std::span<const std::int32_t> quad, std::int32_t v) {
 
 }  // namespace
 
-V unit_or_up(const V& n) {
-  const double size = length(n);
-  return size > 0 ? n * (1 / size) : V{0, 0, 1};
-}
-
 V mean_of_facets(const QuadRing& ring) {
   V sum{};
   for (std::size_t i = 0; i < ring.f.size(); ++i)

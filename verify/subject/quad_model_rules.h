@@ -53,8 +53,6 @@ class QuadModelRules {
   std::string_view mutation_;
 };
 
-/// Of unit length; (0, 0, 1) for the zero vector.
-QuadModelRules::V unit_or_up(const QuadModelRules::V& n);
 /// Of the triangles between a vertex and its neighbours.
 QuadModelRules::V mean_of_facets(const QuadRing& ring);
 

@@ -226,7 +226,7 @@ class QuadModelSubject {
         const std::int64_t most = domain.denominator(n);
         const std::int32_t inside = number(p.i < most ? p.i + 1 : p.i - 1, p.j < most ? p.j + 1 : p.j - 1);
         const ModelLimit& limit = points.limits[v];
-        Vertex made{limit.position, limit.normal(points.mesh.topology(), v, inside), {}, p.part};
+        Vertex made{limit.position, limit.normal(points.mesh.topology(), v, inside, inside), {}, p.part};
         auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
         if (rules_.is("u_for_v")) std::swap(i, j);
         if (rules_.is("sides_apart_by_an_ulp") && f % 2 == 1 && limit.normals.size() > 1)

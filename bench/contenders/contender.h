@@ -38,8 +38,8 @@ std::vector<Route> our_routes();
 /// The same for meshes of quads: row streaming of Catmull-Clark's surfaces.
 std::vector<Route> our_quad_routes();
 
-/// Others', for meshes of triangles (Loop's scheme) or of quads (Catmull-Clark's). Each as fast as the library's own interface lets it be, in float where it can be: no plug-in interface, no
-/// provenance.
+/// Others', for meshes of triangles (Loop's scheme) or of quads (Catmull-Clark's). Each as fast as the
+/// library's own interface lets it be, in float where it can be: no plug-in interface, no provenance.
 Route bfr_streaming();
 Route bfr_cached_stencils();
 Route far_uniform();

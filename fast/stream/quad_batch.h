@@ -119,8 +119,8 @@ void put_side(const typename BasicQuadRings<T>::Corner* const* corner, int side,
 
 }  // namespace detail
 
-/// Fills quad_input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to `lanes`
-/// quads for QuadStream; the lanes that remain repeat the last.
+/// Fills quad_input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to
+/// `lanes` quads for QuadStream; the lanes that remain repeat the last.
 template <class T>
 QuadBatch<T> gather_quads(const BasicQuadRings<T>& rings, std::span<const std::int32_t> faces, int depth,
                           int lanes, T* input, Order order = Order::kFromA) {
@@ -167,8 +167,8 @@ QuadBatch<T> gather_sides(const BasicQuadRings<T>& rings, std::span<const std::i
 template <class T>
 QuadBatch<T> gather_patches(const BasicQuadRings<T>& rings, std::span<const std::int32_t> faces, int depth,
                             int lanes, T* input, Order order = Order::kFromA) {
-  // Of the ring of each corner from e_{k-1} on, where a run of entries begins, its length, and the points of the
-  // patch they are (4 r + k): all around A, those beyond C, and the last one beyond B and D.
+  // Of the ring of each corner from e_{k-1} on, where a run of entries begins, its length, and the points of
+  // the patch they are (4 r + k): all around A, those beyond C, and the last one beyond B and D.
   struct Run {
     int corner, first, count;
     int at[8];

@@ -22,8 +22,8 @@ HWY_ATTR HWY_INLINE void choose_middle(const typename N::Scalar* p, const typena
     origin[c] = (N::splat(.5) * (N::load(p + c * N::lanes) + N::load(q + c * N::lanes)) + magic) - magic;
 }
 
-/// Numbers of a side, see QuadCurve. at[r][k]: point k = -1 .. 2 along the side, which runs from 0 to 1; row 0
-/// is right of it, row 2 left. Half a turn gives the same points in the opposite order, with the same bits.
+/// Numbers of a side, see QuadCurve. at[r][k]: point k = -1 .. 2 along the side, which runs from 0 to 1; row
+/// 0 is right of it, row 2 left. Half a turn gives the same points in the opposite order, with the same bits.
 template <class N>
 HWY_ATTR void make_curve(const typename N::Scalar* const (&at)[3][4],
                          const KernelPlacement<typename N::Scalar>& placement, typename N::Scalar* curve) {

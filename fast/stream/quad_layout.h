@@ -20,8 +20,8 @@ namespace limitcheck::fast::row_stream {
 ///
 ///        D (0,N) ---- C (N,N)          f' -- e' -- f         e = e_k, f = f_k, e' = e_{k+1}, f' = f_{k+1},
 ///          |            |              |     |     |         e'' = e_{k+2}, e- = e_{k-1}, f- = f_{k-1}:
-///          |            |              e'' - c --- e         the entries of the ring from the corner's own k.
-///          |            |                    |     |
+///          |            |              e'' - c --- e         entries of the ring from the corner's own k
+///          |            |                    |     |         on
 ///        A (0,0) ---- B (N,0)                e- -- f-
 ///
 /// Rows -1 and N+1, columns -1 and N+1 are the points across the border. The point diagonally beyond a corner
@@ -38,8 +38,8 @@ constexpr int quad_window_width(int depth) {
   return kQuadCore + 4 * depth;
 }
 
-/// Input of a batch at a corner, in units of `lanes` numbers. With De the sum of the differences from c to the
-/// e (on a boundary: to the two ends of the ring), Df of those to the f,
+/// Input of a batch at a corner, in units of `lanes` numbers. With De the sum of the differences from c to
+/// the e (on a boundary: to the two ends of the ring), Df of those to the f,
 ///   c' = 4 c + k0 De + k1 Df, De' = k2 De + k3 Df, Df' = k2 De + k4 Df,     all times 4 per level.
 struct QuadCornerBlock {
   static constexpr int kWeights = 0;  // k0 .. k4
@@ -56,8 +56,8 @@ constexpr int quad_block_size(int depth) {
 }
 
 /// Of quads that are streamed: four corner blocks, then per side 1 where it is sharp (a boundary or one side
-/// of a cut), then per side 1 where it is a polynomial, then per corner 1 where it is a dart, and its centre in
-/// the levels from 1 on.
+/// of a cut), then per side 1 where it is a polynomial, then per corner 1 where it is a dart, and its centre
+/// in the levels from 1 on.
 constexpr int quad_sharp_offset(int depth) {
   return 4 * quad_block_size(depth);
 }
@@ -78,7 +78,8 @@ constexpr int quad_input_size(int depth) {
   return std::max(quad_dart_offset(depth) + 4 * quad_dart_size(depth), kPatchSize);
 }
 
-/// A batch of quads of one depth, in a form in which the lanes differ in numbers alone. Bits: corner or side k.
+/// A batch of quads of one depth, in a form in which the lanes differ in numbers alone. Bits: corner or
+/// side k.
 template <class T>
 struct QuadBatch {
   T* input;
@@ -102,12 +103,12 @@ struct QuadCurve {
   static constexpr int kSize = 36;
 };
 
-/// From this depth on the limits inside a quad come from the level before the last, whose points make the last
-/// level's: half the memory, and fewer operations. Rows and columns next to the sides are as ever.
+/// From this depth on the limits inside a quad come from the level before the last, whose points make the
+/// last level's: half the memory, and fewer operations. Rows and columns next to the sides are as ever.
 constexpr int kFusedFrom = 5;
 
-/// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, what the levels
-/// take from the corners, the curves of the sides.
+/// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, what the
+/// levels take from the corners, the curves of the sides.
 constexpr int quad_row_size(int level) {
   return 3 * ((1 << level) + 3);
 }

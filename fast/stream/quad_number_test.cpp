@@ -74,7 +74,7 @@ TEST(QuadNumbers, AreThoseOfTheWindowToFourteenDigits) {
     }
   }
   EXPECT_LE(worst_position, 1e-14);  // measured: 1.4e-15
-  EXPECT_LE(worst_normal, 2e-12);  // measured: 1.7e-13
+  EXPECT_LE(worst_normal, 2e-12);    // measured: 1.7e-13
   RecordProperty("worst_position", std::to_string(worst_position * 1e15) + "e-15");
   RecordProperty("worst_normal", std::to_string(worst_normal * 1e12) + "e-12");
 }

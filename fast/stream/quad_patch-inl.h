@@ -67,7 +67,8 @@ class QuadPatch {
   }
 
   HWY_ATTR void prepare() {
-    // Point k of row r of a side, seen from its beginning with the side to the right, is this one of the grid.
+    // Point k of row r of a side, seen from its beginning with the side to the right, is this one of the
+    // grid.
     for (int side = 0; side < 4; ++side) {
       const Scalar* at[3][4];
       for (int r = 0; r < 3; ++r) {

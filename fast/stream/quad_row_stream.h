@@ -36,8 +36,8 @@ struct QuadRowView {
 /// Points on sides between two regular vertices, and all points of regular quads, are the same at every depth
 /// up to 8.
 ///
-/// Error in float, against the exact limit: position 1e-7 of the mesh's box; normals of regular quads 1e-6 rad
-/// at every depth, of others about 2e-7 2^depth times what the mesh is larger than an edge.
+/// Error in float, against the exact limit: position 1e-7 of the mesh's box; normals of regular quads 1e-6
+/// rad at every depth, of others about 2e-7 2^depth times what the mesh is larger than an edge.
 class QuadRowStream {
  public:
   /// Keeps a reference to the kernel, which must outlive it. Throws
@@ -61,8 +61,8 @@ class QuadRowStream {
   std::vector<std::int32_t> sorted(std::span<const std::int32_t> faces) const;
 
   /// Calls visit(context, QuadRowView) for each row of each batch of quads. A batch takes quads that can go
-  /// together from anywhere in the list; its rows come one after the other. From C, rows and columns are counted
-  /// from that corner; the points are the same, those inside regular quads but for rounding.
+  /// together from anywhere in the list; its rows come one after the other. From C, rows and columns are
+  /// counted from that corner; the points are the same, those inside regular quads but for rounding.
   void rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
             void (*visit)(void*, const QuadRowView&), void* context, Order order = Order::kFromA) const;
 

@@ -381,7 +381,8 @@ TEST(QuadStreamTargets, EachRunsTheCodeItNames) {
   }
 }
 
-// Sides between regular vertices and regular quads: a depth has the points of the depths below it, bit by bit.
+// Sides between regular vertices and regular quads: a depth has the points of the depths below it, bit by
+// bit.
 TEST(QuadStreamBits, AreEqualAtAllDepthsWhereTheSurfaceIsAPolynomial) {
   const data::ControlMesh mesh = shaken(data::quad_torus(6, 5), .1, 7);
   const auto deep = evaluate(mesh, 8, quad_kernels().front());

@@ -15,7 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
-/// The children of a line that has been refined across, in points 2 .. 2 size - 2: across(k) is number k of it.
+/// The children of a line that has been refined across, in points 2 .. 2 size - 2: across(k) is number k of
+/// it.
 template <class N, class Across>
 HWY_ATTR HWY_INLINE void refine_along(const Across& across, int size, typename N::Scalar* child) {
   using V = typename N::V;
@@ -178,9 +179,9 @@ class QuadLimitRow {
   V p0_[3], p1_[3], q0_[3], q1_[3], centre_[3], unit_, four_;
 };
 
-/// One row of the last level to its limit without that level's points: from the level before, of which a point
-/// of the last level is a point or lies halfway between two. s, m, n, o: rows q-1 .. q+2 for row 2q+1; for row
-/// 2q o is not looked at.
+/// One row of the last level to its limit without that level's points: from the level before, of which a
+/// point of the last level is a point or lies halfway between two. s, m, n, o: rows q-1 .. q+2 for row 2q+1;
+/// for row 2q o is not looked at.
 template <class N, bool odd_row>
 class FusedLimitRow {
  public:
@@ -271,9 +272,10 @@ class FusedLimitRow {
   V p_[3][3], q_[3][3], centre_[3], even_unit_, odd_unit_;
 };
 
-/// The inside of a row, points 1 .. size - 1, with its ends given; size even. `row` gives the points from 1 on
-/// in turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of the next: it is one chain of
-/// dependent steps. far: the rows leave no room for the output in the first-level cache.
+/// The inside of a row, points 1 .. size - 1, with its ends given; size even. `row` gives the points from 1
+/// on in turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of
+/// the next: it is one chain of dependent steps. far: the rows leave no room for the output in the
+/// first-level cache.
 template <class N, bool far = false, class Row>
 HWY_ATTR HWY_INLINE void scatter_row(Row& row, int size, const Vertex<N>& first, const Vertex<N>& last,
                                      typename N::Scalar* const* out, std::ptrdiff_t offset) {

@@ -44,8 +44,8 @@ std::vector<data::ControlMesh> closed_meshes() {
           data::polygon_prism(7), data::dart(5, false),   data::creased_cube(10)};
 }
 
-// The sliding window's frames are judged by tests of their own: the same draws of the same places, and the same
-// points but for rounding.
+// The sliding window's frames are judged by tests of their own: the same draws of the same places, and the
+// same points but for rounding.
 TEST(QuadStreamFrame, HasTheDrawsAndThePointsOfTheWindowInDouble) {
   auto meshes = closed_meshes();
   meshes.push_back(data::quad_fan(3, 1));
@@ -84,8 +84,8 @@ TEST(QuadStreamFrame, HasTheDrawsAndThePointsOfTheWindowInDouble) {
   }
 }
 
-// No crack and no T-vertex: every directed edge of the triangles has its opposite, for shared vertices have one
-// index; and no point at a border differs in bits by the face that it comes from.
+// No crack and no T-vertex: every directed edge of the triangles has its opposite, for shared vertices have
+// one index; and no point at a border differs in bits by the face that it comes from.
 TEST(QuadStreamFrame, ClosesEveryEdgeOfAClosedMeshAtRandomDepths) {
   for (const auto& mesh : {data::quad_cube(), data::quad_torus(6, 5), data::pawn(5), data::mixed_pawn(5)}) {
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {

@@ -129,7 +129,8 @@ class QuadStreamWorker {
     writer.stitch(points_, border_);
   }
 
-  // The centre of a face: the limit point in its middle, or the mean of its corners, with the normal of the limit.
+  // The centre of a face: the limit point in its middle, or the mean of its corners, with the normal of the
+  // limit.
   Point centre(const QuadStreamFrame& frame, std::int32_t f) {
     const QuadFaces& faces = frame.faces;
     const auto first = static_cast<std::int32_t>(faces.first[f]);

@@ -83,7 +83,7 @@ Image open_crease() {
   Lines crease{{}, kRed};
   for (const data::SharpEdge& e : mesh.sharpness.edges)
     crease.segments.push_back({fast::to_point(mesh.positions[e.a]), fast::to_point(mesh.positions[e.b])});
-  fast::Camera camera = camera_at(45, 1.3 * data::box_diagonal(mesh));
+  fast::Camera camera = camera_at(30, 1.05 * data::box_diagonal(mesh));
   Appearance control, map;
   control.wireframe = true;
   map.colour = [&](const fast::Draw& draw) { return colour.at(draw.first); };

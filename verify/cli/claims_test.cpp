@@ -59,7 +59,7 @@ TEST_F(ClaimsCommand, ASignalLeavesNothingBehind) {
 TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {
   const Outcome o = run("claims C85");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("C01 to C84"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("C01 to C85"), std::string::npos) << o.err;
 }
 
 TEST_F(ClaimsCommand, WritesTheErrata) {

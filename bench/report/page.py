@@ -33,7 +33,7 @@ MORE_PICTURES = {
     "picture-error": ("Errors", "A control mesh of 200 faces, and uniform depth 2 of it: how far each triangle's middle is off the surface, from "
                                 "10⁻⁴ of the diagonal (violet) to 10⁻² (yellow)."),
     "picture-cracks": ("Cracks", "Figures 6 and 7 beside each other."),
-    "picture-sharp": ("A sharp edge that starts and ends", "A torus of quads with five sharp edges (red), its limit surface, and how far OpenSubdiv's "
+    "picture-sharp": ("A sharp edge that starts and ends", "A torus of quads with three sharp edges (red), its limit surface, and how far OpenSubdiv's "
                       "limit points at depth 4 are off, from 10⁻⁷ of the diagonal (violet) to 10⁻³ (yellow): at both ends of the crease (C85)."),
 }
 CHARTS = {

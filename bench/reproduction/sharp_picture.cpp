@@ -53,7 +53,7 @@ fast::DrawList<float> flat_faces(const data::ControlMesh& mesh) {
 }  // namespace
 
 Image open_crease() {
-  Studio studio(data::named_mesh("open-crease"));
+  Studio studio(data::named_mesh("open-crease:3"));
   const data::ControlMesh& mesh = studio.mesh();
   // The library's refinement and limits, and the exact points and normals in their place.
   verify::Session session(*lc_subject_opensubdiv_far(), mesh, "precision=double");

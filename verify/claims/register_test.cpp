@@ -34,7 +34,7 @@ std::set<std::string> tests_in_the_sources() {
   return names;
 }
 
-TEST(ClaimRegister, HasEightyFourClaimsEachWithAKnownVerdict) {
+TEST(ClaimRegister, HasEightyFiveClaimsEachWithAKnownVerdict) {
   const auto json = nlohmann::json::parse(
       contents(fs::path(LIMITCHECK_SOURCE_DIR) / "papers/mueller-havemann-2000/claims.json"));
   ASSERT_EQ(json["claims"].size(), 85U);

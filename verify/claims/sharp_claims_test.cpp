@@ -88,11 +88,9 @@ double look_at_all_edges(const data::ControlMesh& mesh) {
       }
     }
     // Where the crease ends, its sides turn into one tangent plane.
-    for (const auto& [vertex, from_vertex] : {std::pair{edge.a, false}, {edge.b, true}}) {
-      if (!sharp || sharp_edges_at[vertex] != 1) continue;
-      const auto angle = [&](double distance) {
-        return here.at(from_vertex ? 1 - distance : distance).degrees;
-      };
+    for (const bool last : {false, true}) {
+      if (!sharp || sharp_edges_at[last ? edge.b : edge.a] != 1) continue;
+      const auto angle = [&](double distance) { return here.at(last ? 1 - distance : distance).degrees; };
       EXPECT_LE(angle(0), 1e-7);
       EXPECT_LT(angle(0x1p-20), angle(0x1p-10));
       EXPECT_LT(angle(0x1p-10), angle(0x1p-2));

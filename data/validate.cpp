@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <utility>
+
+#include "data/validate_tags.h"
 
 namespace limitcheck::data {
 namespace {
@@ -58,8 +59,7 @@ class Validator {
     check_edges();
     check_fans();
     check_isolated();
-    check_sharpness();
-    check_holes();
+    check_tags();
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const MeshFinding& a, const MeshFinding& b) { return a.fault < b.fault; });
     return std::move(findings_);
@@ -324,57 +324,16 @@ class Validator {
     }
   }
 
-  // Every tag is of an edge or vertex that exists, and no two disagree.
-  void check_sharpness() {
-    const Sharpness& sharpness = mesh_.sharpness;
-    if (sharpness.edges.empty() && sharpness.vertices.empty()) return;
+  // Sharp edges and vertices, and holes (validate_tags.h).
+  void check_tags() {
     using Key = std::pair<std::int32_t, std::int32_t>;
-    std::map<Key, float> known;  // NaN until a tag has been seen
-    const float none = std::numeric_limits<float>::quiet_NaN();
-    for (const SharpEdge& e : sharpness.edges) known.emplace(std::minmax(e.a, e.b), none);
-    std::set<Key> edges;
-    for (std::size_t h = 0; h < face_of_.size(); ++h)
+    std::set<Key> tagged, edges;
+    for (const SharpEdge& e : mesh_.sharpness.edges) tagged.insert(std::minmax(e.a, e.b));
+    for (std::size_t h = 0; !tagged.empty() && h < face_of_.size(); ++h)
       if (!removed_[face_of_[h]])
-        if (const Key key = edge(static_cast<std::int32_t>(h)); known.count(key) > 0) edges.insert(key);
-
-    std::int64_t tag = 0;
-    const auto check = [&](const std::string& what, std::vector<std::int64_t> elements, bool exists,
-                           float value, float& before) {
-      const auto refuse = [&](std::string message) {
-        report(MeshFault::kSharpness, elements, std::move(message), -1);
-        findings_.back().tag = tag;
-      };
-      if (!exists)
-        refuse(fmt::format("{} has a sharpness and is none", what));
-      else if (!(value >= 0))
-        refuse(fmt::format("{} has the sharpness {}", what, value));
-      else if (before != value && !std::isnan(before))
-        refuse(fmt::format("{} has the sharpness {} and {}", what, before, value));
-      else
-        before = value;
-      ++tag;
-    };
-    for (const SharpEdge& e : sharpness.edges) {
-      const Key key = std::minmax(e.a, e.b);
-      check(fmt::format("edge {}–{}", vertex(e.a), vertex(e.b)), {e.a, e.b}, edges.count(key) > 0,
-            e.sharpness, known.at(key));
-    }
-    std::map<std::int32_t, float> of_vertex;
-    for (const SharpVertex& v : sharpness.vertices)
-      check(fmt::format("vertex {}", vertex(v.vertex)), {v.vertex},
-            v.vertex >= 0 && static_cast<std::size_t>(v.vertex) < vertices_, v.sharpness,
-            of_vertex.emplace(v.vertex, none).first->second);
-  }
-
-  void check_holes() {
-    std::int32_t before = -1;
-    for (const std::int32_t f : mesh_.holes) {
-      if (f < 0 || static_cast<std::size_t>(f) >= mesh_.faces.size())
-        report(MeshFault::kHole, {f}, fmt::format("the hole {} is no face", f + numbering_.first), -1);
-      else if (f <= before)
-        report(MeshFault::kHole, {f}, fmt::format("the hole {} is out of order", f + numbering_.first), f);
-      before = f;
-    }
+        if (const Key key = edge(static_cast<std::int32_t>(h)); tagged.contains(key)) edges.insert(key);
+    for (MeshFinding& finding : tag_findings(mesh_, edges, numbering_.first))
+      findings_.push_back(std::move(finding));
   }
 
   std::string vertices_of(std::span<const std::int32_t> corners) const {

@@ -18,9 +18,9 @@ ControlMesh dart(int n, bool triangles);
 ControlMesh corner(int k, bool triangles);
 /// A torus of quads, 12 x 6, with a closed crease of a sharpness around it, and so many tenths.
 ControlMesh crease_ring(std::uint64_t sharpness, std::uint64_t tenths = 0);
-/// A mesh with one crease of so many edges that stay sharp, which starts and ends in smooth surroundings: from
-/// the vertex farthest along (1, 1, 1), at each vertex on as straight as it can. Throws InputError if it would
-/// meet the boundary or itself.
+/// A mesh with one crease of so many edges that stay sharp, which starts and ends in smooth surroundings:
+/// from the vertex farthest along (1, 1, 1), at each vertex on as straight as it can. Throws InputError if it
+/// would meet the boundary or itself.
 ControlMesh with_open_crease(ControlMesh mesh, int edges);
 /// Any mesh with about a tenth of its edges sharp, half of them infinite and half below 4, a few sharp
 /// vertices, and the way of creasing drawn by chance.

@@ -16,8 +16,8 @@ constexpr std::int64_t quad_stitch_triangles(std::int64_t k, int edge_depth) {
 }
 
 /// Joins the border points 0 .. 2^edge_depth of an edge to the inner points 0 .. inner_count of the row of
-/// lattice points next to it (k = 2^depth), without T-vertices. The shorter way goes first: segments are taken
-/// in the order of their midpoints along the edge.
+/// lattice points next to it (k = 2^depth), without T-vertices. The shorter way goes first: segments are
+/// taken in the order of their midpoints along the edge.
 ///   middle   twice the place of the middle of inner segment 0, in steps of the lattice
 ///   triangle(a, a_inner, b, b_inner, c, c_inner)   counter-clockwise; a_inner says whether a is an index of
 ///                                                  the inner row

@@ -32,8 +32,8 @@ struct FrameState {
   virtual int face_count() const = 0;
   /// The depths that a strategy assigns to the control faces. Called in the arena.
   virtual std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) = 0;
-  /// Makes grids of the faces, plans the cracks and makes the patches. The statistics that it returns lack the
-  /// number of vertices, the zero normals, and the times of what is still to do.
+  /// Makes grids of the faces, plans the cracks and makes the patches. The statistics that it returns lack
+  /// the number of vertices, the zero normals, and the times of what is still to do.
   ///   throws   data::ArgumentError: not one depth per face, a depth outside -1 .. kDeepest
   virtual FrameStats plan_frame(std::span<const std::int32_t> depth) = 0;
   virtual std::size_t patch_count() const = 0;
@@ -56,7 +56,8 @@ struct FrameEngine : FrameState {
   virtual void prepare() = 0;
   /// Evaluates patches first .. last - 1 into a draw list that has room for them, offsets[] saying where.
   virtual void draw(std::size_t first, std::size_t last, DrawList<Real>& out) = 0;
-  /// How much an indexed mesh of this frame takes (vertices, triangles); then writes it to where there is room.
+  /// How much an indexed mesh of this frame takes (vertices, triangles); then writes it to where there is
+  /// room.
   virtual DrawSize measure_index() = 0;
   virtual void write_index(IndexedMesh<Real>& out) = 0;
   /// Vertices of this frame whose normal came from the rule for vanishing tangents.

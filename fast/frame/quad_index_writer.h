@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes control faces of Catmull-Clark's scheme into one indexed mesh in which every point of a control vertex
-// or edge appears once, on either side of a cut.
+// Writes control faces of Catmull-Clark's scheme into one indexed mesh in which every point of a control
+// vertex or edge appears once, on either side of a cut.
 #pragma once
 
 #include <cstddef>

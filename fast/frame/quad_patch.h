@@ -85,7 +85,8 @@ inline DrawSize quad_draw_size(const QuadPatch& patch, const QuadFaces& faces, c
   }
 }
 
-/// The number of limit points evaluated for a face: rows, each once, the border of a repaired face, its centre.
+/// The number of limit points evaluated for a face: rows, each once, the border of a repaired face, its
+/// centre.
 inline std::int64_t quad_limit_points(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan) {
   const std::int64_t parts = faces.parts(patch.face), m = faces.part_size(patch.depth);
   if (corners_only(patch, faces)) return 0;

@@ -18,9 +18,10 @@ struct PartPoint {
   int part, i, j;
 };
 
-/// Control faces of any number of sides. Sides and corners are numbered through, one face after the other; side
-/// c runs from corner c to the next. A face is a single quad, or it was cut by one step into as many parts as it
-/// has corners, each a quad with its corner 0 there. Keeps a reference to the mesh, which must outlive it.
+/// Control faces of any number of sides. Sides and corners are numbered through, one face after the other;
+/// side c runs from corner c to the next. A face is a single quad, or it was cut by one step into as many
+/// parts as it has corners, each a quad with its corner 0 there. Keeps a reference to the mesh, which must
+/// outlive it.
 struct QuadFaces {
   QuadFaces(const data::Faces& faces, const QuadMesh& mesh);
 

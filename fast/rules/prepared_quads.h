@@ -15,8 +15,8 @@
 
 namespace limitcheck::fast {
 
-/// The unit normal of a vertex: du x dv of its limit, unless they vanish or are parallel, as vertex_normal() of
-/// vertex_normal.h says; then that of substitute_star_normal(), and `degenerate` becomes true. [D12]
+/// The unit normal of a vertex: du x dv of its limit, unless they vanish or are parallel, as vertex_normal()
+/// of vertex_normal.h says; then that of substitute_star_normal(), and `degenerate` becomes true. [D12]
 ///   own   is subdivided then
 template <class W>
 Vec3<W> star_normal(const LimitFrame<W>& limit, OwnQuadStar<W>& own, bool& degenerate) {
@@ -36,10 +36,10 @@ struct StarSums {
   Vec3<W> edges, faces;
 };
 
-/// Positions of the vertices in N and their limit points, computed once per mesh in a canonical order: the ring
-/// from adjacency.outgoing(v). Every face that touches a vertex delivers these very bits, at whatever depth.
-/// [D14] Read-only afterwards, so that threads may share it. Keeps a reference to the mesh, which must outlive
-/// it.
+/// Positions of the vertices in N and their limit points, computed once per mesh in a canonical order: the
+/// ring from adjacency.outgoing(v). Every face that touches a vertex delivers these very bits, at whatever
+/// depth. [D14] Read-only afterwards, so that threads may share it. Keeps a reference to the mesh, which must
+/// outlive it.
 template <class N, class Surface = LimitSurface<N>>
 class PreparedQuads {
  public:

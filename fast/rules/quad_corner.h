@@ -85,8 +85,8 @@ void subdivide_corner(const QuadCorner<N, Vertex>& old, QuadCorner<N, Vertex>& o
 
 namespace detail {
 
-/// The normal that takes the place of one that is lost, for a star of these points: closed, or open if there is
-/// an odd number. Linear numbers have no sizes, and no need of it.
+/// The normal that takes the place of one that is lost, for a star of these points: closed, or open if there
+/// is an odd number. Linear numbers have no sizes, and no need of it.
 template <class N, class Surface, std::size_t kPoints>
 WideVec3<N> substitute_normal_of(const Vec3<N>& v, const std::array<const Vec3<N>*, kPoints>& ring) {
   if constexpr (requires { Surface::kLinear; }) {

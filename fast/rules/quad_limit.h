@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The limit of a vertex of a mesh of quads from its ring: position and tangents. [C21; Halstead, Kass & DeRose
-// 1993]
+// The limit of a vertex of a mesh of quads from its ring: position and tangents. [C21; Halstead, Kass &
+// DeRose 1993]
 #pragma once
 
 #include <cstddef>

@@ -18,8 +18,8 @@ class QuadRing {
   const Point3& centre() const { return own_.star.centre; }
   int faces() const { return own_.star.faces; }
 
-  /// Semi-sharp edges become less sharp. In a mesh that was cut by a step the first one does nothing: its star is
-  /// that after the step already.
+  /// Semi-sharp edges become less sharp. In a mesh that was cut by a step the first one does nothing: its
+  /// star is that after the step already.
   void subdivide();
 
   Point3 limit_position();

@@ -41,8 +41,8 @@ class SemiSharp {
     return level < all.size() ? &all[level] : nullptr;
   }
 
-  /// The sharpness of the 2^level parts of half-edge h, from its origin on, for level = 0 .. levels, one level
-  /// after the other; empty if the edge is not semi-sharp.
+  /// The sharpness of the 2^level parts of half-edge h, from its origin on, for level = 0 .. levels, one
+  /// level after the other; empty if the edge is not semi-sharp.
   void along(std::int32_t h, int levels, std::vector<double>& out) const;
   bool has(std::int32_t h) const { return !steps_.empty() && mesh_->side_sharpness[h] > 0; }
   data::Creasing creasing() const { return mesh_->creasing; }

@@ -22,6 +22,19 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Of the target that is being compiled, with so many lanes: "" where a kernel has no other number.
+constexpr const char* target_name(int lanes) {
+#if HWY_TARGET == HWY_AVX3
+  return lanes == 16 ? "avx512" : lanes == 8 ? "avx512/8" : "avx512/4";
+#elif HWY_TARGET == HWY_AVX2
+  return lanes == 8 ? "avx2" : "avx2/4";
+#elif HWY_ARCH_ARM
+  return lanes == 4 ? "neon" : "";
+#else
+  return lanes == 4 ? "sse4" : "";
+#endif
+}
+
 /// Same bits on every target: where the hardware has no fused multiply-add, std::fma takes its place, lane by
 /// lane.
 template <class D>

@@ -16,93 +16,13 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "fast/stream/quad_batch.h"
+#include "fast/test_support/quad_meshes.h"
 #include "fast/test_support/refined_quads.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/window/quad_window.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
-
-struct NamedMesh {
-  std::string name;
-  data::ControlMesh mesh;
-};
-
-/// A closed mesh with two vertices of valence n, which are opposite corners of n quads each; 2n of valence 3.
-data::ControlMesh trapezohedron(int n) {
-  data::ControlMesh mesh;
-  const double pi = std::numbers::pi;
-  for (int k = 0; k < 2 * n; ++k) {
-    const double t = pi * k / n;
-    mesh.positions.push_back({std::cos(t), std::sin(t), k % 2 == 0 ? .2 : -.2});
-  }
-  mesh.positions.push_back({0, 0, 1});
-  mesh.positions.push_back({0, 0, -1});
-  for (int k = 0; k < 2 * n; k += 2) {
-    const int a = k, b = (k + 1) % (2 * n), c = (k + 2) % (2 * n), d = (k + 3) % (2 * n);
-    mesh.faces.push_back({2 * n, a, b, c});
-    mesh.faces.push_back({b, 2 * n + 1, d, c});
-  }
-  return mesh;
-}
-
-/// rows x columns quads; without boundary in either direction if `closed`.
-data::ControlMesh quad_sheet(int rows, int columns) {
-  data::ControlMesh mesh;
-  for (int i = 0; i <= rows; ++i) {
-    for (int j = 0; j <= columns; ++j)
-      mesh.positions.push_back({1. * j, 1. * i, .3 * std::sin(1. * j) * std::cos(1.3 * i)});
-  }
-  const auto at = [&](int i, int j) { return static_cast<std::int32_t>(i * (columns + 1) + j); };
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < columns; ++j)
-      mesh.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
-  return mesh;
-}
-
-std::vector<NamedMesh> closed_meshes() {
-  std::vector<NamedMesh> meshes{{"cube", data::quad_cube()},
-                                {"shaken cube", shaken(data::quad_cube(), .3, 1)},
-                                {"torus", data::quad_torus(4, 3)},
-                                {"shaken torus", shaken(data::quad_torus(6, 4), .1, 2)}};
-  for (const int n : {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50})
-    meshes.push_back({"trapezohedron " + std::to_string(n), shaken(trapezohedron(n), n > 12 ? .01 : .05, 3)});
-  for (const int n : {3, 5, 8})
-    meshes.push_back({"pawn " + std::to_string(n), shaken(data::pawn(n), .01, 4)});
-  return meshes;
-}
-
-std::vector<NamedMesh> open_meshes() {
-  std::vector<NamedMesh> meshes{{"quad", shaken(quad_sheet(1, 1), .1, 1)},
-                                {"strip", shaken(quad_sheet(1, 3), .1, 2)},
-                                {"sheet", shaken(quad_sheet(4, 5), .1, 3)},
-                                {"flat sheet", quad_sheet(3, 3)}};
-  for (const int n : {3, 4, 5, 9, 50})
-    meshes.push_back({"wheel " + std::to_string(n), data::quad_wheel(n, 5)});
-  for (const int n : {1, 2, 3, 4, 5}) meshes.push_back({"fan " + std::to_string(n), data::quad_fan(n, 6)});
-  return meshes;
-}
-
-/// Faces begin at another corner; they and the vertices have other numbers: `number` is the new one of each.
-data::ControlMesh renumbered_quads(const data::ControlMesh& mesh, std::uint64_t seed,
-                                   std::vector<std::int32_t>& number) {
-  data::SplitMix64 random(seed);
-  number.resize(mesh.positions.size());
-  std::iota(number.begin(), number.end(), 0);
-  for (std::size_t v = number.size(); v > 1; --v) std::swap(number[v - 1], number[below(random, v)]);
-  data::ControlMesh out{mesh.positions, {}};
-  for (std::size_t v = 0; v < number.size(); ++v) out.positions[number[v]] = mesh.positions[v];
-  std::vector<std::array<std::int32_t, 4>> faces;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const std::size_t turn = below(random, 4);
-    std::array<std::int32_t, 4> q;
-    for (std::size_t k = 0; k < 4; ++k) q[k] = number[mesh.faces[f][(k + turn) % 4]];
-    faces.push_back(q);
-  }
-  for (std::size_t f = faces.size(); f > 1; --f) std::swap(faces[f - 1], faces[below(random, f)]);
-  for (const auto& q : faces) out.faces.push_back(q);
-  return out;
-}
 
 std::vector<std::int32_t> all_of(const data::ControlMesh& mesh) {
   std::vector<std::int32_t> faces(mesh.faces.size());

@@ -22,18 +22,6 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 
-constexpr const char* quad_target_name(int lanes) {
-#if HWY_TARGET == HWY_AVX3
-  return lanes == 16 ? "avx512" : lanes == 8 ? "avx512/8" : "avx512/4";
-#elif HWY_TARGET == HWY_AVX2
-  return lanes == 8 ? "avx2" : "avx2/4";
-#elif HWY_ARCH_ARM
-  return lanes == 4 ? "neon" : "";
-#else
-  return lanes == 4 ? "sse4" : "";
-#endif
-}
-
 template <int lanes>
 using QuadLanes = LaneNumber<hn::CappedTag<float, lanes>>;
 
@@ -41,24 +29,24 @@ template <int lanes>
 HWY_ATTR const char* run_quads(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                float* work, const QuadTarget<float>& target) {
   QuadStream<QuadLanes<lanes>>(batch, placement, work, target).run();
-  return quad_target_name(lanes);
+  return target_name(lanes);
 }
 template <int lanes>
 HWY_ATTR const char* run_patches(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                  float* work, const QuadTarget<float>& target) {
   QuadPatch<QuadLanes<lanes>>(batch, placement, work, target).run();
-  return quad_target_name(lanes);
+  return target_name(lanes);
 }
 template <int lanes>
 HWY_ATTR const char* run_sides(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                float* work, const QuadTarget<float>& target) {
   QuadStream<QuadLanes<lanes>>(batch, placement, work, target).run_side();
-  return quad_target_name(lanes);
+  return target_name(lanes);
 }
 
 template <int lanes>
 void add_quad_kernel(std::vector<QuadKernel>& list) {
-  list.push_back({quad_target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_quads<lanes>, &run_patches<lanes>,
+  list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_quads<lanes>, &run_patches<lanes>,
                   &run_sides<lanes>});
 }
 

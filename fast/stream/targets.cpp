@@ -23,18 +23,6 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 
-constexpr const char* target_name(int lanes) {
-#if HWY_TARGET == HWY_AVX3
-  return lanes == 16 ? "avx512" : lanes == 8 ? "avx512/8" : "avx512/4";
-#elif HWY_TARGET == HWY_AVX2
-  return lanes == 8 ? "avx2" : "avx2/4";
-#elif HWY_ARCH_ARM
-  return lanes == 4 ? "neon" : "";
-#else
-  return lanes == 4 ? "sse4" : "";
-#endif
-}
-
 template <int lanes>
 HWY_ATTR const char* run_lanes(float* input, int depth, const KernelPlacement<float>& placement, float* work,
                                const Target<float>& target) {

@@ -16,11 +16,14 @@ namespace limitcheck::fast {
 /// Three rows along a side need nothing else to be subdivided but the rings of its two ends, which give the
 /// first and last point of the outer rows:
 ///
-///       up[0] ---- up[1] ---- up[2]       `up` lies in the quad of the half-edge; `down` is missing on a
-///         |          |          |         boundary. Work O(2^depth + depth * valence). The operations are those
-///      line[0] -- line[1] -- line[2]      of QuadWindow, so the points have the bits that a quad of that depth
-///         |          |          |         gives them, from either side. [D14]
+///       up[0] ---- up[1] ---- up[2]       `up` lies in the quad of the half-edge;
+///         |          |          |         `down` is missing on a boundary.
+///      line[0] -- line[1] -- line[2]
+///         |          |          |
 ///      down[0] -- down[1] -- down[2]
+///
+/// Work O(2^depth + depth * valence). The operations are those of QuadWindow, so the points have the bits that
+/// a quad of that depth gives them, from either side. [D14]
 ///
 /// Arrays are allocated once; one instance per thread.
 template <class N, class Surface = LimitSurface<N>>

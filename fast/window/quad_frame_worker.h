@@ -41,7 +41,8 @@ void evaluate_side(const PreparedQuads<Real>& mesh, const QuadFaces& faces, std:
   }
 }
 
-/// The centre of a face: the limit point in its middle, or the mean of its corners, with the normal of the limit.
+/// The centre of a face: the limit point in its middle, or the mean of its corners, with the normal of the
+/// limit.
 template <class Real>
 SurfaceVertex<Real> quad_centre(const PreparedQuads<Real>& mesh, const QuadFaces& faces, std::int32_t f,
                                 FanCentre centre, QuadWindow<Real>& window) {

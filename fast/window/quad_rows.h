@@ -48,8 +48,8 @@ void add_curve(double share, const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& 
 /// The row that a row becomes: 2 n edges of n. Its ends are those of the quad's sides.
 ///   above, below           the rows next to it, and the odd rows made of them; null beyond a boundary
 ///   side                   the side that this row is, or null inside
-///   level, row             of the left and right side: which point of theirs it passes; -1: their corner, and
-///                          points 0 and 2 n are left out, as are -1 and 2 n + 1
+///   level, row             of the left and right side: which point of theirs it passes; -1: their corner,
+///                          and points 0 and 2 n are left out, as are -1 and 2 n + 1
 template <class N>
 void even_row(int n, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
               const Vec3<N>* odd_above, const Vec3<N>* odd_below, const RowEnds& ends, const QuadSide* side,

@@ -29,7 +29,8 @@ class QuadSide {
   /// Whether there is a face beyond.
   bool inside() const { return inside_; }
   bool semi_sharp() const { return !sharpness_.empty(); }
-  /// The share of the midpoint in the point of part i of 2^level, and of the curve in point i = 1 .. 2^level - 1.
+  /// The share of the midpoint in the point of part i of 2^level, and of the curve in point i = 1 .. 2^level
+  /// - 1.
   double edge_share(int level, int i) const {
     if (sharpness_.empty()) return 0;
     const SidePart p = part(level, i);

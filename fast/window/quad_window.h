@@ -16,21 +16,25 @@
 
 namespace limitcheck::fast {
 
-/// The paper's arrays per level, allocated once, and the recursion over them, as in sliding_window.h. A quad is
-/// what a pair of triangles is there, and has no diagonal. One instance per thread.
+/// The paper's arrays per level, allocated once, and the recursion over them, as in sliding_window.h. A quad
+/// is what a pair of triangles is there, and has no diagonal. One instance per thread.
 ///
-///     outtop[-1] outtop[0] outtop[1] outtop[2]       The quad: corner0 at (u, v) = (0, 0), corner1 at (1, 0),
-///         |         |         |          |           corner2 at (1, 1), corner3 at (0, 1). Row j counts from
-///      top[-1]   corner3 - corner2 -- top[2]         the top, column i from the left; each row begins with the
-///         |         |         |          |           column to the left of the quad and ends with that to its
-///     bottom[-1] corner0 - corner1 - bottom[2]       right. What lies diagonally beyond a corner is read
-///         |         |         |          |           nowhere, but computed, if valences are not 4: there is
-///    outbot[-1] outbot[0] outbot[1] outbot[2]        no such point then.
+///     outtop[-1] outtop[0] outtop[1] outtop[2]       The quad: corner0 at (u, v) = (0, 0),
+///         |         |         |          |           corner1 at (1, 0), corner2 at (1, 1),
+///      top[-1]   corner3 - corner2 -- top[2]         corner3 at (0, 1)
+///         |         |         |          |
+///     bottom[-1] corner0 - corner1 - bottom[2]
+///         |         |         |          |
+///    outbot[-1] outbot[0] outbot[1] outbot[2]
+///
+/// Row j counts from the top, column i from the left; each row begins with the column to the left of the quad
+/// and ends with that to its right. What lies diagonally beyond a corner is read nowhere, but computed, if
+/// valences are not 4: there is no such point then.
 ///
 ///   Carry     true: of the five rows that a strip becomes, the first three are those which the strip before
-///             ended with, and so are the limits of its upper row: every point is computed once, sum (2^l + 3)^2
-///             for levels l = 1 .. m, and (2^m + 1)^2 limits. false: all five and both, as printed. The output
-///             has the same bits. The other parameters are those of SlidingWindow.
+///             ended with, and so are the limits of its upper row: every point is computed once,
+///             sum (2^l + 3)^2 for levels l = 1 .. m, and (2^m + 1)^2 limits. false: all five and both, as printed. The
+///             output has the same bits. The other parameters are those of SlidingWindow.
 ///
 /// Nothing is allocated after construction, unless sides are semi-sharp; the mesh is only read.
 template <class N, class Surface = LimitSurface<N>, class Probe = NoProbe, bool Carry = true>
@@ -56,16 +60,18 @@ class QuadWindow {
 
   int max_depth() const { return max_depth_; }
   int max_valence() const { return max_valence_; }
-  /// 3D vectors held: sum over the levels of 5 (2^l + 3) + 4 (2 n_max + 1), and 2 * 2 (2^m + 1) for the strip.
+  /// 3D vectors held: sum over the levels of 5 (2^l + 3) + 4 (2 n_max + 1), and 2 * 2 (2^m + 1) for the
+  /// strip.
   std::size_t allocated_vectors() const { return storage_.size() + 2 * strip_.size(); }
   /// Normals that came from the rule for vanishing tangents, in all runs so far. [D12]
   std::int64_t zero_normals() const { return zero_normals_; }
   Probe& probe() { return probe_; }
 
   /// Tessellates a quad.
-  ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in the next,
-  ///                      i = 0 .. 2^depth; v = 1 - row / 2^depth, u = i / 2^depth. As a triangle strip they
-  ///                      turn counter-clockwise seen from outside. The array is overwritten by the next call.
+  ///   sink(row, strip)   for row = 0 .. 2^depth - 1: strip[2 i] lies in row `row`, strip[2 i + 1] in the
+  ///                      next, i = 0 .. 2^depth; v = 1 - row / 2^depth, u = i / 2^depth. As a triangle strip
+  ///                      they turn counter-clockwise seen from outside. The array is overwritten by the next
+  ///                      call.
   /// Throws data::ArgumentError: depth outside 0 .. max_depth(), a valence above max_valence().
   template <class Sink>
   void run(const PreparedQuads<N, Surface>& mesh, std::int32_t quad, int depth, Sink&& sink) {

@@ -23,12 +23,13 @@ struct ExactPoint {
 /// The limit surface of the lattice's control mesh (reference/surface/certified.h).
 class CertifiedSurface {
  public:
-  /// `lattice` and `sides` outlive this. Nothing is computed yet: an audit without a finding never needs any of it.
+  /// `lattice` and `sides` outlive this. Nothing is computed yet: an audit without a finding never needs any
+  /// of it.
   CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights);
   ~CertifiedSurface();
 
-  /// A side of a point; nullptr where the evaluator cannot certify it. It takes some milliseconds and is kept. Any
-  /// number of threads may ask.
+  /// A side of a point; nullptr where the evaluator cannot certify it. It takes some milliseconds and is
+  /// kept. Any number of threads may ask.
   const ExactPoint* at(Sides::Id side) const;
 
  private:

@@ -85,7 +85,8 @@ Looked look(const Evidence& e, const Outline& outline) {
       tell_diagonals_apart(e, std::move(triangles), static_cast<std::int64_t>(l.vertex_of.size()));
   tbb::parallel_invoke([&] { l.report = inspect_surface(surface.points, surface.triangles); },
                        [&] { l.judgement = judge_surface(surface.points, surface.triangles); });
-  // From here on the triangles are those of the tessellation. (An open edge is no diagonal that was told apart.)
+  // From here on the triangles are those of the tessellation. (An open edge is no diagonal that was told
+  // apart.)
   for (auto* edges : {&l.report.open_edges, &l.report.crowded_witness, &l.report.clashing_witness})
     for (OpenEdge& edge : *edges) edge.triangle = surface.origin[edge.triangle];
   for (auto* list : {&l.report.degenerate_witness, &l.report.duplicate_witness})

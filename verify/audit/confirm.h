@@ -20,12 +20,12 @@ struct Confirmation {
   std::string message;         // empty unless some were acquitted
 };
 
-/// Evaluates the points of the errors that are beyond their bounds in certified arithmetic, in the order of error over
-/// bound, until one is confirmed. If that is the very first, double and certified numbers agree, and the
-/// errors of all others count as they are. If any was acquitted, double cannot be trusted on this mesh: then
-/// up to kMostCertified are evaluated, and the others are not judged.
-///   error    of each vertex, or of each use of a vertex; negative where there is none; corrected where it was
-///            looked at
+/// Evaluates the points of the errors that are beyond their bounds in certified arithmetic, in the order of
+/// error over bound, until one is confirmed. If that is the very first, double and certified numbers agree,
+/// and the errors of all others count as they are. If any was acquitted, double cannot be trusted on this
+/// mesh: then up to kMostCertified are evaluated, and the others are not judged.
+///   error    of each vertex, or of each use of a vertex; negative where there is none; corrected where it
+///            was looked at
 ///   side     whose exact point it is held against
 ///   bound    of an error
 ///   measure  the error against the exact point, negative if nothing can be judged there

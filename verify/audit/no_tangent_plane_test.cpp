@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// At spikes, at corners of sectors of two faces and more, and at creases and boundaries of four faces and more
-// the surface has no tangent plane, or takes it on like 1/k only: subjects that are right everywhere else
-// are not blamed for any normal there, and the row says how many there are.
+// At spikes, at corners of sectors of two faces and more, and at creases and boundaries of four faces and
+// more the surface has no tangent plane, or takes it on like 1/k only: subjects that are right everywhere
+// else are not blamed for any normal there, and the row says how many there are.
 #include <gtest/gtest.h>
 
 #include <algorithm>

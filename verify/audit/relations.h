@@ -32,16 +32,16 @@ namespace limitcheck::verify {
 ///   rejected-inputs      meshes that are no manifold, name vertices that do not exist or have coordinates
 ///                        that are no numbers: refused; one without faces: refused, or nothing delivered
 /// Those of sharp edges are there only for meshes that have what they need: relation_rows_of().
-/// The rows from face-order to fractional-sharpness hold if positions and normals differ by at most twice what one
-/// result may be off; a smaller difference in bits is a quality warning if the subject was given the same
-/// numbers.
+/// The rows from face-order to fractional-sharpness hold if positions and normals differ by at most twice
+/// what one result may be off; a smaller difference in bits is a quality warning if the subject was given the
+/// same numbers.
 const std::vector<std::string_view>& relation_rows();
 /// Those that a mesh has.
 std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, data::Scheme scheme);
 
-/// One row for each name that the mesh has. `e` is the evidence of the original request. Nothing that the subject does throws:
-/// a process that dies or hangs in one request makes its row a crash or a timeout, with the input that did
-/// it, and the next request gets a new process.
+/// One row for each name that the mesh has. `e` is the evidence of the original request. Nothing that the
+/// subject does throws: a process that dies or hangs in one request makes its row a crash or a timeout, with
+/// the input that did it, and the next request gets a new process.
 ///   refusals  what the subject made of broken_meshes(); asked for if empty: it is the same for each mesh
 ///   on_row    called with the name of each row before it is looked at
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,

@@ -16,8 +16,9 @@ struct Shrunk {
 };
 
 /// Delta debugging: lowers the depth, then takes away faces far from `face` (balls of face rings, then chunks
-/// of faces, then single ones), collapses edges and drops sharp edges and vertices, as long as what remains is
-/// a valid mesh on which `fails` says true. Positions stay; vertices that no face names any more go, the others keep their order.
+/// of faces, then single ones), collapses edges and drops sharp edges and vertices, as long as what remains
+/// is a valid mesh on which `fails` says true. Positions stay; vertices that no face names any more go, the
+/// others keep their order.
 ///   face      where the failure was seen, or -1: faces are tried in file order
 ///   fails     of a mesh and a depth; called one after the other; true for what is given
 ///   seconds   no new attempt after so many

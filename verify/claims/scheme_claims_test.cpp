@@ -114,8 +114,8 @@ TEST(Sec4_Recursion, ServesBothSchemesByOtherRules) {
   expect_both_schemes(lc_subject_naive());
 }
 
-// Depths, cracks, strips, fans, threads are the same program for both; the window has rows above and below, and
-// corners, of either.
+// Depths, cracks, strips, fans, threads are the same program for both; the window has rows above and below,
+// and corners, of either.
 TEST(Sec4_SlidingWindow, ServesBothSchemesByOtherRules) {
   RecordProperty("claim", "C21");
   expect_both_schemes(lc_subject_sliding_window());

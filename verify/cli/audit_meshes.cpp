@@ -26,8 +26,8 @@ OpenedMesh open_broken_mesh(const std::string& file, const MeshOptions& options)
   return {std::move(found.mesh), {found.scheme, found.cut}};
 }
 
-// Where no mesh is named and a depth is: Loop's shapes, and the quads and polygons of the plan, of the schemes
-// that the subjects do.
+// Where no mesh is named and a depth is: Loop's shapes, and the quads and polygons of the plan, of the
+// schemes that the subjects do.
 std::vector<std::string> default_names(const MeshRequest& a,
                                        const std::vector<verify::AuditSubject>& audited) {
   std::vector<std::string> names;

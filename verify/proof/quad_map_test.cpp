@@ -116,8 +116,8 @@ TEST(Proof_QuadMap, OfTheWindowIsTheReferencesAtEveryValence) {
   EXPECT_GT(compared, 500);
 }
 
-// The shares of semi-sharp edges are exact in double here. Darts are left out: the weights of their limits are
-// found by iteration.
+// The shares of semi-sharp edges are exact in double here. Darts are left out: the weights of their limits
+// are found by iteration.
 TEST(Proof_QuadMap, OfTheWindowWithSharpEdgesIsTheReferences) {
   std::int64_t compared = 0;
   for (const float s : {10.f, 1.f, 1.5f, 2.25f, .5f}) {

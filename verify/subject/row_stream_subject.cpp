@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Row streaming as a subject, of both schemes. As strips and fans (the default) every face and pair delivers its border
-// points itself, so that their bits can be compared; as an indexed mesh they are shared. `target` forces one
-// compiled variant.
+// Row streaming as a subject, of both schemes. As strips and fans (the default) every face and pair delivers
+// its border points itself, so that their bits can be compared; as an indexed mesh they are shared. `target`
+// forces one compiled variant.
 #include <algorithm>
 #include <array>
 #include <cstdint>

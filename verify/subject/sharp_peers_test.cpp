@@ -59,9 +59,9 @@ double degrees(const Vec3<double>& a, const Vec3<double>& b) {
   return std::atan2(magnitude(cross(a, b)), dot(a, b)) * 180 / 3.14159265358979323846;
 }
 
-// The points of so many steps. With limits, those of the last as well, where OpenSubdiv's masks are those of the
-// surface: not at darts; and normals not on edges that stay sharp, where it has one of several, nor where the
-// mask across a boundary is that of another rule, nor where there is none.
+// The points of so many steps. With limits, those of the last as well, where OpenSubdiv's masks are those of
+// the surface: not at darts; and normals not on edges that stay sharp, where it has one of several, nor where
+// the mask across a boundary is that of another rule, nor where there is none.
 template <class Refined>
 Differences differences(const data::ControlMesh& mesh, int depth, bool with_limits) {
   constexpr bool kQuads = std::is_same_v<Refined, Quads>;

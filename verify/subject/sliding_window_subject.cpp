@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Our own engine, audited through the plug-in interface like every other subject: pairing (of triangles; a quad
-// is a grid by itself), sliding window, crack repair. As strips and fans (the default) every face and pair delivers its border points itself, so
-// that their bits can be compared; as an indexed mesh they are shared. Cracks are stitched: the paper's fans
-// leave out the points inside a face beside a deeper one, which every face that asks for them must have.
+// Our own engine, audited through the plug-in interface like every other subject: pairing (of triangles; a
+// quad is a grid by itself), sliding window, crack repair. As strips and fans (the default) every face and
+// pair delivers its border points itself, so that their bits can be compared; as an indexed mesh they are
+// shared. Cracks are stitched: the paper's fans leave out the points inside a face beside a deeper one, which
+// every face that asks for them must have.
 #include <cstdint>
 #include <memory>
 #include <span>

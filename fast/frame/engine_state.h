@@ -28,7 +28,7 @@ struct EngineState : FrameEngine<Real> {
   }
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
-      FrameEngine<Real>::plan;
+      FrameEngine<Real>::plan, FrameEngine<Real>::stores;
 
   int face_count() const final { return adjacency.face_count(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
@@ -63,7 +63,8 @@ struct EngineState : FrameEngine<Real> {
             options.provenance ? out.provenance.data() + at.vertices : nullptr,
             out.draws.data() + at.draws,
             at.vertices,
-            scratch};
+            scratch,
+            stores};
   }
   IndexWriter<Real> index_writer(std::size_t i, const IndexLayout& layout, IndexedMesh<Real>& out) const {
     return {adjacency, patches[i], plan, layout, placement, out};

@@ -12,6 +12,7 @@
 #include "data/control_mesh.h"
 #include "fast/frame/frame_options.h"
 #include "fast/frame/sink.h"
+#include "fast/frame/vertex_copy.h"
 #include "fast/mesh/placement.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/pairing.h"
@@ -65,6 +66,7 @@ struct FrameEngine : FrameState {
 
   Placement<Real> placement;      // from the coordinates of what the writers are given to the caller's
   std::vector<DrawSize> offsets;  // where each patch of the draw list begins, and the end
+  Stores stores = Stores::kOrdinary;  // of the vertices of a draw list
   DrawList<Real> part;            // the part of a frame that a sink is given at a time
 };
 

@@ -23,7 +23,7 @@ struct QuadEngineState : FrameEngine<Real> {
       : FrameEngine<Real>(given, with), quads(mesh), faces(mesh.faces, quads), semi_sharp(quads) {}
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
-      FrameEngine<Real>::plan;
+      FrameEngine<Real>::plan, FrameEngine<Real>::stores;
 
   int face_count() const final { return faces.size(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
@@ -57,7 +57,8 @@ struct QuadEngineState : FrameEngine<Real> {
             out.vertices.data() + at.vertices,
             options.provenance ? out.provenance.data() + at.vertices : nullptr,
             out.draws.data() + at.draws,
-            at.vertices};
+            at.vertices,
+            stores};
   }
   QuadIndexWriter<Real> index_writer(std::size_t i, const QuadIndexLayout& layout,
                                      IndexedMesh<Real>& out) const {

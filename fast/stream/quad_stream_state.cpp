@@ -30,9 +30,11 @@ QuadStreamState::QuadStreamState(const data::ControlMesh& given, const Tessellat
 }
 
 void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
+  stores = stores_for(sizeof(Vertex) * out.vertices.size());
   run(first, last, [&](std::size_t i) { return draw_writer(first, i, out); });
 }
 void QuadStreamState::index(const QuadIndexLayout& layout, IndexedMesh<float>& out) {
+  stores = Stores::kOrdinary;
   run(0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); });
 }
 
@@ -74,9 +76,10 @@ template <class MakeWriter>
 void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
   make_batches(first, last);
   const QuadStreamFrame frame{stream, narrow, faces, plan, patches, options.cracks.centre};
-  run_batches<QuadStreamWorker>(arena, batches.size(), parts.size(),
+  run_batches(arena, workers, batches.size(), parts.size(),
                                 [&](QuadStreamWorker& worker, std::size_t b) {
                                   worker.run(frame, batches[b], make_writer);
+                                  fence(stores);
                                   return batches[b].parts.size();
                                 });
 }

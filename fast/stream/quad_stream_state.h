@@ -32,6 +32,7 @@ struct QuadStreamState final : QuadEngineState<float>, StreamHooks {
   const QuadKernel& narrow;
   std::vector<std::int32_t> rank;  // of each quad, in the order that is best for the lanes
 
+  std::vector<QuadStreamWorker> workers;
   std::vector<QuadPart> parts;
   std::vector<QuadFrameBatch> batches;
 };

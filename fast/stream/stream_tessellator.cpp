@@ -37,6 +37,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
 
   void prepare() override {
     if (plan.fans > 0 && !control) make_control();
+    if (plan.fans > 0) centres.resize(static_cast<std::size_t>(adjacency.face_count()));
     worker_bytes = 0;
   }
 
@@ -51,11 +52,13 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   }
 
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
+    stores = stores_for(sizeof(Vertex) * out.vertices.size());
     run(first, last, [&](std::size_t i, StreamWorker& worker) {
       return draw_writer(first, first + i, out, worker.scratch());
     });
   }
   void index(const IndexLayout& layout, IndexedMesh<float>& out) override {
+    stores = Stores::kOrdinary;
     run(0, patches.size(), [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
   }
 
@@ -81,12 +84,13 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
                             std::span<const Grid>(pairing.grids).subspan(first, total),
                             shown,
                             control ? &*control : nullptr,
-                            options.cracks.centre,
-                            max_depth};
-    run_batches<StreamWorker>(arena, batches.list().size(), total, [&](StreamWorker& worker, std::size_t b) {
+                            centres,
+                            options.cracks.centre};
+    run_batches(arena, workers, batches.list().size(), total, [&](StreamWorker& worker, std::size_t b) {
       const Batch& batch = batches.list()[b];
-      if (worker.scratch().inner.empty()) worker.scratch().reserve(max_depth);
+      if (worker.scratch().stride < std::size_t{1} << max_depth) worker.scratch().reserve(max_depth);
       worker.run(frame, batch, make_writer);
+      fence(stores);
       return batch.patches.size();
     });
   }
@@ -94,6 +98,8 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   RowStream stream;
   const Kernel& narrow;
   std::optional<PreparedMesh<float>> control;
+  std::vector<CachedCentre> centres;
+  std::vector<StreamWorker> workers;
   StreamBatches batches;
 };
 

@@ -148,8 +148,7 @@ class DrawWriter {
     }
     begin(DrawMode::kStrip, kind, half.face, half.face, to - from - 1);
     if (from > 0 || !copied(at, to + 1))
-      for (int q = from; q <= to; ++q)
-        put(at(q), [&] { return half.lattice(k_, row + q % 2, q / 2); });
+      for (int q = from; q <= to; ++q) put(at(q), [&] { return half.lattice(k_, row + q % 2, q / 2); });
     end(to - from + 1);
   }
 
@@ -169,8 +168,7 @@ class DrawWriter {
       for (int t = 0; t < count; ++t)
         put(border[e][t], [&] { return lattice_on_edge(half.face, e, t, count); });
     }
-    put(border[0][0],
-        [&] { return lattice_on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)); });
+    put(border[0][0], [&] { return lattice_on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)); });
     end(triangles + 2);
   }
 
@@ -182,8 +180,7 @@ class DrawWriter {
       const int depth = edge_depth(plan_, half.face, e);
       const auto one = [&](std::int64_t index, bool is_inner) {
         const int t = static_cast<int>(index);
-        if (!is_inner)
-          return put(border[e][t], [&] { return lattice_on_edge(half.face, e, t, 1 << depth); });
+        if (!is_inner) return put(border[e][t], [&] { return lattice_on_edge(half.face, e, t, 1 << depth); });
         put(inner(side, e)[t], [&] { return Half{half.face, e}.lattice(k_, k_ - t - 2, t + 1); });
       };
       stitch_edge(k_, depth, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {

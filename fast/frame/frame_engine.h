@@ -64,10 +64,10 @@ struct FrameEngine : FrameState {
   /// Vertices of this frame whose normal came from the rule for vanishing tangents.
   virtual std::int64_t zero_normals() const = 0;
 
-  Placement<Real> placement;      // from the coordinates of what the writers are given to the caller's
-  std::vector<DrawSize> offsets;  // where each patch of the draw list begins, and the end
+  Placement<Real> placement;          // from the coordinates of what the writers are given to the caller's
+  std::vector<DrawSize> offsets;      // where each patch of the draw list begins, and the end
   Stores stores = Stores::kOrdinary;  // of the vertices of a draw list
-  DrawList<Real> part;            // the part of a frame that a sink is given at a time
+  DrawList<Real> part;                // the part of a frame that a sink is given at a time
 };
 
 }  // namespace limitcheck::fast

@@ -76,12 +76,11 @@ template <class MakeWriter>
 void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
   make_batches(first, last);
   const QuadStreamFrame frame{stream, narrow, faces, plan, patches, options.cracks.centre};
-  run_batches(arena, workers, batches.size(), parts.size(),
-                                [&](QuadStreamWorker& worker, std::size_t b) {
-                                  worker.run(frame, batches[b], make_writer);
-                                  fence(stores);
-                                  return batches[b].parts.size();
-                                });
+  run_batches(arena, workers, batches.size(), parts.size(), [&](QuadStreamWorker& worker, std::size_t b) {
+    worker.run(frame, batches[b], make_writer);
+    fence(stores);
+    return batches[b].parts.size();
+  });
 }
 
 }  // namespace limitcheck::fast::row_stream

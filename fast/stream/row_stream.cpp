@@ -71,8 +71,7 @@ void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspac
 }
 
 void RowStream::batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
-                        void (*visit)(void*, const RowView&), void* context, Order order,
-                        Kept kept) const {
+                        void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   prepare(workspace, depth, kernel.lanes);
   Rows rows{{{}, depth, 0, RowBuffer::in(workspace.row, depth, kernel.lanes, kept)}, visit, context};

@@ -128,8 +128,9 @@ class StreamWorker {
       if (!patch.half[h].uses_window()) continue;
       for (int row = 0; row < k; ++row) {
         const Point *first = points + (k - row) * (k + 1), *last = points + row * (k + 1) + k;
-        writer.half_strip(h, row, h == 0 ? RowPair<float>{first, first - (k + 1), 1}
-                                         : RowPair<float>{last, last + (k + 1), -1});
+        writer.half_strip(
+            h, row,
+            h == 0 ? RowPair<float>{first, first - (k + 1), 1} : RowPair<float>{last, last + (k + 1), -1});
       }
     }
   }
@@ -148,8 +149,9 @@ class StreamWorker {
     CachedCentre& cached = frame.centres[face];
     if (!cached.known) {
       if (!centre_) centre_.emplace(frame.adjacency.max_valence());
-      cached = {placed(centre_->evaluate(*frame.control, face, frame.centre), frame.stream.rings().placement()),
-                true};
+      cached = {
+          placed(centre_->evaluate(*frame.control, face, frame.centre), frame.stream.rings().placement()),
+          true};
     }
     return cached.point;
   }

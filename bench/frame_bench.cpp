@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Frames of a bumpy sphere that turns by one degree a frame, on one core unless `threads` says otherwise: from
-// the camera to the triangles. Names: form/strategy/faces:N. Counters: frames/s, triangles/s.
+// Frames of a bumpy sphere that turns from frame to frame, by one degree unless the name says otherwise: from
+// the camera to the triangles. Names: form/strategy/faces:N/threads:T. Forms: draw (a list of strips and
+// fans), indexed (one mesh), patches (points once, index patterns), kept (patches that stay as they are keep
+// their places), sticky (pairs stay together, too). Counters: frames/s, triangles/s.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "data/generators/bumpy_sphere.h"
 #include "fast/stream/stream_tessellator.h"
@@ -61,17 +64,17 @@ std::vector<Case> cases() {
 }
 
 template <class Output>
-void frames(benchmark::State& state, const Case& c, int threads) {
+void frames(benchmark::State& state, const Case& c, int threads, Output out = {}, double degrees = 1) {
   fast::TessellatorOptions options;
   options.threads = threads;
   fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), options);
-  Output out;
   fast::FrameStats stats;
   double triangles = 0;
   for (std::int64_t i = 0; i < 360; i += 30) tessellator.frame(c.strategy, turned(i, 1), out);
+  for (std::int64_t i = -20; i < 0; ++i) tessellator.frame(c.strategy, turned(i, degrees), out);
   std::int64_t i = 0;
   for (auto _ : state) {
-    stats = tessellator.frame(c.strategy, turned(i++, 1), out);
+    stats = tessellator.frame(c.strategy, turned(i++, degrees), out);
     triangles += static_cast<double>(stats.triangles);
     benchmark::ClobberMemory();
   }
@@ -93,6 +96,16 @@ int main(int argc, char** argv) {
     for (const int threads : {1, 2})
       add("draw/" + name + "/threads:" + std::to_string(threads),
           [=](auto& s) { frames<fast::DrawList<float>>(s, c, threads); });
+    const auto patches = [&](const std::string& form, const fast::PatchOptions& with, double degrees) {
+      add(form + "/" + name + "/threads:1",
+          [=](auto& s) { frames(s, c, 1, fast::PatchMesh<float>(with), degrees); });
+    };
+    patches("patches", {}, 1);
+    for (const double degrees : {1., .25}) {
+      const std::string step = degrees == 1 ? "" : ":quarter";
+      patches("kept" + step, {.incremental = true}, degrees);
+      patches("sticky" + step, {.incremental = true, .sticky = true}, degrees);
+    }
     add("indexed/" + name + "/threads:1", [=](auto& s) { frames<fast::IndexedMesh<float>>(s, c, 1); });
   }
   benchmark::Initialize(&argc, argv);

@@ -17,6 +17,8 @@ const QuadKernel& narrow_of(const QuadKernel& kernel) {
   return narrow != nullptr ? *narrow : kernel;
 }
 
+constexpr auto none = [](std::size_t) { return false; };
+
 }  // namespace
 
 QuadStreamState::QuadStreamState(const data::ControlMesh& given, const TessellatorOptions& with,
@@ -31,15 +33,33 @@ QuadStreamState::QuadStreamState(const data::ControlMesh& given, const Tessellat
 
 void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
   stores = stores_for(sizeof(Vertex) * out.vertices.size());
-  run(first, last, [&](std::size_t i) { return draw_writer(first, i, out); });
+  run(
+      first, last, [&](std::size_t i) { return draw_writer(first, i, out); }, none);
 }
 void QuadStreamState::index(const QuadIndexLayout& layout, IndexedMesh<float>& out) {
   stores = Stores::kOrdinary;
-  run(0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); });
+  run(
+      0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); }, none);
+}
+void QuadStreamState::write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
+                                    LatticePoint* provenance) {
+  std::int64_t size = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    size += places[i].fresh ? quad_block_size(patches[i], faces, plan) : 0;
+  stores = stores_for(sizeof(Vertex) * static_cast<std::size_t>(size));
+  run(
+      0, patches.size(),
+      [&](std::size_t i) {
+        const std::int64_t at = places[i].first;
+        return QuadPatchWriter<float>(patches[i], faces, plan, placement, vertices + at,
+                                      provenance != nullptr ? provenance + at : nullptr, stores);
+      },
+      [&](std::size_t i) { return !places[i].fresh; });
 }
 
-// Quads of one depth and of like valences side by side, whatever faces they are parts of. In a fixed order.
-void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
+// Quads of the patches that are not skipped, of one depth and of like valences side by side, whatever faces they are parts of. In a fixed order.
+template <class Skip>
+void QuadStreamState::make_batches(std::size_t first, std::size_t last, Skip&& skip) {
   const int cut = faces.cut() ? 1 : 0;
   const auto depth_of = [&](std::size_t i) {
     return patches[i].display == Display::kStrips && !corners_only(patches[i], faces) ? patches[i].depth - cut
@@ -47,6 +67,7 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
   };
   parts.clear();
   for (std::size_t i = first; i < last; ++i) {
+    if (skip(i)) continue;
     const int count = depth_of(i) < 0 ? 1 : faces.parts(patches[i].face);
     for (int k = 0; k < count; ++k) parts.push_back({i, k});
   }
@@ -70,11 +91,11 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
   }
 }
 
-// Evaluates patches first .. last - 1 in parallel, each into make_writer(i); a writer must not care about the
+// Evaluates patches first .. last - 1 but those skipped in parallel, each into make_writer(i); a writer must not care about the
 // order of patches.
-template <class MakeWriter>
-void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
-  make_batches(first, last);
+template <class MakeWriter, class Skip>
+void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip) {
+  make_batches(first, last, skip);
   const QuadStreamFrame frame{stream, narrow, faces, plan, patches, options.cracks.centre};
   run_batches(arena, workers, batches.size(), parts.size(), [&](QuadStreamWorker& worker, std::size_t b) {
     worker.run(frame, batches[b], make_writer);

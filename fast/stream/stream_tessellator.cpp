@@ -53,13 +53,32 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
 
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
     stores = stores_for(sizeof(Vertex) * out.vertices.size());
-    run(first, last, [&](std::size_t i, StreamWorker& worker) {
-      return draw_writer(first, first + i, out, worker.scratch());
-    });
+    const std::size_t count = last - first;
+    run(std::span<const Grid>(pairing.grids).subspan(first, count),
+        std::span<const Patch>(patches).subspan(first, count), [&](std::size_t i, StreamWorker& worker) {
+          return draw_writer(first, first + i, out, worker.scratch());
+        });
   }
   void index(const IndexLayout& layout, IndexedMesh<float>& out) override {
     stores = Stores::kOrdinary;
-    run(0, patches.size(), [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
+    run(pairing.grids, patches, [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
+  }
+  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
+                     LatticePoint* provenance) override {
+    fresh_grids.clear(), fresh_patches.clear(), firsts.clear();
+    std::int64_t size = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!places[i].fresh) continue;
+      fresh_grids.push_back(pairing.grids[i]);
+      fresh_patches.push_back(patches[i]);
+      firsts.push_back(places[i].first);
+      size += wanted_patch(pairing.grids[i], patches[i], plan).size;
+    }
+    stores = stores_for(sizeof(Vertex) * static_cast<std::size_t>(size));
+    run(fresh_grids, fresh_patches, [&](std::size_t i, StreamWorker&) {
+      return PatchWriter<float>(fresh_patches[i], plan, placement, vertices + firsts[i],
+                                provenance != nullptr ? provenance + firsts[i] : nullptr, stores);
+    });
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
@@ -69,19 +88,18 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
 
   std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
 
-  // Evaluates patches first .. last - 1 in parallel, patch first + i into make_writer(i, worker); a writer
-  // must not care about the order of patches.
+  // Evaluates patches in parallel, shown[i] into make_writer(i, worker); a writer must not care about the
+  // order of patches.
   template <class MakeWriter>
-  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
-    const std::size_t total = last - first;
-    const std::span shown = std::span<const Patch>(patches).subspan(first, total);
+  void run(std::span<const Grid> grids, std::span<const Patch> shown, MakeWriter&& make_writer) {
+    const std::size_t total = shown.size();
     batches.make(shown, static_cast<std::size_t>(stream.kernel().lanes),
                  static_cast<std::size_t>(narrow.lanes));
     const StreamFrame frame{adjacency,
                             stream,
                             narrow,
                             plan,
-                            std::span<const Grid>(pairing.grids).subspan(first, total),
+                            grids,
                             shown,
                             control ? &*control : nullptr,
                             centres,
@@ -101,6 +119,10 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   std::vector<CachedCentre> centres;
   std::vector<StreamWorker> workers;
   StreamBatches batches;
+  // The patches of a frame that are to be evaluated, and where they go.
+  std::vector<Grid> fresh_grids;
+  std::vector<Patch> fresh_patches;
+  std::vector<std::int64_t> firsts;
 };
 
 std::unique_ptr<FrameEngine<float>> StreamTessellator::make_state(const data::ControlMesh& mesh,

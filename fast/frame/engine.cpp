@@ -138,6 +138,25 @@ const CrackPlan& Engine<Real>::last_plan() const {
 }
 
 template <class Real>
+void Engine<Real>::move_points(std::span<const std::array<double, 3>> positions) {
+  auto& points = state_->mesh.positions;
+  if (positions.size() != points.size())
+    throw data::ArgumentError("tessellator: " + std::to_string(positions.size()) + " points for " +
+                              std::to_string(points.size()) + " vertices");
+  std::vector<std::array<double, 3>> before(positions.begin(), positions.end());
+  points.swap(before);
+  try {
+    checked(state_->mesh);
+    state_->points_moved();
+  } catch (...) {
+    points.swap(before);
+    state_->points_moved();
+    throw;
+  }
+  state_->renew_version();
+}
+
+template <class Real>
 std::vector<std::int32_t> Engine<Real>::depths(const DepthOptions& strategy, const Camera& camera,
                                                double& seconds) {
   const auto start = Clock::now();

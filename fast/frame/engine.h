@@ -2,6 +2,7 @@
 // What every tessellator can do: one frame after the other, at given depths or by a strategy.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -55,6 +56,12 @@ class Engine {
     stats.seconds_total += seconds;
     return stats;
   }
+
+  /// Moves the control points, one for each vertex of the mesh that the engine was made for; what depends on
+  /// the topology alone stays. The next frame is that of a new engine with these points, to the bit.
+  ///   throws   data::ArgumentError: another number of points, or what the constructor refuses; the points
+  ///            are then as before
+  void move_points(std::span<const std::array<double, 3>> positions);
 
   /// The depths of the last frame after pairing, one per face, and its grids: to colour by, and to check.
   const PairingResult& last_pairing() const;

@@ -36,6 +36,7 @@ struct EngineState : FrameEngine<Real> {
     if (!heuristics) heuristics.emplace(mesh, adjacency, options.max_depth);
     return heuristics->depths(strategy, camera);
   }
+  void points_moved() override { heuristics.reset(); }
   FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) final;
   std::size_t patch_count() const final { return patches.size(); }
   DrawSize patch_size(std::size_t i) const final { return draw_size(patches[i], plan); }

@@ -39,6 +39,8 @@ struct FrameState {
   ///   throws   data::ArgumentError: not one depth per face, a depth outside -1 .. kDeepest
   ///   keep     pairs of faces that are to stay together, each of faces of one depth; for Loop's scheme
   virtual FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) = 0;
+  /// When mesh.positions have changed: what depends on them is made anew.
+  virtual void points_moved() = 0;
   virtual std::size_t patch_count() const = 0;
   virtual DrawSize patch_size(std::size_t i) const = 0;
 
@@ -50,8 +52,9 @@ struct FrameState {
   int max_depth = 0;                        // of grids and edges
   const std::uint64_t id = next_version();  // of this mesh with its options, among all in the process
   std::uint64_t version = id;               // of its control points
+  void renew_version() { version = next_version(); }
 
- protected:
+ private:
   static std::uint64_t next_version();
 };
 

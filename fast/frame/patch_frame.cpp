@@ -80,9 +80,9 @@ std::vector<Grid> PatchFrame<Real>::pairs_to_keep(std::span<const std::int32_t> 
 template <class Real>
 std::int64_t PatchFrame<Real>::write(std::span<const std::int32_t> depth) {
   PatchStore& store = *out_.store_;
-  engine_.list_patches(wanted_);
+  engine_.list_patches(store.list);
   std::int64_t vertices = 0;
-  for (const PatchWanted& patch : wanted_) {
+  for (const PatchWanted& patch : store.list) {
     vertices += patch.size;
     if (out_.options_.narrow && patch.size > std::numeric_limits<std::uint16_t>::max())
       throw data::ArgumentError("frame: " + std::to_string(patch.size) +
@@ -95,7 +95,7 @@ std::int64_t PatchFrame<Real>::write(std::span<const std::int32_t> depth) {
   const bool reuse = continues();
   store.writer = 0;  // until all is well
   const std::int64_t before = store.end;
-  store.place(wanted_, static_cast<std::size_t>(engine_.face_count()), reuse);
+  store.place(static_cast<std::size_t>(engine_.face_count()), reuse);
   make_room(reuse ? static_cast<std::size_t>(before) : 0);
   engine_.write_patches(store.places, out_.vertices_.data(),
                         out_.provenance_.empty() ? nullptr : out_.provenance_.data());
@@ -136,8 +136,9 @@ template <class Real>
 void PatchFrame<Real>::list_changes() {
   auto& changed = out_.changed_;
   changed.clear();
-  for (std::size_t i = 0; i < wanted_.size(); ++i)
-    if (out_.store_->places[i].fresh) changed.push_back({out_.store_->places[i].first, wanted_[i].size});
+  const PatchStore& store = *out_.store_;
+  for (std::size_t i = 0; i < store.list.size(); ++i)
+    if (store.places[i].fresh) changed.push_back({store.places[i].first, store.list[i].size});
   std::sort(changed.begin(), changed.end(),
             [](const VertexRange& a, const VertexRange& b) { return a.first < b.first; });
   std::size_t last = 0;

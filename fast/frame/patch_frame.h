@@ -32,7 +32,6 @@ class PatchFrame {
 
   FrameEngine<Real>& engine_;
   PatchMesh<Real>& out_;
-  std::vector<PatchWanted> wanted_;
 };
 
 extern template class PatchFrame<float>;

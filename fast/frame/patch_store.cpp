@@ -13,18 +13,18 @@ void PatchStore::clear() {
   end = 0;
 }
 
-void PatchStore::place(std::span<const PatchWanted> wanted, std::size_t faces, bool reuse) {
+void PatchStore::place(std::size_t faces, bool reuse) {
   ++frame_;
-  places.assign(wanted.size(), {});
+  places.assign(list.size(), {});
   if (!reuse || kept_.size() != faces) {
     clear();
     kept_.resize(faces);
-    return place_all_anew(wanted);
+    return place_all_anew();
   }
   std::int64_t shown = 0;
   // What is as it was stays; then what has changed gives its place back, so that others find it.
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const PatchWanted& patch = wanted[i];
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const PatchWanted& patch = list[i];
     Kept& kept = kept_[patch.key.grid.face0];
     shown += patch.size;
     kept.shown = frame_;
@@ -35,23 +35,23 @@ void PatchStore::place(std::span<const PatchWanted> wanted, std::size_t faces, b
     }
   }
   evict(shown);
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
     if (!places[i].fresh) continue;
-    const PatchWanted& patch = wanted[i];
+    const PatchWanted& patch = list[i];
     places[i].first = take(patch.size);
     kept_[patch.key.grid.face0] = {patch.key, places[i].first, patch.size, frame_};
   }
   if (end <= 3 * shown + PatchMesh<float>::kSlack) return;
   clear();
   kept_.resize(faces);
-  place_all_anew(wanted);
+  place_all_anew();
 }
 
-void PatchStore::place_all_anew(std::span<const PatchWanted> wanted) {
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+void PatchStore::place_all_anew() {
+  for (std::size_t i = 0; i < list.size(); ++i) {
     places[i] = {end, true};
-    kept_[wanted[i].key.grid.face0] = {wanted[i].key, end, wanted[i].size, frame_};
-    end += wanted[i].size;
+    kept_[list[i].key.grid.face0] = {list[i].key, end, list[i].size, frame_};
+    end += list[i].size;
   }
 }
 
@@ -71,7 +71,8 @@ void PatchStore::give_back(Kept& kept) {
 
 // Of the patches that are not shown those stay that were shown last, of at most so many vertices.
 void PatchStore::evict(std::int64_t most) {
-  std::vector<std::pair<std::uint32_t, std::size_t>> hidden;  // age, face
+  auto& hidden = hidden_;
+  hidden.clear();
   std::int64_t size = 0;
   for (std::size_t f = 0; f < kept_.size(); ++f) {
     if (kept_[f].first < 0 || kept_[f].shown == frame_) continue;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "fast/frame/patch_indices.h"
@@ -40,10 +40,12 @@ struct PatchPlace {
 
 /// Places, one patch for each first face of a grid.
 struct PatchStore {
-  /// The places of the patches of a frame, in their order. If `reuse`, patches whose keys are as before stay.
-  void place(std::span<const PatchWanted> wanted, std::size_t faces, bool reuse);
+  /// The places of the patches of the list, in their order. If `reuse`, patches whose keys are as before
+  /// stay.
+  void place(std::size_t faces, bool reuse);
   void clear();
 
+  std::vector<PatchWanted> list;  // the patches of a frame
   std::vector<PatchPlace> places;
   std::int64_t end = 0;      // vertices in use and between
   std::uint64_t writer = 0;  // FrameState::version of the frame that is here, 0: none
@@ -60,13 +62,14 @@ struct PatchStore {
     std::uint32_t shown = 0;  // the last frame that did
   };
 
-  void place_all_anew(std::span<const PatchWanted> wanted);
+  void place_all_anew();
   std::int64_t take(std::int32_t size);
   void give_back(Kept& kept);
   void evict(std::int64_t most);
 
-  std::vector<Kept> kept_;                                  // per face
-  std::map<std::int32_t, std::vector<std::int64_t>> free_;  // places by size
+  std::vector<Kept> kept_;                                     // per face
+  std::map<std::int32_t, std::vector<std::int64_t>> free_;     // places by size
+  std::vector<std::pair<std::uint32_t, std::size_t>> hidden_;  // age and face, while evict() is at it
   std::uint32_t frame_ = 0;
 };
 

@@ -84,13 +84,12 @@ class PatchWriter {
   using Vertex = SurfaceVertex<Real>;
 
   PatchWriter(const Patch& patch, const CrackPlan& plan, const Placement<Real>& placement, Vertex* vertices,
-              LatticePoint* provenance, Stores stores)
+              LatticePoint* provenance)
       : patch_(patch),
         plan_(plan),
         placement_(placement),
         vertices_(vertices),
         provenance_(provenance),
-        stores_(stores),
         k_(1 << patch.depth) {}
 
   template <class At>
@@ -136,7 +135,7 @@ class PatchWriter {
     if constexpr (std::is_same_v<At, RowPair<Real>>) {
       if (provenance_ == nullptr && placement_.is_identity() && at.step == -1)
         return copy_vertices(&at(2 * (count - 1) + below), static_cast<std::size_t>(count), vertices_ + first,
-                             stores_);
+                             Stores::kOrdinary);
     }
     for (int c = count - 1; c >= 0; --c) put(first++, at(2 * c + below), [&] { return lattice(c); });
   }
@@ -153,7 +152,7 @@ class PatchWriter {
   void put(std::uint32_t at, const Vertex& vertex, Lattice&& lattice) {
     if (provenance_ != nullptr) provenance_[at] = lattice();
     const Vertex here = placement_.is_identity() ? vertex : placed(vertex, placement_);
-    copy_vertices(&here, 1, vertices_ + at, stores_);
+    copy_vertices(&here, 1, vertices_ + at, Stores::kOrdinary);
   }
 
   const Patch& patch_;
@@ -161,7 +160,6 @@ class PatchWriter {
   const Placement<Real>& placement_;
   Vertex* vertices_;
   LatticePoint* provenance_;
-  Stores stores_;
   int k_;
 };
 

@@ -72,14 +72,13 @@ class QuadPatchWriter {
   using Vertex = SurfaceVertex<Real>;
 
   QuadPatchWriter(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan,
-                  const Placement<Real>& placement, Vertex* vertices, LatticePoint* provenance, Stores stores)
+                  const Placement<Real>& placement, Vertex* vertices, LatticePoint* provenance)
       : patch_(patch),
         faces_(faces),
         plan_(plan),
         placement_(placement),
         vertices_(vertices),
         provenance_(provenance),
-        stores_(stores),
         block_{faces.part_size(patch.depth)} {}
 
   /// Strips know where they go.
@@ -93,7 +92,8 @@ class QuadPatchWriter {
       std::uint32_t to = block_.at({part, m, j});
       if constexpr (std::is_same_v<At, RowPair<Real>>) {
         if (provenance_ == nullptr && placement_.is_identity() && at.step == -1) {
-          copy_vertices(&at(2 * m + below), static_cast<std::size_t>(m) + 1, vertices_ + to, stores_);
+          copy_vertices(&at(2 * m + below), static_cast<std::size_t>(m) + 1, vertices_ + to,
+                        Stores::kOrdinary);
           continue;
         }
       }
@@ -136,7 +136,7 @@ class QuadPatchWriter {
   }
   void put(std::uint32_t at, const Vertex& v, const LatticePoint& lattice) {
     const Vertex here = placement_.is_identity() ? v : placed(v, placement_);
-    copy_vertices(&here, 1, vertices_ + at, stores_);
+    copy_vertices(&here, 1, vertices_ + at, Stores::kOrdinary);
     if (provenance_ != nullptr) provenance_[at] = lattice;
   }
 
@@ -146,7 +146,6 @@ class QuadPatchWriter {
   const Placement<Real>& placement_;
   Vertex* vertices_;
   LatticePoint* provenance_;
-  Stores stores_;
   PartBlock block_;
 };
 

@@ -31,6 +31,10 @@ struct QuadEngineState : FrameEngine<Real> {
     if (!heuristics) heuristics.emplace(faces, semi_sharp, options.max_depth);
     return heuristics->depths(strategy, camera);
   }
+  void points_moved() override {
+    quads = QuadMesh(mesh);  // the same but for the positions
+    heuristics.reset();
+  }
   FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> /*keep*/) final;
   std::size_t patch_count() const final { return patches.size(); }
   DrawSize patch_size(std::size_t i) const final { return quad_draw_size(patches[i], faces, plan); }

@@ -320,6 +320,44 @@ TEST(PatchMesh, BeginsAnewForAnotherEngine) {
   EXPECT_FALSE(patches.changed().empty());
 }
 
+// After points have moved every output is that of a new engine; a refusal changes nothing.
+TEST(PatchMesh, FollowsPointsThatMove) {
+  for (const Model& model : models()) {
+    SCOPED_TRACE(model.name);
+    PatchOptions with;
+    with.incremental = true;
+    const auto options = options_of(model, Repair::kFan);
+    StreamTessellator stream(model.mesh, options);
+    Tessellator<float> window(model.mesh, options);
+    PatchMesh<float> patches(with), other(with);
+    data::SplitMix64 random(9);
+    for (int frame = 0; frame < 8; ++frame) {
+      const auto mesh =
+          frame % 2 == 0 ? model.mesh : shaken(model.mesh, .1, static_cast<std::uint64_t>(frame));
+      stream.move_points(mesh.positions), window.move_points(mesh.positions);
+      auto broken = mesh.positions;
+      broken[0][1] = std::nan("");
+      EXPECT_THROW(stream.move_points(broken), data::ArgumentError);
+      broken.pop_back();
+      EXPECT_THROW(window.move_points(broken), data::ArgumentError);
+      const auto depth = random_depths(mesh.faces.size(), 0, 3, random);
+      DrawList<float> expected;
+      StreamTessellator(mesh, options).frame(depth, expected);
+      stream.frame(depth, patches);
+      ASSERT_EQ(soup_of(patches), soup_of(expected)) << frame;
+      Tessellator<float>(mesh, options).frame(depth, expected);
+      window.frame(depth, other);
+      ASSERT_EQ(soup_of(other), soup_of(expected)) << frame;
+      Camera camera;
+      DepthOptions strategy;
+      strategy.strategy = Strategy::kCombined;
+      stream.frame(strategy, camera, patches);
+      StreamTessellator(mesh, options).frame(strategy, camera, expected);
+      ASSERT_EQ(soup_of(patches), soup_of(expected)) << frame;
+    }
+  }
+}
+
 // Memory that fails once: the frame is lost, the next one is whole.
 struct FailingMemory final : VertexMemory {
   std::vector<SurfaceVertex<float>> memory;

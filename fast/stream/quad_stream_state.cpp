@@ -23,12 +23,17 @@ constexpr auto none = [](std::size_t) { return false; };
 
 QuadStreamState::QuadStreamState(const data::ControlMesh& given, const TessellatorOptions& with,
                                  const QuadKernel& kernel)
-    : QuadEngineState<float>(given, with), stream(quads, kernel), narrow(narrow_of(kernel)) {
+    : QuadEngineState<float>(given, with), stream(std::in_place, quads, kernel), narrow(narrow_of(kernel)) {
   std::vector<std::int32_t> all(static_cast<std::size_t>(quads.adjacency.face_count()));
   std::iota(all.begin(), all.end(), 0);
   rank.resize(all.size());
   std::int32_t place = 0;
-  for (const std::int32_t quad : stream.sorted(all)) rank[quad] = place++;
+  for (const std::int32_t quad : stream->sorted(all)) rank[quad] = place++;
+}
+
+void QuadStreamState::points_moved() {
+  QuadEngineState<float>::points_moved();
+  stream.emplace(quads, stream->kernel());
 }
 
 void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
@@ -43,16 +48,13 @@ void QuadStreamState::index(const QuadIndexLayout& layout, IndexedMesh<float>& o
 }
 void QuadStreamState::write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
                                     LatticePoint* provenance) {
-  std::int64_t size = 0;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    size += places[i].fresh ? quad_block_size(patches[i], faces, plan) : 0;
-  stores = stores_for(sizeof(Vertex) * static_cast<std::size_t>(size));
+  stores = Stores::kOrdinary;
   run(
       0, patches.size(),
       [&](std::size_t i) {
         const std::int64_t at = places[i].first;
         return QuadPatchWriter<float>(patches[i], faces, plan, placement, vertices + at,
-                                      provenance != nullptr ? provenance + at : nullptr, stores);
+                                      provenance != nullptr ? provenance + at : nullptr);
       },
       [&](std::size_t i) { return !places[i].fresh; });
 }
@@ -77,10 +79,10 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last, Skip&& s
   std::sort(parts.begin(), parts.end(),
             [&](const QuadPart& a, const QuadPart& b) { return key(a) < key(b); });
   const auto kind_of = [&](const QuadPart& p) {
-    return stream.rings().kind(faces.quad(patches[p.patch].face, p.part));
+    return stream->rings().kind(faces.quad(patches[p.patch].face, p.part));
   };
   batches.clear();
-  const auto lanes = static_cast<std::size_t>(stream.kernel().lanes);
+  const auto lanes = static_cast<std::size_t>(stream->kernel().lanes);
   for (std::size_t at = 0, end; at < parts.size(); at = end) {
     const int depth = depth_of(parts[at].patch);
     const QuadClass kind = kind_of(parts[at]);
@@ -96,7 +98,7 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last, Skip&& s
 template <class MakeWriter, class Skip>
 void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip) {
   make_batches(first, last, skip);
-  const QuadStreamFrame frame{stream, narrow, faces, plan, patches, options.cracks.centre};
+  const QuadStreamFrame frame{*stream, narrow, faces, plan, patches, options.cracks.centre};
   run_batches(arena, workers, batches.size(), parts.size(), [&](QuadStreamWorker& worker, std::size_t b) {
     worker.run(frame, batches[b], make_writer);
     fence(stores);

@@ -32,8 +32,15 @@ const Kernel& narrow_of(const Kernel& kernel) {
 struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   State(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
       : EngineState<float>(given, with, PrintedRules{}),
-        stream(mesh, adjacency, kernel),
+        stream(std::in_place, mesh, adjacency, kernel),
         narrow(narrow_of(kernel)) {}
+
+  void points_moved() override {
+    EngineState<float>::points_moved();
+    stream.emplace(mesh, adjacency, stream->kernel());
+    control.reset();
+    centres.clear();
+  }
 
   void prepare() override {
     if (plan.fans > 0 && !control) make_control();
@@ -45,7 +52,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   void make_control() {
     std::vector<Vec3<float>> positions;
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-      const auto& p = stream.rings().points()[v];
+      const auto& p = stream->rings().points()[v];
       positions.push_back({p[0], p[1], p[2]});
     }
     control.emplace(adjacency, positions);
@@ -66,37 +73,35 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   void write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
                      LatticePoint* provenance) override {
     fresh_grids.clear(), fresh_patches.clear(), firsts.clear();
-    std::int64_t size = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i].fresh) continue;
       fresh_grids.push_back(pairing.grids[i]);
       fresh_patches.push_back(patches[i]);
       firsts.push_back(places[i].first);
-      size += wanted_patch(pairing.grids[i], patches[i], plan).size;
     }
-    stores = stores_for(sizeof(Vertex) * static_cast<std::size_t>(size));
+    stores = Stores::kOrdinary;
     run(fresh_grids, fresh_patches, [&](std::size_t i, StreamWorker&) {
       return PatchWriter<float>(fresh_patches[i], plan, placement, vertices + firsts[i],
-                                provenance != nullptr ? provenance + firsts[i] : nullptr, stores);
+                                provenance != nullptr ? provenance + firsts[i] : nullptr);
     });
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
-    const float* x = stream.rings().corner(v).head.data() + CornerBlock::kLimit;
+    const float* x = stream->rings().corner(v).head.data() + CornerBlock::kLimit;
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
   }
 
-  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
+  std::int64_t zero_normals() const override { return stream->rings().degenerate_normals(); }
 
   // Evaluates patches in parallel, shown[i] into make_writer(i, worker); a writer must not care about the
   // order of patches.
   template <class MakeWriter>
   void run(std::span<const Grid> grids, std::span<const Patch> shown, MakeWriter&& make_writer) {
     const std::size_t total = shown.size();
-    batches.make(shown, static_cast<std::size_t>(stream.kernel().lanes),
+    batches.make(shown, static_cast<std::size_t>(stream->kernel().lanes),
                  static_cast<std::size_t>(narrow.lanes));
     const StreamFrame frame{adjacency,
-                            stream,
+                            *stream,
                             narrow,
                             plan,
                             grids,
@@ -113,7 +118,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
     });
   }
 
-  RowStream stream;
+  std::optional<RowStream> stream;
   const Kernel& narrow;
   std::optional<PreparedMesh<float>> control;
   std::vector<CachedCentre> centres;

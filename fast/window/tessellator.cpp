@@ -84,6 +84,11 @@ struct Tessellator<Real>::State final : EngineState<Real> {
         isolated_faces = true;
   }
 
+  void points_moved() override {
+    EngineState<Real>::points_moved();
+    prepared.emplace(adjacency, place<Real>(mesh.positions, placement));
+  }
+
   /// Makes workers that are deep enough for the frame.
   void prepare() override {
     if (workers.empty() || max_depth > worker_depth) {
@@ -115,7 +120,7 @@ struct Tessellator<Real>::State final : EngineState<Real> {
         [&](std::size_t i, Worker<Real>&) {
           const std::int64_t at = places[i].first;
           return PatchWriter<Real>(patches[i], plan, placement, vertices + at,
-                                   provenance != nullptr ? provenance + at : nullptr, Stores::kOrdinary);
+                                   provenance != nullptr ? provenance + at : nullptr);
         });
   }
 
@@ -166,7 +171,13 @@ struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
       QuadEngineState<Real>::plan, QuadEngineState<Real>::quads;
 
   QuadState(const data::ControlMesh& given, const TessellatorOptions& with)
-      : QuadEngineState<Real>(given, with), prepared(quads, place<Real>(quads.positions, placement)) {}
+      : QuadEngineState<Real>(given, with),
+        prepared(std::in_place, quads, place<Real>(quads.positions, placement)) {}
+
+  void points_moved() override {
+    QuadEngineState<Real>::points_moved();
+    prepared.emplace(quads, place<Real>(quads.positions, placement));
+  }
 
   void prepare() override {
     if (workers.empty() || max_depth > worker_depth) {
@@ -195,12 +206,12 @@ struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
         [&](std::size_t i) {
           const std::int64_t at = places[i].first;
           return QuadPatchWriter<Real>(patches[i], faces, plan, placement, vertices + at,
-                                       provenance != nullptr ? provenance + at : nullptr, Stores::kOrdinary);
+                                       provenance != nullptr ? provenance + at : nullptr);
         });
   }
-  SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared.limit(v), placement); }
+  SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }
   std::int64_t zero_normals() const override {
-    std::int64_t count = prepared.zero_normals() - zero_normals_before;
+    std::int64_t count = prepared->zero_normals() - zero_normals_before;
     for (const auto& worker : workers) count += worker->zero_normals();
     return count;
   }
@@ -220,13 +231,13 @@ struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
             for (std::size_t k = r.begin(); k < r.end(); ++k) {
               const std::size_t i = number(k);
               auto writer = make_writer(i);
-              evaluate(prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
+              evaluate(*prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
             }
           });
     });
   }
 
-  PreparedQuads<Real> prepared;
+  std::optional<PreparedQuads<Real>> prepared;
   std::vector<std::unique_ptr<QuadWorker<Real>>> workers;
   int worker_depth = 0;
   std::int64_t zero_normals_before = 0;  // of the workers, in the frames before

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fast/frame/draw_writer.h"
@@ -110,23 +111,7 @@ class IndexWriter {
     // Every row is written with the strip below it; row k is a corner.
     write_row(half, stitch, row, at);
 
-    const int first_row = stitch ? 1 : 0, inner = stitch ? k_ - 3 : k_;
-    if (row < first_row || row - first_row >= inner) return;
-    const std::int64_t left = inner - (row - first_row);
-    std::int64_t t = layout_.first_triangle[half.face] + std::int64_t{inner} * inner - left * left;
-    const Kind kind = stitch ? Kind::kStitched : patch_.kind;
-    const std::int64_t count = 2 * left - 1;
-    std::fill_n(out_.triangle_face.data() + t, count, half.face);
-    std::fill_n(out_.triangle_kind.data() + t, count, kind);
-    std::array<std::uint32_t, (1 << kDeepest) + 1> upper, lower;  // NOLINT: filled as far as they are read
-    indices(half, row, upper.data());
-    indices(half, row + 1, lower.data());
-    std::array<std::uint32_t, 3>* out = out_.triangles.data() + t;
-    for (int c = first_row;; ++c, out += 2) {
-      out[0] = {upper[c], lower[c], upper[c + 1]};
-      if (c + 1 == first_row + left) break;
-      out[1] = {upper[c + 1], lower[c], lower[c + 1]};
-    }
+    if (row == 0) write_triangles(half, stitch);
   }
 
   void fan(int side, const Vertex& centre, const Border<Real>& border) {
@@ -183,6 +168,27 @@ class IndexWriter {
     for (int c = 1; c < last; ++c) out[c] = first + static_cast<std::uint32_t>(c - 1) * step;
   }
 
+  /// The triangles of all rows; of a stitched half those within its outer ring.
+  void write_triangles(const Half& half, bool stitch) {
+    const int from = stitch ? 1 : 0, rows = stitch ? k_ - 3 : k_;
+    const std::int64_t first = layout_.first_triangle[half.face], count = std::int64_t{rows} * rows;
+    std::fill_n(out_.triangle_face.data() + first, count, half.face);
+    std::fill_n(out_.triangle_kind.data() + first, count, stitch ? Kind::kStitched : patch_.kind);
+    std::array<std::uint32_t, (1 << kDeepest) + 1> row_a, row_b;  // NOLINT: filled as far as they are read
+    std::uint32_t *upper = row_a.data(), *lower = row_b.data();
+    indices(half, from, upper);
+    std::array<std::uint32_t, 3>* out = out_.triangles.data() + first;
+    for (int row = from, end = from + rows; row < from + rows; ++row, --end) {
+      indices(half, row + 1, lower);
+      for (int c = from; c + 1 < end; ++c, out += 2) {
+        out[0] = {upper[c], lower[c], upper[c + 1]};
+        out[1] = {upper[c + 1], lower[c], lower[c + 1]};
+      }
+      *out++ = {upper[end - 1], lower[end - 1], upper[end]};
+      std::swap(upper, lower);
+    }
+  }
+
   /// Whether this half writes the points inside that edge.
   bool owns(std::int32_t h) const { return layout_.reversed[h] == 0; }
 
@@ -199,7 +205,11 @@ class IndexWriter {
     if (last < 2 || (row == 0 && !owns(h + (half.edge + 1) % 3))) return;
     if (row > 0 && out_.provenance.empty() && placement_.is_identity()) {
       Vertex* to = out_.vertices.data() + index(half, row, 1);
-      for (int c = 1; c < last; ++c) copy_vertices(&at(2 * c), 1, to++, Stores::kOrdinary);
+      if constexpr (std::is_same_v<At, RowPair<Real>>) {
+        if (at.step == 1)
+          return copy_vertices(&at(2), static_cast<std::size_t>(last) - 1, to, Stores::kOrdinary);
+      }
+      for (int c = 1; c < last; ++c) *to++ = at(2 * c);
       return;
     }
     for (int c = 1; c < last; ++c) write(index(half, row, c), at(2 * c), half.lattice(k_, row, c));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "reference/catmull_clark/subdivision_evaluator_impl.h"
 #include "verify/proof/prove_map_instances.h"
 #include "verify/proof/prove_quad_map_impl.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reference/catmull_clark/stam.h"
-#include "reference/catmull_clark/subdivision_evaluator_impl.h"
+#include "reference/catmull_clark/subdivision_evaluator.h"
 #include "verify/proof/map_row.h"
 
 namespace limitcheck::verify {

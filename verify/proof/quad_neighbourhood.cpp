@@ -127,7 +127,14 @@ std::vector<Neighbourhood> creased_quads(const std::array<int, 4>& valence) {
   const data::ControlMesh mesh = with_positions(ring.quads);
   std::vector<Neighbourhood> result;
   for (unsigned sides = 0; sides < 16; ++sides) {
-    for (const unsigned further : {0U, 1U, 2U, 4U, 8U, 15U}) {
+    // Corners with one sharp side, and with two: where a crease goes on, or a third edge meets it.
+    unsigned one = 0, two = 0;
+    for (unsigned k = 0; k < 4; ++k) {
+      const unsigned count = (sides >> k & 1U) + (sides >> (k + 3) % 4 & 1U);
+      if (count == 1) one |= 1U << k;
+      if (count == 2) two |= 1U << k;
+    }
+    for (const unsigned further : std::set{0U, 1U, 2U, 4U, 8U, 15U, one, two, one | two}) {
       if (sides == 0 && further == 0) continue;
       Neighbourhood sharp{valences(valence), mesh};
       const auto add = [&](const Edge& e, const std::string& name) {

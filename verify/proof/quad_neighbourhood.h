@@ -27,8 +27,8 @@ Neighbourhood interior_quad(const std::array<int, 4>& valence);
 std::vector<Neighbourhood> boundary_quads(const std::array<int, 4>& valence);
 
 /// The interior quad with sharp edges: every set of its four sides, and for each a further edge at none of
-/// its corners, at one, or at all; sides that alone are sharp at a corner make it a dart, two a crease, three
-/// a corner. No two are alike. The name of a sharp edge has its ends: "AB", "A+" the further one at A.
+/// its corners, at one, at all, at those with one sharp side or with two. One sharp edge makes a corner of
+/// the quad a dart, two make it part of a crease, three a corner of creases. No two quads are alike. The name of a sharp edge has its ends: "AB", "A+" the further one at A.
 std::vector<Neighbourhood> creased_quads(const std::array<int, 4>& valence);
 
 /// The interior quad with semi-sharp edges and vertices, uniform and by Chaikin, at its sides and beyond;

@@ -150,8 +150,10 @@ class QuadKernelModel::Lattice {
   Point curve(const Point& v, const Point& e, const Point& w, const std::array<Point, 3>& inner) const {
     if (!is("curve_by_ghosts")) return fast::curve_vertex(v, e, w);
     const auto across = [](const Point& at, const Point& inside) {
-      const Point ghost = 2. * at - inside;
-      return (.125 * inside + .75 * at) + .125 * ghost;
+      const Point exact = 2. * at - inside;
+      const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+      const Point ghost{rounded(exact.x), rounded(exact.y), rounded(exact.z)};
+      return .125 * ((inside + ghost) + 6. * at);
     };
     return .125 * ((across(e, inner[1]) + across(w, inner[2])) + 6. * across(v, inner[0]));
   }
@@ -342,7 +344,7 @@ std::span<const Mutation> quad_kernel_mutations() {
        "shared-normals"},
       {"normals_of_the_other_side", "along a cut a quad has the normals of the quad beyond", "normals", "", false,
        true},
-      {"curve_by_ghosts", "points on a cut from ghosts beyond it: other bits on either side", "shared-positions",
+      {"curve_by_ghosts", "points on a cut from ghosts beyond it, which were rounded to float", "shared-positions",
        "", false, true},
       {"dart_by_the_smooth_mask", "the end of a crease has the limit of a smooth vertex", "positions", "", false,
        true},

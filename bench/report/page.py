@@ -36,8 +36,8 @@ MORE_PICTURES = {
     "picture-sharp": ("A sharp edge that starts and ends", "A torus of quads with three sharp edges (red), its limit surface, and how far OpenSubdiv's "
                       "limit points at depth 4 are off, from 10⁻⁷ of the diagonal (violet) to 10⁻³ (yellow): at both ends of the crease (C85)."),
     "picture-crease": ("Creases, adaptively", "A pawn of quads by Catmull and Clark's rules with three rings that stay sharp and one that is "
-                       "sharp for two steps and a half, in depths by the combined strategy, in our engine. Near: without repair, "
-                       "the inside shows red through the cracks; with the paper's fans, which close them."),
+                       "sharp for two steps and a half, in depths by the combined strategy, in our engine. Near, the collar's "
+                       "lower edge: without repair one sees through cracks beside the crease; with the paper's fans there are none."),
 }
 CHARTS = {
     "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres; logarithmic, and below on a linear scale with the uniform depths that "
@@ -112,7 +112,6 @@ def view(folder, maps):
             "the subject delivered in red.</p>" + depth_bar()
             + f"<div id=viewer data-depths='{text(json.dumps(DEPTH_COLOURS))}' data-fan='{FAN_COLOUR}'><p><label>Surface <select name=surface>{surfaces}</select></label> "
             f"<label>Colour by <select name=colour>{options}</select></label> {ramp} "
-            f"
             "<label><input type=checkbox name=wire checked> edges</label> <button name=worst>Go to the worst triangle</button> "
             "<button name=back hidden>Back to the tessellation</button> <button name=table hidden>Back to the table</button></p><p><output aria-live=polite></output></p>"
             "<canvas tabindex=0 aria-label='Tessellated surface; arrow keys turn it, plus and minus come nearer'></canvas></div>"

@@ -35,7 +35,8 @@ struct Wanted {
 // SUBJECT[:OPTIONS]@MESH[@DEPTH]
 Wanted parse(const std::string& text) {
   const auto first = text.find('@'), second = text.find('@', std::min(first, text.size() - 1) + 1);
-  if (first == std::string::npos || first == 0) throw data::ArgumentError("--map: SUBJECT@MESH[@DEPTH], not " + text);
+  if (first == std::string::npos || first == 0)
+    throw data::ArgumentError("--map: SUBJECT@MESH[@DEPTH], not " + text);
   Wanted w;
   const std::string subject = text.substr(0, first);
   w.subject = subject.substr(0, subject.find(':'));
@@ -63,7 +64,8 @@ nlohmann::ordered_json map_of(const Wanted& w) {
       const auto v = static_cast<std::int64_t>(t.triangles()[k][c]);
       const Vector p = t.position(v);
       const bool known = points[v] != verify::Lattice::kNone;
-      const Vector n = known ? exact.normal(exact.sides().of(points[v], t.triangle_face()[k])) : Vector{0, 0, 1};
+      const Vector n =
+          known ? exact.normal(exact.sides().of(points[v], t.triangle_face()[k])) : Vector{0, 0, 1};
       if (known) off = std::max(off, norm(p - exact.position(points[v])) / diagonal);
       if (known && has_normals) {
         const Vector got = t.normal(v);
@@ -93,7 +95,8 @@ nlohmann::ordered_json map_of(const Wanted& w) {
 
 nlohmann::ordered_json maps(std::vector<std::string> wanted) {
   // A library on triangles, and one on a mesh of quads with a crease, each at its default precision.
-  if (wanted.empty()) wanted = {"opensubdiv-far@bumpy:200@3", "opensubdiv-far@open-crease:3@4", "row-stream@pawn@3"};
+  if (wanted.empty())
+    wanted = {"opensubdiv-far@bumpy:200@3", "opensubdiv-far@open-crease:3@4", "row-stream@pawn@3"};
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const std::string& text : wanted) list.push_back(map_of(parse(text)));
   return list;

@@ -169,8 +169,8 @@ class DartMatrix {
       for (Row<S>& row : power)
         for (S& x : row) x /= largest;
     }
-    const Row<S>& row = *std::max_element(
-        power.begin(), power.end(), [](const Row<S>& a, const Row<S>& b) { return size(a) < size(b); });
+    const Row<S>& row = *std::max_element(power.begin(), power.end(),
+                                          [](const Row<S>& a, const Row<S>& b) { return size(a) < size(b); });
     // Towards e_0 it is positive.
     S towards(0);
     for (int i = 0; i < edges_; ++i) towards += row[edge(i)] * S(std::cos(2 * pi * i / n_));

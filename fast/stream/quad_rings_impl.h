@@ -133,7 +133,8 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
 
   const LimitFrame<Wide> limit = star_limit(star, scratch.weights.of(star.faces, star.open, star.kind));
   const Point origin = widen<T>(Vec3<T>{placement_.centre[0], placement_.centre[1], placement_.centre[2]});
-  put(NumberTraits<T>::widen(placement_.unit) * limit.position + origin, head.data() + QuadCornerBlock::kLimit);
+  put(NumberTraits<T>::widen(placement_.unit) * limit.position + origin,
+      head.data() + QuadCornerBlock::kLimit);
   if (star.kind == VertexKind::kDart) make_dart(v, own);
   T* const direction = head.data() + QuadCornerBlock::kLimit + 3;
   if constexpr (std::is_floating_point_v<T>) {

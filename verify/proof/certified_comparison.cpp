@@ -97,7 +97,8 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
     ++errors.points;
     if (position > errors.position) {
       errors.position = position;
-      errors.face = at.face, errors.corner = at.corner, errors.l1 = l1.to_string(), errors.l2 = l2.to_string();
+      errors.face = at.face, errors.corner = at.corner, errors.l1 = l1.to_string(),
+      errors.l2 = l2.to_string();
     }
     if (exact.normal_kind != reference::NormalKind::kRegular) continue;
     // The unit vector is at least as near to the found one, of whatever length, as to the line along it.
@@ -111,10 +112,10 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
 
 std::vector<CertifiedLine> certify_stock_shapes(const std::vector<FloatKernel>& kernels, int depth,
                                                 int points, data::Scheme scheme) {
-  const std::vector<std::string> quads{"quad-cube",    "quad-torus",   "quad-wheel:3", "quad-wheel:5",
+  const std::vector<std::string> quads{"quad-cube",    "quad-torus",    "quad-wheel:3", "quad-wheel:5",
                                        "quad-wheel:8", "quad-wheel:50", "quad-fan:1",   "quad-fan:2",
-                                       "quad-fan:3",   "pawn",         "prism:5",      "mixed-pawn",
-                                       "mixed:1:60",   "creased-cube", "crease-ring"};
+                                       "quad-fan:3",   "pawn",          "prism:5",      "mixed-pawn",
+                                       "mixed:1:60",   "creased-cube",  "crease-ring"};
   std::vector<CertifiedLine> lines;
   for (const std::string& name : scheme == data::Scheme::kLoop ? data::stock_shapes() : quads)
     for (const FloatKernel kernel : kernels)

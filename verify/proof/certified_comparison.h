@@ -19,7 +19,7 @@ struct CertifiedErrors {
   double normal = 0;    ///< degrees; likewise, of the angle between the normals
   double radius = 0;    ///< largest radius of an enclosure, included above
   int face = -1;        ///< where the position is worst
-  std::string l1, l2;  ///< or u, v; of a face that is no quad at the corner
+  std::string l1, l2;   ///< or u, v; of a face that is no quad at the corner
   int corner = 0;
 };
 

@@ -40,11 +40,11 @@ TEST(Certified, PositionsOfBothKernelsLieWithin3e7OfTheTrueSurface) {
 
 TEST(Certified, QuadKernelsAreNearTheTrueSurface) {
   CertifiedErrors worst;
-  for (const CertifiedLine& line : certify_stock_shapes({FloatKernel::kSlidingWindow, FloatKernel::kRowStream}, 3,
-                                                        12, data::Scheme::kCatmullClark)) {
+  for (const CertifiedLine& line : certify_stock_shapes(
+           {FloatKernel::kSlidingWindow, FloatKernel::kRowStream}, 3, 12, data::Scheme::kCatmullClark)) {
     EXPECT_GT(line.errors.points, 2) << line.mesh;
-    EXPECT_LT(line.errors.position, 3e-7) << line.mesh << ' ' << line.kernel << " face " << line.errors.face << ' '
-                                          << line.errors.l1 << ' ' << line.errors.l2;
+    EXPECT_LT(line.errors.position, 3e-7) << line.mesh << ' ' << line.kernel << " face " << line.errors.face
+                                          << ' ' << line.errors.l1 << ' ' << line.errors.l2;
     EXPECT_GT(line.errors.position, 0) << line.mesh;
     worst.position = std::max(worst.position, line.errors.position);
     worst.normal = std::max(worst.normal, line.errors.normal);

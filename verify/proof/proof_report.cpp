@@ -135,7 +135,8 @@ std::string ProofReport::table(bool each) const {
                       held() ? "Every map is the reference's" : "Some proofs FAILED", points, seconds);
   if (set_.scheme == data::Scheme::kCatmullClark)
     text +=
-        "Exact and modulo p and q: all positions, and all tangents but those of control vertices that are not "
+        "Exact and modulo p and q: all positions, and all tangents but those of control vertices that are "
+        "not "
         "regular, which need roots and are compared in the lines with digits.\n";
   if (held())
     text +=
@@ -214,12 +215,9 @@ std::string ProofReport::json() const {
                          {"points", line.errors.points},
                          {"position", line.errors.position},
                          {"normal", line.errors.normal}});
-  const nlohmann::ordered_json document = {{"scheme", name_of(set_.scheme)},
-                                           {"held", held()},
-                                           {"complete", complete()},
-                                           {"rows", rows},
-                                           {"impossible", set_.impossible},
-                                           {"certified", certified}};
+  const nlohmann::ordered_json document = {{"scheme", name_of(set_.scheme)}, {"held", held()},
+                                           {"complete", complete()},         {"rows", rows},
+                                           {"impossible", set_.impossible},  {"certified", certified}};
   return document.dump(2);
 }
 

@@ -17,8 +17,9 @@ namespace limitcheck::verify {
 namespace {
 
 std::optional<BoundProof> bound_of(const std::string& kernel, const ProofTask& task) {
-  for (const auto k : {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge, BoundedKernel::kCrackCentre,
-                       BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge, BoundedKernel::kRowStreamPatch}) {
+  for (const auto k :
+       {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge, BoundedKernel::kCrackCentre,
+        BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge, BoundedKernel::kRowStreamPatch}) {
     if (kernel != name_of(k)) continue;
     const BoundOptions& o = *task.bounds;
     if (k == BoundedKernel::kCrackCentre) {  // knows no depth

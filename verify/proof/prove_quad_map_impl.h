@@ -19,12 +19,15 @@ bool scales_quads_rightly(int depth) {
       depth, [](T unit, int d) { return fast::row_stream::quad_unit(unit, d); }, 36, 2 * depth);
 }
 inline void check_quad_scale(ProofRow& row) {
-  check_scale(row, [](int depth) { return scales_quads_rightly<float>(depth) && scales_quads_rightly<double>(depth); });
+  check_scale(row, [](int depth) {
+    return scales_quads_rightly<float>(depth) && scales_quads_rightly<double>(depth);
+  });
 }
 
 /// Maps: a tuple of QuadReferenceMap.
 template <class C, class Maps>
-std::vector<ProofRow> prove_quad_map(const Neighbourhood& neighbourhood, const MapOptions& options, Maps maps) {
+std::vector<ProofRow> prove_quad_map(const Neighbourhood& neighbourhood, const MapOptions& options,
+                                     Maps maps) {
   std::vector<ProofRow> rows;
   const auto points = identity<C>(neighbourhood.mesh.positions.size());
   if (options.sliding_window) {

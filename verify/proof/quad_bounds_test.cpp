@@ -62,8 +62,8 @@ TEST(Proof_QuadBounds, CountEveryKindOfRounding) {
 
 // What the bounds take the weights of control vertices to be known to.
 TEST(Proof_QuadBounds, WeightsInDoubleAreRightToFortyBits) {
-  using reference::Decimal50;
   using fast::VertexKind;
+  using reference::Decimal50;
   double worst = 0;
   const auto compare = [&](int n, bool open, VertexKind kind) {
     const auto given = fast::star_weights<double>(n, open, kind);

@@ -76,7 +76,8 @@ TEST(Proof_QuadFaults, OfOneOperationAreCaughtInEveryKernel) {
     std::vector<Frame> clean;
     run(kernel, quad.mesh, points, [&](const fast::LatticePoint&, const Frame& f) { clean.push_back(f); });
     int visible = 0;
-    for (const Kind kind : {Kind::kFactor, Kind::kDropped, Kind::kDoubled, Kind::kNeighbour, Kind::kCoordinate}) {
+    for (const Kind kind :
+         {Kind::kFactor, Kind::kDropped, Kind::kDoubled, Kind::kNeighbour, Kind::kCoordinate}) {
       constexpr std::int64_t kFar = std::int64_t{1} << 40, kFaults = 24;
       std::int64_t operations = 0;
       {
@@ -109,7 +110,8 @@ TEST(Proof_QuadFaults, OfOneOperationAreCaughtInEveryKernel) {
         EXPECT_FALSE(row.map.witness->point.empty());
       }
     }
-    fmt::print("kernel {}: {} of 120 faults reach a limit point, all caught\n", static_cast<int>(kernel), visible);
+    fmt::print("kernel {}: {} of 120 faults reach a limit point, all caught\n", static_cast<int>(kernel),
+               visible);
     EXPECT_GE(visible, 15) << static_cast<int>(kernel);
   }
 }
@@ -121,7 +123,9 @@ TEST(Proof_QuadFaults, WrongPlacesAndTangentsAreCaught) {
   };
   const Wrong all[] = {
       {"a quarter turn lost",
-       [](fast::LatticePoint& p, Frame&) { p = {p.face, p.denominator - p.j, p.i, p.denominator}; }},
+       [](fast::LatticePoint& p, Frame&) {
+         p = {p.face, p.denominator - p.j, p.i, p.denominator};
+       }},
       {"rows in reverse", [](fast::LatticePoint& p, Frame&) { p.j = p.denominator - p.j; }},
       {"rows and columns swapped", [](fast::LatticePoint& p, Frame&) { std::swap(p.i, p.j); }},
       {"the next point",
@@ -158,7 +162,8 @@ TEST(Proof_QuadFaults, AnotherTopologyIsCaught) {
     const std::size_t n = std::max(mesh.positions.size(), truth.positions.size());
     using Exact = reference::Rational;
     std::tuple<QuadReferenceMap<Exact, reference::catmull_clark::SubdivisionEvaluator<Exact>>> maps(truth);
-    const QuadWindowRuns<Stencil<Exact>, LinearSurface<Stencil<Exact>>> runs(mesh, detail::identity<Exact>(n));
+    const QuadWindowRuns<Stencil<Exact>, LinearSurface<Stencil<Exact>>> runs(mesh,
+                                                                             detail::identity<Exact>(n));
     return detail::compare<Exact>({"", truth}, "window", {Arithmetic::kExact, 0, 1}, maps,
                                   [&](int depth, auto&& visit) { runs.quad(depth, visit); })
         .map.equal;

@@ -142,8 +142,7 @@ std::vector<Neighbourhood> creased_quads(const std::array<int, 4>& valence) {
         sharp.name += ' ' + name;
       };
       for (std::int32_t k = 0; k < 4; ++k)
-        if ((sides >> k & 1U) != 0)
-          add({k, (k + 1) % 4}, {"ABCD"[k], "ABCD"[(k + 1) % 4]});
+        if ((sides >> k & 1U) != 0) add({k, (k + 1) % 4}, {"ABCD"[k], "ABCD"[(k + 1) % 4]});
       for (std::int32_t k = 0; k < 4; ++k)
         if ((further >> k & 1U) != 0) add(ring.further[static_cast<std::size_t>(k)], {"ABCD"[k], '+'});
       result.push_back(std::move(sharp));
@@ -170,7 +169,8 @@ std::vector<Neighbourhood> semi_sharp_quads(const std::array<int, 4>& valence) {
       const auto letter = [](std::int32_t v) { return v < 4 ? "ABCD"[v] : '+'; };
       for (const data::SharpEdge& e : edges)
         sharp.name += fmt::format(" {}{} {}", letter(e.a), letter(e.b), e.sharpness);
-      for (const data::SharpVertex& v : vertices) sharp.name += fmt::format(" {} {}", letter(v.vertex), v.sharpness);
+      for (const data::SharpVertex& v : vertices)
+        sharp.name += fmt::format(" {} {}", letter(v.vertex), v.sharpness);
       if (creasing == data::Creasing::kChaikin) sharp.name += " chaikin";
       result.push_back(std::move(sharp));
     }

@@ -90,13 +90,15 @@ ProofSet quad_proof_set(const ProofRequest& request) {
   const int meshes = full ? 200 : 20;
 
   const std::vector<Valences> all = quadruples(request.valences), once = up_to_turns(all);
-  add("quadruples", quads_of(all), Arithmetic::kResidues, full ? 4 : 2, BoundOptions{0, full ? 4 : 2, meshes});
+  add("quadruples", quads_of(all), Arithmetic::kResidues, full ? 4 : 2,
+      BoundOptions{0, full ? 4 : 2, meshes});
   add("quadruples", quads_of(once), Arithmetic::kExact, full ? 3 : 1);
   add("quadruples", quads_of(once), Arithmetic::kDigits, full ? 2 : 0);
 
   const std::vector<Neighbourhood> regular{interior_quad({4, 4, 4, 4})};
   std::vector<Valences> deep, high;
-  for (const Valences& v : {Valences{4, 4, 4, 3}, Valences{5, 4, 4, 4}, Valences{3, 5, 7, 4}, Valences{6, 3, 8, 5}})
+  for (const Valences& v :
+       {Valences{4, 4, 4, 3}, Valences{5, 4, 4, 4}, Valences{3, 5, 7, 4}, Valences{6, 3, 8, 5}})
     for (std::size_t k = 0; k < 4; ++k) deep.push_back(turned(v, k));
   std::vector<Neighbourhood> deeper = quads_of(deep);
   deeper.push_back(regular.front());
@@ -105,7 +107,8 @@ ProofSet quad_proof_set(const ProofRequest& request) {
   add("deep", deeper, Arithmetic::kDigits, full ? 4 : 2);
 
   for (const int n : {20, 50})
-    for (const Valences& v : {Valences{n, 4, 4, 4}, Valences{n, 3, 5, 8}, Valences{n, n, 4, 3}, Valences{n, n, n, n}})
+    for (const Valences& v :
+         {Valences{n, 4, 4, 4}, Valences{n, 3, 5, 8}, Valences{n, n, 4, 3}, Valences{n, n, n, n}})
       for (std::size_t k = 0; k < (v[1] == n && v[2] == n ? 1U : 4U); ++k) high.push_back(turned(v, k));
   add("high", quads_of(high), Arithmetic::kResidues, full ? 5 : 2, BoundOptions{0, full ? 4 : 2, meshes});
   if (!full) std::erase_if(high, [](const Valences& v) { return v[0] + v[1] + v[2] + v[3] > 70; });
@@ -118,8 +121,9 @@ ProofSet quad_proof_set(const ProofRequest& request) {
     for (Neighbourhood& quad : quads)
       if (seen.insert(quad.name).second) to.push_back(std::move(quad));
   };
-  for (const Valences& v : full ? std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}, Valences{3, 3, 8, 5}}
-                                : std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}})
+  for (const Valences& v : full
+                               ? std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}, Valences{3, 3, 8, 5}}
+                               : std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}})
     add_new(boundary, boundary_quads(v));
   add("boundary", boundary, Arithmetic::kResidues, full ? 5 : 3, BoundOptions{0, full ? 4 : 2, meshes});
   add("boundary", boundary, Arithmetic::kExact, full ? 3 : 1);

@@ -34,8 +34,7 @@ class QuadReferenceMap {
   }
 
  private:
-  static constexpr bool kHasRoots =
-      std::is_same_v<C, double> || std::is_same_v<C, reference::Decimal50>;
+  static constexpr bool kHasRoots = std::is_same_v<C, double> || std::is_same_v<C, reference::Decimal50>;
 
   MapRow<C> evaluate(const fast::LatticePoint& p) const {
     const auto u = reference::Parameter::fraction(p.i, p.denominator),

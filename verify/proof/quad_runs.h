@@ -38,7 +38,8 @@ struct CutQuads {
 inline fast::LatticePoint on_side(int side, int t, int size) {
   const std::array<int, 4> i{t, size, size - t, 0}, j{0, t, size, size - t};
   const auto k = static_cast<std::size_t>(side);
-  return {0, static_cast<std::uint32_t>(i[k]), static_cast<std::uint32_t>(j[k]), static_cast<std::uint32_t>(size)};
+  return {0, static_cast<std::uint32_t>(i[k]), static_cast<std::uint32_t>(j[k]),
+          static_cast<std::uint32_t>(size)};
 }
 
 /// The sliding window and the borders of fans. The centre of a fan is a point of the lattice.
@@ -105,7 +106,8 @@ class QuadStreamRuns {
   void quad(int depth, Visit&& visit) const {
     whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
       const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input.data());
-      fast::row_stream::generic::QuadStream<decltype(lane)>(batch, rings.placement(), work.data(), target).run();
+      fast::row_stream::generic::QuadStream<decltype(lane)>(batch, rings.placement(), work.data(), target)
+          .run();
     });
   }
   /// The same as a polynomial: a regular quad alone.
@@ -113,7 +115,8 @@ class QuadStreamRuns {
   void patch(int depth, Visit&& visit) const {
     whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
       const auto batch = fast::row_stream::gather_patches<T>(rings, kFace, depth, 1, input.data());
-      fast::row_stream::generic::QuadPatch<decltype(lane)>(batch, rings.placement(), work.data(), target).run();
+      fast::row_stream::generic::QuadPatch<decltype(lane)>(batch, rings.placement(), work.data(), target)
+          .run();
     });
   }
   /// The sides by themselves, each from its corner on.
@@ -126,7 +129,8 @@ class QuadStreamRuns {
         fast::row_stream::generic::QuadStream<decltype(lane)>(batch, rings.placement(), work.data(), target)
             .run_side();
       };
-      const auto first = evaluate<Lane<0>>(first_, depth, 1, run), second = evaluate<Lane<1>>(second_, depth, 1, run);
+      const auto first = evaluate<Lane<0>>(first_, depth, 1, run),
+                 second = evaluate<Lane<1>>(second_, depth, 1, run);
       for (int t = 0; t <= size; ++t) visit(on_side(side, t, size), frame(first, second, t));
     }
   }

@@ -65,7 +65,8 @@ class QuadKernelModel::Lattice {
       for (int i = -1; i <= size_ + 1; ++i) {
         if (missing(i, 3, 1) || missing(j, 0, 2)) continue;
         const bool outside_i = i < 0 || i > size_, outside_j = j < 0 || j > size_;
-        if ((outside_i && (outside_j || j == 0 || j == size_)) || (outside_j && (i == 0 || i == size_))) continue;
+        if ((outside_i && (outside_j || j == 0 || j == size_)) || (outside_j && (i == 0 || i == size_)))
+          continue;
         const int a = i < 0 ? -1 : i / 2, b = j < 0 ? -1 : j / 2;
         Point& to = at(i, j);
         const bool odd_i = i % 2 != 0, odd_j = j % 2 != 0;
@@ -86,12 +87,15 @@ class QuadKernelModel::Lattice {
           const int in = j == 0 ? 1 : n - 1;
           to = curve(p(a, b), p(a + 1, b), p(a - 1, b), {p(a, in), p(a + 1, in), p(a - 1, in)});
         } else if (is("rows_then_columns") && (i == 0 || j == 0 || i == size_ || j == size_)) {
-          const auto along = [&](int row) { return .125 * ((p(a - 1, row) + p(a + 1, row)) + 6. * p(a, row)); };
+          const auto along = [&](int row) {
+            return .125 * ((p(a - 1, row) + p(a + 1, row)) + 6. * p(a, row));
+          };
           to = .125 * ((along(b - 1) + along(b + 1)) + 6. * along(b));
         } else {
           const Point f0 = face(a, b), f1 = face(a - 1, b), f2 = face(a - 1, b - 1), f3 = face(a, b - 1);
-          to = fast::regular_quad_vertex(p(a, b), fast::QuadNeighbours<double>{p(a + 1, b), f0, p(a, b + 1), f1,
-                                                                               p(a - 1, b), f2, p(a, b - 1), f3});
+          to = fast::regular_quad_vertex(
+              p(a, b), fast::QuadNeighbours<double>{p(a + 1, b), f0, p(a, b + 1), f1, p(a - 1, b), f2,
+                                                    p(a, b - 1), f3});
         }
       }
     }
@@ -108,7 +112,8 @@ class QuadKernelModel::Lattice {
   /// Point (i, j), in the quad's own order.
   Vertex limit(int i, int j) {
     const int n = size_;
-    const int corner = (i == 0 || i == n) && (j == 0 || j == n) ? (j == 0 ? (i == 0 ? 0 : 1) : (i == 0 ? 3 : 2)) : -1;
+    const int corner =
+        (i == 0 || i == n) && (j == 0 || j == n) ? (j == 0 ? (i == 0 ? 0 : 1) : (i == 0 ? 3 : 2)) : -1;
     if (corner >= 0) return limits_[corner];
     const auto p = [&](int di, int dj) -> const Point& { return at(i + di, j + dj); };
     const auto boundary = [&](int side) {
@@ -121,7 +126,8 @@ class QuadKernelModel::Lattice {
     const int side = j == 0 ? 0 : i == n ? 1 : j == n ? 2 : i == 0 ? 3 : -1;
     if (side >= 0 && sharp_[side]) return boundary(side);
     if (is("polynomial_at_valence_5") && side >= 0 && irregular(side)) return polynomial(side, i, j);
-    const fast::QuadNeighbours<double> ring{p(1, 0), p(1, 1), p(0, 1), p(-1, 1), p(-1, 0), p(-1, -1), p(0, -1), p(1, -1)};
+    const fast::QuadNeighbours<double> ring{p(1, 0),  p(1, 1),   p(0, 1),  p(-1, 1),
+                                            p(-1, 0), p(-1, -1), p(0, -1), p(1, -1)};
     if (is("fused_normals")) {
       const fast::LimitFrame<double> f = fast::regular_quad_limit(p(0, 0), ring);
       const auto fused = [](double a, double b, double c, double d) { return std::fma(a, b, -(c * d)); };
@@ -139,7 +145,9 @@ class QuadKernelModel::Lattice {
 
  private:
   bool is(std::string_view name) const { return model_.is(name); }
-  static std::size_t index(int i, int j, int n) { return static_cast<std::size_t>((j + 1) * (n + 3) + i + 1); }
+  static std::size_t index(int i, int j, int n) {
+    return static_cast<std::size_t>((j + 1) * (n + 3) + i + 1);
+  }
   Point& at(int i, int j) { return points_[index(i, j, size_)]; }
 
   Point edge(const Point& a, const Point& b, const Point& f, const Point& g, bool outside) const {
@@ -167,7 +175,8 @@ class QuadKernelModel::Lattice {
       const auto& x = mesh_.positions[static_cast<std::size_t>(w)];
       return Point{x[0], x[1], x[2]};
     });
-    if (is("held_corners_move") && star.star.kind == fast::VertexKind::kHeld) star.star.kind = fast::VertexKind::kPlain;
+    if (is("held_corners_move") && star.star.kind == fast::VertexKind::kHeld)
+      star.star.kind = fast::VertexKind::kPlain;
     sector_[k] = static_cast<int>(std::find(fan.begin(), fan.end(), h) - fan.begin());
     if (is("ring_shifted_by_one") && !star.star.open && star.star.faces != 4)
       sector_[k] = (sector_[k] + 1) % star.star.faces;
@@ -223,16 +232,23 @@ class QuadKernelModel::Lattice {
     const int n = size_, x = kAlong[side][0], y = kAlong[side][1];
     Vertex v = fast::quad_vertex_limit<double, Surface>(
         at(i, j),
-        {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), at(i - 1, j + 1), at(i - 1, j), at(i - 1, j - 1), at(i, j - 1),
-         at(i + 1, j - 1)},
+        {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), at(i - 1, j + 1), at(i - 1, j), at(i - 1, j - 1),
+         at(i, j - 1), at(i + 1, j - 1)},
         zero_normals_);
-    const double t = (side == 0 ? i : side == 1 ? j : side == 2 ? n - i : n - j) / static_cast<double>(n), u = 1 - t;
-    const double along[] = {u * u * u, 4 + t * t * (3 * t - 6), 4 + u * u * (3 * u - 6), t * t * t}, across[] = {1, 4, 1};
+    const double t = (side == 0   ? i
+                      : side == 1 ? j
+                      : side == 2 ? n - i
+                                  : n - j) /
+                     static_cast<double>(n),
+                 u = 1 - t;
+    const double along[] = {u * u * u, 4 + t * t * (3 * t - 6), 4 + u * u * (3 * u - 6), t * t * t},
+                 across[] = {1, 4, 1};
     v.position = {};
     for (int k = -1; k <= 2; ++k)
       for (int r = -1; r <= 1; ++r)
-        v.position = v.position + (along[k + 1] * across[r + 1] / 36) *
-                                      control_[index(kCornerI[side] + k * x - r * y, kCornerJ[side] + k * y + r * x, 1)];
+        v.position = v.position +
+                     (along[k + 1] * across[r + 1] / 36) *
+                         control_[index(kCornerI[side] + k * x - r * y, kCornerJ[side] + k * y + r * x, 1)];
     return v;
   }
 
@@ -292,8 +308,8 @@ const QuadKernelModel::Grid& QuadKernelModel::grid(std::int32_t quad, int depth)
   return known;
 }
 
-QuadKernelModel::Vertex QuadKernelModel::at(std::size_t face, std::int32_t part, std::int64_t i, std::int64_t j,
-                                            int level) {
+QuadKernelModel::Vertex QuadKernelModel::at(std::size_t face, std::int32_t part, std::int64_t i,
+                                            std::int64_t j, int level) {
   auto x = static_cast<int>(i), y = static_cast<int>(j);
   auto quad = static_cast<std::int32_t>(face);
   int depth = level;
@@ -336,20 +352,22 @@ std::span<const Mutation> quad_kernel_mutations() {
       {"outer_edges_as_midpoints", "edge points beyond a side are midpoints, as on a boundary", "positions"},
       {"polynomial_at_valence_5", "a side with an end of valence 5 is taken for a polynomial", "positions"},
       {"parts_turned_by_one", "parts of faces that are no quads are those of the next corner", "positions"},
-      {"rows_then_columns", "points on the sides by the separable rule, rows first: other bits from the quad "
-       "that lies turned", "shared-positions"},
+      {"rows_then_columns",
+       "points on the sides by the separable rule, rows first: other bits from the quad "
+       "that lies turned",
+       "shared-positions"},
       {"neighbours_first", "middles of faces add neighbours before diagonals: other bits from another corner",
        "shared-positions"},
       {"fused_normals", "one product of the normal's two is fused: other bits from the quad that lies turned",
        "shared-normals"},
-      {"normals_of_the_other_side", "along a cut a quad has the normals of the quad beyond", "normals", "", false,
-       true},
-      {"curve_by_ghosts", "points on a cut from ghosts beyond it, which were rounded to float", "shared-positions",
-       "", false, true},
-      {"dart_by_the_smooth_mask", "the end of a crease has the limit of a smooth vertex", "positions", "", false,
-       true},
-      {"held_corners_move", "corners where three creases meet follow the rule of a crease", "positions", "", false,
-       true},
+      {"normals_of_the_other_side", "along a cut a quad has the normals of the quad beyond", "normals", "",
+       false, true},
+      {"curve_by_ghosts", "points on a cut from ghosts beyond it, which were rounded to float",
+       "shared-positions", "", false, true},
+      {"dart_by_the_smooth_mask", "the end of a crease has the limit of a smooth vertex", "positions", "",
+       false, true},
+      {"held_corners_move", "corners where three creases meet follow the rule of a crease", "positions", "",
+       false, true},
   };
   return list;
 }

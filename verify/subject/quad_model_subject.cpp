@@ -73,7 +73,8 @@ struct Level {
 bool by_kernel(Options& options, std::string_view mutation) {
   const bool asked = options.choice("route", {"refine", "kernel"}) == 1;
   const auto faults = quad_kernel_mutations();
-  return asked || std::any_of(faults.begin(), faults.end(), [&](const Mutation& m) { return m.name == mutation; });
+  return asked ||
+         std::any_of(faults.begin(), faults.end(), [&](const Mutation& m) { return m.name == mutation; });
 }
 
 // The triangles of one face, by points over n steps to a side.

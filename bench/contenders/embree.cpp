@@ -24,8 +24,8 @@ struct Release {
   void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
 };
 
-/// The scene, which joins the faces, is made once; then rtcInterpolateN with first derivatives, and their product
-/// brought to length.
+/// The scene, which joins the faces, is made once; then rtcInterpolateN with first derivatives, and their
+/// product brought to length.
 class Interpolation final : public Contender {
  public:
   Interpolation(const data::ControlMesh& mesh, int depth, int threads)

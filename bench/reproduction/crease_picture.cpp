@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A Catmull-Clark surface with creases, drawn adaptively by the engine: with cracks, and with the paper's fans.
+// A Catmull-Clark surface with creases, drawn adaptively by the engine: with cracks, and with the paper's
+// fans.
 #include <algorithm>
 
 #include "bench/reproduction/studio.h"
@@ -8,7 +9,8 @@
 namespace limitcheck::bench {
 namespace {
 
-// A pawn that stands upright, its foot and its collar sharp for ever, a ring between them for two steps and a half.
+// A pawn that stands upright, its foot and its collar sharp for ever, a ring between them for two steps and a
+// half.
 data::ControlMesh creased_pawn() {
   data::ControlMesh mesh = data::named_mesh("pawn:4");
   double top = 0;
@@ -35,8 +37,8 @@ Image adaptive_creases() {
   for (const auto& p : studio.mesh().positions) height = std::max(height, 2 * p[1]);
   const fast::Camera whole = camera_at(25, 1.7 * height);
   // The collar's lower edge, from a little above.
-  fast::Camera close = camera_at(25, .085 * height);
-  close.target = {.095 * height, .098 * height, .2 * height};
+  fast::Camera close = camera_at(25, .14 * height);
+  close.target = {.09 * height, .112 * height, .19 * height};
   close.eye = close.target + close.eye;
   fast::DepthOptions adaptive = strategy(fast::Strategy::kCombined);
   adaptive.target_pixels = 40;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a tessellator delivers for a mesh, point by point against the exact surface: for the report's view in three
-// dimensions.
+// What a tessellator delivers for a mesh, point by point against the exact surface: for the report's view in
+// three dimensions.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -36,8 +36,9 @@ nlohmann::ordered_json model();
 /// 32-bit integers as base 64, with the control face of each triangle; or `error`, why it cannot be shown.
 nlohmann::ordered_json shapes(const std::vector<std::string>& names);
 
-/// What subjects deliver: an array of title and what model() has, errors at the points of each triangle. Each wanted is
-/// SUBJECT[:OPTIONS]@MESH[@DEPTH]; none: a choice of both schemes. Throws data::ArgumentError, verify::SubjectError.
+/// What subjects deliver: an array of title and what model() has, errors at the points of each triangle. Each
+/// wanted is SUBJECT[:OPTIONS]@MESH[@DEPTH]; none: a choice of both schemes. Throws data::ArgumentError,
+/// verify::SubjectError.
 nlohmann::ordered_json maps(std::vector<std::string> wanted);
 
 /// What the text says of time, measured: an array of id, outcome ("as the text says", "not as the text says"

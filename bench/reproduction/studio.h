@@ -113,7 +113,8 @@ Image fan_centres();
 /// A control mesh with a crease that starts and ends, its surface, and how far OpenSubdiv's limit points are
 /// off.
 Image open_crease();
-/// A creased Catmull-Clark surface with depths by the combined strategy: whole, near with cracks, near without.
+/// A creased Catmull-Clark surface with depths by the combined strategy: whole, near with cracks, near
+/// without.
 Image adaptive_creases();
 /// A control mesh, and its coarse tessellation coloured by how far each triangle is off the surface.
 Image error_beside_control_mesh();

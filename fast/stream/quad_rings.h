@@ -32,10 +32,10 @@ enum class QuadClass : std::uint8_t {
 /// Rings and limits of all control vertices of a mesh of quads, T float or double, or a number that knows
 /// linear maps alone (quad_rings_impl.h).
 ///
-/// Order in floating point: an interior ring starts at its lexicographically smallest edge neighbour (position, then the
-/// positions that follow it), a boundary ring at the first boundary edge. So what is computed here depends on
-/// positions alone: not on the numbering of vertices and faces nor on the rotation of corners. Other numbers
-/// start where the adjacency does. [claim D14]
+/// Order in floating point: an interior ring starts at its lexicographically smallest edge neighbour
+/// (position, then the positions that follow it), a boundary ring at the first boundary edge. So what is
+/// computed here depends on positions alone: not on the numbering of vertices and faces nor on the rotation
+/// of corners. Other numbers start where the adjacency does. [claim D14]
 template <class T>
 class BasicQuadRings {
  public:

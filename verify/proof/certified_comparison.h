@@ -25,9 +25,10 @@ struct CertifiedErrors {
 
 enum class FloatKernel : std::uint8_t { kSlidingWindow, kRowStream };
 
-/// Tessellates the mesh, of triangles by Loop's scheme and others by Catmull-Clark's, with the float kernel and compares about `points` of its lattice points, spread
-/// evenly over the output, with the exact limit: Stam's evaluator in ball arithmetic at `digits` digits, the
-/// control points taken as the floats they are. Upper bounds: float to double is exact, a decimal is read to
+/// Tessellates the mesh, of triangles by Loop's scheme and others by Catmull-Clark's, with the float kernel
+/// and compares about `points` of its lattice points, spread evenly over the output, with the exact limit:
+/// Stam's evaluator in ball arithmetic at `digits` digits, the control points taken as the floats they are.
+/// Upper bounds: float to double is exact, a decimal is read to
 /// 2^-53 of itself, and radius and reading are added. Points whose normal is no limit of tangents count for
 /// positions alone.
 ///   throws   data::ArgumentError: a coordinate that is no float

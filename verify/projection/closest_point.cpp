@@ -39,7 +39,8 @@ bool may_be_nearer(const SurfaceLattice& lattice, const LimitSurface& surface, c
 
 ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, data::Scheme scheme, std::size_t pieces)
     : surface_(mesh, scheme),
-      lattice_(surface_.mesh(), SurfaceLattice::depth_for(surface_.mesh(), pieces)),
+      lattice_(surface_.mesh(), SurfaceLattice::depth_for(surface_.mesh(), pieces, surface_.tags()),
+               surface_.tags()),
       tree_(boxes(lattice_)),
       diagonal_(data::box_diagonal(mesh)) {}
 

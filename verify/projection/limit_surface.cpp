@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "data/error.h"
 #include "reference/catmull_clark/refined_mesh.h"
+#include "reference/mesh/sharpness.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -13,23 +13,6 @@ bool has_other_faces(const data::ControlMesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     if (mesh.faces[f].size() != 4) return true;
   return false;
-}
-
-const data::ControlMesh& without_tags(const data::ControlMesh& mesh) {
-  if (!mesh.sharpness.empty() || !mesh.holes.empty())
-    throw data::ArgumentError(
-        "the surface of a control mesh with sharp edges or holes is not searched for points");
-  return mesh;
-}
-
-std::unique_ptr<const data::ControlMesh> refined_once(const data::ControlMesh& mesh, data::Scheme scheme) {
-  if (scheme == data::Scheme::kLoop || !has_other_faces(mesh)) return nullptr;
-  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
-  refined.refine();
-  auto quads = std::make_unique<data::ControlMesh>();
-  for (const auto& p : refined.positions()) quads->positions.push_back(vector_of(p));
-  quads->faces = refined.topology().faces();
-  return quads;
 }
 
 std::vector<std::int32_t> faces_of_corners(const data::ControlMesh& mesh) {
@@ -41,19 +24,51 @@ std::vector<std::int32_t> faces_of_corners(const data::ControlMesh& mesh) {
 
 }  // namespace
 
+std::unique_ptr<const LimitSurface::Refined> LimitSurface::refined_once(const data::ControlMesh& mesh,
+                                                                        data::Scheme scheme) {
+  if (scheme == data::Scheme::kLoop || !has_other_faces(mesh)) return nullptr;
+  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh),
+                                                        mesh.sharpness);
+  const reference::Topology before = refined.topology();
+  refined.refine();
+  auto result = std::make_unique<Refined>();
+  for (const auto& p : refined.positions()) result->mesh.positions.push_back(vector_of(p));
+  result->mesh.faces = refined.topology().faces();
+  if (!mesh.sharpness.empty())
+    result->tags = reference::Sharpness(before, mesh.sharpness)
+                       .refined(before, refined.topology())
+                       .tags(refined.topology());
+  return result;
+}
+
 LimitSurface::LimitSurface(const data::ControlMesh& mesh, data::Scheme scheme)
-    : control_(without_tags(mesh)),
+    : control_(mesh),
       scheme_(scheme),
+      control_tags_(mesh.sharpness),
       refined_(refined_once(mesh, scheme)),
       control_face_(refined_ ? faces_of_corners(mesh) : std::vector<std::int32_t>()),
-      domain_(this->mesh()),
-      surface_(this->mesh(), scheme) {}
+      domain_(this->mesh(), tags()),
+      surface_(mesh, scheme) {
+  if (mesh.holes.empty()) return;
+  hole_.assign(mesh.faces.size(), false);
+  for (const std::int32_t face : mesh.holes) hole_[face] = true;
+}
 
 reference::SurfacePoint<double> LimitSurface::evaluate(const FacePoint& at, reference::Order order) const {
   double first = at.l[1], second = at.l[2];
-  if (scheme_ == data::Scheme::kLoop && first + second > 1)
-    (first > second ? second : first) = 1 - (first > second ? first : second);
-  return surface_.evaluate(at.face, 0, first, second, order);
+  if (!refined_) {
+    // So that 1 - l1 - l2 is not negative by rounding; the difference from the larger is exact.
+    if (scheme_ == data::Scheme::kLoop && second > 1 - first)
+      (first > second ? second : first) = 1 - (first > second ? first : second);
+    return surface_.evaluate(at.face, 0, first, second, order);
+  }
+  const std::int32_t face = control_face_[at.face];
+  const int k = control_corner_of(at.face);
+  if (!is_quarter(at.face)) return surface_.evaluate(face, k, first, second, order);
+  const Chart::Affine corner = Chart::square().corner(k);
+  auto point = surface_.evaluate(face, 0, (corner[1] + first) / 2, (corner[2] + second) / 2, order);
+  reference::scale_derivatives(point, .5);
+  return point;
 }
 
 // A quarter of a quad keeps the directions of u and v; the quad at a corner of another face begins there.

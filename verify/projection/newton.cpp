@@ -54,7 +54,7 @@ class Descent {
   };
 
   // Newton's step, or Gauss and Newton's where the second derivatives do not make for a minimum; kept on the
-  // boundary where it would leave the surface.
+  // boundary, and on an edge that stays sharp, where it would leave the surface.
   bool step(Step& out) const {
     if (s_.at_corner) return false;
     const Vector r = position_ - p_, d1 = vector_of(s_.d1), d2 = vector_of(s_.d2);
@@ -81,7 +81,7 @@ class Descent {
       out.l = {(g1 + g2) / size, -g1 / size, -g2 / size};
     }
     for (int k = 0; k < chart_.corners(); ++k) {
-      if (chart_.height(k, at_.l) != 0 || chart_.slope(k, out.l) >= 0 || domain_.across(at_.face, k) >= 0)
+      if (chart_.height(k, at_.l) != 0 || chart_.slope(k, out.l) >= 0 || domain_.goes_on(at_.face, k))
         continue;
       // One dimension is left: along the edge.
       const Chart::Affine e = chart_.along(k);

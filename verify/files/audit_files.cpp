@@ -34,7 +34,10 @@ std::string per_vertex(const FileEvidence& e) {
   for (const auto& n : t.normals) {
     const std::int32_t point = e.point_of(n.vertex);
     if (point < 0 || !e.foot[point].has_normal) continue;
-    const double a = angle_degrees(n.direction, e.foot[point].normal);
+    double a = angle_degrees(n.direction, e.foot[point].normal);
+    if (e.place[point].face >= 0 && e.surface.domain().on_cut(e.place[point]))
+      for (const Foot& side : in_all_faces(e, e.place[point], e.position(point)))
+        if (side.has_normal) a = std::min(a, angle_degrees(n.direction, side.normal));
     if (!(a <= angle[n.vertex])) angle[n.vertex] = a;
   }
   const bool loop = e.scheme() == data::Scheme::kLoop;

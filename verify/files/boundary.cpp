@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "data/cut_out.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -64,6 +66,19 @@ std::vector<std::vector<std::int32_t>> loops_of(const Lattice& control) {
     }
   }
   return loops;
+}
+
+// How many vertices the faces that are shown would need more, so that they touch in no vertex only.
+std::int64_t touching(const data::ControlMesh& mesh) {
+  if (mesh.holes.empty()) return 0;
+  data::Faces shown;
+  for (std::size_t f = 0, h = 0; f < mesh.faces.size(); ++f) {
+    if (h < mesh.holes.size() && mesh.holes[h] == static_cast<std::int32_t>(f))
+      ++h;
+    else
+      shown.push_back(mesh.faces[f]);
+  }
+  return static_cast<std::int64_t>(data::split_fans(shown, mesh.positions.size()).size());
 }
 
 // Two boundary edges of the control mesh in one place.
@@ -146,6 +161,7 @@ FileBoundary compare_boundary(const FileEvidence& e, const SurfaceReport& report
   const FacesAround around(e.control.faces, e.control.positions.size());
   boundary.loops = static_cast<std::int64_t>(loops.size());
   boundary.seams = has_seams(e.control, loops);
+  boundary.touching = touching(e.control);
 
   std::vector<bool> explained;
   for (const OpenEdge& edge : open) explained.push_back(on_limit_boundary(e, edge));

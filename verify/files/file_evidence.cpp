@@ -107,6 +107,23 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
   });
 }
 
+std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const Vector& p) {
+  const Domain& domain = e.surface.domain();
+  const Chart chart = domain.chart();
+  std::vector<Foot> feet;
+  if (const int k = chart.corner_at(at.l); k >= 0) {
+    for (const std::int32_t face : domain.faces_at(domain.vertex(at.face, k)))
+      if (FacePoint there; domain.express(at, face, there)) feet.push_back(e.surface.at(there, p));
+    return feet;
+  }
+  feet.push_back(e.surface.at(at, p));
+  for (int k = 0; k < chart.corners(); ++k)
+    if (FacePoint there; chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0 &&
+                         domain.express(at, domain.across(at.face, k), there))
+      feet.push_back(e.surface.at(there, p));
+  return feet;
+}
+
 PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points) {
   PlacedTriangle placed;
   for (const std::int32_t p : points)

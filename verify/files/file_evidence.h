@@ -45,6 +45,10 @@ struct FileEvidence {
 void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance,
                   const std::function<void(std::size_t, std::size_t)>& on_step);
 
+/// A point of the domain in all faces that have it, evaluated in each: on an edge that stays sharp the normals
+/// of its sides differ. `p` is the point that projected there.
+std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const Vector& p);
+
 /// The three corners of a triangle in one face of the domain, unfolded across an edge if need be.
 struct PlacedTriangle {
   std::int32_t face = -1;  // -1: not to be placed

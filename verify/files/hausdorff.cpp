@@ -51,10 +51,12 @@ class Measurer {
     std::vector<double> apart(over_.size(), 0);
     tbb::parallel_for(std::size_t{0}, over_.size(), [&](std::size_t f) {
       const auto polygon = one_polygon(f);
+      const bool hole = is_hole(static_cast<std::int32_t>(f));
       for (std::size_t k = 0; k < per_face; ++k) {
         const std::size_t index = f * per_face + k;
         const Piece piece = lattice.piece(index);
         bounds_[index] = look(piece, near(piece, over_[f]));
+        if (hole) continue;
         for (const Vector& c : piece.corner)
           apart[f] = std::max(apart[f], distance_to(polygon, c) + piece.deviation);
       }
@@ -71,6 +73,7 @@ class Measurer {
                 [&](std::size_t x, std::size_t y) { return value(bounds_[x]) > value(bounds_[y]); });
       for (std::size_t k = 0; k < std::min(kExact, order.size()); ++k) {
         const Bound& bound = bounds_[order[k]];
+        if (!forwards && !(bound.from_surface > 0)) break;
         if (forwards && (bound.triangle < 0 || reach(bound.triangle) <= enough_for(bracket, tightness)))
           continue;
         tick_();
@@ -110,6 +113,9 @@ class Measurer {
   }
 
  private:
+  // Of the surface over holes nobody expects triangles.
+  bool is_hole(std::int32_t face) const { return e_.surface.surface().is_hole(face); }
+
   struct Bound {
     double from_triangles = 0, from_surface = 0;
     FacePoint at_triangles, at_surface;  // where they are taken
@@ -201,7 +207,9 @@ class Measurer {
         }
       }
     }
-    if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
+    if (is_hole(piece.face)) {
+      bound.from_surface = 0;
+    } else if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
       // No point of the piece is farther from its middle than a corner is, and the distance to the triangles
       // changes no faster than the place.
       constexpr Barycentric kMiddle{1. / 3, 1. / 3, 1. / 3};

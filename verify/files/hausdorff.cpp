@@ -182,11 +182,10 @@ class Measurer {
     Bound bound;
     const double area = determinant(piece.at[0], piece.at[1], piece.at[2]);
     double left = area;
-    std::vector<Barycentric> part;
     for (const Over& o : over) {
       const double o_area = determinant(o.l[0], o.l[1], o.l[2]);
       if (std::abs(o_area) < kNoArea) continue;
-      clip(o.l, piece.at, part);
+      const Part part = clip(o.l, piece.at);
       if (part.size() < 3) continue;
       left -= area_of(part);
       const auto& triangle = corners_[o.triangle];

@@ -55,6 +55,30 @@ Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
   return foot;
 }
 
+std::optional<Foot> ClosestPoint::on_surface(const Vector& p, double within) const {
+  std::size_t nearest = 0;
+  OnTriangle flat;
+  flat.distance = std::numeric_limits<double>::infinity();
+  tree_.near(p, [&](std::size_t index) {
+    const OnTriangle here = closest_on_triangle(p, lattice_.corners(index));
+    if (here.distance < flat.distance) {
+      flat = here;
+      nearest = index;
+    }
+    return flat.distance;
+  });
+  if (flat.distance > within + lattice_.deviation(nearest)) return std::nullopt;
+  const Piece piece = lattice_.piece(nearest);
+  const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_, true);
+  // Next to an extraordinary vertex Newton's iteration may end nearby; the vertex itself is on the surface.
+  for (int k = 0; k < 3; ++k)
+    if (const double d = norm(p - piece.corner[k]);
+        d <= within && d <= found.distance && domain().chart().corner_at(piece.at[k]) >= 0)
+      return at({piece.face, piece.at[k]}, p);
+  if (!found.stationary || found.distance > within) return std::nullopt;
+  return at(found.at, p);
+}
+
 Foot ClosestPoint::closest(const Vector& p) const {
   // A nearer point that could only be nearer by rounding is not worth looking for.
   const double rounding = 1e-16 * diagonal_;

@@ -19,6 +19,12 @@ class Descent {
     evaluate(at_);
   }
 
+  Minimum run_quickly() {
+    if (s_.at_corner) leave_corner();
+    const bool stationary = newton();
+    return {at_, position_, distance_, stationary};
+  }
+
   Minimum run() {
     const FacePoint start = at_;
     const double from_start = distance_;
@@ -163,8 +169,10 @@ class Descent {
 
 }  // namespace
 
-Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale) {
-  return Descent(surface, p, start, scale).run();
+Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale,
+                bool quickly) {
+  Descent descent(surface, p, start, scale);
+  return quickly ? descent.run_quickly() : descent.run();
 }
 
 }  // namespace limitcheck::verify

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "data/bounding_box.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/projection/newton.h"
 #include "verify/projection/triangle.h"
 
@@ -87,6 +88,7 @@ Foot ClosestPoint::closest(const Vector& p) const {
   double at_least = best.distance;
   int descents = 0;
   tree_.near(p, [&](std::size_t index) {
+    end_if_interrupted();
     const auto corners = lattice_.corners(index);
     const OnTriangle flat = closest_on_triangle(p, corners);
     const double bound = flat.distance - lattice_.deviation(index);

@@ -49,12 +49,40 @@ LimitSurface::LimitSurface(const data::ControlMesh& mesh, data::Scheme scheme)
       control_face_(refined_ ? faces_of_corners(mesh) : std::vector<std::int32_t>()),
       domain_(this->mesh(), tags()),
       surface_(mesh, scheme) {
+  make_hubs();
   if (mesh.holes.empty()) return;
   hole_.assign(mesh.faces.size(), false);
   for (const std::int32_t face : mesh.holes) hole_[face] = true;
 }
 
+// Vertices of so many faces that the sums over all of them are what evaluation costs.
+void LimitSurface::make_hubs() {
+  constexpr std::size_t kMany = 40;
+  if (!tags().empty()) return;
+  const auto vertices = static_cast<std::int32_t>(mesh().positions.size());
+  std::vector<std::int32_t> many;
+  for (std::int32_t v = 0; v < vertices; ++v)
+    if (domain_.faces_at(v).size() > kMany) many.push_back(v);
+  if (many.empty()) return;
+  hub_of_.assign(mesh().positions.size(), -1);
+  const reference::Topology topology(mesh().positions.size(), mesh().faces);
+  for (const std::int32_t v : many) {
+    hub_of_[v] = static_cast<std::int32_t>(hubs_.size());
+    hubs_.push_back(std::make_unique<const Hub>(mesh(), topology, scheme_, v));
+  }
+}
+
+std::optional<reference::SurfacePoint<double>> LimitSurface::near_hub(const FacePoint& at,
+                                                                      reference::Order order) const {
+  if (hub_of_.empty()) return std::nullopt;
+  for (int k = 0; k < domain_.chart().corners(); ++k)
+    if (const std::int32_t hub = hub_of_[domain_.vertex(at.face, k)]; hub >= 0)
+      if (auto point = hubs_[hub]->evaluate(at.face, k, at.l, order)) return point;
+  return std::nullopt;
+}
+
 reference::SurfacePoint<double> LimitSurface::evaluate(const FacePoint& at, reference::Order order) const {
+  if (auto point = near_hub(at, order)) return *point;
   double first = at.l[1], second = at.l[2];
   if (!refined_) {
     // So that 1 - l1 - l2 is not negative by rounding; the difference from the larger is exact.

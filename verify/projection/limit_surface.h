@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -11,6 +12,7 @@
 #include "reference/surface/surface.h"
 #include "verify/audit/vector.h"
 #include "verify/projection/domain.h"
+#include "verify/projection/hub.h"
 
 namespace limitcheck::verify {
 
@@ -73,6 +75,8 @@ class LimitSurface {
     data::ControlMesh mesh;
     reference::SharpTags tags;
   };
+  void make_hubs();
+  std::optional<reference::SurfacePoint<double>> near_hub(const FacePoint& at, reference::Order order) const;
   static std::unique_ptr<const Refined> refined_once(const data::ControlMesh& mesh, data::Scheme scheme);
 
   const data::ControlMesh& control_;
@@ -83,6 +87,8 @@ class LimitSurface {
   std::vector<bool> hole_;                  // of each control face; empty if there is none
   Domain domain_;
   reference::Surface surface_;
+  std::vector<std::unique_ptr<const Hub>> hubs_;
+  std::vector<std::int32_t> hub_of_;  // of each vertex of mesh(), -1: none; empty if no vertex has one
 };
 
 }  // namespace limitcheck::verify

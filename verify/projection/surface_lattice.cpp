@@ -11,6 +11,7 @@
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/triangles.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/projection/cut_mesh.h"
 #include "verify/projection/quad_bound.h"
 
@@ -161,6 +162,7 @@ void SurfaceLattice::subdivide_triangles(const data::ControlMesh& mesh, const re
   const auto vertices = mesh.positions.size();
   bounds_.resize(vertices);
   tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+    end_if_interrupted();
     const auto id = static_cast<std::int32_t>(v);
     if (sharp ? sharp->is_irregular(id, 6, 3)
               : topology.ring(id).size() != (topology.on_boundary(id) ? 4U : 6U))
@@ -170,6 +172,7 @@ void SurfaceLattice::subdivide_triangles(const data::ControlMesh& mesh, const re
   deviation_.resize(triangles_.size());
   irregular_.assign(triangles_.size(), -1);
   if (sharp) rough_.assign(triangles_.size(), 0);
+  end_if_interrupted();
   tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t t) {
     for (const std::int32_t v : triangles_[t])
       if (static_cast<std::size_t>(v) < vertices && !bounds_[v].corner.empty()) irregular_[t] = v;
@@ -220,6 +223,7 @@ void SurfaceLattice::subdivide_quads(const data::ControlMesh& mesh, const refere
   const auto vertices = mesh.positions.size();
   bounds_.resize(vertices);
   tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+    end_if_interrupted();
     const auto id = static_cast<std::int32_t>(v);
     const auto sector = topology.sector(id);
     if (sharp ? sharp->is_irregular(id, 4, 2)
@@ -227,6 +231,7 @@ void SurfaceLattice::subdivide_quads(const data::ControlMesh& mesh, const refere
       bounds_[v] =
           quad_corner_bounds(topology, refined.positions(), id, sharp ? sharp->at(id) : SharpVertexOf{});
   });
+  end_if_interrupted();
   const int n = 1 << depth_;
   const std::size_t cells = mesh.faces.size() << (2 * depth_);
   triangles_.resize(2 * cells);

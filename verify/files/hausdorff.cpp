@@ -261,7 +261,9 @@ class Measurer {
     double d = 0;
     FacePoint where = at;
     if (forwards) {
-      const Foot foot = e_.surface.closest(mix(corners_[bound.triangle], bound.weight));
+      const Vector p = mix(corners_[bound.triangle], bound.weight);
+      if (cannot_raise(p, bracket)) return;
+      const Foot foot = e_.surface.closest(p);
       d = foot.distance;
       where = foot.at;
     } else {
@@ -272,10 +274,17 @@ class Measurer {
     bracket.where = where;
   }
 
+  // Where a point of the surface is near enough the nearest need not be known.
+  bool cannot_raise(const Vector& p, const Bracket& bracket) const {
+    return bracket.where.face >= 0 && e_.surface.at_most(p) <= bracket.at_least * (1 + 1e-12);
+  }
+
   // A triangle that is not over one face: its middle and those of its sides.
   void sample(const std::array<Vector, 3>& t, Bracket& bracket) const {
     for (const Barycentric& weight : kMiddles) {
-      const Foot foot = e_.surface.closest(mix(t, weight));
+      const Vector p = mix(t, weight);
+      if (cannot_raise(p, bracket)) continue;
+      const Foot foot = e_.surface.closest(p);
       if (foot.distance <= bracket.at_least && bracket.where.face >= 0) continue;
       bracket.at_least = foot.distance;
       bracket.where = foot.at;
@@ -299,7 +308,7 @@ class Measurer {
   // The same of a triangle that is not over one face, cut smaller.
   double at_most(const std::array<Vector, 3>& t, double enough, int level) const {
     double corner = 0;
-    for (const Vector& p : t) corner = std::max(corner, e_.surface.closest(p).distance);
+    for (const Vector& p : t) corner = std::max(corner, e_.surface.at_most(p));
     const double bound = corner + longest_side(t) / std::sqrt(3.0);
     if (bound <= enough || level == kLooseSplits) return bound;
     const std::array<Vector, 3> m{.5 * (t[0] + t[1]), .5 * (t[1] + t[2]), .5 * (t[2] + t[0])};

@@ -56,9 +56,8 @@ Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
   return foot;
 }
 
-std::optional<Foot> ClosestPoint::on_surface(const Vector& p, double within) const {
+Piece ClosestPoint::nearest_flat(const Vector& p, OnTriangle& flat) const {
   std::size_t nearest = 0;
-  OnTriangle flat;
   flat.distance = std::numeric_limits<double>::infinity();
   tree_.near(p, [&](std::size_t index) {
     const OnTriangle here = closest_on_triangle(p, lattice_.corners(index));
@@ -68,8 +67,21 @@ std::optional<Foot> ClosestPoint::on_surface(const Vector& p, double within) con
     }
     return flat.distance;
   });
-  if (flat.distance > within + lattice_.deviation(nearest)) return std::nullopt;
-  const Piece piece = lattice_.piece(nearest);
+  return lattice_.piece(nearest);
+}
+
+double ClosestPoint::at_most(const Vector& p) const {
+  OnTriangle flat;
+  const Piece piece = nearest_flat(p, flat);
+  double least = descend(surface_, p, piece.parameter(flat.weight), diagonal_, true).distance;
+  for (const Vector& corner : piece.corner) least = std::min(least, norm(p - corner));
+  return least;
+}
+
+std::optional<Foot> ClosestPoint::on_surface(const Vector& p, double within) const {
+  OnTriangle flat;
+  const Piece piece = nearest_flat(p, flat);
+  if (flat.distance > within + piece.deviation) return std::nullopt;
   const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_, true);
   // Next to an extraordinary vertex Newton's iteration may end nearby; the vertex itself is on the surface.
   for (int k = 0; k < 3; ++k)
@@ -107,7 +119,9 @@ Foot ClosestPoint::closest(const Vector& p) const {
     if (!may_be_nearer(lattice_, surface_, piece, p, best.distance - rounding, cuts))
       return best.distance - rounding;
     if (descents++ < 256) {
-      const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_);
+      // Where Newton's iteration fails, the slow search is for the first minimum: others that it alone would
+      // find lie at kinks of the surface, which corners of pieces show too.
+      const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_, best.stationary);
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
         best = found;
     }

@@ -232,8 +232,14 @@ int audit(const Job& job) {
   const auto journal = a.must_refuse ? nullptr
                                      : open_journal(a.json.empty() && job.whole ? kReportFile : a.json,
                                                     a.resume, audited, meshes, report, a.output.level);
-  report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
-                                 : auditor.run(audited, meshes, journal.get());
+  try {
+    report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
+                                   : auditor.run(audited, meshes, journal.get());
+  } catch (const verify::Interrupted&) {  // there is no half of an answer whether broken meshes are refused
+    progress.clear();
+    fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
+    return kSignalled + verify::interrupted();
+  }
   const auto finish = [&] {
     report.containment = loader.containment();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -11,7 +11,6 @@
 #include <new>
 
 #include "verify/cli/commands.h"
-#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -75,9 +74,6 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fputs("limitcheck: out of memory\n", stderr);
     return kBadInput;
-  } catch (const verify::Interrupted& interrupted) {
-    complain("interrupted by " + verify::signal_name(interrupted.signal));
-    return kSignalled + interrupted.signal;
   } catch (const std::exception& error) {
     complain(error.what());
     return kBadInput;

@@ -20,6 +20,7 @@
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
 #include "verify/cli/finite.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 
@@ -156,6 +157,7 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       if (verify::is_bad(r)) findings.push_back(&r);
   }
   for (const verify::Result* finding : findings) {
+    if (verify::interrupted() != 0 && a.shrink_seconds > 0) return;
     const verify::AuditMesh* mesh = case_of(*finding, meshes);
     const auto subject = std::find(report.subjects.begin(), report.subjects.end(), finding->subject);
     if (mesh == nullptr || subject == report.subjects.end()) continue;

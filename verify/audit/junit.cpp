@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "verify/audit/case_names.h"
-#include "verify/audit/table.h"
+#include "verify/audit/reproduce.h"
 
 namespace limitcheck::verify {
 namespace {

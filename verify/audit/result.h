@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "data/scheme.h"
 #include "reference/loop/weights.h"
+#include "verify/audit/places.h"
 
 namespace limitcheck::verify {
 
@@ -74,6 +76,11 @@ struct Result {
   std::optional<IllConditioned> ill_conditioned;  // normals: if there are any
   std::optional<Witness> witness;
   std::string message;  // one sentence, may be empty
+  /// Of findings in positions and normals: where on the control mesh they are, ascending by kind and faces.
+  std::vector<PlaceCount> places;
+  /// Positions and normals: how many errors there are of each power of ten (statistics.h).
+  std::vector<std::int64_t> decades;
+  double seconds = 0;  // that it took to look
 };
 
 /// A finding, or a breakdown.
@@ -89,6 +96,7 @@ struct Report {
     std::int64_t vertices = 0, faces = 0;
     data::Scheme scheme = data::Scheme::kLoop;
     std::string triangulated;  // as in Result
+    double diagonal = 0;       // of the bounding box
   };
   std::string version;
   int depth = 0;                      // the largest
@@ -98,9 +106,11 @@ struct Report {
   std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at
   std::vector<Mesh> meshes;
   std::vector<std::string> subjects;
+  std::map<std::string, std::string> descriptions;  // of subjects, by their label: "OpenSubdiv 3.5 Far: ..."
   std::vector<Result> results;
   double seconds = 0;
   std::string containment;  // how the processes of isolated subjects were held; empty: there were none
+  std::string printed;      // by the subjects, on standard output and standard error
   std::string incomplete;   // "interrupted by SIGINT": not all was looked at; empty: all was
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.

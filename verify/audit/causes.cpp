@@ -247,6 +247,10 @@ class Sorting {
   void merge_subjects() {
     for (auto a = causes_.begin(); a != causes_.end(); ++a)
       for (auto b = std::next(a); b != causes_.end();) {
+        if (is_part_of(b->first, b->second, a->first, a->second)) {
+          b = merge(a->second, b);
+          continue;
+        }
         const auto library_of = [&](const Cause& c) {
           return library(report_, report_.results[c.rows.front()].subject);
         };
@@ -256,12 +260,25 @@ class Sorting {
           ++b;
           continue;
         }
-        Cause &to = a->second, &from = b->second;
-        to.rows.insert(to.rows.end(), from.rows.begin(), from.rows.end());
-        to.direct.insert(to.direct.end(), from.direct.begin(), from.direct.end());
-        for (int scheme = 0; scheme < 2; ++scheme) add(to.places[scheme], from.places[scheme]);
-        b = causes_.erase(b);
+        b = merge(a->second, b);
       }
+  }
+
+  std::map<Key, Cause>::iterator merge(Cause& to, std::map<Key, Cause>::iterator from) {
+    const Cause& c = from->second;
+    to.rows.insert(to.rows.end(), c.rows.begin(), c.rows.end());
+    to.direct.insert(to.direct.end(), c.direct.begin(), c.direct.end());
+    for (int scheme = 0; scheme < 2; ++scheme) add(to.places[scheme], c.places[scheme]);
+    return causes_.erase(from);
+  }
+
+  // What is wrong at irregular vertices only, of a subject that is wrong in irregular faces in more rows. (At
+  // depth 0 there are no other points.)
+  static bool is_part_of(const Key& part, const Cause& few, const Key& whole, const Cause& many) {
+    return part.kind == CauseKind::kSurface && whole.kind == CauseKind::kSurface && part.who == whole.who &&
+           whole.region == Region::kIrregular &&
+           (part.region == Region::kBoundary || part.region == Region::kExtraordinary) &&
+           few.direct.size() < many.direct.size();
   }
 
   // Where a row goes that stands for itself.

@@ -61,6 +61,13 @@ Json witness(const Result& r, const std::string& level) {
           {"reproduce", is_bad(r) ? Json(audit_command(r, level)) : Json(nullptr)}};
 }
 
+Json changes(const Report& report) {
+  if (!report.changes) return nullptr;
+  const auto& c = *report.changes;
+  return {{"baseline", c.baseline}, {"new", c.appeared}, {"worse", c.worse},
+          {"gone", c.gone},         {"same", c.same},    {"named", c.named}};
+}
+
 // The causes, and for each row the number of its cause.
 Json causes_json(const Report& report, const std::string& level, std::vector<int>& cause_of) {
   Json list = Json::array();
@@ -112,6 +119,7 @@ std::string to_json(const Report& report, const std::string& level) {
            {"containment", text(report.containment)},
            {"incomplete", text(report.incomplete)},
            {"printed", text(report.printed)},
+           {"changes", changes(report)},
            {"never_judged", Json::array()}};
   for (const NeverJudged& none : never_judged(report))
     out["never_judged"].push_back(

@@ -5,8 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "verify/audit/case_names.h"
 #include "verify/audit/judged.h"
@@ -119,16 +121,18 @@ std::string header(const Report& report) {
 
 std::string waiver_lines(const Report& report) {
   std::string out;
-  std::set<std::string> told;
+  std::map<std::pair<std::string, std::string>, std::pair<int, std::string>> groups;  // how many, the first
   for (const Result& r : report.results) {
-    std::string line;
-    if (r.check == "waiver") line = fmt::format("waiver: {}\n", r.message);
-    if (r.status == Status::kWaived)
-      line = fmt::format("waived: {} / {}: {}\n", r.subject, r.check, r.message);
-    if (r.status == Status::kUnexpectedPass)
-      line = fmt::format("stale waiver: {} / {} {}\n", r.subject, r.check, r.message);
-    if (!line.empty() && told.insert(line).second) out += line;
+    if (r.check == "waiver") out += r.message + "\n";
+    if (r.status != Status::kWaived && r.status != Status::kUnexpectedPass) continue;
+    const char* what = r.status == Status::kWaived ? "waived" : "stale waiver";
+    const std::size_t until = r.message.find("waived until");
+    auto& [count, first] = groups[{what, fmt::format("{} / {}", r.subject, r.check)}];
+    if (++count == 1) first = until == std::string::npos ? r.message : r.message.substr(until);
   }
+  for (const auto& [key, group] : groups)
+    out += fmt::format("{}: {}, {} case{}: {}\n", key.first, key.second, group.first,
+                       group.first == 1 ? "" : "s", group.second);
   return out;
 }
 
@@ -155,15 +159,26 @@ std::string legend(bool plan) {
       plan ? "cases (a mesh at its depths)" : "meshes");
 }
 
+std::string changes_line(const Report& report) {
+  if (!report.changes) return "";
+  const auto& c = *report.changes;
+  std::string out = fmt::format("since {}: {} new, {} worse, {} gone, {} as before\n", c.baseline, c.appeared,
+                                c.worse, c.gone, c.same);
+  constexpr std::size_t kNamed = 8;
+  for (std::size_t k = 0; k < c.named.size() && k < kNamed; ++k) out += "  " + c.named[k] + "\n";
+  if (c.named.size() > kNamed) out += fmt::format("  and {} more\n", c.named.size() - kNamed);
+  return out;
+}
+
 std::string to_overview(const Report& report, const std::vector<Cause>& causes, bool colour,
                         const std::string& scheme_line, const std::string& level, const std::string& full) {
-  std::string top = header(report) + scheme_line + "\n\n";
+  std::string top = scheme_line + "\n" + header(report) + "\n";
   if (report.subjects.size() == 1)
     top += check_lines(report, report.subjects.front(), colour);
   else
     top += matrix(report, colour) + legend(report.depths == "plan");
   top += waiver_lines(report);
-  std::string bottom = "\n" + summary(report) + full;
+  std::string bottom = "\n" + changes_line(report) + summary(report) + full;
 
   std::string brief, long_form;
   for (std::size_t k = 0; k < causes.size(); ++k) {
@@ -176,7 +191,7 @@ std::string to_overview(const Report& report, const std::vector<Cause>& causes, 
   const bool all = lines(top) + lines(bottom) + lines(long_form) + 2 <= kScreen;
   std::string middle;
   if (!causes.empty())
-    middle = fmt::format("\n{} root cause{} of all findings, the gravest first; in how many cases{}:\n",
+    middle = fmt::format("\n{} root cause{} of all findings, the gravest first{}. [1/9]: in 1 of 9 cases\n",
                          causes.size(), causes.size() == 1 ? "" : "s",
                          all ? ", each with the command that shows it" : "") +
              (all ? long_form : brief);

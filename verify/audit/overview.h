@@ -33,6 +33,8 @@ GroupVerdict verdict_of(const Report& report, const std::string& subject, const 
 std::string header(const Report& report);
 /// Waivers that were used, are stale, expired or cover nothing: a line each.
 std::string waiver_lines(const Report& report);
+/// What changed since the baseline, if there is one: counts, and the first of what is new, worse and gone.
+std::string changes_line(const Report& report);
 /// "38 held, 2 findings, ...": the last line of a report, with what was never judged or is incomplete.
 std::string summary(const Report& report);
 /// What the words of the tables mean.

@@ -55,12 +55,16 @@ std::string faces_in_words(const std::vector<PlaceCount>& counts, PlaceKind kind
     return kind == PlaceKind::kBoundaryVertex ? fmt::format(" of {} {}{}", numbers, noun, one ? "" : "s")
                                               : fmt::format(" of valence {}", numbers);
   };
-  if (wrong.size() == 1) return say(fmt::format("{}", wrong[0]), wrong[0] == 1);
-  const bool below = !right.empty() && right.front() < wrong.front();
-  const bool gaps = std::any_of(right.begin(), right.end(), [&](int n) { return n > wrong.front(); });
-  if (!gaps) return below ? say(fmt::format("{} or more", wrong.front()), false) : "";
-  if (wrong.size() <= 4) return say(fmt::format("{}", fmt::join(wrong, ", ")), false);
-  return say(fmt::format("{} to {}", wrong.front(), wrong.back()), false);
+  if (right.empty() && wrong.size() > 1) return "";
+  // From some number on all that were seen are wrong.
+  const int last_right = right.empty() ? 0 : right.back();
+  std::vector<std::string> numbers;
+  for (const int n : wrong) {
+    const bool open_end = n > last_right && n != wrong.back() && last_right > 0;
+    numbers.push_back(fmt::format("{}{}", n, open_end ? " or more" : ""));
+    if (open_end) break;
+  }
+  return say(fmt::format("{}", fmt::join(numbers, ", ")), numbers.size() == 1 && wrong[0] == 1);
 }
 
 }  // namespace

@@ -113,6 +113,14 @@ struct Report {
   std::string printed;      // by the subjects, on standard output and standard error
   std::string incomplete;   // "interrupted by SIGINT": not all was looked at; empty: all was
 
+  /// Against an earlier report (baseline.h), in rows.
+  struct Changes {
+    std::string baseline;  // its file
+    std::int64_t appeared = 0, worse = 0, gone = 0, same = 0;
+    std::vector<std::string> named;  // each that is new, worse or gone, in that order
+  };
+  std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held
+
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
   bool looked() const {
     return std::any_of(results.begin(), results.end(), [](const Result& r) {
@@ -121,6 +129,7 @@ struct Report {
   }
   bool held() const {
     if (!incomplete.empty()) return false;
+    if (changes) return changes->appeared + changes->worse == 0;
     for (const Result& r : results)
       if (is_bad(r)) return false;
     return true;

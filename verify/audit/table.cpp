@@ -332,7 +332,7 @@ std::string to_table(const Report& report, bool colour, bool all) {
   if (report.subjects.size() > 1) out += matrix(report, colour);
 
   if (!report.printed.empty()) out += "\nPrinted by subjects:\n" + report.printed;
-  out += "\n" + summary(report);
+  out += "\n" + changes_line(report) + summary(report);
   return out;
 }
 

@@ -37,6 +37,7 @@ namespace limitcheck::cli {
 namespace {
 
 constexpr const char* kReportFile = "build/report/audit.json";
+constexpr const char* kPageFile = "build/report/audit.html";
 constexpr const char* kTextFile = "build/report/audit.txt";
 
 struct Arguments {
@@ -82,6 +83,7 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, SubjectLoader& lo
   const lc_subject* subject = opened.subject;
   try {
     (void)verify::capabilities(*subject, opened.options);
+    refuse_unknown_options(*subject, opened.options);
   } catch (const verify::SubjectDied&) {  // the audit reports it
   } catch (
       const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
@@ -142,11 +144,12 @@ struct Job {
 };
 
 Job settle(Arguments a) {
-  refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.output.junit}});
+  refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.output.junit}, {"--html", a.output.html}});
   Job job;
   job.depths = verify::parse_depths(a.depths);
   job.sampling = parse_sample(a.sample);
   take_program(a.from, a.subject, a.meshes);
+  take_mesh(a.from, a.subject, a.meshes);
   job.whole = a.subject.empty();
   if (job.whole) a.subject = "all";
   if (a.must_refuse && (job.whole || a.meshes.empty()))
@@ -177,8 +180,9 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
 // Below the overview.
 std::string where_the_rest_is(const Job& job) {
   if (job.whole)
-    return fmt::format("{} has all tables, and each cause with the command that shows it; {} is for programs.\n",
-                       kTextFile, kReportFile);
+    return fmt::format("{} shows the causes in a browser; {} has all tables, and each cause with the command that "
+                       "shows it; {} is for programs.\n",
+                       kPageFile, kTextFile, kReportFile);
   return "--details prints all tables. --explain CHECK says what a check means.\n";
 }
 
@@ -217,6 +221,8 @@ std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSu
                                         verify::causes_in_full(report, verify::causes(report), a.output.level) +
                                         "Tables\n\n" + verify::to_table(report, false));
     }
+    for (const std::string& html : {a.output.html, std::string(job.whole ? kPageFile : "")})
+      if (!html.empty()) write_html(html, audited, meshes, report, a.output.level, a.threads);
     write_witnesses(a.output, audited, meshes, report, a.threads);
     if (finished != nullptr) finished->remove();
   } catch (const std::exception&) {
@@ -265,6 +271,7 @@ int audit(const Job& job) {
   report.incomplete = incomplete(auditor, meshes, report, signal);
   const bool judged = judged_as_required(a.output, report);
   waive(a.output, audited, report);
+  compare(a.output, report);
 
   const bool done = signal == 0 && !auditor.out_of_memory();
   const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
@@ -314,7 +321,8 @@ void add_audit(CLI::App& app, int& exit_code) {
           ->type_name("FACES[:SEED]");
   command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
       ->take_all()
-      ->expected(1);
+      ->expected(1)
+      ->allow_extra_args(false);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")
       ->check(CLI::Range(1, 4096));
   command

@@ -41,9 +41,18 @@ AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place&
   std::vector<Use> uses = find_uses(tessellation, points, truth.lattice(), truth.sides());
   double magnitude = 0;
   for (const Vector& p : session.mesh().positions) magnitude = std::max(magnitude, largest(p));
-  const Evidence e{subject.label(), mesh.name,       capabilities,      session.mesh(),
-                   asked,           tessellation,    truth.lattice(),   truth,
-                   std::move(points), std::move(uses), data::box_diagonal(session.mesh()), magnitude};
+  const Evidence e{subject.label(),
+                   mesh.name,
+                   capabilities,
+                   session.mesh(),
+                   asked,
+                   tessellation,
+                   truth.lattice(),
+                   truth,
+                   std::move(points),
+                   std::move(uses),
+                   data::box_diagonal(session.mesh()),
+                   magnitude};
 
   AtPoint result;
   result.refined = capabilities.points == LC_POINTS_REFINED;
@@ -61,14 +70,14 @@ AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place&
     v.distance = is_finite(v.position) ? norm(v.position - v.expected) / e.diagonal : kNaN;
     const std::int64_t first = result.vertices.front().vertex;
     const auto same = [](auto a, auto b) { return std::equal(a.begin(), a.end(), b.begin()); };
-    result.same_bits = result.same_bits &&
-                       same(tessellation.position_bits(first), tessellation.position_bits(use.vertex));
+    result.same_bits =
+        result.same_bits && same(tessellation.position_bits(first), tessellation.position_bits(use.vertex));
     if (!tessellation.has_normals() || result.refined) continue;
     v.normal = tessellation.normal(use.vertex);
     if (result.vertices.size() == 1) first_side = use.side;
     if (use.side == first_side)
-      result.same_bits = result.same_bits &&
-                         same(tessellation.normal_bits(first), tessellation.normal_bits(use.vertex));
+      result.same_bits =
+          result.same_bits && same(tessellation.normal_bits(first), tessellation.normal_bits(use.vertex));
     const bool has_normal = exact != nullptr ? exact->has_normal : truth.has_normal(use.side);
     v.angle_bound = e.normal_bound_at(use.side);
     if (has_normal) {

@@ -40,7 +40,8 @@ std::map<Key, Known> rows_of(const std::string& text_of_file, const std::string&
   const Json json =
       data::json_nesting(text_of_file) > 32 ? Json() : Json::parse(text_of_file, nullptr, false);
   if (!json.is_object() || text(json, "program") != "limitcheck audit" || !json.contains("results"))
-    throw data::ArgumentError(fmt::format("--baseline {}: no report that limitcheck audit --json wrote", file));
+    throw data::ArgumentError(
+        fmt::format("--baseline {}: no report that limitcheck audit --json wrote", file));
   std::map<Key, Known> rows;
   try {
     for (const Json& row : json["results"]) {

@@ -47,9 +47,7 @@ void describe_surface(const Report& report, Cause& cause) {
   double distance = 0, angle = 0;
   for (const auto& [check, w] : worst_of(report, cause)) {
     const bool normals = w.row->unit == "degrees";
-    what.emplace_back(normals                        ? "normals"
-                      : check == "refined-positions" ? "refined points"
-                                                     : "positions");
+    what.emplace_back(normals ? "normals" : check == "refined-positions" ? "refined points" : "positions");
     if (normals) {
       angle = w.worst;
       size.push_back(degrees(w.worst));
@@ -68,7 +66,10 @@ void describe_surface(const Report& report, Cause& cause) {
                                                           : loop + " (Catmull-Clark: " + quads + ")";
   const bool all = where.starts_with("everywhere");
   cause.title = fmt::format("{} are off by up to {}{}{}", title, fmt::join(size, " and "),
-                            where.empty() ? "" : all ? ", " : ", only ", where);
+                            where.empty() ? ""
+                            : all         ? ", "
+                                          : ", only ",
+                            where);
   if (what.size() == 1 && what[0] == "normals") cause.look = "the points are right: look at the tangents";
   for (const std::size_t k : cause.direct) {
     const std::string& message = report.results[k].message;
@@ -76,7 +77,7 @@ void describe_surface(const Report& report, Cause& cause) {
     if (at != std::string::npos) cause.look = message.substr(at, message.find(';', at) - at);
   }
   if (cause.look.empty())
-    cause.look = all     ? "rounding, or rules that every face has in common"
+    cause.look = all             ? "rounding, or rules that every face has in common"
                  : where.empty() ? ""
                                  : "the rules and tables for just these places";
   cause.size = distance >= 1e-3 || angle >= 5 ? 3 : distance >= 1e-5 || angle >= 0.5 ? 2 : 1;
@@ -89,11 +90,13 @@ void describe_not_finite(const Report& report, Cause& cause) {
   for (const std::size_t k : cause.direct)
     if (report.results[k].check == "finite") add(places, report.results[k].places);
   if (const std::string where = where_wrong(places); !where.empty()) when.push_back(where);
-  if (worst.contains("degenerate-geometry")) when.emplace_back("where all control points are on one line or are one point");
+  if (worst.contains("degenerate-geometry"))
+    when.emplace_back("where all control points are on one line or are one point");
   if (worst.contains("scaling")) when.emplace_back("on meshes 2^40 times smaller or larger");
   cause.title = fmt::format("NaN, infinity or a normal of length 0{}{}", when.empty() ? "" : ": ",
                             fmt::join(when, "; "));
-  cause.look = "where a vector is divided by its length: the length is 0, or its square is too small or large";
+  cause.look =
+      "where a vector is divided by its length: the length is 0, or its square is too small or large";
   cause.size = 3;
 }
 
@@ -194,10 +197,11 @@ void put_in_words(const Report& report, Cause& cause) {
         checks.insert(report.results[k].check);
         worst = std::max(worst, report.results[k].worst.value_or(0));
       }
-      cause.title = cause.kind == CauseKind::kOrder
-                        ? fmt::format("The answer depends on what it must not depend on ({})", fmt::join(checks, ", "))
-                        : fmt::format("{}: {}", fmt::join(checks, ", "),
-                                      example.message.empty() ? "beyond its bound" : first_sentence(example.message));
+      cause.title =
+          cause.kind == CauseKind::kOrder
+              ? fmt::format("The answer depends on what it must not depend on ({})", fmt::join(checks, ", "))
+              : fmt::format("{}: {}", fmt::join(checks, ", "),
+                            example.message.empty() ? "beyond its bound" : first_sentence(example.message));
       if (worst > 0 && example.unit == "bounds")
         cause.title += fmt::format(", up to {:.2g} times what rounding explains", worst);
       cause.look = cause.kind == CauseKind::kOrder ? first_sentence(example.message) : "";

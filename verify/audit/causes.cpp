@@ -22,10 +22,10 @@ namespace {
 enum class Region : std::uint8_t {
   kNone,
   kEverywhere,
-  kIrregular,      // in faces at extraordinary vertices or at the boundary
-  kSharp,          // at sharp edges and vertices
-  kBoundary,       // at boundary vertices only
-  kExtraordinary   // at extraordinary vertices, and those of faces that are no quads, only
+  kIrregular,     // in faces at extraordinary vertices or at the boundary
+  kSharp,         // at sharp edges and vertices
+  kBoundary,      // at boundary vertices only
+  kExtraordinary  // at extraordinary vertices, and those of faces that are no quads, only
 };
 
 // The region that a kind of place is part of.
@@ -101,8 +101,8 @@ std::vector<PlaceCount> counts_in(const std::vector<PlaceCount>& counts, Region 
   std::vector<PlaceCount> inside;
   for (const PlaceCount& c : counts) {
     const Region own = region_of(c.kind);
-    if (own == region || (region == Region::kIrregular &&
-                          (own == Region::kBoundary || own == Region::kExtraordinary)))
+    if (own == region ||
+        (region == Region::kIrregular && (own == Region::kBoundary || own == Region::kExtraordinary)))
       inside.push_back(c);
   }
   return inside;
@@ -175,7 +175,8 @@ class Sorting {
       std::sort(cause.direct.begin(), cause.direct.end());
       std::set<std::string> names;
       for (const std::size_t k : cause.rows) names.insert(base_name(report_.results[k].subject));
-      cause.who = names.size() == 1 ? *names.begin() : library(report_, report_.results[cause.rows[0]].subject);
+      cause.who =
+          names.size() == 1 ? *names.begin() : library(report_, report_.results[cause.rows[0]].subject);
       cause.kind = key.kind;
       all.push_back(std::move(cause));
     }
@@ -272,13 +273,18 @@ class Sorting {
     return causes_.erase(from);
   }
 
+  bool has_positions(const Cause& c) const {
+    return std::any_of(c.direct.begin(), c.direct.end(),
+                       [&](std::size_t k) { return report_.results[k].unit != "degrees"; });
+  }
+
   // What is wrong at irregular vertices only, of a subject that is wrong in irregular faces in more rows. (At
   // depth 0 there are no other points.)
-  static bool is_part_of(const Key& part, const Cause& few, const Key& whole, const Cause& many) {
+  bool is_part_of(const Key& part, const Cause& few, const Key& whole, const Cause& many) const {
     return part.kind == CauseKind::kSurface && whole.kind == CauseKind::kSurface && part.who == whole.who &&
            whole.region == Region::kIrregular &&
            (part.region == Region::kBoundary || part.region == Region::kExtraordinary) &&
-           few.direct.size() < many.direct.size();
+           few.direct.size() < many.direct.size() && (!has_positions(few) || has_positions(many));
   }
 
   // Where a row goes that stands for itself.
@@ -291,7 +297,8 @@ class Sorting {
       return {of_library, CauseKind::kRefuses, Region::kNone, without_numbers(r.message)};
     if (r.check == "written") return {name, CauseKind::kUnwritten, Region::kNone, ""};
     if (is_of_surface(r) && !is_without_length(r)) return {name, CauseKind::kSurface, region_.at(k), ""};
-    if (is_of_surface(r) || is_one_of(r.check, {"finite", "degenerate-geometry", "file-finite"}) || says_not_finite(r) ||
+    if (is_of_surface(r) || is_one_of(r.check, {"finite", "degenerate-geometry", "file-finite"}) ||
+        says_not_finite(r) ||
         (r.check == "normal-length" && (c.find({"finite"}) != nullptr || is_out_of_scale(report_, r))))
       return {of_library, CauseKind::kNotFinite, Region::kNone, ""};
     if (is_one_of(r.check, {"coverage", "orientation", "file-coverage", "file-orientation"}))
@@ -328,9 +335,9 @@ class Sorting {
       if (follows && reason != nullptr && reason->status == Status::kFinding)
         put(k, key_of(c, index(reason)), false);
       else
-        put(k, own, r.check != "watertight" && r.check != "t-vertices"
-                        ? true
-                        : c.find({"shared-positions"}) == nullptr);
+        put(k, own,
+            r.check != "watertight" && r.check != "t-vertices" ? true
+                                                               : c.find({"shared-positions"}) == nullptr);
     }
   }
 

@@ -30,17 +30,17 @@ std::string_view word(CauseKind kind);
 
 /// One thing that is wrong with one subject, or with several of one library.
 struct Cause {
-  std::string who;                    // the library, or the subject's name without options
+  std::string who;  // the library, or the subject's name without options
   CauseKind kind = CauseKind::kOther;
-  std::vector<std::string> subjects;  // labels, in the order of the report
-  std::vector<std::size_t> rows;      // of report.results, ascending: all that is wrong because of it ...
-  std::vector<std::size_t> direct;    // ... and those of them that show it themselves
-  std::vector<PlaceCount> places[2];  // kSurface: where it is, of Loop's scheme and of Catmull-Clark's
-  std::size_t example = 0;            // of report.results: one of `direct`, on the smallest mesh there is
-  std::int64_t cases = 0, of = 0;     // pairs of subject and case where it shows, of how many looked at
-  int size = 1, share = 1;            // how large and how frequent it is, each from 1 to 3 (severity())
-  std::string title;                  // what is wrong, in one line
-  std::string look;                   // where to look for it; may be empty
+  std::vector<std::string> subjects;      // labels, in the order of the report
+  std::vector<std::size_t> rows;          // of report.results, ascending: all that is wrong because of it ...
+  std::vector<std::size_t> direct;        // ... and those of them that show it themselves
+  std::vector<PlaceCount> places[2];      // kSurface: where it is, of Loop's scheme and of Catmull-Clark's
+  std::size_t example = 0;                // of report.results: one of `direct`, on the smallest mesh there is
+  std::int64_t cases = 0, of = 0;         // pairs of subject and case where it shows, of how many looked at
+  int size = 1, share = 1;                // how large and how frequent it is, each from 1 to 3 (severity())
+  std::string title;                      // what is wrong, in one line
+  std::string look;                       // where to look for it; may be empty
   std::vector<std::string> consequences;  // rows that are red because of it, and are not `direct`
 
   /// "high", "medium" or "low".

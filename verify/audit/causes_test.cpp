@@ -65,14 +65,17 @@ void expect_partition(const Report& report, const std::vector<Cause>& all) {
 
 TEST(Causes, RowsThatFollowFromOthersAreTheirConsequences) {
   Result positions = red("s", "m", "positions", 1e-2);
-  positions.places = {{PlaceKind::kRegularVertex, 0, 0, 5}, {PlaceKind::kBoundaryVertex, 3, 0, 2},
-                      {PlaceKind::kBoundaryVertex, 4, 2, 2}, {PlaceKind::kBoundaryVertex, 5, 1, 1}};
+  positions.places = {{PlaceKind::kRegularVertex, 0, 0, 5},
+                      {PlaceKind::kBoundaryVertex, 3, 0, 2},
+                      {PlaceKind::kBoundaryVertex, 4, 2, 2},
+                      {PlaceKind::kBoundaryVertex, 5, 1, 1}};
   const Report report =
       report_of({positions, red("s", "m", "mirror", 50), red("s", "m", "normals-against-positions", 3)});
   const std::vector<Cause> all = causes(report);
   expect_partition(report, all);
   ASSERT_EQ(all.size(), 1U);
-  EXPECT_EQ(all[0].title, "Positions are off by up to 1.0e-02 diagonals, only at boundary vertices of 4 or more faces");
+  EXPECT_EQ(all[0].title,
+            "Positions are off by up to 1.0e-02 diagonals, only at boundary vertices of 4 or more faces");
   EXPECT_EQ(all[0].consequences, (std::vector<std::string>{"mirror", "normals-against-positions"}));
 }
 

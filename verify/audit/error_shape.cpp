@@ -88,9 +88,10 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
       shape.values.push_back(value_of(error(v), bound));
     }
   for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
-  shape.note = fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions", bound,
-                           normals ? " degrees" : " diagonals");
-  if (order.size() == kMostTriangles) shape.note += fmt::format("; the {} triangles at the witness", kMostTriangles);
+  shape.note = fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions",
+                           bound, normals ? " degrees" : " diagonals");
+  if (order.size() == kMostTriangles)
+    shape.note += fmt::format("; the {} triangles at the witness", kMostTriangles);
   return shape;
 } catch (const std::exception&) {
   return std::nullopt;  // the report has a row that says so

@@ -16,10 +16,10 @@ namespace limitcheck::verify {
 
 /// A tessellation, or the part of it round a witness, with the error of each vertex.
 struct ErrorShape {
-  std::vector<float> positions;           // three for each vertex
-  std::vector<std::uint8_t> values;       // of each vertex: 0 within the bound, 1 .. beyond it, one for each
-                                          // power of ten; 255 not finite
-  std::vector<std::uint32_t> triangles;   // three vertices each
+  std::vector<float> positions;          // three for each vertex
+  std::vector<std::uint8_t> values;      // of each vertex: 0 within the bound, 1 .. beyond it, one for each
+                                         // power of ten; 255 not finite
+  std::vector<std::uint32_t> triangles;  // three vertices each
   std::array<float, 3> witness{};
   std::string note;  // what the values are of
 };

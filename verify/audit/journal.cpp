@@ -57,12 +57,14 @@ Json to_json(const std::vector<PlaceCount>& counts) {
 }
 std::vector<PlaceCount> places(const Json& j) {
   std::vector<PlaceCount> counts;
-  for (const Json& c : j) counts.push_back({static_cast<PlaceKind>(c.at(0).get<int>()), c.at(1), c.at(2), c.at(3)});
+  for (const Json& c : j)
+    counts.push_back({static_cast<PlaceKind>(c.at(0).get<int>()), c.at(1), c.at(2), c.at(3)});
   return counts;
 }
 Json to_json(const Result& r) {
   const auto& [subject, mesh, check, depth, depths, sample, in_float, scheme, cut, weights, status, bad, of,
-               worst, bound, rms, p99, unit, absolute, ulps, ill, place, message, places, decades, seconds] = r;
+               worst, bound, rms, p99, unit, absolute, ulps, ill, place, message, places, decades, seconds] =
+      r;
   return Json::array({subject,
                       mesh,
                       check,

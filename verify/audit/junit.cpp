@@ -62,8 +62,9 @@ std::string outcome(const Result& r) {
     case Status::kUnexpectedPass:
       return fmt::format("<system-out>{}: {}</system-out>", word(r.status), text);
     case Status::kFinding:
-      return fmt::format("<failure message=\"{}\">{}</failure>", text,
-                         escaped(difference_command(r).empty() ? audit_command(r, "standard") : difference_command(r)));
+      return fmt::format(
+          "<failure message=\"{}\">{}</failure>", text,
+          escaped(difference_command(r).empty() ? audit_command(r, "standard") : difference_command(r)));
     case Status::kNotSupported:
     case Status::kNotRun:
     case Status::kWaived:
@@ -100,7 +101,8 @@ std::string to_junit(const Report& report) {
       seconds += r.seconds;
     }
     suites += fmt::format(
-        " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n{} "
+        " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
+        "time=\"{:.3f}\">\n{} "
         "</testsuite>\n",
         escaped(subject), tests, failures, errors, skipped, seconds, cases);
   }

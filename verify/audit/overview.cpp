@@ -143,9 +143,9 @@ std::string summary(const Report& report) {
                       r.status == Status::kUnexpectedPass;
     (r.status == Status::kHeld ? held : is_bad(r) ? bad : note ? noted : other) += 1;
   }
-  std::string out = fmt::format("{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
-                                noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other,
-                                report.seconds);
+  std::string out =
+      fmt::format("{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
+                  noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
   for (const NeverJudged& none : never_judged(report)) out += none.text() + "\n";
   if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
   return out;
@@ -153,8 +153,10 @@ std::string summary(const Report& report) {
 
 std::string legend(bool plan) {
   return fmt::format(
-      "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; -: not looked at, the subject does not do "
-      "it.\nirregular: at a vertex of another valence than 6 (Loop) or 4 (Catmull-Clark), or no quad; diagonal: "
+      "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; -: not looked at, the subject does not "
+      "do "
+      "it.\nirregular: at a vertex of another valence than 6 (Loop) or 4 (Catmull-Clark), or no quad; "
+      "diagonal: "
       "of the mesh's bounding box.\n",
       plan ? "cases (a mesh at its depths)" : "meshes");
 }
@@ -205,8 +207,7 @@ std::string causes_in_full(const Report& report, const std::vector<Cause>& cause
     out += one_line(c, k + 1, false);
     if (c.subjects.size() > 1) out += fmt::format("   subjects     {}\n", fmt::join(c.subjects, ", "));
     if (!c.look.empty()) out += fmt::format("   look at      {}\n", c.look);
-    if (!c.consequences.empty())
-      out += fmt::format("   consequences {}\n", fmt::join(c.consequences, ", "));
+    if (!c.consequences.empty()) out += fmt::format("   consequences {}\n", fmt::join(c.consequences, ", "));
     out += fmt::format("   smallest     {}, {} row{} in all\n", case_name(report, report.results[c.example]),
                        c.rows.size(), c.rows.size() == 1 ? "" : "s");
     if (const std::string command = command_for(report, c, level); !command.empty())

@@ -43,13 +43,13 @@ Places::Places(const Lattice& lattice) : lattice_(lattice) {
   for (std::size_t v = 0; v < vertices; ++v) {
     PlaceCount& place = vertex_.emplace_back();
     const int count = sharp_edges[v] + (boundary[v] && sharp_edges[v] > 0 ? 2 : 0);
-    place.kind = sharp[v] || count > 2  ? PlaceKind::kCorner
-                 : count == 2           ? PlaceKind::kCrease
-                 : count == 1           ? PlaceKind::kDart
-                 : boundary[v]          ? PlaceKind::kBoundaryVertex
-                 : !quads[v]            ? PlaceKind::kPolygonVertex
-                 : faces[v] != regular  ? PlaceKind::kExtraordinaryVertex
-                                        : PlaceKind::kRegularVertex;
+    place.kind = sharp[v] || count > 2 ? PlaceKind::kCorner
+                 : count == 2          ? PlaceKind::kCrease
+                 : count == 1          ? PlaceKind::kDart
+                 : boundary[v]         ? PlaceKind::kBoundaryVertex
+                 : !quads[v]           ? PlaceKind::kPolygonVertex
+                 : faces[v] != regular ? PlaceKind::kExtraordinaryVertex
+                                       : PlaceKind::kRegularVertex;
     if (place.kind == PlaceKind::kBoundaryVertex || place.kind == PlaceKind::kExtraordinaryVertex)
       place.faces = faces[v];
   }
@@ -57,10 +57,10 @@ Places::Places(const Lattice& lattice) : lattice_(lattice) {
     PlaceKind kind = !loop && mesh.faces[f].size() != 4 ? PlaceKind::kIrregularFace : PlaceKind::kRegularFace;
     for (const std::int32_t v : mesh.faces[f]) {
       const PlaceKind at = vertex_[v].kind;
-      kind = std::max(kind, at >= PlaceKind::kDart              ? PlaceKind::kSharpFace
-                            : at == PlaceKind::kBoundaryVertex  ? PlaceKind::kBoundaryFace
-                            : at == PlaceKind::kRegularVertex   ? PlaceKind::kRegularFace
-                                                                : PlaceKind::kIrregularFace);
+      kind = std::max(kind, at >= PlaceKind::kDart             ? PlaceKind::kSharpFace
+                            : at == PlaceKind::kBoundaryVertex ? PlaceKind::kBoundaryFace
+                            : at == PlaceKind::kRegularVertex  ? PlaceKind::kRegularFace
+                                                               : PlaceKind::kIrregularFace);
     }
     face_.push_back(kind);
   }

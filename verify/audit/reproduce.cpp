@@ -39,8 +39,8 @@ bool names_a_point(const Result& result) {
 }  // namespace
 
 std::string eval_command(const Result& result) {
-  static const std::set<std::string_view> kOfLimit{"positions", "normals", "finite", "file-positions",
-                                                   "file-distance", "file-normals"};
+  static const std::set<std::string_view> kOfLimit{"positions",      "normals",       "finite",
+                                                   "file-positions", "file-distance", "file-normals"};
   if (!names_a_point(result) || !kOfLimit.contains(result.check)) return "";
   return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
                      result.witness->l1, result.witness->l2, mesh_options(result),
@@ -49,9 +49,9 @@ std::string eval_command(const Result& result) {
 }
 
 std::string difference_command(const Result& result) {
-  static const std::set<std::string_view> kOfPoints{"positions",        "refined-positions", "normals",
-                                                    "normal-length",    "finite",            "shared-positions",
-                                                    "shared-normals"};
+  static const std::set<std::string_view> kOfPoints{
+      "positions", "refined-positions", "normals",       "normal-length",
+      "finite",    "shared-positions",  "shared-normals"};
   if (!names_a_point(result) || !kOfPoints.contains(result.check)) return "";
   return fmt::format("limitcheck eval --subject {} {} {} {} {} --depth {}{}{}", quoted(result.subject),
                      quoted(result.mesh), result.witness->where(), result.witness->l1, result.witness->l2,

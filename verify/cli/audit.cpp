@@ -180,9 +180,10 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
 // Below the overview.
 std::string where_the_rest_is(const Job& job) {
   if (job.whole)
-    return fmt::format("{} shows the causes in a browser; {} has all tables, and each cause with the command that "
-                       "shows it; {} is for programs.\n",
-                       kPageFile, kTextFile, kReportFile);
+    return fmt::format(
+        "{} shows the causes in a browser; {} has all tables, and each cause with the command that "
+        "shows it; {} is for programs.\n",
+        kPageFile, kTextFile, kReportFile);
   return "--details prints all tables. --explain CHECK says what a check means.\n";
 }
 
@@ -217,9 +218,10 @@ std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSu
     if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report, a.output.level));
     if (job.whole) {
       verify::write_text(kReportFile, verify::to_json(report, a.output.level));
-      verify::write_text(kTextFile, "Root causes\n\n" +
-                                        verify::causes_in_full(report, verify::causes(report), a.output.level) +
-                                        "Tables\n\n" + verify::to_table(report, false));
+      verify::write_text(kTextFile,
+                         "Root causes\n\n" +
+                             verify::causes_in_full(report, verify::causes(report), a.output.level) +
+                             "Tables\n\n" + verify::to_table(report, false));
     }
     for (const std::string& html : {a.output.html, std::string(job.whole ? kPageFile : "")})
       if (!html.empty()) write_html(html, audited, meshes, report, a.output.level, a.threads);

@@ -17,7 +17,8 @@ using nlohmann::json;
 class AuditCauses : public CommandTest {};
 
 TEST_F(AuditCauses, EachHasACommandThatShowsTheDifference) {
-  const Outcome o = run("audit all fan:1 fan:5 prism:3 quad-fan:2 quad-dart:4 wheel:50 --depth 2 --json report.json");
+  const Outcome o =
+      run("audit all fan:1 fan:5 prism:3 quad-fan:2 quad-dart:4 wheel:50 --depth 2 --json report.json");
   ASSERT_EQ(o.code, 1) << o.err;
   EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 50) << o.out;
   const json report = json::parse(read("report.json"));
@@ -63,7 +64,8 @@ TEST_F(AuditCauses, AgainstABaselineOnlyWhatIsNewOrWorseIsAFinding) {
 }
 
 TEST_F(AuditCauses, ACrashCanBeWaived) {
-  write("w.json", R"({"waivers":[{"subject":"*","check":"tessellates","reason":"known","expires":"2999-12-31"}]})");
+  write("w.json",
+        R"({"waivers":[{"subject":"*","check":"tessellates","reason":"known","expires":"2999-12-31"}]})");
   const Outcome o = run("audit --program 'kill -SEGV $$' tetrahedron --waivers w.json");
   EXPECT_NE(o.out.find("waived: "), std::string::npos) << o.out;
   EXPECT_NE(o.code, 1) << "nothing is red, and nothing was confirmed";
@@ -72,7 +74,8 @@ TEST_F(AuditCauses, ACrashCanBeWaived) {
 TEST_F(AuditCauses, WhatASubjectPrintsIsNotOnTheScreen) {
   const Outcome o = run("audit openmesh tetrahedron --depth 1 --json report.json");
   EXPECT_EQ(o.err.find("add_face"), std::string::npos) << o.err;
-  EXPECT_NE(json::parse(read("report.json"))["printed"].get<std::string>().find("add_face"), std::string::npos);
+  EXPECT_NE(json::parse(read("report.json"))["printed"].get<std::string>().find("add_face"),
+            std::string::npos);
 }
 
 TEST_F(AuditCauses, AStrangersGuessesLeadOn) {

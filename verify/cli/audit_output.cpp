@@ -48,18 +48,20 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->type_name("CHECK,...");
   command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
   command
-      .add_option("--html", a.html,
-                  "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
-                  "and the meshes in three dimensions with their errors")
+      .add_option(
+          "--html", a.html,
+          "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
+          "and the meshes in three dimensions with their errors")
       ->type_name("FILE");
   command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   command
-      .add_option("--baseline", a.baseline,
-                  "JSON report of an earlier audit: say what is new, worse and gone since, and exit with 1 only "
-                  "for what is new or worse")
+      .add_option(
+          "--baseline", a.baseline,
+          "JSON report of an earlier audit: say what is new, worse and gone since, and exit with 1 only "
+          "for what is new or worse")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   command

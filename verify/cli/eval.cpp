@@ -166,10 +166,10 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"loop", "warren"}))
       ->capture_default_str();
   command->add_flag("--json", request->json, "One JSON document, numbers as decimal strings");
-  CLI::Option* subject =
-      command->add_option("--subject", request->subject,
-                          "Show what this subject (as `limitcheck audit` takes it) delivers at the point, beside "
-                          "what it should; exit code 1 if it is wrong");
+  CLI::Option* subject = command->add_option(
+      "--subject", request->subject,
+      "Show what this subject (as `limitcheck audit` takes it) delivers at the point, beside "
+      "what it should; exit code 1 if it is wrong");
   command
       ->add_option("--depth", request->depth,
                    "With --subject: subdivision depth of every face, or of the deepest one")
@@ -177,7 +177,8 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, 12))
       ->capture_default_str();
   command
-      ->add_option("--depths", request->depths, "With --subject: how the faces get their depths, as for audit")
+      ->add_option("--depths", request->depths,
+                   "With --subject: how the faces get their depths, as for audit")
       ->needs(subject)
       ->capture_default_str();
   command->footer(
@@ -186,9 +187,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       "3. Any other face has a quad at each corner: there (0, 0) is the corner, (1, 0) the middle of the "
       "edge to the "
       "next corner, (1, 1) the middle of the face. Derivatives are by these parameters: d1 by U, d2 by V.");
-  command->callback([request, &exit_code] {
-    exit_code = run(*request);
-  });
+  command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 
 }  // namespace limitcheck::cli

@@ -45,7 +45,8 @@ verify::Place place(const SubjectAtPoint& at, const reference::Parameter& u, con
 
 std::string vector(const verify::Vector& v, bool in_float) {
   if (in_float)
-    return fmt::format("{}  {}  {}", static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+    return fmt::format("{}  {}  {}", static_cast<float>(v[0]), static_cast<float>(v[1]),
+                       static_cast<float>(v[2]));
   return fmt::format("{}  {}  {}", v[0], v[1], v[2]);
 }
 
@@ -59,8 +60,8 @@ void print_expected(const verify::VertexAtPoint& p, bool refined) {
   fmt::print("expected  position  {}{}\n", vector(p.expected, false),
              refined ? "  (of the refined control mesh)" : "");
   if (p.normal)
-    fmt::print("          normal    {}\n",
-               p.expected_normal ? vector(*p.expected_normal, false) : "any of length 1: the surface has none");
+    fmt::print("          normal    {}\n", p.expected_normal ? vector(*p.expected_normal, false)
+                                                             : "any of length 1: the surface has none");
 }
 
 }  // namespace
@@ -84,8 +85,8 @@ int show_difference(const SubjectAtPoint& at, const OpenedMesh& opened, const re
   if (found.vertices.empty()) fmt::print("{} delivers no vertex there\n", subject.label());
   const verify::VertexAtPoint* before = nullptr;
   for (const verify::VertexAtPoint& p : found.vertices) {
-    const bool told = before != nullptr && before->expected == p.expected &&
-                      before->expected_normal == p.expected_normal;
+    const bool told =
+        before != nullptr && before->expected == p.expected && before->expected_normal == p.expected_normal;
     before = &p;
     if (!told) print_expected(p, found.refined);
     fmt::print("{} vertex {}\n", subject.label(), p.vertex);

@@ -14,6 +14,7 @@
 
 #include "data/bounding_box.h"
 #include "verify/audit/checks.h"
+#include "verify/audit/clock.h"
 #include "verify/audit/recognise.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
@@ -221,12 +222,14 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   if (sample) asked = sample->cull(std::move(asked));
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
+  const Clock clock;
   try {
     step(rows.subject, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options, Session::Input::kValid, mesh.scheme());
     tessellation.emplace(session->tessellate(asked, threads_));
     rows.add("tessellates", Status::kHeld, "");
     results.back().of = 1;
+    results.back().seconds = clock.seconds();
   } catch (const std::bad_alloc&) {
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
@@ -281,8 +284,12 @@ void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::
       rows.add(check, Status::kError, no_reference);
       continue;
     }
+    const Clock clock;
     try {
-      for (Result& r : check.run(evidence)) rows.results.push_back(std::move(r));
+      std::vector<Result> found = check.run(evidence);
+      // A check looks at all of its rows at once.
+      for (Result& r : found) r.seconds = clock.seconds() / static_cast<double>(found.size());
+      for (Result& r : found) rows.results.push_back(std::move(r));
     } catch (const std::bad_alloc&) {
       throw;  // no memory of this program's
     } catch (const std::exception& error) {

@@ -12,7 +12,7 @@ WORDS = (
                  "an angle (30 degrees here)."),
     ("fans", "the paper's repair of cracks: a face with finer neighbours becomes a fan round its middle and loses its inner points. "
              "Stitched: ours, which keeps them."),
-    ("C01 to C85", "the statements of the paper that can be checked, in the order of its text."),
+    ("C01 to C86", "the statements of the paper that can be checked, in the order of its text."),
     ("T1 to T10", "what a reproduction has to show: sentences about the paper's figures. Their verdicts are those of the claims."),
     ("we conclude", "what is true of the paper's sentence. Our test: whether the test behind that agrees today. A misprint whose test is green "
                     "is a misprint."),

@@ -37,7 +37,7 @@ std::set<std::string> tests_in_the_sources() {
 TEST(ClaimRegister, HasEightyFiveClaimsEachWithAKnownVerdict) {
   const auto json = nlohmann::json::parse(
       contents(fs::path(LIMITCHECK_SOURCE_DIR) / "papers/mueller-havemann-2000/claims.json"));
-  ASSERT_EQ(json["claims"].size(), 85U);
+  ASSERT_EQ(json["claims"].size(), 86U);
   std::set<std::string> ids;
   for (const auto& claim : json["claims"]) {
     EXPECT_TRUE(ids.insert(claim["id"].get<std::string>()).second) << claim["id"];
@@ -56,7 +56,7 @@ TEST(ClaimRegister, NamesOnlyTestsThatExist) {
     for (const auto& name : claim["check"])
       EXPECT_TRUE(tests.contains(name.get<std::string>())) << claim["id"] << " names " << name;
   }
-  constexpr int kFloor = 82;  // of 85: what the coverage of claims must not fall below
+  constexpr int kFloor = 83;  // of 86: what the coverage of claims must not fall below
   EXPECT_GE(checked, kFloor);
 }
 

@@ -74,7 +74,7 @@ case $kind in
     bash verify/build.sh release -DBUILD_TESTING=OFF
     for subject in row-stream:target={avx2,avx2/4,sse4,scalar} sliding-window opensubdiv-far:precision=double; do
       echo "$subject:"
-      "${memcheck[@]}" build/release/limitcheck audit "$subject" icosahedron --depth 2 --level quick | tail -n 1
+      "${memcheck[@]}" build/release/limitcheck audit "$subject" icosahedron --depth 2 --level quick --details | tail -n 1
     done
     ;;
   *)

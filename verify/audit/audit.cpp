@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <span>
@@ -12,10 +14,12 @@
 
 #include "data/bounding_box.h"
 #include "verify/audit/checks.h"
+#include "verify/audit/clock.h"
 #include "verify/audit/recognise.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
+#include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
 #include "verify/subject/weights_option.h"
@@ -116,6 +120,8 @@ Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> o
 Auditor::~Auditor() = default;
 
 void Auditor::step(const std::string& subject, const std::string& mesh, std::string_view check) {
+  if (interrupted() != 0) return;  // nobody may be there any more
+  if (keep_rows_) keep_rows_();
   if (on_step_) on_step_({subject, mesh, std::string(check), done_, total_});
 }
 
@@ -136,15 +142,37 @@ ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, data::Sch
 }
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
-  std::vector<Result> results;
-  bool no_memory = false;
+  // The rows as they come, and those that were there before the last check. Work that is left keeps both.
+  struct Shared {
+    std::vector<Result> rows;
+    std::mutex mutex;
+    std::vector<Result> kept;
+  };
+  const auto shared = std::make_shared<Shared>();
+  bool no_memory = false, left = false;
   try {
-    if (interrupted() == 0) judge(audited, mesh, results);
+    if (interrupted() == 0 && !leaves_) {
+      judge(audited, mesh, shared->rows);
+    } else if (interrupted() == 0) {
+      keep_rows_ = [shared] {
+        const std::scoped_lock lock(shared->mutex);
+        shared->kept = shared->rows;
+      };
+      left = !run_or_abandon([this, &audited, &mesh, shared] { judge(audited, mesh, shared->rows); });
+    }
   } catch (const Interrupted&) {
   } catch (const std::bad_alloc&) {
     no_memory = true;
   } catch (const HostOutOfMemory&) {
     no_memory = true;
+  }
+  std::vector<Result> results;
+  if (left) {
+    abandoned_ = true;
+    const std::scoped_lock lock(shared->mutex);
+    results = shared->kept;
+  } else {
+    results = std::move(shared->rows);
   }
   if (no_memory) {
     cache_.clear();
@@ -194,12 +222,14 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   if (sample) asked = sample->cull(std::move(asked));
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
+  const Clock clock;
   try {
     step(rows.subject, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options, Session::Input::kValid, mesh.scheme());
     tessellation.emplace(session->tessellate(asked, threads_));
     rows.add("tessellates", Status::kHeld, "");
     results.back().of = 1;
+    results.back().seconds = clock.seconds();
   } catch (const std::bad_alloc&) {
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
@@ -236,6 +266,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   close(*session, results.front());
 
   run_checks(evidence, rows, no_reference);
+  if (keep_rows_) keep_rows_();
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.faces.size())) {
     const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
@@ -253,8 +284,12 @@ void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::
       rows.add(check, Status::kError, no_reference);
       continue;
     }
+    const Clock clock;
     try {
-      for (Result& r : check.run(evidence)) rows.results.push_back(std::move(r));
+      std::vector<Result> found = check.run(evidence);
+      // A check looks at all of its rows at once.
+      for (Result& r : found) r.seconds = clock.seconds() / static_cast<double>(found.size());
+      for (Result& r : found) rows.results.push_back(std::move(r));
     } catch (const std::bad_alloc&) {
       throw;  // no memory of this program's
     } catch (const std::exception& error) {

@@ -15,7 +15,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
 #include "verify/audit/checks.h"
-#include "verify/audit/table.h"
+#include "verify/audit/reproduce.h"
 #include "verify/audit/test_rows.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/faulty_subjects.h"

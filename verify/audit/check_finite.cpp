@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "verify/audit/checks.h"
+#include "verify/audit/place_counts.h"
 #include "verify/audit/vector.h"
 
 namespace limitcheck::verify {
@@ -30,6 +31,9 @@ std::vector<Result> check_finite(const Evidence& e) {
     r.status = Status::kFinding;
     r.message = fmt::format("{} positions and {} normals are NaN or infinite", positions, normals);
   }
+  count_places(
+      r, e.lattice, e.point.size(), [&](std::size_t v) { return e.point[v]; },
+      [&](std::size_t v) { return static_cast<int>(!is_finite(t, static_cast<std::int64_t>(v))); });
   return {r};
 }
 

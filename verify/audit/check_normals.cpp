@@ -8,6 +8,7 @@
 #include "verify/audit/bounds.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/confirm.h"
+#include "verify/audit/place_counts.h"
 #include "verify/audit/statistics.h"
 
 namespace limitcheck::verify {
@@ -50,6 +51,14 @@ std::vector<Result> check_normals(const Evidence& e) {
         return -1.0;
       },
       angle);
+  angle.decades = decades(angles);
+  const auto point_of = [&](std::size_t k) {
+    const Sides::Id side = e.uses[k].side;
+    return side == Lattice::kNone ? side : e.reference.sides().point(side);
+  };
+  count_places(angle, e.lattice, angles.size(), point_of, [&](std::size_t k) {
+    return angles[k] < 0 ? -1 : static_cast<int>(!(angles[k] <= e.normal_bound_at(e.uses[k].side)));
+  });
   if (at >= 0) {
     const auto [vertex, side] = e.uses[at];
     const Vector got = t.normal(vertex);

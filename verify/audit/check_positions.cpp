@@ -4,6 +4,7 @@
 #include "verify/audit/bounds.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/confirm.h"
+#include "verify/audit/place_counts.h"
 #include "verify/audit/statistics.h"
 
 namespace limitcheck::verify {
@@ -37,6 +38,10 @@ std::vector<Result> check_positions(const Evidence& e) {
             : Confirmation{};
   const Statistics s = summarise(error, *r.bound);
   take(r, s);
+  r.decades = decades(error);
+  count_places(
+      r, e.lattice, error.size(), [&](std::size_t v) { return e.point[v]; },
+      [&](std::size_t v) { return error[v] < 0 ? -1 : static_cast<int>(!(error[v] <= *r.bound)); });
   say(r, confirmation.message);
   std::int64_t not_finite = 0;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) not_finite += !is_finite(t.position(v));

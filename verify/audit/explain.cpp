@@ -148,6 +148,19 @@ const std::vector<Explanation>& explanations() {
   return all;
 }
 
+std::string_view words_of_tables() {
+  return "held           looked at, nothing wrong\n"
+         "FINDING        looked at, something wrong\n"
+         "warning        within the bound, but not as good as it could be: worth a look, no fault\n"
+         "waived         a finding that --waivers accepts; STALE WAIVER: it expects one and there is none\n"
+         "not supported  the subject does not offer it: no fault\n"
+         "not run        could not be looked at: nothing is confirmed\n"
+         "-              nothing to count or to measure, or nothing was looked at\n"
+         "bad/looked at  points, triangles or whatever the unit says, over all meshes\n"
+         "worst, bound   of the worst mesh; 99 %: what 99 of 100 there do not exceed\n"
+         "diagonal       of the bounding box of the control mesh\n";
+}
+
 std::string_view current_name(std::string_view check) {
   return check == "extreme-scale" ? "scaling" : check;
 }

@@ -49,9 +49,22 @@ Json to_json(const IllConditioned& c) {
 IllConditioned ill_conditioned(const Json& j) {
   return {j.at(0), number_of(j.at(1)), number_of(j.at(2))};
 }
+Json to_json(const std::vector<PlaceCount>& counts) {
+  Json list = Json::array();
+  for (const auto& [kind, faces, bad, of] : counts)
+    list.push_back(Json::array({static_cast<int>(kind), faces, bad, of}));
+  return list;
+}
+std::vector<PlaceCount> places(const Json& j) {
+  std::vector<PlaceCount> counts;
+  for (const Json& c : j)
+    counts.push_back({static_cast<PlaceKind>(c.at(0).get<int>()), c.at(1), c.at(2), c.at(3)});
+  return counts;
+}
 Json to_json(const Result& r) {
   const auto& [subject, mesh, check, depth, depths, sample, in_float, scheme, cut, weights, status, bad, of,
-               worst, bound, rms, p99, unit, absolute, ulps, ill, place, message] = r;
+               worst, bound, rms, p99, unit, absolute, ulps, ill, place, message, places, decades, seconds] =
+      r;
   return Json::array({subject,
                       mesh,
                       check,
@@ -74,7 +87,10 @@ Json to_json(const Result& r) {
                       to_json(ulps),
                       ill ? to_json(*ill) : Json(nullptr),
                       place ? to_json(*place) : Json(nullptr),
-                      message});
+                      message,
+                      to_json(places),
+                      decades,
+                      seconds});
 }
 Result result(const Json& j) {
   return {j.at(0),
@@ -99,7 +115,10 @@ Result result(const Json& j) {
           maybe(j.at(19)),
           j.at(20).is_null() ? std::nullopt : std::optional(ill_conditioned(j.at(20))),
           j.at(21).is_null() ? std::nullopt : std::optional(witness(j.at(21))),
-          j.at(22)};
+          j.at(22),
+          places(j.at(23)),
+          j.at(24),
+          j.at(25)};
 }
 
 }  // namespace

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "verify/audit/causes.h"
 #include "verify/audit/judged.h"
-#include "verify/audit/table.h"
+#include "verify/audit/reproduce.h"
 #include "verify/mesh_output/atomic_file.h"
 
 namespace limitcheck::verify {
@@ -32,6 +33,17 @@ Json ill_conditioned(const Result& r) {
           {"worst", finite(r.ill_conditioned->worst)}};
 }
 
+Json places(const Result& r) {
+  if (r.places.empty()) return nullptr;
+  Json list = Json::array();
+  for (const PlaceCount& c : r.places)
+    list.push_back({{"where", word(c.kind)},
+                    {"faces", c.faces > 0 ? Json(c.faces) : Json(nullptr)},
+                    {"count", c.bad},
+                    {"of", c.of}});
+  return list;
+}
+
 Json witness(const Result& r, const std::string& level) {
   const std::optional<Witness>& w = r.witness;
   if (!w) return nullptr;
@@ -45,7 +57,41 @@ Json witness(const Result& r, const std::string& level) {
           {"got", numbers(w->got)},
           {"expected_digits", w->expected_digits.empty() ? Json(nullptr) : Json(w->expected_digits)},
           {"command", text(eval_command(r))},
+          {"difference", text(difference_command(r))},
           {"reproduce", is_bad(r) ? Json(audit_command(r, level)) : Json(nullptr)}};
+}
+
+Json changes(const Report& report) {
+  if (!report.changes) return nullptr;
+  const auto& c = *report.changes;
+  return {{"baseline", c.baseline}, {"new", c.appeared}, {"worse", c.worse},
+          {"gone", c.gone},         {"same", c.same},    {"named", c.named}};
+}
+
+// The causes, and for each row the number of its cause.
+Json causes_json(const Report& report, const std::string& level, std::vector<int>& cause_of) {
+  Json list = Json::array();
+  for (const Cause& c : causes(report)) {
+    const int number = static_cast<int>(list.size()) + 1;
+    for (const std::size_t k : c.rows) cause_of[k] = number;
+    const Result& example = report.results[c.example];
+    list.push_back({{"number", number},
+                    {"who", c.who},
+                    {"kind", word(c.kind)},
+                    {"severity", c.severity()},
+                    {"title", c.title},
+                    {"look", text(c.look)},
+                    {"subjects", c.subjects},
+                    {"cases", c.cases},
+                    {"of", c.of},
+                    {"rows", c.rows.size()},
+                    {"consequences", c.consequences},
+                    {"mesh", example.mesh},
+                    {"depth", example.depth},
+                    {"depths", text(example.depths)},
+                    {"command", text(command_for(report, c, level))}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -72,6 +118,8 @@ std::string to_json(const Report& report, const std::string& level) {
            {"held", report.held()},
            {"containment", text(report.containment)},
            {"incomplete", text(report.incomplete)},
+           {"printed", text(report.printed)},
+           {"changes", changes(report)},
            {"never_judged", Json::array()}};
   for (const NeverJudged& none : never_judged(report))
     out["never_judged"].push_back(
@@ -82,10 +130,14 @@ std::string to_json(const Report& report, const std::string& level) {
     out["meshes"].push_back({{"name", m.name},
                              {"vertices", m.vertices},
                              {"faces", m.faces},
+                             {"diagonal", m.diagonal},
                              {"scheme", data::name_of(m.scheme)},
                              {"triangulated", text(m.triangulated)}});
+  std::vector<int> cause_of(report.results.size(), -1);
+  out["causes"] = causes_json(report, level, cause_of);
   out["results"] = Json::array();
-  for (const Result& r : report.results)
+  for (std::size_t k = 0; k < report.results.size(); ++k) {
+    const Result& r = report.results[k];
     out["results"].push_back({{"subject", r.subject},
                               {"mesh", r.mesh},
                               {"depth", r.depth},
@@ -106,8 +158,12 @@ std::string to_json(const Report& report, const std::string& level) {
                               {"worst_absolute", finite(r.worst_absolute)},
                               {"worst_ulps", finite(r.worst_ulps)},
                               {"ill_conditioned", ill_conditioned(r)},
+                              {"places", places(r)},
+                              {"seconds", r.seconds},
                               {"message", text(r.message)},
+                              {"cause", index(cause_of[k])},
                               {"witness", witness(r, level)}});
+  }
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -3,8 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "verify/audit/case_names.h"
-#include "verify/audit/table.h"
+#include "verify/audit/reproduce.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -37,6 +39,12 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+// Tools split class names at dots, and take the last part for the class.
+std::string without_dots(std::string text) {
+  std::replace(text.begin(), text.end(), '.', '_');
+  return text;
+}
+
 std::string describe(const Result& r) {
   std::string text = fmt::format("{} of {}", r.bad, r.of);
   if (r.worst) text += fmt::format(", worst {:.3e} {}", *r.worst, r.unit);
@@ -54,7 +62,9 @@ std::string outcome(const Result& r) {
     case Status::kUnexpectedPass:
       return fmt::format("<system-out>{}: {}</system-out>", word(r.status), text);
     case Status::kFinding:
-      return fmt::format("<failure message=\"{}\">{}</failure>", text, escaped(eval_command(r)));
+      return fmt::format(
+          "<failure message=\"{}\">{}</failure>", text,
+          escaped(difference_command(r).empty() ? audit_command(r, "standard") : difference_command(r)));
     case Status::kNotSupported:
     case Status::kNotRun:
     case Status::kWaived:
@@ -77,6 +87,7 @@ std::string to_junit(const Report& report) {
   for (const std::string& subject : report.subjects) {
     int tests = 0, failures = 0, errors = 0, skipped = 0;
     std::string cases;
+    double seconds = 0;
     for (const Result& r : report.results) {
       if (r.subject != subject) continue;
       const std::string body = outcome(r);
@@ -84,13 +95,16 @@ std::string to_junit(const Report& report) {
       failures += body.starts_with("<failure");
       errors += body.starts_with("<error");
       skipped += body.starts_with("<skipped");
-      cases += fmt::format("  <testcase classname=\"{}.{}\" name=\"{}\" time=\"0\">{}</testcase>\n",
-                           escaped(subject), escaped(case_name(report, r)), escaped(r.check), body);
+      cases += fmt::format("  <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\">{}</testcase>\n",
+                           escaped(without_dots(subject)), escaped(without_dots(case_name(report, r))),
+                           escaped(r.check), r.seconds, body);
+      seconds += r.seconds;
     }
     suites += fmt::format(
-        " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"0\">\n{} "
+        " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
+        "time=\"{:.3f}\">\n{} "
         "</testsuite>\n",
-        escaped(subject), tests, failures, errors, skipped, cases);
+        escaped(subject), tests, failures, errors, skipped, seconds, cases);
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"limitcheck audit\" "

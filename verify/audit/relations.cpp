@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "verify/audit/bounds.h"
+#include "verify/audit/clock.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relation_state.h"
 #include "verify/audit/sharp_variants.h"
@@ -207,8 +208,10 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
   std::vector<Result> results;
   const auto add = [&](std::string_view name, const std::function<Result()>& find) {
     if (on_row) on_row(name);
+    const Clock clock;
     try {
       results.push_back(find());
+      results.back().seconds = clock.seconds();
     } catch (const std::bad_alloc&) {
       throw;  // no memory of this program's
     } catch (const std::exception& error) {

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "verify/audit/json.h"
+#include "verify/audit/reproduce.h"
 #include "verify/audit/table.h"
 
 namespace limitcheck::verify {

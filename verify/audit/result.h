@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "data/scheme.h"
 #include "reference/loop/weights.h"
+#include "verify/audit/places.h"
 
 namespace limitcheck::verify {
 
@@ -74,6 +76,11 @@ struct Result {
   std::optional<IllConditioned> ill_conditioned;  // normals: if there are any
   std::optional<Witness> witness;
   std::string message;  // one sentence, may be empty
+  /// Of findings in positions and normals: where on the control mesh they are, ascending by kind and faces.
+  std::vector<PlaceCount> places;
+  /// Positions and normals: how many errors there are of each power of ten (statistics.h).
+  std::vector<std::int64_t> decades;
+  double seconds = 0;  // that it took to look
 };
 
 /// A finding, or a breakdown.
@@ -89,6 +96,7 @@ struct Report {
     std::int64_t vertices = 0, faces = 0;
     data::Scheme scheme = data::Scheme::kLoop;
     std::string triangulated;  // as in Result
+    double diagonal = 0;       // of the bounding box
   };
   std::string version;
   int depth = 0;                      // the largest
@@ -98,10 +106,20 @@ struct Report {
   std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at
   std::vector<Mesh> meshes;
   std::vector<std::string> subjects;
+  std::map<std::string, std::string> descriptions;  // of subjects, by their label: "OpenSubdiv 3.5 Far: ..."
   std::vector<Result> results;
   double seconds = 0;
   std::string containment;  // how the processes of isolated subjects were held; empty: there were none
+  std::string printed;      // by the subjects, on standard output and standard error
   std::string incomplete;   // "interrupted by SIGINT": not all was looked at; empty: all was
+
+  /// Against an earlier report (baseline.h), in rows.
+  struct Changes {
+    std::string baseline;  // its file
+    std::int64_t appeared = 0, worse = 0, gone = 0, same = 0;
+    std::vector<std::string> named;  // each that is new, worse or gone, in that order
+  };
+  std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
   bool looked() const {
@@ -111,6 +129,7 @@ struct Report {
   }
   bool held() const {
     if (!incomplete.empty()) return false;
+    if (changes) return changes->appeared + changes->worse == 0;
     for (const Result& r : results)
       if (is_bad(r)) return false;
     return true;

@@ -34,6 +34,16 @@ Statistics summarise(const std::vector<double>& errors, double bound) {
   return s;
 }
 
+std::vector<std::int64_t> decades(const std::vector<double>& errors) {
+  std::vector<std::int64_t> counts(kDecades, 0);
+  for (const double e : errors) {
+    if (e < 0 || !std::isfinite(e)) continue;
+    const int power = e > 0 ? static_cast<int>(std::floor(std::log10(e))) - kFirstDecade + 1 : 0;
+    ++counts[static_cast<std::size_t>(std::clamp(power, 0, kDecades - 1))];
+  }
+  return counts;
+}
+
 void take(Result& row, const Statistics& statistics) {
   row.bad = statistics.bad;
   row.of = statistics.of;

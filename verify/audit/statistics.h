@@ -23,6 +23,11 @@ struct Statistics {
 /// of the finite entries do not exceed.
 Statistics summarise(const std::vector<double>& errors, double bound);
 
+/// How many of the entries >= 0 lie in each power of ten: the first below 1e-17, the last at 100 and more;
+/// what is not finite is left out.
+inline constexpr int kDecades = 21, kFirstDecade = -17;
+std::vector<std::int64_t> decades(const std::vector<double>& errors);
+
 /// Counts, worst, rms and p99 into a row, and its status: not run if nothing was looked at.
 void take(Result& row, const Statistics& statistics);
 

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "verify/audit/case_names.h"
-#include "verify/audit/judged.h"
+#include "verify/audit/overview.h"
+#include "verify/audit/reproduce.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -143,10 +144,10 @@ std::string where(const Report& report, const Result& r) {
   return mesh;
 }
 
-void add_line(std::string& out, const Report& report, const Result& r, const std::string& meshes,
-              const std::string& depths, bool colour) {
+void add_line(std::string& out, const Report& report, const Result& r, std::int64_t bad, std::int64_t of,
+              const std::string& meshes, const std::string& depths, bool colour) {
   const bool has_worst = r.worst.has_value() || r.rms.has_value();
-  const std::string count = r.of > 0 ? fmt::format("{}/{}", r.bad, r.of) : "-";
+  const std::string count = of > 0 ? fmt::format("{}/{}", bad, of) : "-";
   out += fmt::format("  {:<25} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", r.check,
                      painted(r.status, colour), meshes, count,
                      has_worst ? (r.worst ? amount(r.worst) : "nan") : "-", has_worst ? amount(r.bound) : "-",
@@ -198,7 +199,9 @@ void add_finding(std::string& out, const Report& report, int number, const Line&
   if (!place.empty()) out += fmt::format("     witness   {}\n", fmt::join(place, ", "));
   if (!w.expected.empty()) out += fmt::format("     expected  {}\n", numbers(w.expected));
   if (!w.got.empty()) out += fmt::format("     got       {}\n", numbers(w.got));
-  if (const std::string command = eval_command(r); !command.empty()) out += fmt::format("     {}\n", command);
+  const std::string command = difference_command(r), truth = eval_command(r);
+  if (!command.empty()) out += fmt::format("     {}\n", command);
+  if (!truth.empty()) out += fmt::format("     {}\n", truth);
 }
 
 /// All subjects side by side: the worst verdict of each check over the meshes.
@@ -229,47 +232,6 @@ std::string matrix(const Report& report, bool colour) {
   return out;
 }
 
-// A word for the shell.
-std::string quoted(const std::string& text) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
-  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said
-// otherwise.
-std::string mesh_options(const Result& result) {
-  std::string text;
-  if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));
-  if (!result.triangulated.empty()) text += fmt::format(" --triangulate {}", result.triangulated);
-  return text;
-}
-
-}  // namespace
-
-std::string eval_command(const Result& result) {
-  if (!result.witness || result.witness->face < 0 || result.witness->l1.empty()) return "";
-  return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
-                     result.witness->l1, result.witness->l2, mesh_options(result),
-                     result.in_float ? " --precision float" : "",
-                     result.weights == reference::Weights::kWarren ? " --weights warren" : "");
-}
-
-std::string audit_command(const Result& result, const std::string& level) {
-  std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
-                                    quoted(result.mesh), result.depth) +
-                        mesh_options(result);
-  if (level != "standard") command += fmt::format(" --level {}", level);
-  if (!result.depths.empty() && result.depths != "uniform")
-    command += fmt::format(" --depths {}", quoted(result.depths));
-  if (!result.sample.empty()) command += " --sample " + result.sample;
-  return command;
-}
-
-namespace {
-
 // Why meshes were not tessellated at all though nothing is wrong: each reason once.
 std::string reasons(const Report& report, const std::string& subject) {
   std::map<std::string, std::vector<std::string>> meshes;
@@ -283,35 +245,65 @@ std::string reasons(const Report& report, const std::string& subject) {
   return out;
 }
 
-}  // namespace
-
-std::string to_table(const Report& report, bool colour, bool all) {
-  std::string out;
-  std::int64_t faces = 0;
-  for (const auto& m : report.meshes) faces += m.faces;
-  std::string depth = fmt::format("depth {}", report.depth);
+std::string lines_table(const Report& report, const std::vector<Line>& lines, bool colour, bool all) {
   const bool plan = report.depths == "plan";
-  if (report.depths == "file")
-    depth = "a finished tessellation";
-  else if (plan)
-    depth = fmt::format("depths 0 to {}", report.depth);
-  else if (report.depths != "uniform")
-    depth += fmt::format(" at most, {}", report.depths);
-  if (report.seed) depth += fmt::format(" (seed {})", *report.seed);
-  if (!report.sample.empty()) depth += fmt::format(", a sample of faces ({})", report.sample);
-  out += fmt::format(
-      "limitcheck {}: {} on {} ({} faces)\n", report.version, depth,
-      report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),
-      faces);
-  if (!report.containment.empty())
-    out += fmt::format("subjects in processes of their own: {}\n", report.containment);
-  const auto row = [&](auto... cell) {
-    return fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", cell...);
-  };
   const auto depths = [&](std::span<const Result* const> results) {
     return plan ? fmt::format("{:<9} ", depths_in_short(results)) : "";
   };
+  std::string out = fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", "check",
+                                "verdict", plan ? "cases" : "meshes", "bad/looked at", "worst", "bound",
+                                "99 %", "unit", plan ? "depths    " : "", "where");
+  for (const Line& line : lines) {
+    if (all) {
+      for (const Result* r : line.results)
+        add_line(out, report, *r, r->bad, r->of, r->status == Status::kHeld ? "1/1" : "0/1", depths({&r, 1}),
+                 colour);
+      continue;
+    }
+    std::int64_t bad = 0, of = 0;
+    for (const Result* r : line.results) {
+      bad += r->bad;
+      of += r->of;
+    }
+    add_line(out, report, *line.shown, bad, of,
+             fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()),
+             depths(line.results), colour);
+  }
+  return out;
+}
 
+// What the words of the table mean.
+std::string words(const Report& report) {
+  return fmt::format(
+      "{} a/b: held on a of b. bad/looked at: points, triangles or whatever the unit says, over all {}; "
+      "worst, bound and 99 % are\nthose of the worst one. warning: within the bound, and worth a look. -: "
+      "nothing to count or measure, or nothing was looked\nat. limitcheck audit --explain CHECK says what a "
+      "check means and where its bound comes from.\n",
+      report.depths == "plan" ? "cases" : "meshes", report.depths == "plan" ? "cases" : "meshes");
+}
+
+}  // namespace
+
+std::string check_lines(const Report& report, const std::string& subject, bool colour) {
+  const std::vector<Line> lines = lines_of(report, subject);
+  const std::string why_not = reasons(report, subject);
+  if (!why_not.empty() &&
+      std::none_of(lines.begin(), lines.end(), [](const Line& l) { return l.looked_at > 0; }))
+    return subject + "\n" + why_not;
+  std::vector<Line> shown;  // without those that nothing was looked at for
+  std::string left_out;
+  for (const Line& line : lines)
+    if (line.looked_at > 0)
+      shown.push_back(line);
+    else
+      left_out += (left_out.empty() ? "" : ", ") + line.check;
+  return subject + "\n" + lines_table(report, shown, colour, false) +
+         (left_out.empty() ? "" : "  not looked at: " + left_out + "\n") + why_not;
+}
+
+std::string to_table(const Report& report, bool colour, bool all) {
+  const bool plan = report.depths == "plan";
+  std::string out = header(report);
   std::vector<Line> findings;
   for (const std::string& subject : report.subjects) {
     std::vector<Line> lines = lines_of(report, subject);
@@ -322,41 +314,26 @@ std::string to_table(const Report& report, bool colour, bool all) {
       out += why_not;
       continue;
     }
-    out += row("check", "verdict", plan ? "cases" : "meshes", "bad/looked at", "worst", "bound", "99 %",
-               "unit", plan ? "depths    " : "", "where");
-    for (Line& line : lines) {
-      if (all)
-        for (const Result* r : line.results)
-          add_line(out, report, *r, r->status == Status::kHeld ? "1/1" : "0/1", depths({&r, 1}), colour);
-      else
-        add_line(out, report, *line.shown,
-                 fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()),
-                 depths(line.results), colour);
+    out += lines_table(report, lines, colour, all);
+    for (Line& line : lines)
       if (line.bad_meshes > 0) findings.push_back(std::move(line));
-    }
     if (plan) out += fmt::format("  depths looked at: {}\n", depths_in_full(report, subject));
     out += why_not;
   }
+  out += "\n" + words(report);
+  out += waiver_lines(report);
   if (!findings.empty())
-    out += fmt::format(
-        "\nFindings, each at its worst. ({} above: held on so many of so many. Expected values are those "
-        "of the control mesh rounded to the subject's precision.)\n",
-        plan ? "Cases" : "Meshes");
+    out +=
+        "\nFindings, each at its worst. (Expected values are those of the control mesh rounded to the "
+        "subject's "
+        "precision.)\n";
   for (std::size_t k = 0; k < findings.size(); ++k)
     add_finding(out, report, static_cast<int>(k) + 1, findings[k]);
 
   if (report.subjects.size() > 1) out += matrix(report, colour);
 
-  std::int64_t held = 0, bad = 0, noted = 0, other = 0;
-  for (const Result& r : report.results) {
-    const bool note = r.status == Status::kQualityWarning || r.status == Status::kWaived ||
-                      r.status == Status::kUnexpectedPass;
-    (r.status == Status::kHeld ? held : is_bad(r) ? bad : note ? noted : other) += 1;
-  }
-  out += fmt::format("\n{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
-                     noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
-  for (const NeverJudged& none : never_judged(report)) out += none.text() + "\n";
-  if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
+  if (!report.printed.empty()) out += "\nPrinted by subjects:\n" + report.printed;
+  out += "\n" + changes_line(report) + summary(report);
   return out;
 }
 

@@ -13,11 +13,7 @@ namespace limitcheck::verify {
 ///   all     a line for each mesh instead of the worst one only
 std::string to_table(const Report& report, bool colour, bool all = false);
 
-/// What to type to see the expected value of a result's witness, or "" if it names no point.
-std::string eval_command(const Result& result);
-
-/// What to type to see a result again: its subject and mesh at its depths.
-///   level   of the audit: quick, standard, thorough
-std::string audit_command(const Result& result, const std::string& level);
+/// The part of it that is about one subject, without the checks that nothing was looked at for.
+std::string check_lines(const Report& report, const std::string& subject, bool colour);
 
 }  // namespace limitcheck::verify

@@ -142,9 +142,10 @@ void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
       if (!covers(w, r, versions)) continue;
       any = true;
       if (r.status == Status::kHeld) held.push_back(&r);
-      if (r.status != Status::kFinding) continue;
+      if (!is_bad(r)) continue;
       used = true;
-      const bool within = !w.bound || (r.worst && *r.worst <= *w.bound);
+      // A breakdown has no worst value that a bound could be held against.
+      const bool within = r.status != Status::kFinding || !w.bound || (r.worst && *r.worst <= *w.bound);
       if (within) r.status = Status::kWaived;
       r.message += fmt::format("{}{}{}: {}{}", r.message.empty() ? "" : "; ",
                                within ? "waived until " : "beyond the waiver until ", w.expires, w.reason,

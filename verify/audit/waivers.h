@@ -25,7 +25,7 @@ struct Waiver {
 /// waiver and what.
 std::vector<Waiver> parse_waivers(const std::string& json);
 
-/// Turns findings that a waiver covers into kWaived. A waiver all of whose rows hold turns them into
+/// Turns findings and breakdowns that a waiver covers into kWaived. A waiver all of whose rows hold turns them into
 /// kUnexpectedPass. One that is expired, or covers no row, adds a row `waiver` of status kQualityWarning.
 ///   versions  of each subject of the report, by its label; where there is none, only waivers without a range
 ///   today     "2026-11-21"

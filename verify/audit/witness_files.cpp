@@ -11,7 +11,7 @@
 #include "reference/surface/certified.h"
 #include "verify/audit/case_names.h"
 #include "verify/audit/json.h"
-#include "verify/audit/table.h"
+#include "verify/audit/reproduce.h"
 
 namespace limitcheck::verify {
 namespace {

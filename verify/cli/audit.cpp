@@ -11,10 +11,12 @@
 #include <optional>
 #include <utility>
 
+#include "data/bounding_box.h"
 #include "data/error.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/face_depths.h"
 #include "verify/audit/json.h"
+#include "verify/audit/overview.h"
 #include "verify/audit/refusal.h"
 #include "verify/audit/table.h"
 #include "verify/cli/audit_depths.h"
@@ -26,6 +28,8 @@
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/progress.h"
 #include "verify/cli/subject_loader.h"
+#include "verify/cli/subject_output.h"
+#include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
@@ -34,6 +38,8 @@ namespace limitcheck::cli {
 namespace {
 
 constexpr const char* kReportFile = "build/report/audit.json";
+constexpr const char* kPageFile = "build/report/audit.html";
+constexpr const char* kTextFile = "build/report/audit.txt";
 
 struct Arguments {
   std::string subject;
@@ -45,7 +51,7 @@ struct Arguments {
   bool plan = true;  // what is to be looked at is not said: neither meshes nor depths
   int threads = 0;
   std::string json;
-  bool each_mesh = false, must_refuse = false, resume = false;
+  bool each_mesh = false, details = false, must_refuse = false, resume = false;
   OutputArguments output;
   SubjectArguments from;
 };
@@ -78,6 +84,7 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, SubjectLoader& lo
   const lc_subject* subject = opened.subject;
   try {
     (void)verify::capabilities(*subject, opened.options);
+    refuse_unknown_options(*subject, opened.options);
   } catch (const verify::SubjectDied&) {  // the audit reports it
   } catch (
       const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
@@ -114,13 +121,17 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
   report.depths = a.plan ? "plan" : depths.kind == "file" ? depths.text() : depths.kind;
   report.seed = depths.seed;
   if (sampling) report.sample = fmt::format("{}:{}", sampling->faces, sampling->seed);
-  for (const auto& s : subjects) report.subjects.push_back(s.label());
+  for (const auto& s : subjects) {
+    report.subjects.push_back(s.label());
+    if (s.subject->description != nullptr) report.descriptions[s.label()] = s.subject->description;
+  }
   for (const verify::AuditMesh& m : meshes) {
     report.depth = std::max(report.depth, m.depth);
     if (std::none_of(report.meshes.begin(), report.meshes.end(),
                      [&](const auto& before) { return before.name == m.name; }))
       report.meshes.push_back({m.name, static_cast<std::int64_t>(m.mesh.positions.size()),
-                               static_cast<std::int64_t>(m.mesh.faces.size()), m.scheme(), m.triangulated});
+                               static_cast<std::int64_t>(m.mesh.faces.size()), m.scheme(), m.triangulated,
+                               data::box_diagonal(m.mesh)});
   }
   return report;
 }
@@ -134,11 +145,12 @@ struct Job {
 };
 
 Job settle(Arguments a) {
-  refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.output.junit}});
+  refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.output.junit}, {"--html", a.output.html}});
   Job job;
   job.depths = verify::parse_depths(a.depths);
   job.sampling = parse_sample(a.sample);
   take_program(a.from, a.subject, a.meshes);
+  take_mesh(a.from, a.subject, a.meshes);
   job.whole = a.subject.empty();
   if (job.whole) a.subject = "all";
   if (a.must_refuse && (job.whole || a.meshes.empty()))
@@ -166,12 +178,26 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
   return "";
 }
 
-void print(const Arguments& a, const verify::Report& report, const std::string& scheme_line) {
+// Below the overview.
+std::string where_the_rest_is(const Job& job) {
+  if (job.whole)
+    return fmt::format(
+        "{} shows the causes in a browser; {} has all tables, and each cause with the command that "
+        "shows it; {} is for programs.\n",
+        kPageFile, kTextFile, kReportFile);
+  return "--details prints all tables. --explain CHECK says what a check means.\n";
+}
+
+void print(const Job& job, const verify::Report& report, const std::string& scheme_line) {
+  const Arguments& a = job.arguments;
   const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
   if (a.json == "-")
     fmt::print("{}", verify::to_json(report, a.output.level));
-  else
+  else if (a.details || a.each_mesh)
     fmt::print("{}\n{}", scheme_line, verify::to_table(report, colour, a.each_mesh));
+  else
+    fmt::print("{}", verify::to_overview(report, verify::causes(report), colour, scheme_line, a.output.level,
+                                         where_the_rest_is(job)));
 }
 
 int exit_code_of(const verify::Auditor& auditor, const verify::Report& report, int signal, bool judged) {
@@ -193,8 +219,13 @@ std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSu
     if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report, a.output.level));
     if (job.whole) {
       verify::write_text(kReportFile, verify::to_json(report, a.output.level));
-      fmt::print(stderr, "report: {}\n", kReportFile);
+      verify::write_text(kTextFile,
+                         "Root causes\n\n" +
+                             verify::causes_in_full(report, verify::causes(report), a.output.level) +
+                             "Tables\n\n" + verify::to_table(report, false));
     }
+    for (const std::string& html : {a.output.html, std::string(job.whole ? kPageFile : "")})
+      if (!html.empty()) write_html(html, audited, meshes, report, a.output.level, a.threads);
     write_witnesses(a.output, audited, meshes, report, a.threads);
     if (finished != nullptr) finished->remove();
   } catch (const std::exception&) {
@@ -221,30 +252,56 @@ int audit(const Job& job) {
   // Look.
   const verify::InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
+  SubjectOutput output;
+  if (output.screen() != nullptr) progress.to(output.screen());
   verify::Auditor auditor(
       a.depth, a.threads,
       [&](const verify::AuditStep& s) {
         progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
       },
       level(a.output));
+  auditor.leave_what_is_interrupted();
   const auto journal = a.must_refuse ? nullptr
                                      : open_journal(a.json.empty() && job.whole ? kReportFile : a.json,
                                                     a.resume, audited, meshes, report, a.output.level);
-  report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
-                                 : auditor.run(audited, meshes, journal.get());
-  report.containment = loader.containment();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  progress.clear();
-  const int signal = auditor.gave_up() ? verify::interrupted() : 0;
-  report.incomplete = incomplete(auditor, meshes, report, signal);
-  const bool judged = judged_as_required(a.output, report);
-  waive(a.output, audited, report);
+  try {
+    report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
+                                   : auditor.run(audited, meshes, journal.get());
+  } catch (const verify::Interrupted&) {  // there is no half of an answer whether broken meshes are refused
+    progress.clear();
+    fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
+    return kSignalled + verify::interrupted();
+  }
+  const auto finish = [&] {
+    report.containment = loader.containment();
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    progress.clear();
+    progress.to(stderr);
+    report.printed = output.take();
+    const int signal = auditor.gave_up() ? verify::interrupted() : 0;
+    report.incomplete = incomplete(auditor, meshes, report, signal);
+    const bool judged = judged_as_required(a.output, report);
+    waive(a.output, audited, report);
+    compare(a.output, report);
 
-  const bool done = signal == 0 && !auditor.out_of_memory();
-  const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
-  print(a, report, asked.scheme_line);
-  if (not_written) std::rethrow_exception(not_written);
-  return exit_code_of(auditor, report, signal, judged);
+    const bool done = signal == 0 && !auditor.out_of_memory();
+    const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
+    print(job, report, asked.scheme_line);
+    if (not_written) std::rethrow_exception(not_written);
+    const int later = a.output.shrink_seconds > 0 ? verify::interrupted() : signal;
+    if (later != signal)
+      fmt::print(stderr, "limitcheck: interrupted by {}: not all witnesses are written\n",
+                 verify::signal_name(later));
+    return exit_code_of(auditor, report, later, judged);
+  };
+  if (!auditor.abandoned()) return finish();
+  int code = kBadInput;
+  try {
+    code = finish();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "limitcheck: {}\n", error.what());
+  }
+  verify::leave(code, kBadInput);
 }
 
 }  // namespace
@@ -288,7 +345,8 @@ void add_audit(CLI::App& app, int& exit_code) {
           ->type_name("FACES[:SEED]");
   command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
       ->take_all()
-      ->expected(1);
+      ->expected(1)
+      ->allow_extra_args(false);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")
       ->check(CLI::Range(1, 4096));
   command
@@ -301,8 +359,10 @@ void add_audit(CLI::App& app, int& exit_code) {
       "--resume", a->resume,
       "Resume an audit that ended before its report was complete; give the same command again. Its rows "
       "so far are in FILE.jsonl beside the report FILE.json");
+  command->add_flag("--details", a->details,
+                    "Print a table for each subject and each finding at its worst, not only the overview");
   command->add_flag("--each-mesh", a->each_mesh,
-                    "Print a line for every mesh in the table, not only for the worst one");
+                    "As --details, with a line for every mesh and not only for the worst one");
   command->add_flag(
       "--must-refuse", a->must_refuse,
       "The MESHes are files of broken meshes, which are handed over as they are: the subject must refuse "

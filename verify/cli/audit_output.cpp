@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "verify/audit/baseline.h"
 #include "verify/audit/explain.h"
+#include "verify/audit/html_report.h"
 #include "verify/audit/json.h"
 #include "verify/audit/judged.h"
 #include "verify/audit/junit.h"
@@ -20,6 +23,7 @@
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
 #include "verify/cli/finite.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 
@@ -45,7 +49,20 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->type_name("CHECK,...");
   command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
   command
+      .add_option(
+          "--html", a.html,
+          "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
+          "and the meshes in three dimensions with their errors")
+      ->type_name("FILE");
+  command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+  command
+      .add_option(
+          "--baseline", a.baseline,
+          "JSON report of an earlier audit: say what is new, worse and gone since, and exit with 1 only "
+          "for what is new or worse")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   command
@@ -87,6 +104,7 @@ bool explained(const OutputArguments& a) {
                e.bound, e.source);
     found = true;
   }
+  if (found) fmt::print("\nIn tables\n{}", verify::words_of_tables());
   if (!found)
     throw data::ArgumentError(fmt::format("there is no check '{}'; there are: {}", a.explain, known));
   return true;
@@ -107,6 +125,11 @@ void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& su
   } catch (const data::ArgumentError& error) {
     throw data::ArgumentError(fmt::format("{}: {}", a.waivers, error.what()));
   }
+}
+
+void compare(const OutputArguments& a, verify::Report& report) {
+  if (!a.baseline.empty())
+    verify::compare_with_baseline(report, data::io::whole_content(a.baseline), a.baseline);
 }
 
 namespace {
@@ -156,6 +179,7 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       if (verify::is_bad(r)) findings.push_back(&r);
   }
   for (const verify::Result* finding : findings) {
+    if (verify::interrupted() != 0 && a.shrink_seconds > 0) return;
     const verify::AuditMesh* mesh = case_of(*finding, meshes);
     const auto subject = std::find(report.subjects.begin(), report.subjects.end(), finding->subject);
     if (mesh == nullptr || subject == report.subjects.end()) continue;
@@ -180,6 +204,23 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
   }
   if (a.shrink_seconds <= 0 && !findings.empty())
     fmt::print(stderr, "{} witnesses in {}\n", findings.size(), folder);
+}
+
+void write_html(const std::string& file, const std::vector<verify::AuditSubject>& subjects,
+                const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
+                const std::string& level, int threads) {
+  const std::vector<verify::Cause> causes = verify::causes(report);
+  std::vector<std::optional<verify::ErrorShape>> shapes;
+  for (const verify::Cause& c : causes) {
+    const verify::Result& row = report.results[c.example];
+    const verify::AuditMesh* mesh = case_of(row, meshes);
+    const auto at = std::find(report.subjects.begin(), report.subjects.end(), row.subject);
+    const auto number = static_cast<std::size_t>(at - report.subjects.begin());
+    shapes.push_back(mesh == nullptr || number >= subjects.size()
+                         ? std::nullopt
+                         : verify::error_shape(subjects[number], *mesh, row, threads));
+  }
+  verify::write_text(file, verify::to_html(report, causes, shapes, level));
 }
 
 bool judged_as_required(const OutputArguments& a, verify::Report& report) {

@@ -13,7 +13,7 @@
 namespace limitcheck::cli {
 
 struct OutputArguments {
-  std::string level = "standard", junit, waivers, explain, witnesses;
+  std::string level = "standard", junit, html, waivers, baseline, explain, witnesses;
   std::vector<std::string> required;
   double shrink_seconds = 0;  // 0: no shrinking
 };
@@ -29,11 +29,19 @@ bool explained(const OutputArguments& arguments);
 void waive(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
            verify::Report& report);
 
+/// Compares the report with --baseline. Throws data::ArgumentError: the file cannot be read or understood.
+void compare(const OutputArguments& arguments, verify::Report& report);
+
 /// Writes each finding of the report as files (verify/audit/witness_files.h), if --witnesses or --shrink says
 /// so; with --shrink one for each subject and check, on a smaller mesh. Says so on standard error. `subjects`
 /// in the order of report.subjects. Throws std::runtime_error, data::InputError: a file cannot be written.
 void write_witnesses(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
                      const std::vector<verify::AuditMesh>& meshes, const verify::Report& report, int threads);
+
+/// Writes the report as a page, with the tessellation of each cause's example made anew.
+void write_html(const std::string& file, const std::vector<verify::AuditSubject>& subjects,
+                const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
+                const std::string& level, int threads);
 
 /// Whether each subject was judged by all checks that --require names; report.incomplete names the others.
 bool judged_as_required(const OutputArguments& arguments, verify::Report& report);

@@ -62,7 +62,8 @@ TEST_P(EachStatus, IsTheSameInJsonJUnitAndTable) {
       "\"boundary\":\"spline\", \"points\":\"limit\", \"max_depth\":9, \"normals\":true, "
       "\"per_face_depth\":true, \"exact_lattice\":true}'\n"
       "read q; echo '{\"status\":\"failed\", \"message\":\"no luck\"}'\n");
-  const Outcome o = run(std::string("audit ") + c.subject + " --json report.json --junit junit.xml");
+  const Outcome o =
+      run(std::string("audit --details ") + c.subject + " --json report.json --junit junit.xml");
   EXPECT_EQ(o.code, c.code) << o.out << o.err;
 
   const json report = json::parse(read("report.json"));
@@ -116,7 +117,7 @@ std::string matrix_row(const std::string& table, const std::string& check) {
 
 TEST_F(AuditStatus, TheMatrixOfAllSubjectsShowsThemSideBySide) {
   write("waivers.json", kWaivers);
-  const Outcome o = run("audit all fan:5 --depth 1 --waivers waivers.json");
+  const Outcome o = run("audit all fan:5 --depth 1 --details --waivers waivers.json");
   EXPECT_EQ(o.code, 1) << o.err;
   const std::string positions = matrix_row(o.out, "positions"), normals = matrix_row(o.out, "normals");
   for (const char* cell : {"STALE WAIVER", "held", "not supported"})
@@ -127,7 +128,8 @@ TEST_F(AuditStatus, TheMatrixOfAllSubjectsShowsThemSideBySide) {
 
 TEST_F(AuditStatus, TheMatrixShowsBreakdownsOfEverySubjectAndNothingElseIsConfirmed) {
   for (const auto& [limit, cell] : {std::pair{"--timeout 0.001", "TIMEOUT"}, {"--memory 1", "CRASH"}}) {
-    const Outcome o = run(std::string("audit all tetrahedron --isolate --json report.json ") + limit);
+    const Outcome o =
+        run(std::string("audit all tetrahedron --isolate --details --json report.json ") + limit);
     EXPECT_EQ(o.code, 1) << o.err;
     EXPECT_NE(matrix_row(o.out, "tessellates").find(cell), std::string::npos) << o.out;
     EXPECT_EQ(matrix_row(o.out, "tessellates").find("held"), std::string::npos) << o.out;

@@ -156,7 +156,7 @@ TEST_F(AuditCommand, ASubjectWithoutADepthPerFaceIsNotSupportedAndNoFinding) {
 TEST_F(AuditCommand, TheCommandPrintedWithAFindingRecomputesTheExpectedValue) {
   for (const std::string precision : {"float", "double"}) {
     const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 3 --option precision=" + precision +
-                          " --json report.json");
+                          " --details --json report.json");
     ASSERT_EQ(o.code, 1) << o.err;
     const auto report = nlohmann::json::parse(read("report.json"));
     bool looked = false;

@@ -12,6 +12,7 @@
 #include "reference/surface/certified.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/eval_report.h"
+#include "verify/cli/eval_subject.h"
 #include "verify/cli/mesh_options.h"
 
 namespace limitcheck::cli {
@@ -26,6 +27,8 @@ struct Request {
   int digits = 16;
   std::string precision = "double", weights = "loop";
   bool json = false;
+  std::string subject, depths = "uniform";
+  int depth = 4;
 };
 
 struct FaceAndCorner {
@@ -94,9 +97,15 @@ CertifiedEvaluator evaluator(const Request& request, const OpenedMesh& opened) {
   return {opened.mesh, opened.chosen.scheme};
 }
 
-void run(const Request& request) {
+int run(const Request& request) {
   const FaceAndCorner at = parse_face(request.face);
   OpenedMesh opened = open_mesh(request.mesh, request.options);
+  if (!request.subject.empty()) {
+    check_face(request, opened, at);
+    return show_difference({request.subject, request.mesh, request.depth, request.depths, at.face, at.corner,
+                            scheme_line({opened.chosen}, request.options)},
+                           opened, Parameter::parse(request.u), Parameter::parse(request.v));
+  }
   if (request.precision == "float") round_to_float(opened.mesh);
   check_face(request, opened, at);
   const Parameter u = Parameter::parse(request.u), v = Parameter::parse(request.v);
@@ -114,6 +123,7 @@ void run(const Request& request) {
   if (opened.chosen.scheme == data::Scheme::kLoop)
     evaluated.parameters.insert(evaluated.parameters.begin(), Parameter::complement(u, v).to_string());
   request.json ? print_json(evaluated, point) : print_text(evaluated, point);
+  return kHeld;
 }
 
 }  // namespace
@@ -156,16 +166,28 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"loop", "warren"}))
       ->capture_default_str();
   command->add_flag("--json", request->json, "One JSON document, numbers as decimal strings");
+  CLI::Option* subject = command->add_option(
+      "--subject", request->subject,
+      "Show what this subject (as `limitcheck audit` takes it) delivers at the point, beside "
+      "what it should; exit code 1 if it is wrong");
+  command
+      ->add_option("--depth", request->depth,
+                   "With --subject: subdivision depth of every face, or of the deepest one")
+      ->needs(subject)
+      ->check(CLI::Range(0, 12))
+      ->capture_default_str();
+  command
+      ->add_option("--depths", request->depths,
+                   "With --subject: how the faces get their depths, as for audit")
+      ->needs(subject)
+      ->capture_default_str();
   command->footer(
       "Catmull-Clark: on a quad (U, V) is (0, 0) at corner 0, (1, 0) at corner 1, (1, 1) and (0, 1) at "
       "corners 2 and "
       "3. Any other face has a quad at each corner: there (0, 0) is the corner, (1, 0) the middle of the "
       "edge to the "
       "next corner, (1, 1) the middle of the face. Derivatives are by these parameters: d1 by U, d2 by V.");
-  command->callback([request, &exit_code] {
-    run(*request);
-    exit_code = kHeld;
-  });
+  command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 
 }  // namespace limitcheck::cli

@@ -9,6 +9,9 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "verify/cli/commands.h"
 
@@ -37,13 +40,29 @@ int after_output(int exit_code) {
   return kBadInput;
 }
 
+// What to do next, for a word that is no command.
+std::string what_was_meant(const std::string& word) {
+  if (word.find('.') == std::string::npos && word.find('/') == std::string::npos)
+    return "Run with --help for more information.\n";
+  return fmt::format(
+      "To look at a mesh:             limitcheck check {0}\n"
+      "To audit all tessellators:     limitcheck audit {0}\n"
+      "To audit one of them:          limitcheck audit row-stream {0}\n"
+      "To tessellate it:              limitcheck tessellate {0} -o fine.obj\n"
+      "Run with --help for more information.\n",
+      word);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "limitcheck: is a tessellator of subdivision surfaces right, by how much is it not, and how fast is "
       "it?"};
   app.set_version_flag("--version", "limitcheck " LIMITCHECK_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 all held, 1 findings, 2 bad usage or input.");
+  app.footer(
+      "First steps: limitcheck check mesh.obj; limitcheck audit mesh.obj; limitcheck COMMAND --help. "
+      "Documentation: README.md, verify/subject/README.md, or share/doc/limitcheck where it is installed.\n"
+      "Exit codes: 0 all held, 1 findings, 2 bad usage or input.");
 
   int exit_code = kHeld;
   add_audit(app, exit_code);
@@ -58,13 +77,18 @@ int run(int argc, char** argv) {
   add_external(app, exit_code);
   add_worker(app, exit_code);
 
+  // `limitcheck help COMMAND` is `limitcheck COMMAND --help`.
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc > 1 && std::string_view(argv[1]) == "help") {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::RequiredError& error) {
     if (argc < 2) return app.exit(CLI::CallForHelp()), kBadInput;
     if (app.get_subcommands().empty() && argv[1][0] != '-') {
-      fmt::print(stderr, "limitcheck: there is no command '{}'\nRun with --help for more information.\n",
-                 argv[1]);
+      fmt::print(stderr, "limitcheck: there is no command '{}'\n{}", argv[1], what_was_meant(argv[1]));
       return kBadInput;
     }
     app.exit(error);

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t kBar = 24;
 
-std::size_t terminal_width() {
+std::size_t terminal_width(std::FILE* stream) {
   winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 }  // namespace
@@ -29,13 +29,13 @@ void Progress::show(std::size_t done, std::size_t total, const std::string& text
   const std::size_t filled = total == 0 ? 0 : std::min(kBar, kBar * done / total);
   std::string line = fmt::format("[{}{}] {}/{} {}", std::string(filled, '#'), std::string(kBar - filled, '.'),
                                  done, total, text);
-  line.resize(std::min(line.size(), terminal_width() - 1));
-  fmt::print(stderr, "\r\033[K{}", line);
-  std::fflush(stderr);
+  line.resize(std::min(line.size(), terminal_width(stream_) - 1));
+  fmt::print(stream_, "\r\033[K{}", line);
+  std::fflush(stream_);
 }
 
 void Progress::clear() {
-  if (terminal_ && shown_) fmt::print(stderr, "\r\033[K");
+  if (terminal_ && shown_) fmt::print(stream_, "\r\033[K");
   shown_ = false;
 }
 

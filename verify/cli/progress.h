@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <string>
 
 namespace limitcheck::cli {
@@ -19,9 +20,12 @@ class Progress {
   void show(std::size_t done, std::size_t total, const std::string& text);
   /// Wipes the line.
   void clear();
+  /// Where the line goes from now on; standard error at first.
+  void to(std::FILE* stream) { stream_ = stream; }
 
  private:
   bool terminal_;
+  std::FILE* stream_ = stderr;
   bool shown_ = false;
   std::chrono::steady_clock::time_point last_{};
 };

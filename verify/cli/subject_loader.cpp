@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
@@ -11,8 +12,10 @@
 #include <string_view>
 
 #include "data/error.h"
+#include "data/generators/named_mesh.h"
 #include "data/io/whole_content.h"
 #include "verify/cli/finite.h"
+#include "verify/subject/host.h"
 #include "verify/subject/isolation/witness.h"
 #include "verify/subject/registry.h"
 
@@ -25,6 +28,14 @@ using Kind = verify::RemoteSubject::Kind;
 bool is_file(const std::string& name) {
   std::error_code ignored;
   return fs::is_regular_file(name, ignored);
+}
+
+bool is_mesh_name(const std::string& text) {
+  const std::string word = text.substr(0, text.find(':'));
+  const auto all = data::named_meshes();
+  return std::any_of(all.begin(), all.end(), [&](const data::NamedMesh& m) {
+    return m.name.substr(0, m.name.find_first_of(":[")) == word;
+  });
 }
 
 bool names_a_library(const std::string& name) {
@@ -79,6 +90,46 @@ void take_program(const SubjectArguments& a, std::string& subject, std::vector<s
   if (a.program.empty()) return;
   if (!subject.empty()) meshes.insert(meshes.begin(), subject);
   subject = "program:" + a.program;
+}
+
+void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std::string>& meshes) {
+  if (!a.program.empty() || subject.empty() || subject == "all" || subject.starts_with("program:")) return;
+  if (verify::find_subject(subject.substr(0, subject.find(':'))) != nullptr) return;
+  for (const verify::MissingSubject& missing : verify::missing_subjects())
+    if (missing.name == subject) return;
+  const std::string type = fs::path(subject).extension();
+  const bool file = type == ".obj" || type == ".off" || type == ".ply" || type == ".stl";
+  if (!file && (is_file(subject) || !is_mesh_name(subject))) return;
+  if (file && !is_file(subject))
+    throw data::ArgumentError(
+        fmt::format("there is no file {}. `limitcheck audit MESH` audits all subjects on a mesh, `limitcheck "
+                    "audit SUBJECT "
+                    "MESH` one; `limitcheck generate pawn -o {}` writes a mesh",
+                    subject, subject));
+  fmt::print(stderr, "limitcheck: {} is a mesh: all built-in subjects are audited on it\n", subject);
+  meshes.insert(meshes.begin(), subject);
+  subject = "all";
+}
+
+void refuse_unknown_options(const lc_subject& subject, const std::string& options) {
+  if (options.empty()) return;
+  try {
+    (void)verify::capabilities(subject, "limitcheck-asks-for-what-nobody-has=1");
+  } catch (const std::exception&) {
+    return;  // it knows its options
+  }
+  const std::string_view help = subject.options != nullptr ? subject.options : "";
+  for (std::size_t begin = 0; begin < options.size();) {
+    const std::size_t end = std::min(options.find(',', begin), options.size());
+    const std::string key = options.substr(begin, options.find('=', begin) - begin);
+    if (help.find(key + "=") == std::string_view::npos)
+      throw data::ArgumentError(
+          fmt::format("{} takes any option without a word, so nothing says that it knows '{}': let it refuse "
+                      "what it does "
+                      "not know, or name it in its options text",
+                      subject.name, key));
+    begin = end + 1;
+  }
 }
 
 const lc_subject* SubjectLoader::remote(Kind kind, const std::string& what, bool in_turns) {

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 # `cpack` in the build folder: limitcheck_VERSION_ARCHITECTURE.deb. Needs dpkg-dev and file.
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The limitcheck authors <limitcheck@example.org>")
+# The maintainer is whoever builds the package and answers for it; the field must not be empty.
+set(LIMITCHECK_PACKAGE_CONTACT "whoever built this package <nobody@localhost>" CACHE STRING
+  "Maintainer of the Debian package: NAME <ADDRESS>")
+set(CPACK_PACKAGE_CONTACT "${LIMITCHECK_PACKAGE_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "judges tessellators of Loop subdivision surfaces")
 set(CPACK_PACKAGE_DESCRIPTION "It judges every point that a tessellator delivers against an exact
 reference, looks for cracks bit by bit, and hands back each fault with a

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -116,6 +117,23 @@ TEST_F(Examples, InPythonPassesTheAudit) {
       "audit --program \"python3 '" + (kExamples / "python/loop.py").string() + "'\" --timeout 300 --json - ";
   expect_all_held(run(audit + "--depth 2 --level quick " + kMeshes), 12U * 8U);
   expect_all_held(run(audit + "--depth 1 octahedron fan:2"), 25U * 2U);
+}
+
+// The arrays of the library in C, through Python.
+TEST_F(Examples, InPythonOverTheCInterfacePassesTheAudit) {
+  install();
+  build(kExamples / "c", "c");
+  const std::string script = (kExamples / "python/over_c.py").string();
+  expect_all_held(shell("prefix/bin/limitcheck audit --program \"python3 '" + script +
+                        "' c/libloop.so\" icosahedron holes fan:5 --depth 2 --level quick --json -"),
+                  12U * 3U);
+}
+
+TEST_F(Examples, InJavaScriptPassesTheAudit) {
+  if (std::system("node --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "node is not installed";
+  expect_refined_points_held(run("audit --program \"node '" + (kExamples / "node/geometry.mjs").string() +
+                                 "'\" octahedron fan:5 wheel:13:2 --depth 2 --json -"),
+                             3U);
 }
 
 TEST_F(Examples, InPythonOfQuadsAndPolygonsPassesTheAudit) {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/subject_output.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <utility>
+
+namespace limitcheck::cli {
+namespace {
+
+constexpr int kFatal[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+int kept_file = -1, real_error = -1;
+
+// Only calls that are allowed in a handler.
+void show_the_end(int signal) {
+  constexpr off_t kShown = 2000;
+  char text[kShown];
+  const off_t size = lseek(kept_file, 0, SEEK_END);
+  const ssize_t count = pread(kept_file, text, kShown, size > kShown ? size - kShown : 0);
+  if (count > 0) (void)!write(real_error, text, static_cast<std::size_t>(count));
+  std::signal(signal, SIG_DFL);
+  (void)raise(signal);
+}
+
+}  // namespace
+
+SubjectOutput::SubjectOutput() {
+  std::fflush(stdout);
+  std::fflush(stderr);
+  file_ = memfd_create("output of subjects", MFD_CLOEXEC);
+  const int screen = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  screen_ = screen < 0 ? nullptr : fdopen(screen, "w");
+  if (file_ < 0) return;  // then they print to the screen
+  out_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+  error_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (out_ >= 0) dup2(file_, STDOUT_FILENO);
+  if (error_ >= 0) dup2(file_, STDERR_FILENO);
+  kept_file = file_;
+  real_error = error_;
+  if (error_ >= 0)
+    for (const int signal : kFatal) std::signal(signal, show_the_end);
+}
+
+std::string SubjectOutput::take() {
+  if (screen_ != nullptr) std::fclose(std::exchange(screen_, nullptr));
+  if (file_ < 0) return "";
+  std::fflush(stdout);
+  std::fflush(stderr);
+  if (error_ >= 0)
+    for (const int signal : kFatal) std::signal(signal, SIG_DFL);
+  if (out_ >= 0) dup2(out_, STDOUT_FILENO);
+  if (error_ >= 0) dup2(error_, STDERR_FILENO);
+  for (int* fd : {&out_, &error_})
+    if (*fd >= 0) close(std::exchange(*fd, -1));
+  const off_t size = lseek(file_, 0, SEEK_END);
+  std::string text(std::min(static_cast<std::size_t>(std::max<off_t>(size, 0)), kLongest), '\0');
+  const ssize_t count = pread(file_, text.data(), text.size(), 0);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  close(std::exchange(file_, -1));
+  return text;
+}
+
+}  // namespace limitcheck::cli

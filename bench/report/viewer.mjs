@@ -202,6 +202,7 @@ function start(element) {
   select.addEventListener("change", () => (witness ? overview() : refresh()));
   surface.addEventListener("change", () => {
     if (surface.value > 0 && !["position", "normal"].includes(select.value)) select.value = "position";
+    wire.checked = models[surface.value].depth.length < 4000;  // more edges would hide the colours
     overview();
   });
   wire.addEventListener("change", refresh);

@@ -3,6 +3,7 @@
 // verify/proof/fault_test.cpp.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -34,9 +35,27 @@ TEST_F(ProveCommand, PrintsOneJsonDocumentWithARowForEveryTopologyAndKernel) {
   EXPECT_TRUE(bounds);
 }
 
+TEST_F(ProveCommand, KnowsCatmullClarksScheme) {
+  const Outcome o =
+      run("prove --scheme catmull-clark --depth 0 --valences 3,5 --kernel sliding-window --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto json = nlohmann::json::parse(o.out);
+  EXPECT_EQ(json["scheme"], "catmull-clark");
+  EXPECT_TRUE(json["held"].get<bool>());
+  std::map<std::string, int> groups;
+  for (const auto& row : json["rows"]) {
+    EXPECT_EQ(row["map"], "equal") << row;
+    ++groups[row["group"]];
+    if (!row.contains("bound")) continue;
+    EXPECT_LE(row["worst"].get<double>(), row["bound"].get<double>()) << row;
+  }
+  for (const char* group : {"quadruples", "deep", "high", "boundary", "cuts", "darts", "semi-sharp"})
+    EXPECT_GT(groups[group], 0) << group;
+}
+
 TEST_F(ProveCommand, RefusesBadUsageWithExitCodeTwo) {
   for (const char* arguments : {"--valences 2:4", "--valences 6:3", "--valences 6,x", "--valences 21",
-                                "--depth 9", "--kernel naive", "--set all"}) {
+                                "--depth 9", "--kernel naive", "--set all", "--scheme doo-sabin"}) {
     const Outcome o = run(std::string("prove ") + arguments);
     EXPECT_EQ(o.code, 2) << arguments;
     EXPECT_EQ(o.out, "") << arguments;

@@ -83,11 +83,13 @@ TEST(SharpFiles, ASurfaceOfOtherTagsIsFound) {
     const SharpMesh m = named(name);
     EXPECT_TRUE(with(m, one_less).starts_with("file-distance")) << m.name << " one level short";
   }
-  const SharpMesh uniform = named("random quads 1");
-  const auto switched = with(uniform, [](data::Sharpness& s) {
-    s.creasing = s.creasing == data::Creasing::kChaikin ? data::Creasing::kUniform : data::Creasing::kChaikin;
-  });
-  EXPECT_TRUE(switched.starts_with("file-distance")) << "the other way of creasing";
+  SharpMesh chaikin = named("cube 1");  // edges of 1/2, 3/2 and 5/2 in turn, so that they meet
+  for (std::size_t k = 0; k < chaikin.mesh.sharpness.edges.size(); ++k)
+    chaikin.mesh.sharpness.edges[k].sharpness = .5F + static_cast<float>(k % 3);
+  chaikin.mesh.sharpness.creasing = data::Creasing::kChaikin;
+  EXPECT_EQ(with(chaikin, [](data::Sharpness&) {}), "");
+  const auto uniform = with(chaikin, [](data::Sharpness& s) { s.creasing = data::Creasing::kUniform; });
+  EXPECT_TRUE(uniform.starts_with("file-distance")) << "the other way of creasing";
 }
 
 // The limit of a dart's vertex is not where the mask of a smooth one puts it.

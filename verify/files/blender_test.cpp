@@ -42,8 +42,7 @@ class Blender : public testing::Test {
 
 TEST_F(Blender, PutsItsPointsOnTheSurfaceWithSharpEdges) {
   double worst = 0;
-  for (const char* name :
-       {"dart.obj", "three-creases.obj", "sharpness-2.25.obj", "semi-sharp-inside.obj"}) {
+  for (const char* name : {"dart.obj", "three-creases.obj", "sharpness-2.25.obj", "semi-sharp-inside.obj"}) {
     ASSERT_EQ(subdivide(name), 0) << name;
     const data::ControlMesh mesh = data::read_mesh(cage(name));
     ASSERT_FALSE(mesh.sharpness.empty());

@@ -134,8 +134,8 @@ TEST(SharpFiles, TheNormalsOfTheTwoSidesExchangedAreFound) {
 }
 
 SharpMesh with_holes(const std::string& name, std::vector<std::int32_t> holes) {
-  SharpMesh m = name == "torus" ? SharpMesh{"torus", data::quad_torus(6, 5), data::Scheme::kCatmullClark}
-                                : named(name);
+  SharpMesh m =
+      name == "torus" ? SharpMesh{"torus", data::quad_torus(6, 5), data::Scheme::kCatmullClark} : named(name);
   m.mesh.holes = std::move(holes);
   return m;
 }
@@ -156,7 +156,8 @@ TEST(SharpFiles, AHoleIsToBeLeftOpen) {
     std::sort(more.holes.begin(), more.holes.end());
     more.holes.erase(std::unique(more.holes.begin(), more.holes.end()), more.holes.end());
     const std::string missing = findings(audit_sharp(m, sharp_file(more, m.scheme, 2)));
-    EXPECT_TRUE(missing.find("file-coverage") != std::string::npos) << m.name << ": a face left out that is none";
+    EXPECT_TRUE(missing.find("file-coverage") != std::string::npos)
+        << m.name << ": a face left out that is none";
   }
 }
 

@@ -74,7 +74,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
            const FilesOptions& options, const Step& step) {
   audit.notes.push_back(what_it_is(tessellation));
   step("search structure", 0, 1);
-  const ClosestPoint surface(control, options.scheme.value_or(data::natural_scheme(control)));
+  const ClosestPoint surface(control, options.scheme.value_or(data::natural_scheme(control)), options.pieces);
 
   if (options.fit != Fit::kNone) {
     step("fit", 0, 1);

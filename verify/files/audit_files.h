@@ -21,6 +21,7 @@ struct FilesOptions {
   bool needs_normals = false;            // a file without normals is a finding
   std::optional<data::Scheme> scheme{};  // of the control mesh; without: the one that it is meant for
   Fit fit = Fit::kNone;
+  std::size_t pieces = ClosestPoint::kPieces;  // of the search structure (closest_point.h)
 };
 
 /// What an audit of files found.

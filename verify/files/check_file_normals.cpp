@@ -74,8 +74,7 @@ std::map<std::int32_t, std::set<std::int32_t>> faces_of_cut_normals(const FileEv
     for (std::size_t c = 0; c < 3; ++c) {
       const auto its = faces.find(t.corner_normals.empty() ? of_vertex[v[c]] : t.corner_normals[i][c]);
       if (its == faces.end()) continue;
-      if (placed.face < 0)
-        placed = place_triangle(e, {e.point_of(v[0]), e.point_of(v[1]), e.point_of(v[2])});
+      if (placed.face < 0) placed = place_triangle(e, {e.point_of(v[0]), e.point_of(v[1]), e.point_of(v[2])});
       if (placed.face >= 0 && !placed.crosses) its->second.insert(placed.face);
     }
   }
@@ -167,8 +166,9 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   }
   if (undefined > 0) r.message = fmt::format("{} more where the surface has no normal", undefined);
   if (shared > 0)
-    r.message += fmt::format("{}{} more on edges that stay sharp stand for both sides, which have two normals",
-                             r.message.empty() ? "" : "; ", shared);
+    r.message +=
+        fmt::format("{}{} more on edges that stay sharp stand for both sides, which have two normals",
+                    r.message.empty() ? "" : "; ", shared);
   if (s.bad == 0) return {r, length_row(e)};
 
   const FileTessellation& t = e.tessellation;

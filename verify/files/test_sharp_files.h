@@ -45,10 +45,9 @@ inline FileTessellation sharp_file(const data::ControlMesh& mesh, data::Scheme s
   std::vector<bool> hole(mesh.faces.size(), false);
   for (const std::int32_t f : mesh.holes) hole[f] = true;
   const auto normal = [&](std::size_t f, std::size_t corner, double u, double v) {
-    return vector_of(surface
-                         .evaluate(static_cast<int>(f), static_cast<int>(corner), u, v,
-                                   reference::Order::kFirst)
-                         .normal);
+    return vector_of(
+        surface.evaluate(static_cast<int>(f), static_cast<int>(corner), u, v, reference::Order::kFirst)
+            .normal);
   };
   const int n = 1 << depth;
   if (scheme == data::Scheme::kLoop) {

@@ -28,6 +28,8 @@ struct Foot {
 /// The limit surface of a control mesh with a search structure. Any number of threads may ask at once.
 class ClosestPoint {
  public:
+  static constexpr std::size_t kPieces = std::size_t{1} << 18;
+
   /// `mesh` is valid for the scheme and outlives this. `pieces`: the search structure has about so many flat
   /// triangles (and at least 16 for each triangle of the domain, 32 for each quad).
   ClosestPoint(const data::ControlMesh& mesh, data::Scheme scheme, std::size_t pieces = kPieces);
@@ -63,8 +65,6 @@ class ClosestPoint {
   double diagonal() const { return diagonal_; }
 
  private:
-  static constexpr std::size_t kPieces = std::size_t{1} << 18;
-
   Piece nearest_flat(const Vector& p, OnTriangle& flat) const;
 
   LimitSurface surface_;

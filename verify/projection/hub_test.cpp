@@ -17,7 +17,8 @@ namespace {
 TEST(Hub, GivesThePointsAndDerivativesOfStamsMethod) {
   double worst = 0, worst_first = 0, worst_second = 0;
   int near = 0;
-  for (const char* name : {"bipyramid:50", "wheel:60", "fan:50", "quad-wheel:50", "quad-fan:45", "prism:60"}) {
+  for (const char* name :
+       {"bipyramid:50", "wheel:60", "fan:50", "quad-wheel:50", "quad-fan:45", "prism:60"}) {
     const data::ControlMesh mesh = data::named_mesh(name);
     const data::Scheme scheme = data::natural_scheme(mesh);
     const LimitSurface surface(mesh, scheme);

@@ -2,6 +2,7 @@
 #include "verify/projection/limit_surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/mesh/sharpness.h"
@@ -85,6 +86,9 @@ reference::SurfacePoint<double> LimitSurface::evaluate(const FacePoint& at, refe
   if (auto point = near_hub(at, order)) return *point;
   double first = at.l[1], second = at.l[2];
   if (!refined_) {
+    // The way to a piece without semi-sharp tags doubles and subtracts: of multiples of 2^-52 exactly.
+    if (scheme_ == data::Scheme::kLoop && !control_tags_.empty())
+      for (double* l : {&first, &second}) *l = std::nearbyint(*l * 0x1p52) * 0x1p-52;
     // So that 1 - l1 - l2 is not negative by rounding; the difference from the larger is exact.
     if (scheme_ == data::Scheme::kLoop && second > 1 - first)
       (first > second ? second : first) = 1 - (first > second ? first : second);

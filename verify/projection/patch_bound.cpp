@@ -122,9 +122,9 @@ CornerBounds corner_bounds(const Topology& topology, std::span<const Point> posi
       for (std::size_t child = 4 * f; child < 4 * f + 4; ++child) {
         const Triangle& piece = fine.triangles()[child];
         if (std::find(piece.begin(), piece.end(), 0) != piece.end()) continue;
-        const auto bound = cut ? regular_bound(cut->topology, cut->positions,
-                                               triangle_of(cut->topology, child), cut->states)
-                               : regular_bound(fine.topology(), fine.positions(), piece);
+        const auto bound =
+            cut ? regular_bound(cut->topology, cut->positions, triangle_of(cut->topology, child), cut->states)
+                : regular_bound(fine.topology(), fine.positions(), piece);
         bounds.outer[step] = std::max(bounds.outer[step], bound.value_or(1e300));
       }
     }

@@ -15,7 +15,7 @@ trap 'rm -rf "$copy"' EXIT
 # The program of the tests, with one source compiled anew: its object stands before the library's.
 link() {
   g++ "$here"/CMakeFiles/projection_test.dir/*.o "$copy/mutant.o" -Wl,--start-group "$here/liblimitcheck_projection.a" \
-    "$build/verify/audit/liblimitcheck_audit.a" \
+    "$build/verify/audit/liblimitcheck_audit.a" "$build/verify/interrupt/liblimitcheck_interrupt.a" \
     "$build/reference/liblimitcheck_reference.a" "$build"/data/*.a -Wl,--end-group \
     -lgtest_main -lgtest -lfmt -ltbb -lmpfr -lgmp -lflint -lflint-arb -o "$copy/tests"
 }

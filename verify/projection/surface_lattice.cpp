@@ -166,8 +166,7 @@ void SurfaceLattice::subdivide_triangles(const data::ControlMesh& mesh, const re
     const auto id = static_cast<std::int32_t>(v);
     if (sharp ? sharp->is_irregular(id, 6, 3)
               : topology.ring(id).size() != (topology.on_boundary(id) ? 4U : 6U))
-      bounds_[v] =
-          corner_bounds(topology, refined.positions(), id, sharp ? sharp->at(id) : SharpVertexOf{});
+      bounds_[v] = corner_bounds(topology, refined.positions(), id, sharp ? sharp->at(id) : SharpVertexOf{});
   });
   deviation_.resize(triangles_.size());
   irregular_.assign(triangles_.size(), -1);

@@ -67,8 +67,8 @@ struct DartTangentRule {
   }
 };
 
-/// The tangent along the sharp edge, the same on either side of it; towards e_0. On a regular star of radius 1
-/// the weights of the e_i give 2 n, as those of interior_tangents.
+/// The tangent along the sharp edge, the same on either side of it; towards e_0. On a regular star of radius
+/// 1 the weights of the e_i give 2 n, as those of interior_tangents.
 ///   throws   data::ArgumentError in a number type without angles
 template <class N>
 RingWeights<N> make_dart_tangent(int n) {

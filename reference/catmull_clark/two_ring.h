@@ -16,9 +16,9 @@
 //   - Around an interior vertex, Fourier's transform in i takes the map apart into one 6 x 6 block for each
 //     frequency [Stam 1998]; its J-th power comes by repeated squaring. No eigenvector is needed, and no case
 //     distinction where eigenvalues coincide.
-// On the boundary, at darts, and where there are so many faces that the transform would be slow, the steps are
-// taken, each with as many neighbours only as the sector that is asked for still hears of. Only c hears of
-// all; how it moves is known beforehand, except at a dart.
+// On the boundary, at darts, and where there are so many faces that the transform would be slow, the steps
+// are taken, each with as many neighbours only as the sector that is asked for still hears of. Only c hears of
+// all; how it moves is known beforehand, except at a dart. They are scaled by 2^J, so that weights are exact.
 // Everything is divided by growth^J, so that nothing underflows: growth is the largest eigenvalue.
 #pragma once
 
@@ -86,8 +86,8 @@ class InteriorKind {
 /// From so many faces on, an interior vertex takes steps, too.
 inline constexpr int kManyFaces = 65;
 
-/// The same of a vertex that takes the steps: on the boundary an ordinary one of K faces, K other than 2, or a
-/// held one, K other than 1; a dart, which has an open sector; inside one of many faces.
+/// The same of a vertex that takes the steps: on the boundary an ordinary one of K faces, K other than 2, or
+/// a held one, K other than 1; a dart, which has an open sector; inside one of many faces.
 template <class N>
 class SteppedKind {
  public:
@@ -129,8 +129,8 @@ class TwoRing {
 
   N growth() const { return interior_ != nullptr ? interior_->growth() : stepped_->growth(); }
   const Vec3<N>& limit() const { return limit_; }
-  /// What the rounding of the points after J steps is relative to, over growth^J: the largest coordinate of those
-  /// given, grown as they are.
+  /// What the rounding of the points after J steps is relative to, over growth^J: the largest coordinate of
+  /// those given, grown as they are.
   N size(long steps) const;
   /// Sector i after J steps, over growth^J.
   void sector(int i, long steps, TwoRingSector<N>& s) const;

@@ -53,8 +53,8 @@ struct DartTangentRule {
   }
 };
 
-/// The tangent along the sharp edge, the same on either side of it; towards r_0. On a regular star of radius 1
-/// the sum is n / 2, as that of interior_tangents.
+/// The tangent along the sharp edge, the same on either side of it; towards r_0. On a regular star of radius
+/// 1 the sum is n / 2, as that of interior_tangents.
 ///   throws   data::ArgumentError in a number type without angles
 template <class N>
 const std::vector<N>& dart_tangent_weights(int n, Weights weights) {

@@ -88,8 +88,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::map<Place, Bits> seen;
   for (std::size_t v = 0; v < out.vertices.size(); ++v) {
     const fast::LatticePoint& at = out.provenance[v];
-    require(at.face >= 0 && at.face < static_cast<std::int32_t>(triangles.size()), "no such face",
-            at.face);
+    require(at.face >= 0 && at.face < static_cast<std::int32_t>(triangles.size()), "no such face", at.face);
     const auto& p = out.vertices[v].position;
     const auto& n = out.vertices[v].normal;
     const double length = std::hypot(n.x, n.y, n.z);
@@ -103,7 +102,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::array<float, 6> numbers{p.x, p.y, p.z, n.x, n.y, n.z};
     Bits bits;
     std::memcpy(bits.of.data(), numbers.data(), sizeof numbers);
-    const auto [other, first] = seen.emplace(place_of(triangles[static_cast<std::size_t>(at.face)], at), bits);
+    const auto [other, first] =
+        seen.emplace(place_of(triangles[static_cast<std::size_t>(at.face)], at), bits);
     require(first || other->second == bits, "bits differ at a shared point", at.face);
   }
   return 0;

@@ -38,7 +38,6 @@ SurfaceReport look(std::int64_t points, const Triangles& triangles) {
   const auto known = static_cast<std::int32_t>(points);
   const SurfaceJudgement linked = judge_surface(points + 1102, with_hubs(known, triangles));
   EXPECT_EQ(linked.manifold(), judgement.manifold());
-  EXPECT_TRUE(linked.valid);
   if (report.manifold()) {
     EXPECT_EQ(linked.closed, judgement.closed);
     EXPECT_EQ(linked.boundary_cycles, judgement.boundary_cycles);

@@ -22,8 +22,9 @@ namespace limitcheck::verify {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto kTick = 20ms;  // between two looks at clock and memory
-constexpr auto kGrace = 2s;   // to end in after the pipes are closed
+constexpr auto kTick = 20ms;   // between two looks at clock and memory
+constexpr auto kGrace = 2s;    // to end in after the pipes are closed
+constexpr auto kToBury = 10s;  // for the kernel to end what was killed, on a machine that is busy elsewhere
 constexpr std::size_t kErrorTail = 2000;
 
 [[noreturn]] void refuse(const char* what) {
@@ -171,7 +172,8 @@ void ChildProcess::kill_and_reap() {
     // A subreaper has to kill its children first; a namespace ends with its first process.
     if (containment_ == Containment::kNamespace || !reap(kGrace)) {
       kill(keeper_, SIGKILL);
-      if (!reap(kGrace)) epitaph_ += "; it cannot be killed, and is left to the system";
+      if (!reap(interrupted() != 0 ? Clock::duration(kGrace) : Clock::duration(kToBury)))
+        epitaph_ += "; it cannot be killed, and is left to the system";
     }
     keeper_ = -1;
     drain_errors();

@@ -252,7 +252,7 @@ int audit(const Job& job) {
   const verify::InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
   SubjectOutput output;
-  if (output.screen() != nullptr) progress.to(output.screen());
+  const ProgressTo screen(progress, output.screen());
   verify::Auditor auditor(
       a.depth, a.threads,
       [&](const verify::AuditStep& s) {
@@ -266,8 +266,7 @@ int audit(const Job& job) {
                                  : auditor.run(audited, meshes, journal.get());
   report.containment = loader.containment();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  progress.clear();
-  progress.to(stderr);
+  screen.end();
   report.printed = output.take();
   const int signal = auditor.gave_up() ? verify::interrupted() : 0;
   report.incomplete = incomplete(auditor, meshes, report, signal);

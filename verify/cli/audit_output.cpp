@@ -23,6 +23,7 @@
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
 #include "verify/cli/finite.h"
+#include "verify/cli/subject_output.h"
 
 namespace limitcheck::cli {
 
@@ -209,6 +210,7 @@ void write_html(const std::string& file, const std::vector<verify::AuditSubject>
                 const std::string& level, int threads) {
   const std::vector<verify::Cause> causes = verify::causes(report);
   std::vector<std::optional<verify::ErrorShape>> shapes;
+  SubjectOutput output;  // the report has it already
   for (const verify::Cause& c : causes) {
     const verify::Result& row = report.results[c.example];
     const verify::AuditMesh* mesh = case_of(row, meshes);
@@ -218,6 +220,7 @@ void write_html(const std::string& file, const std::vector<verify::AuditSubject>
                          ? std::nullopt
                          : verify::error_shape(subjects[number], *mesh, row, threads));
   }
+  (void)output.take();
   verify::write_text(file, verify::to_html(report, causes, shapes, level));
 }
 

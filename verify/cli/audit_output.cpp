@@ -104,7 +104,7 @@ bool explained(const OutputArguments& a) {
                e.bound, e.source);
     found = true;
   }
-  if (found) fmt::print("\nIn tables\n{}", verify::words_of_tables());
+  if (found) fmt::print("\n{}\n{}", "In tables", verify::words_of_tables());
   if (!found)
     throw data::ArgumentError(fmt::format("there is no check '{}'; there are: {}", a.explain, known));
   return true;

@@ -16,8 +16,12 @@
 
 #include "bench/allocation_count.h"
 #include "bench/contenders/contender.h"
+#include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
+#include "fast/rules/prepared_quads.h"
+#include "fast/stream/quad_row_stream.h"
 #include "fast/stream/row_stream.h"
+#include "fast/window/quad_window.h"
 #include "fast/window/sliding_window.h"
 #include "verify/proof/operation_count.h"
 
@@ -59,8 +63,8 @@ bool everywhere(const bench::Route& route) {
          route.name == "sliding-window";
 }
 
-void add_allocations(Costs& costs, const Shape& shape) {
-  for (const bench::Route& route : bench::our_routes()) {
+void add_allocations(Costs& costs, const Shape& shape, const std::vector<bench::Route>& routes) {
+  for (const bench::Route& route : routes) {
     if (!everywhere(route)) continue;
     for (const int depth : {3, 5}) {
       const std::string tail = fmt::format("/{}/{}/depth:{}", route.name, shape.first, depth);
@@ -92,6 +96,43 @@ void add_prepass(Costs& costs, const Shape& shape) {
   add("prepass/sliding-window", bench::count_allocations([&] { prepared.emplace(*adjacency, positions); }));
 }
 
+/// The same of quads.
+void add_quad_prepass(Costs& costs, const Shape& shape) {
+  const data::ControlMesh& mesh = shape.second;
+  const std::string tail = fmt::format("/{}/faces:{}", shape.first, mesh.faces.size());
+  const auto add = [&](const std::string& what, const bench::Allocations& made) {
+    costs["bytes/" + what + tail] = made.kept;
+    costs["bytes-while-made/" + what + tail] = made.peak;
+  };
+  std::optional<fast::QuadMesh> quads;
+  add("quad-mesh", bench::count_allocations([&] { quads.emplace(mesh); }));
+  std::optional<rs::QuadRowStream> stream;
+  add("prepass/row-stream", bench::count_allocations([&] { stream.emplace(*quads); }));
+  std::vector<fast::Vec3<float>> positions;
+  for (const auto& p : quads->positions)
+    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  std::optional<fast::PreparedQuads<float>> prepared;
+  add("prepass/sliding-window", bench::count_allocations([&] { prepared.emplace(*quads, positions); }));
+}
+
+/// What the window computes and holds for quad 0, as the paper counts it.
+void add_quad_window(Costs& costs, const Shape& shape) {
+  const fast::QuadMesh quads(shape.second);
+  std::vector<fast::Vec3<float>> positions;
+  for (const auto& p : quads.positions)
+    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  const fast::PreparedQuads<float> prepared(quads, positions);
+  for (const int depth : {0, 1, 3, 5}) {
+    fast::QuadWindow<float, fast::LimitSurface<float>, fast::Counting> window(depth,
+                                                                              quads.adjacency.max_valence());
+    window.run(prepared, 0, depth, [](int, const auto*) {});
+    const std::string tail = fmt::format("/sliding-window/{}/depth:{}", shape.first, depth);
+    costs["vectors-stored" + tail] = window.probe().counts.stored();
+    costs["limits-evaluated" + tail] = window.probe().counts.limit_points;
+    costs["vectors-held" + tail] = window.allocated_vectors();
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -99,8 +140,14 @@ int main() {
   add_operations(costs);
   const Shape torus{"torus:20x24", data::torus(20, 24)}, holes{"holes", data::holes()};
   for (const Shape* shape : {&torus, &holes}) {
-    add_allocations(costs, *shape);
+    add_allocations(costs, *shape, bench::our_routes());
     add_prepass(costs, *shape);
+  }
+  for (const Shape& shape :
+       {Shape{"quad-torus:20x24", data::quad_torus(20, 24)}, Shape{"pawn", data::pawn(8)}}) {
+    add_allocations(costs, shape, bench::our_quad_routes());
+    add_quad_prepass(costs, shape);
+    add_quad_window(costs, shape);
   }
   std::puts(costs.dump(0).c_str());
   return 0;

@@ -189,6 +189,7 @@ int main(int argc, char** argv) {
   for (const auto& make : {bench::bfr_streaming, bench::bfr_cached_stencils, bench::far_uniform,
                            bench::far_limit_stencils, bench::cgal_refinement, bench::openmesh_refinement})
     routes.push_back(make());
+  if (!triangles) routes.push_back(bench::embree_interpolation());
   std::vector<Shape> shapes{bench::kQuads, bench::kHalfRegularQuads, bench::kRegularQuads, bench::kManyQuads};
   if (triangles) {
     shapes.clear();

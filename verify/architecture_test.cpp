@@ -39,7 +39,7 @@ const std::map<std::string, std::vector<std::string>>& allowed_in() {
       {"CGAL", {"data/generators/", "verify/repair/", "verify/subject/", "verify/watertight/", "bench/"}},
       {"opensubdiv", {"verify/subject/", "verify/claims/introduction_claims_test.cpp", "bench/"}},
       {"OpenMesh", {"verify/subject/", "bench/"}},
-      {"embree3", {"verify/subject/"}},
+      {"embree3", {"verify/subject/", "bench/"}},
   };
   return rules;
 }

@@ -46,6 +46,8 @@ Route far_uniform();
 Route far_limit_stencils();
 Route cgal_refinement();
 Route openmesh_refinement();
+/// Of quads alone.
+Route embree_interpolation();
 
 /// Distinct points of a closed mesh of triangles or quads, vertices of the control mesh included.
 double distinct_points(const data::ControlMesh& mesh, int depth);

@@ -25,10 +25,16 @@ async function try_viewer(page, name) {
   await canvas.scrollIntoViewIfNeeded();
   await page.waitForFunction(() => document.querySelector("#viewer output").textContent !== "");
   await changes("at first", async () => {});
-  await changes("colour", () => viewer.locator("select").selectOption("position"));
+  await changes("colour", () => viewer.locator("select[name=colour]").selectOption("position"));
   await changes("worst triangle", () => viewer.locator("button[name=worst]").click());
   await changes("arrow key", async () => { await canvas.focus(); await page.keyboard.press("ArrowLeft"); });
   await changes("plus key", () => page.keyboard.press("+"));
+
+  const surface = viewer.locator("select[name=surface]");
+  for (let k = (await surface.locator("option").count()) - 1; k >= 0; --k) {
+    await changes(`surface ${k}`, () => surface.selectOption(String(k)));
+    if (!(await words.textContent()).includes("diagonal")) problems.push(`${name}: surface ${k} has no legend of its errors`);
+  }
 
   // A witness by keyboard alone: open the list, reach its button, press it.
   const button = page.locator("button.jump").first();

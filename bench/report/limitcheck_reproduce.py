@@ -31,6 +31,8 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="fewer frames and meshes: two minutes instead of a quarter of an hour")
     parser.add_argument("--only", action="append", metavar="PART", choices=PARTS,
                         help="make this part, and of the parts it needs those that are not in the folder; may be repeated")
+    parser.add_argument("--map", action="append", metavar="SUBJECT@MESH[@DEPTH]", default=[],
+                        help="errors of a tessellator on a mesh, in the view; may be repeated (default: two libraries and row-stream)")
     parser.add_argument("--list", action="store_true", help="the names of all parts")
     return parser.parse_args()
 
@@ -82,7 +84,7 @@ def main():
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, interrupt)
     try:
-        make(selected, Workshop(programs, args.output, args.quick), record)
+        make(selected, Workshop(programs, args.output, args.quick, args.map), record)
     except KeyboardInterrupt:
         say(f"interrupted; what was made is in {args.output / 'index.html'}")
         return INCOMPLETE

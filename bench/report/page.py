@@ -35,6 +35,9 @@ MORE_PICTURES = {
     "picture-cracks": ("Cracks", "Figures 6 and 7 beside each other."),
     "picture-sharp": ("A sharp edge that starts and ends", "A torus of quads with three sharp edges (red), its limit surface, and how far OpenSubdiv's "
                       "limit points at depth 4 are off, from 10⁻⁷ of the diagonal (violet) to 10⁻³ (yellow): at both ends of the crease (C85)."),
+    "picture-crease": ("Creases, adaptively", "A pawn of quads by Catmull and Clark's rules with three rings that stay sharp and one that is "
+                       "sharp for two steps and a half, in depths by the combined strategy, in our engine. Near, the collar's "
+                       "lower edge: without repair one sees through cracks beside the crease; with the paper's fans there are none."),
 }
 CHARTS = {
     "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres; logarithmic, and below on a linear scale with the uniform depths that "
@@ -90,24 +93,29 @@ def depth_bar():
     return f"<p class=bar>Depth: {swatches}</p>"
 
 
-def view(folder):
+def view(folder, maps):
     script, data, shapes = folder / "viewer.js", folder / "model.json", folder / "shapes.json"
     if not all(path.is_file() for path in (script, data, shapes)):
         return ""
     options = "".join(f"<option value={v}>{t}" for v, t in (("depth", "depth"), ("kind", "kind of triangle"),
                                                             ("position", "error of position"), ("normal", "error of normal")))
+    surfaces = "".join(f"<option value={k}>{text(t)}" for k, t in enumerate(["the combined strategy on bumpy:200",
+                                                                             *(m["title"] for m in maps or [])]))
+    ramp = "<span class=ramp title='from little (violet) to much (yellow)'></span>"
     code = script.read_text(encoding="utf-8").replace("</script", "<\\/script")
     embed = lambda name, path: (f"<script type='application/json' id={name}>"  # noqa: E731
                                 + path.read_text(encoding="utf-8").replace("<", "\\u003c") + "</script>")
     return ("<p>A bumpy sphere of 200 control faces by the combined strategy; errors are taken in the middle of each triangle. "
+            "The other surfaces are what tessellators deliver, the errors those of their points. "
             "Drag to turn it, two fingers or the wheel to come nearer; with the keyboard: arrows turn, + and - come nearer and go away. "
             "A witness of the audit is shown here on its own mesh: the control face in orange, the exact point and normal in black, what "
             "the subject delivered in red.</p>" + depth_bar()
-            + f"<div id=viewer data-depths='{text(json.dumps(DEPTH_COLOURS))}' data-fan='{FAN_COLOUR}'><p><label>Colour by <select>{options}</select></label> "
+            + f"<div id=viewer data-depths='{text(json.dumps(DEPTH_COLOURS))}' data-fan='{FAN_COLOUR}'><p><label>Surface <select name=surface>{surfaces}</select></label> "
+            f"<label>Colour by <select name=colour>{options}</select></label> {ramp} "
             "<label><input type=checkbox name=wire checked> edges</label> <button name=worst>Go to the worst triangle</button> "
             "<button name=back hidden>Back to the tessellation</button> <button name=table hidden>Back to the table</button></p><p><output aria-live=polite></output></p>"
             "<canvas tabindex=0 aria-label='Tessellated surface; arrow keys turn it, plus and minus come nearer'></canvas></div>"
-            + embed("model", data) + embed("shapes", shapes) + f"<script type=module>{code}</script>")
+            + embed("model", data) + (embed("maps", folder / "maps.json") if maps else "") + embed("shapes", shapes) + f"<script type=module>{code}</script>")
 
 
 def gaps_of(folder, record, loaded, broken):
@@ -129,8 +137,14 @@ def gaps_of(folder, record, loaded, broken):
 def write(folder, record):
     """index.html of everything in the folder; returns what is missing in it."""
     broken, sections = [], []
-    names = ("claims", "audit", "proofs", "spheres", "matched", "timings", "throughput", "shapes", "witnesses")
+    names = ("claims", "audit", "proofs", "proofs-quads", "spheres", "matched", "timings", "throughput", "throughput-quads", "maps", "shapes",
+             "witnesses")
     loaded = {name: load(folder, name + ".json", broken) for name in names}
+
+    def both_schemes(name, show):
+        other = loaded[name + "-quads"]
+        parts = (show(loaded[name]) if loaded[name] else "") + (show(other, "Catmull-Clark") if other else "")
+        return parts + origin(name, record) if parts else ""
 
     def section(name, title, *pieces):
         body = "".join(pieces)
@@ -148,14 +162,14 @@ def write(folder, record):
     section("matched", "At equal error", result("matched", tables.matched), figure(
         folder, "error", "Error", "Error on the screen against triangles drawn, each strategy from coarse to fine settings: lower and "
         "further left is better.", record))
-    pictures = shown(PICTURES) + shown({name: MORE_PICTURES[name] for name in ("picture-cracks", "picture-sharp")})
+    pictures = shown(PICTURES) + shown({name: MORE_PICTURES[name] for name in ("picture-cracks", "picture-sharp", "picture-crease")})
     section("pictures", "Pictures", depth_bar() if pictures else "", pictures)
-    viewer = view(folder)
+    viewer = view(folder, loaded["maps"])
     section("view", "In three dimensions", viewer, origin("view", record) if viewer else "")
     section("claims", "Claims", result("claims", tables.claims))
     section("audit", "Audit", result("audit", tables.audit, (loaded["witnesses"] or {}) if viewer else {}))
-    section("proofs", "Proofs", result("proofs", tables.proofs))
-    section("throughput", "Throughput", result("throughput", tables.throughput))
+    section("proofs", "Proofs", both_schemes("proofs", tables.proofs))
+    section("throughput", "Throughput", both_schemes("throughput", tables.throughput))
 
     gaps = gaps_of(folder, record, loaded, broken)
     made = max((record.made(n) for n in PARTS if record.made(n)), key=lambda m: m["made"], default=None)

@@ -19,8 +19,9 @@ class PartError(ValueError):
 class Workshop:
     """Runs programs for a part; results go to a temporary name until they are whole."""
 
-    def __init__(self, programs, folder, quick):
+    def __init__(self, programs, folder, quick, maps=()):
         self.bench, self.limitcheck, self.folder, self.quick = programs, programs.parent / "limitcheck", folder, quick
+        self.maps = maps  # of errors, in the view: SUBJECT[:OPTIONS]@MESH[@DEPTH]; none: the program's own choice
         self.label, self.expected = "", None
 
     def begin(self, label, expected):
@@ -95,19 +96,24 @@ def audit(shop):
 
 
 def proofs(shop):
-    shop.run([shop.limitcheck, "prove", *(["--depth", "1", "--valences", "3:5"] if shop.quick else []), "--json"], "proofs.json", (0, 1))
+    for scheme, output in (("loop", "proofs.json"), ("catmull-clark", "proofs-quads.json")):
+        shop.run([shop.limitcheck, "prove", "--scheme", scheme, *(["--depth", "1", "--valences", "3:5"] if shop.quick else []), "--json"],
+                 output, (0, 1))
 
 
 def throughput(shop):
-    cases = "faces:1000/depth:3/threads:1" if shop.quick else "faces:4000/depth:[35]/threads:1|100000/depth:5"
-    partial = shop.folder / "throughput.json.partial"
-    try:
-        shop.run([shop.bench / "throughput_bench", f"--benchmark_filter={cases}|write-only|set-up/bumpy/faces:4000",
-                  *(["--benchmark_min_time=0.03"] if shop.quick else []),
-                  f"--benchmark_out={partial}", "--benchmark_out_format=json"])
-        partial.replace(shop.folder / "throughput.json")
-    finally:
-        partial.unlink(missing_ok=True)
+    of_loop = "faces:1000/depth:3/threads:1" if shop.quick else "faces:4000/depth:[35]/threads:1|100000/depth:5"
+    of_quads = "depth:3/threads:1" if shop.quick else "depth:[35]/threads:1"
+    for name, scheme, cases in (("throughput", "loop", f"{of_loop}|write-only|set-up/bumpy/faces:4000"),
+                                ("throughput-quads", "catmull-clark", f"{of_quads}|write-only")):
+        partial = shop.folder / f"{name}.json.partial"
+        try:
+            shop.run([shop.bench / "throughput_bench", f"--benchmark_filter={cases}",
+                      *(["--benchmark_min_time=0.03"] if shop.quick else []),
+                      f"--benchmark_out={partial}", "--benchmark_out_format=json", f"--scheme={scheme}"])
+            partial.replace(shop.folder / f"{name}.json")
+        finally:
+            partial.unlink(missing_ok=True)
 
 
 def shown_findings(results):
@@ -165,6 +171,7 @@ def places(shop, findings):
 def view(shop):
     node = shop.node()
     shop.reproduction("model")
+    shop.reproduction("maps", *(word for m in shop.maps for word in ("--map", m)))
     audited = shop.folder / "audit.json"
     findings = []
     if audited.is_file():  # the surfaces its witnesses lie on
@@ -191,13 +198,13 @@ def parts():
                           (13, "random depths"), (14, "depth by curvature")):
         yield f"figure-{number}", Part(f"figure-{number}: {title}", picture(f"figure-{number}"), [f"figure-{number}.png"])
     for name, title in (("error", "an error map beside its control mesh"), ("cracks", "cracks and their repair"),
-                        ("sharp", "a crease that starts and ends")):
+                        ("sharp", "a crease that starts and ends"), ("crease", "creases of a mesh of quads, drawn adaptively")):
         yield f"picture-{name}", Part(f"picture-{name}: {title}", picture(f"picture-{name}"), [f"picture-{name}.png"])
     yield "claims", Part("the paper's claims", claims, ["claims.json"])
     yield "audit", Part("audit of the built-in tessellators", audit, ["audit.json"])
-    yield "proofs", Part("proofs", proofs, ["proofs.json"])
-    yield "throughput", Part("throughput against others", throughput, ["throughput.json"])
-    yield "view", Part("view in three dimensions", view, ["model.json", "shapes.json", "witnesses.json", "viewer.js"])
+    yield "proofs", Part("proofs", proofs, ["proofs.json", "proofs-quads.json"])
+    yield "throughput", Part("throughput against others", throughput, ["throughput.json", "throughput-quads.json"])
+    yield "view", Part("view in three dimensions", view, ["model.json", "maps.json", "shapes.json", "witnesses.json", "viewer.js"])
 
 
 PARTS = dict(parts())

@@ -172,7 +172,7 @@ def matched(data):
 OURS = ("row-stream", "sliding-window", "naive", "reference", "write-only")
 
 
-def throughput(data):
+def throughput(data, scheme="Loop"):
     """Rates as bars, our own variants apart from others; and all of it as a table."""
     runs = [r for r in data["benchmarks"] if "points/s" in r and r.get("run_type") != "aggregate"]
     ours, rows, cases = {}, [], {}
@@ -185,9 +185,10 @@ def throughput(data):
                      f"{r['real_time']:.4g} {r['time_unit']}", f"{r['peak'] / 2**20:.3g} MiB" if "peak" in r else ""])
     rows.sort(key=lambda row: list(ours).index(row[0]))
     charts = "".join(bars(case, some) for case, some in cases.items() if len(some) > 1)
-    return charts + details("All cases as a table", table(
+    option = "" if scheme == "Loop" else " --scheme catmull-clark"
+    return f"<h3>{scheme}</h3>" + charts + details(f"All cases of {scheme} as a table", table(
         ["case", "route", "million points/s", "row streaming is so many times as fast", "time", "peak memory"], rows,
-        "All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench</code>"))
+        f"All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench{option}</code>"))
 
 
 def bars(case, rates):
@@ -207,16 +208,19 @@ GROUPS = {
     "digits": "computed with 50 digits and compared with Stam's evaluator, too", "rational": "valences 3, 4 and 6, in exact fractions",
     "high": "valences 20, 50 and 100", "boundary": "boundary edges and vertices round pairs of several valences",
     "boundary-deep": "boundaries round the regular pair, deeper", "alone": "a face without neighbours",
-    "spheres": "every pair of faces of bumpy spheres"}
+    "spheres": "every pair of faces of bumpy spheres", "quadruples": "every four valences at a quad's corners, in every order",
+    "cuts": "creases and corners at a quad", "darts": "ends of creases at a quad", "semi-sharp": "semi-sharp edges and vertices at a quad"}
+# What a name means for quads, where that is something else.
+OF_QUADS = {"deep": "the regular quad and others, deeper", "high": "valences 20 and 50", "boundary": "boundary edges and vertices round a quad"}
 
 
-def proofs(data):
-    """One line for each group of topologies and kernel."""
+def proofs(data, scheme="Loop"):
+    """One line for each group of topologies, kernel and arithmetic."""
     groups = {}
     for row in data["rows"]:
-        groups.setdefault((row["group"], row["kernel"]), []).append(row)
+        groups.setdefault((row["group"], row["kernel"], row["arithmetic"]), []).append(row)
     lines = []
-    for (group, kernel), some in groups.items():
+    for (group, kernel, _), some in groups.items():
         wrong = [r for r in some if r["map"] != "equal"]
         bounds, digits = [r for r in some if r.get("bound")], [r["digits"] for r in some if r.get("digits")]
         bound, worst = max((r["bound"] for r in bounds), default=None), max((r["worst"] for r in bounds), default=None)
@@ -225,9 +229,10 @@ def proofs(data):
                       text(sum(r["points"] for r in some)), "<b class=yes>equal</b>" if not wrong else "<b class=no>differs</b>", ", ".join(sorted({text(r["arithmetic"]) for r in some})),
                       f"{min(digits):.1f}" if digits else "", number(bound) if bound else "", number(worst) if worst else "",
                       number(bound / worst) if bound and worst else ""])
-    explained = "; ".join(f"<b>{text(g)}</b>: {text(GROUPS[g])}" for g in dict.fromkeys(g for g, _ in groups) if g in GROUPS)
-    return ((f"<p>Groups of neighbourhoods. {explained}.</p>" if explained else "") + "<p>The map from control points to limit points that each kernel applies, against the reference's, for every geometry of a "
+    known = GROUPS if scheme == "Loop" else {**GROUPS, **OF_QUADS}
+    explained = "; ".join(f"<b>{text(g)}</b>: {text(known[g])}" for g in dict.fromkeys(g for g, *_ in groups) if g in known)
+    return (f"<h3>{scheme}</h3>" + (f"<p>Groups of neighbourhoods. {explained}.</p>" if explained else "") + "<p>The map from control points to limit points that each kernel applies, against the reference's, for every geometry of a "
             "topology at once; and a bound of the float32 error over all control meshes in the unit box. Topology by topology: "
-            "<code>limitcheck prove --each</code>.</p>"
+            f"<code>limitcheck prove{'' if scheme == 'Loop' else ' --scheme catmull-clark'} --each</code>.</p>"
             + table(["group", "kernel", "topologies", "depths", "points", "map equal", "arithmetic", "digits", "proved bound",
                      "worst observed", "slack"], lines))

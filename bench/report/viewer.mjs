@@ -84,7 +84,7 @@ class Stage {
   }
 }
 
-// The tessellation by the combined strategy, triangle by triangle.
+// A tessellation, triangle by triangle: by the combined strategy, or what a subject delivered.
 class Tessellation {
   constructor(model) {
     this.model = model;
@@ -96,10 +96,11 @@ class Tessellation {
     this.geometry.setAttribute("color", this.colour);
     this.errors = { position: floats(model.position_error), normal: floats(model.normal_error) };
     this.object = withEdges(this.geometry);
+    this.geometry.computeBoundingSphere();
   }
   paint(by) {
     const { model, errors } = this;
-    const logarithmic = (name, worst) => (t) => ramp(1 + Math.log10(Math.max(errors[name][t], 1e-9) / worst) / 4);
+    const logarithmic = (name, worst) => (t) => ramp(1 + Math.log10(Math.max(errors[name][t], 1e-30) / Math.max(worst, 1e-20)) / 4);
     const of = {
       depth: (t) => (model.kind[t] === 2 ? fan : depths[model.depth[t]]), kind: (t) => kinds[model.kind[t]],
       position: logarithmic("position", model.worst_position), normal: logarithmic("normal", model.worst_normal),
@@ -166,21 +167,24 @@ function marked(shape, witness) {
 function start(element) {
   const read = (id) => JSON.parse(document.getElementById(id).textContent);
   const control = (name) => element.querySelector(name);
-  const select = control("select"), wire = control("input[name=wire]"), legend = control("output"), back = control("button[name=back]");
+  const select = control("select[name=colour]"), surface = control("select[name=surface]"), wire = control("input[name=wire]"), legend = control("output"), back = control("button[name=back]");
   const toTable = control("button[name=table]");
-  const stage = new Stage(control("canvas")), tessellation = new Tessellation(read("model")), shapes = read("shapes");
+  const stage = new Stage(control("canvas")), shapes = read("shapes");
+  const models = [read("model"), ...(document.getElementById("maps") ? read("maps") : [])], made = [];
+  const current = () => (made[surface.value] ??= new Tessellation(models[surface.value]));
   let witness = null, from = null;
 
   function refresh() {
-    if (!witness) legend.textContent = tessellation.paint(select.value);
+    if (!witness) legend.textContent = current().paint(select.value);
     stage.object.children[1].visible = wire.checked;
     stage.draw();
   }
   function overview() {
     witness = null;
     back.hidden = toTable.hidden = true;
-    stage.show(tessellation.object);
-    stage.look(new THREE.Vector3(), new THREE.Vector3(1.3, 1.4, 3.6), 3);
+    const { center, radius } = current().geometry.boundingSphere;
+    stage.show(current().object);
+    stage.look(center, new THREE.Vector3(1.3, 1.4, 3.6).multiplyScalar(radius / 1.4).add(center), 2 * radius);
     refresh();
   }
   function jump(to, button) {
@@ -196,6 +200,10 @@ function start(element) {
     stage.canvas.focus({ preventScroll: true });
   }
   select.addEventListener("change", () => (witness ? overview() : refresh()));
+  surface.addEventListener("change", () => {
+    if (surface.value > 0 && !["position", "normal"].includes(select.value)) select.value = "position";
+    overview();
+  });
   wire.addEventListener("change", refresh);
   back.addEventListener("click", overview);
   toTable.addEventListener("click", () => {
@@ -204,8 +212,8 @@ function start(element) {
   });
   control("button[name=worst]").addEventListener("click", () => {
     if (witness) overview();
-    const { middle, normal } = tessellation.worst(select.value);
-    stage.look(middle, middle.clone().addScaledVector(normal, 0.6), 3);
+    const { middle, normal } = current().worst(select.value), { radius } = current().geometry.boundingSphere;
+    stage.look(middle, middle.clone().addScaledVector(normal, 0.4 * radius), 2 * radius);
     stage.draw();
   });
   overview();

@@ -31,13 +31,14 @@ int main(int argc, char** argv) {
   CLI::App app{"The paper's pictures and tables from our own data, as PNG and JSON files", "reproduction"};
   fs::path folder = "build/report";
   bool quick = false;
-  std::vector<std::string> parts, meshes, names = bench::picture_names();
-  names.insert(names.end(), {"model", "spheres", "matched", "timings", "shapes"});
+  std::vector<std::string> parts, meshes, wanted, names = bench::picture_names();
+  names.insert(names.end(), {"model", "spheres", "matched", "timings", "shapes", "maps"});
   app.add_option("PART", parts, "What to make; timings reads what spheres has left")
       ->required()
       ->check(CLI::IsMember(names));
   app.add_option("-o,--output", folder, "Folder for the results")->capture_default_str();
   app.add_option("--mesh", meshes, "Control meshes of shapes")->allow_extra_args(false);
+  app.add_option("--map", wanted, "Error maps: SUBJECT[:OPTIONS]@MESH[@DEPTH]")->allow_extra_args(false);
   app.add_flag("--quick", quick, "Fewer frames");
   CLI11_PARSE(app, argc, argv);
   const auto save = [&](const std::string& name, const Json& data) {
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
         save(part, bench::model());
       } else if (part == "shapes") {
         save(part, bench::shapes(meshes));
+      } else if (part == "maps") {
+        save(part, bench::maps(wanted));
       } else if (part == "spheres") {
         save(part, bench::sphere_table(quick));
       } else if (part == "matched") {

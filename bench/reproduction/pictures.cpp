@@ -149,6 +149,7 @@ const std::vector<Picture> kPictures{
     {"figure-13", random_depths},
     {"figure-14", by_curvature},
     {"picture-cracks", cracks_and_repair},
+    {"picture-crease", adaptive_creases},
     {"picture-error", error_beside_control_mesh},
     {"picture-sharp", open_crease},
 };

@@ -10,7 +10,7 @@
 namespace limitcheck::bench {
 
 /// figure-3, figure-6, figure-7, figure-8, figure-10, figure-13, figure-14; picture-cracks and picture-error,
-/// for the README.
+/// for the README; picture-sharp, picture-crease.
 const std::vector<std::string>& picture_names();
 
 /// One of these as NAME.png in the folder.
@@ -35,6 +35,11 @@ nlohmann::ordered_json model();
 /// By name of a control mesh: its limit surface as an indexed mesh of some thousand triangles, float32 and
 /// 32-bit integers as base 64, with the control face of each triangle; or `error`, why it cannot be shown.
 nlohmann::ordered_json shapes(const std::vector<std::string>& names);
+
+/// What subjects deliver: an array of title and what model() has, errors at the points of each triangle. Each
+/// wanted is SUBJECT[:OPTIONS]@MESH[@DEPTH]; none: a choice of both schemes. Throws data::ArgumentError,
+/// verify::SubjectError.
+nlohmann::ordered_json maps(std::vector<std::string> wanted);
 
 /// What the text says of time, measured: an array of id, outcome ("as the text says", "not as the text says"
 /// or "could not be measured"), figures and series, [{name, unit, at, values}].

@@ -6,6 +6,7 @@
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
 #include "data/generators/named_mesh.h"
+#include "data/scheme.h"
 #include "fast/window/tessellator.h"
 
 namespace limitcheck::bench {
@@ -21,7 +22,9 @@ nlohmann::ordered_json shapes(const std::vector<std::string>& names) {
       depth.strategy = fast::Strategy::kUniform;
       for (depth.depth = 0; depth.depth < 4 && mesh.faces.size() << 2 * (depth.depth + 1) <= kTriangles;)
         ++depth.depth;
-      fast::Tessellator<float> engine(mesh);
+      fast::TessellatorOptions options;
+      options.scheme = data::natural_scheme(mesh);
+      fast::Tessellator<float> engine(mesh, options);
       fast::IndexedMesh<float> out;
       engine.frame(depth, viewer(0), out);
       std::vector<std::uint32_t> corners;

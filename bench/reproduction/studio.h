@@ -12,6 +12,7 @@
 #include "bench/render/renderer.h"
 #include "bench/reproduction/scene.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/scheme.h"
 #include "fast/window/tessellator.h"
 
 namespace limitcheck::bench {
@@ -62,6 +63,7 @@ class Studio {
                               const fast::CrackOptions& cracks = {}) const {
     fast::TessellatorOptions options;
     options.cracks = cracks;
+    options.scheme = data::natural_scheme(mesh_);
     fast::Tessellator<float> tessellator(mesh_, options);
     fast::DrawList<float> out;
     tessellator.frame(depth, seen_by, out);
@@ -111,6 +113,9 @@ Image fan_centres();
 /// A control mesh with a crease that starts and ends, its surface, and how far OpenSubdiv's limit points are
 /// off.
 Image open_crease();
+/// A creased Catmull-Clark surface with depths by the combined strategy: whole, near with cracks, near
+/// without.
+Image adaptive_creases();
 /// A control mesh, and its coarse tessellation coloured by how far each triangle is off the surface.
 Image error_beside_control_mesh();
 

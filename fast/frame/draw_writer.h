@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "fast/frame/crack_stitch.h"
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/patch.h"
 #include "fast/frame/sink.h"
+#include "fast/frame/vertex_copy.h"
 #include "fast/mesh/placement.h"
 
 namespace limitcheck::fast {
@@ -103,7 +105,7 @@ class DrawWriter {
   };
 
   DrawWriter(const Patch& patch, const CrackPlan& plan, const Placement<Real>& placement, Vertex* vertices,
-             LatticePoint* provenance, Draw* draws, std::int64_t first, Scratch& scratch)
+             LatticePoint* provenance, Draw* draws, std::int64_t first, Scratch& scratch, Stores stores)
       : patch_(patch),
         plan_(plan),
         placement_(placement),
@@ -112,17 +114,20 @@ class DrawWriter {
         draw_(draws),
         first_(first),
         scratch_(scratch),
+        stores_(stores),
         k_(1 << patch.depth) {}
 
-  /// A strip of the window, both halves at once: 2 (k + 1) vertices.
-  void whole_strip(int row, const Vertex* strip) {
+  /// A strip of the window, both halves at once: at(q) is vertex q of 2 (k + 1).
+  template <class At>
+  void whole_strip(int row, At&& at) {
     begin(DrawMode::kStrip, patch_.kind, patch_.half[0].face, patch_.half[1].face, 2 * (k_ - row) - 1);
-    for (int q = 0; q < 2 * (k_ + 1); ++q) {
-      const int r = row + q % 2, c = q / 2;
-      if (provenance_ != nullptr)
-        *provenance_++ =
-            r + c <= k_ ? patch_.half[0].lattice(k_, r, c) : patch_.half[1].lattice(k_, k_ - r, k_ - c);
-      *vertex_++ = placed(strip[q], placement_);
+    if (!copied(at, 2 * (k_ + 1))) {
+      for (int q = 0; q < 2 * (k_ + 1); ++q) {
+        const int r = row + q % 2, c = q / 2;
+        put(at(q), [&] {
+          return r + c <= k_ ? patch_.half[0].lattice(k_, r, c) : patch_.half[1].lattice(k_, k_ - r, k_ - c);
+        });
+      }
     }
     end(2 * (k_ + 1));
   }
@@ -142,7 +147,8 @@ class DrawWriter {
       kind = Kind::kStitched;
     }
     begin(DrawMode::kStrip, kind, half.face, half.face, to - from - 1);
-    for (int q = from; q <= to; ++q) put(at(q), half.lattice(k_, row + q % 2, q / 2));
+    if (from > 0 || !copied(at, to + 1))
+      for (int q = from; q <= to; ++q) put(at(q), [&] { return half.lattice(k_, row + q % 2, q / 2); });
     end(to - from + 1);
   }
 
@@ -151,12 +157,18 @@ class DrawWriter {
     std::int32_t triangles = 0;
     for (int e = 0; e < 3; ++e) triangles += 1 << edge_depth(plan_, half.face, e);
     begin(DrawMode::kFan, Kind::kFan, half.face, half.face, triangles);
-    put(centre, {half.face, 1, 1, 3});
+    put(centre, [&] { return LatticePoint{half.face, 1, 1, 3}; });
     for (int e = 0; e < 3; ++e) {
       const int count = 1 << edge_depth(plan_, half.face, e);
-      for (int t = 0; t < count; ++t) put(border[e][t], lattice_on_edge(half.face, e, t, count));
+      if (as_it_is()) {
+        copy_vertices(border[e], static_cast<std::size_t>(count), vertex_, stores_);
+        vertex_ += count;
+        continue;
+      }
+      for (int t = 0; t < count; ++t)
+        put(border[e][t], [&] { return lattice_on_edge(half.face, e, t, count); });
     }
-    put(border[0][0], lattice_on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)));
+    put(border[0][0], [&] { return lattice_on_edge(half.face, 0, 0, 1 << edge_depth(plan_, half.face, 0)); });
     end(triangles + 2);
   }
 
@@ -168,8 +180,8 @@ class DrawWriter {
       const int depth = edge_depth(plan_, half.face, e);
       const auto one = [&](std::int64_t index, bool is_inner) {
         const int t = static_cast<int>(index);
-        if (!is_inner) return put(border[e][t], lattice_on_edge(half.face, e, t, 1 << depth));
-        put(inner(side, e)[t], Half{half.face, e}.lattice(k_, k_ - t - 2, t + 1));
+        if (!is_inner) return put(border[e][t], [&] { return lattice_on_edge(half.face, e, t, 1 << depth); });
+        put(inner(side, e)[t], [&] { return Half{half.face, e}.lattice(k_, k_ - t - 2, t + 1); });
       };
       stitch_edge(k_, depth, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
         one(a, ai);
@@ -205,9 +217,27 @@ class DrawWriter {
   void begin(DrawMode mode, Kind kind, std::int32_t face, std::int32_t face_after, std::int32_t split) {
     *draw_ = {first_, 0, split, face, face_after, mode, kind, static_cast<std::int8_t>(patch_.depth)};
   }
-  void put(const Vertex& vertex, const LatticePoint& lattice) {
-    if (provenance_ != nullptr) *provenance_++ = lattice;
-    *vertex_++ = placed(vertex, placement_);
+  template <class Lattice>
+  void put(const Vertex& vertex, Lattice&& lattice) {
+    if (provenance_ != nullptr) *provenance_++ = lattice();
+    const Vertex here = placed(vertex, placement_);
+    copy_vertices(&here, 1, vertex_++, stores_);
+  }
+
+  /// Vertices are copied without a look at each.
+  bool as_it_is() const { return provenance_ == nullptr && placement_.is_identity(); }
+  /// Points 0 .. count - 1 of a strip, if they are and lie as the copying wants them.
+  template <class At>
+  bool copied(const At& at, int count) {
+    if constexpr (std::is_same_v<At, RowPair<Real>>) {
+      if (!as_it_is() || at.step != -1) return false;
+      const auto couples = static_cast<std::size_t>(count / 2);
+      interleave_backwards(at.above, at.below, couples, vertex_, stores_);
+      if (count % 2 != 0) copy_vertices(&at(count - 1), 1, vertex_ + count - 1, stores_);
+      vertex_ += count;
+      return true;
+    }
+    return false;
   }
   void end(std::int32_t count) {
     draw_->count = count;
@@ -223,6 +253,7 @@ class DrawWriter {
   Draw* draw_;
   std::int64_t first_;
   Scratch& scratch_;
+  Stores stores_;
   int k_;
 };
 

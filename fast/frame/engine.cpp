@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "data/error.h"
 #include "fast/frame/engine_state.h"
 #include "fast/frame/frame_engine.h"
+#include "fast/frame/patch_frame.h"
 
 namespace limitcheck::fast {
 namespace {
@@ -77,9 +79,10 @@ std::int64_t deliver(const FrameEngine<Real>& s, std::int64_t before, DrawSink<R
 
 // One frame: evaluate() delivers the points and returns their number.
 template <class Real, class Evaluate>
-FrameStats run_frame(FrameEngine<Real>& s, std::span<const std::int32_t> depth, Evaluate&& evaluate) {
+FrameStats run_frame(FrameEngine<Real>& s, std::span<const std::int32_t> depth, Evaluate&& evaluate,
+                     std::span<const Grid> keep = {}) {
   const auto start = Clock::now();
-  FrameStats stats = s.plan_frame(depth);
+  FrameStats stats = s.plan_frame(depth, keep);
   const auto preparation = Clock::now();
   s.prepare();
   stats.seconds_planning += seconds_since(preparation);
@@ -92,6 +95,11 @@ FrameStats run_frame(FrameEngine<Real>& s, std::span<const std::int32_t> depth, 
 }
 
 }  // namespace
+
+std::uint64_t FrameState::next_version() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
 
 FrameState::FrameState(const data::ControlMesh& given, const TessellatorOptions& with)
     : mesh(checked(given)), options(with) {
@@ -127,6 +135,25 @@ const PairingResult& Engine<Real>::last_pairing() const {
 template <class Real>
 const CrackPlan& Engine<Real>::last_plan() const {
   return state_->plan;
+}
+
+template <class Real>
+void Engine<Real>::move_points(std::span<const std::array<double, 3>> positions) {
+  auto& points = state_->mesh.positions;
+  if (positions.size() != points.size())
+    throw data::ArgumentError("tessellator: " + std::to_string(positions.size()) + " points for " +
+                              std::to_string(points.size()) + " vertices");
+  std::vector<std::array<double, 3>> before(positions.begin(), positions.end());
+  points.swap(before);
+  try {
+    checked(state_->mesh);
+    state_->points_moved();
+  } catch (...) {
+    points.swap(before);
+    state_->points_moved();
+    throw;
+  }
+  state_->renew_version();
 }
 
 template <class Real>
@@ -173,6 +200,14 @@ FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, DrawSink<Rea
     }
     return vertices;
   });
+}
+
+template <class Real>
+FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, PatchMesh<Real>& out) {
+  PatchFrame<Real> patches(*state_, out);
+  const std::vector<Grid> keep = patches.pairs_to_keep(depth);
+  return run_frame(
+      *state_, depth, [&] { return patches.write(depth); }, keep);
 }
 
 template class Engine<float>;

@@ -2,12 +2,14 @@
 // What every tessellator can do: one frame after the other, at given depths or by a strategy.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "fast/frame/frame_options.h"
+#include "fast/frame/patch_mesh.h"
 #include "fast/frame/sink.h"
 
 namespace limitcheck::fast {
@@ -38,6 +40,10 @@ class Engine {
   FrameStats frame(std::span<const std::int32_t> depth, DrawList<Real>& out);
   FrameStats frame(std::span<const std::int32_t> depth, IndexedMesh<Real>& out);
   FrameStats frame(std::span<const std::int32_t> depth, DrawSink<Real>& sink);
+  /// As patches: their points once, what has not changed since the last frame left as it is, if it is so
+  /// wanted (see PatchMesh). The patches have the bits of a fresh frame with the same pairs.
+  ///   throws   data::ArgumentError, too: a patch too large for indices of 16 bits
+  FrameStats frame(std::span<const std::int32_t> depth, PatchMesh<Real>& out);
 
   /// A frame at the depths that a strategy of section 4.1 assigns, at most options.max_depth. Output: as
   /// above.
@@ -50,6 +56,12 @@ class Engine {
     stats.seconds_total += seconds;
     return stats;
   }
+
+  /// Moves the control points, one for each vertex of the mesh that the engine was made for; what depends on
+  /// the topology alone stays. The next frame is that of a new engine with these points, to the bit.
+  ///   throws   data::ArgumentError: another number of points, or what the constructor refuses; the points
+  ///            are then as before
+  void move_points(std::span<const std::array<double, 3>> positions);
 
   /// The depths of the last frame after pairing, one per face, and its grids: to colour by, and to check.
   const PairingResult& last_pairing() const;

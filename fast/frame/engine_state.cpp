@@ -7,7 +7,7 @@
 namespace limitcheck::fast {
 
 template <class Real>
-FrameStats EngineState<Real>::plan_frame(std::span<const std::int32_t> depth) {
+FrameStats EngineState<Real>::plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) {
   using Clock = std::chrono::steady_clock;
   const auto seconds_since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -15,7 +15,7 @@ FrameStats EngineState<Real>::plan_frame(std::span<const std::int32_t> depth) {
   FrameStats stats;
   check_depths(depth, adjacency.face_count(), kDeepest);
   auto start = Clock::now();
-  pairing = pair_faces(adjacency, depth, rules);
+  pairing = pair_faces(adjacency, depth, rules, keep);
   stats.seconds_pairing = seconds_since(start);
 
   start = Clock::now();

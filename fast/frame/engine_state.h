@@ -13,6 +13,7 @@
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/index_writer.h"
+#include "fast/frame/patch_writer.h"
 #include "fast/plan/printed_rules.h"
 
 namespace limitcheck::fast {
@@ -28,14 +29,15 @@ struct EngineState : FrameEngine<Real> {
   }
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
-      FrameEngine<Real>::plan;
+      FrameEngine<Real>::plan, FrameEngine<Real>::stores;
 
   int face_count() const final { return adjacency.face_count(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
     if (!heuristics) heuristics.emplace(mesh, adjacency, options.max_depth);
     return heuristics->depths(strategy, camera);
   }
-  FrameStats plan_frame(std::span<const std::int32_t> depth) final;
+  void points_moved() override { heuristics.reset(); }
+  FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) final;
   std::size_t patch_count() const final { return patches.size(); }
   DrawSize patch_size(std::size_t i) const final { return draw_size(patches[i], plan); }
   DrawSize measure_index() final {
@@ -45,6 +47,18 @@ struct EngineState : FrameEngine<Real> {
   void write_index(IndexedMesh<Real>& out) final {
     write_control_vertices(out);
     index(layout_, out);
+  }
+
+  void list_patches(std::vector<PatchWanted>& out) const final {
+    out.clear();
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      out.push_back(wanted_patch(pairing.grids[i], patches[i], plan));
+  }
+  void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
+                       std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const final {
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      fast::add_patch_draws(patches[i], plan, places[i].first, form, patterns, indices,
+                            [&](const PatchDraw& draw) { out.push_back(draw); });
   }
 
   /// Evaluates all patches into an indexed mesh that has room for them, through index_writer().
@@ -63,7 +77,8 @@ struct EngineState : FrameEngine<Real> {
             options.provenance ? out.provenance.data() + at.vertices : nullptr,
             out.draws.data() + at.draws,
             at.vertices,
-            scratch};
+            scratch,
+            stores};
   }
   IndexWriter<Real> index_writer(std::size_t i, const IndexLayout& layout, IndexedMesh<Real>& out) const {
     return {adjacency, patches[i], plan, layout, placement, out};

@@ -11,7 +11,9 @@
 
 #include "data/control_mesh.h"
 #include "fast/frame/frame_options.h"
+#include "fast/frame/patch_store.h"
 #include "fast/frame/sink.h"
+#include "fast/frame/vertex_copy.h"
 #include "fast/mesh/placement.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/pairing.h"
@@ -35,7 +37,10 @@ struct FrameState {
   /// Makes grids of the faces, plans the cracks and makes the patches. The statistics that it returns lack
   /// the number of vertices, the zero normals, and the times of what is still to do.
   ///   throws   data::ArgumentError: not one depth per face, a depth outside -1 .. kDeepest
-  virtual FrameStats plan_frame(std::span<const std::int32_t> depth) = 0;
+  ///   keep     pairs of faces that are to stay together, each of faces of one depth; for Loop's scheme
+  virtual FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) = 0;
+  /// When mesh.positions have changed: what depends on them is made anew.
+  virtual void points_moved() = 0;
   virtual std::size_t patch_count() const = 0;
   virtual DrawSize patch_size(std::size_t i) const = 0;
 
@@ -44,7 +49,13 @@ struct FrameState {
   tbb::task_arena arena;
   PairingResult pairing;
   CrackPlan plan;
-  int max_depth = 0;  // of grids and edges
+  int max_depth = 0;                        // of grids and edges
+  const std::uint64_t id = next_version();  // of this mesh with its options, among all in the process
+  std::uint64_t version = id;               // of its control points
+  void renew_version() { version = next_version(); }
+
+ private:
+  static std::uint64_t next_version();
 };
 
 /// The same with points of a number type.
@@ -60,12 +71,20 @@ struct FrameEngine : FrameState {
   /// room.
   virtual DrawSize measure_index() = 0;
   virtual void write_index(IndexedMesh<Real>& out) = 0;
+  /// The patches of this frame, in their order; then writes those that are fresh to their places, and adds
+  /// the calls that draw them all.
+  virtual void list_patches(std::vector<PatchWanted>& out) const = 0;
+  virtual void write_patches(std::span<const PatchPlace> places, SurfaceVertex<Real>* vertices,
+                             LatticePoint* provenance) = 0;
+  virtual void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
+                               std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const = 0;
   /// Vertices of this frame whose normal came from the rule for vanishing tangents.
   virtual std::int64_t zero_normals() const = 0;
 
-  Placement<Real> placement;      // from the coordinates of what the writers are given to the caller's
-  std::vector<DrawSize> offsets;  // where each patch of the draw list begins, and the end
-  DrawList<Real> part;            // the part of a frame that a sink is given at a time
+  Placement<Real> placement;          // from the coordinates of what the writers are given to the caller's
+  std::vector<DrawSize> offsets;      // where each patch of the draw list begins, and the end
+  Stores stores = Stores::kOrdinary;  // of the vertices of a draw list
+  DrawList<Real> part;                // the part of a frame that a sink is given at a time
 };
 
 }  // namespace limitcheck::fast

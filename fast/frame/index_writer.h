@@ -2,9 +2,13 @@
 // Writes patches into one indexed mesh in which every point of a control vertex or edge appears once.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fast/frame/draw_writer.h"
@@ -91,9 +95,13 @@ class IndexWriter {
         out_(out),
         k_(1 << patch.depth) {}
 
-  void whole_strip(int row, const Vertex* strip) {
-    half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
-    half_strip(1, k_ - 1 - row, [&](int q) -> const Vertex& { return strip[2 * k_ + 1 - q]; });
+  template <class At>
+  void whole_strip(int row, At&& at) {
+    half_strip(0, row, at);
+    if constexpr (std::is_same_v<std::decay_t<At>, RowPair<Real>>)
+      half_strip(1, k_ - 1 - row, at.turned(k_));
+    else
+      half_strip(1, k_ - 1 - row, [&](int q) -> const Vertex& { return at(2 * k_ + 1 - q); });
   }
 
   template <class At>
@@ -101,19 +109,9 @@ class IndexWriter {
     const Half& half = patch_.half[side];
     const bool stitch = half.display == Display::kStitch;
     // Every row is written with the strip below it; row k is a corner.
-    write_row(half, stitch, row, [&](int c) -> const Vertex& { return at(2 * c); });
+    write_row(half, stitch, row, at);
 
-    const int first_row = stitch ? 1 : 0, inner = stitch ? k_ - 3 : k_;
-    if (row < first_row || row - first_row >= inner) return;
-    const std::int64_t left = inner - (row - first_row);
-    std::int64_t t = layout_.first_triangle[half.face] + std::int64_t{inner} * inner - left * left;
-    const Kind kind = stitch ? Kind::kStitched : patch_.kind;
-    for (int c = first_row; c < first_row + left; ++c) {
-      const std::uint32_t a = index(half, row, c), b = index(half, row + 1, c),
-                          right = index(half, row, c + 1);
-      triangle(t++, half.face, kind, a, b, right);
-      if (c + 1 < first_row + left) triangle(t++, half.face, kind, right, b, index(half, row + 1, c + 1));
-    }
+    if (row == 0) write_triangles(half, stitch);
   }
 
   void fan(int side, const Vertex& centre, const Border<Real>& border) {
@@ -160,20 +158,61 @@ class IndexWriter {
     return static_cast<std::uint32_t>(layout_.interior[half.face] + interior_before(k_, row) + column - 1);
   }
 
+  /// index() of all columns of a row, but of those on the border if the face has another depth there.
+  void indices(const Half& half, int row, std::uint32_t* out) const {
+    const int last = k_ - row;
+    out[0] = index(half, row, 0), out[last] = index(half, row, last);
+    if (last < 2) return;
+    const std::uint32_t first = index(half, row, 1);
+    const std::uint32_t step = row > 0 || last == 2 ? 1 : index(half, row, 2) - first;  // 1 or -1
+    for (int c = 1; c < last; ++c) out[c] = first + static_cast<std::uint32_t>(c - 1) * step;
+  }
+
+  /// The triangles of all rows; of a stitched half those within its outer ring.
+  void write_triangles(const Half& half, bool stitch) {
+    const int from = stitch ? 1 : 0, rows = stitch ? k_ - 3 : k_;
+    const std::int64_t first = layout_.first_triangle[half.face], count = std::int64_t{rows} * rows;
+    std::fill_n(out_.triangle_face.data() + first, count, half.face);
+    std::fill_n(out_.triangle_kind.data() + first, count, stitch ? Kind::kStitched : patch_.kind);
+    std::array<std::uint32_t, (1 << kDeepest) + 1> row_a, row_b;  // NOLINT: filled as far as they are read
+    std::uint32_t *upper = row_a.data(), *lower = row_b.data();
+    indices(half, from, upper);
+    std::array<std::uint32_t, 3>* out = out_.triangles.data() + first;
+    for (int row = from, end = from + rows; row < from + rows; ++row, --end) {
+      indices(half, row + 1, lower);
+      for (int c = from; c + 1 < end; ++c, out += 2) {
+        out[0] = {upper[c], lower[c], upper[c + 1]};
+        out[1] = {upper[c + 1], lower[c], lower[c + 1]};
+      }
+      *out++ = {upper[end - 1], lower[end - 1], upper[end]};
+      std::swap(upper, lower);
+    }
+  }
+
   /// Whether this half writes the points inside that edge.
   bool owns(std::int32_t h) const { return layout_.reversed[h] == 0; }
 
+  /// The points of a row: those with even numbers of the strip below it.
   template <class At>
-  void write_row(const Half& half, bool only_interior, int row, At&& at) {
+  void write_row(const Half& half, bool only_interior, int row, const At& at) {
     if (only_interior && (row < 1 || row > k_ - 2)) return;
     const int last = k_ - row;
     const std::int32_t h = 3 * half.face;
     if (!only_interior && row > 0) {
       if (owns(h + (half.edge + 2) % 3)) write(index(half, row, 0), at(0), half.lattice(k_, row, 0));
-      if (owns(h + half.edge)) write(index(half, row, last), at(last), half.lattice(k_, row, last));
+      if (owns(h + half.edge)) write(index(half, row, last), at(2 * last), half.lattice(k_, row, last));
     }
-    if (row == 0 && !owns(h + (half.edge + 1) % 3)) return;
-    for (int c = 1; c < last; ++c) write(index(half, row, c), at(c), half.lattice(k_, row, c));
+    if (last < 2 || (row == 0 && !owns(h + (half.edge + 1) % 3))) return;
+    if (row > 0 && out_.provenance.empty() && placement_.is_identity()) {
+      Vertex* to = out_.vertices.data() + index(half, row, 1);
+      if constexpr (std::is_same_v<At, RowPair<Real>>) {
+        if (at.step == 1)
+          return copy_vertices(&at(2), static_cast<std::size_t>(last) - 1, to, Stores::kOrdinary);
+      }
+      for (int c = 1; c < last; ++c) *to++ = at(2 * c);
+      return;
+    }
+    for (int c = 1; c < last; ++c) write(index(half, row, c), at(2 * c), half.lattice(k_, row, c));
   }
 
   void write_border(std::int32_t face, const Border<Real>& border) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/quad_patch.h"
@@ -17,7 +18,7 @@ class QuadDrawWriter {
   /// `first` is the place of the first vertex in the whole list.
   QuadDrawWriter(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan,
                  const Placement<Real>& placement, Vertex* vertices, LatticePoint* provenance, Draw* draws,
-                 std::int64_t first)
+                 std::int64_t first, Stores stores)
       : patch_(patch),
         faces_(faces),
         plan_(plan),
@@ -25,7 +26,8 @@ class QuadDrawWriter {
         vertex_(vertices),
         provenance_(provenance),
         draw_(draws),
-        first_(first) {}
+        first_(first),
+        stores_(stores) {}
 
   /// Leaves out strips that somebody else writes.
   void skip(std::int64_t strips) {
@@ -36,11 +38,21 @@ class QuadDrawWriter {
     first_ += vertices;
   }
 
-  /// A strip of the window: 2 (m + 1) vertices between rows j = m - row and below, m = part_size(depth).
-  void strip(int part, int row, const Vertex* strip) {
+  /// A strip of the window: at(q) is vertex q of 2 (m + 1) between rows j = m - row and below, m =
+  /// part_size(depth).
+  template <class At>
+  void strip(int part, int row, const At& at) {
     const int m = faces_.part_size(patch_.depth);
     begin(DrawMode::kStrip, Kind::kPair);
-    for (int q = 0; q < 2 * (m + 1); ++q) put(strip[q], PartPoint{part, q / 2, m - row - q % 2});
+    if constexpr (std::is_same_v<At, RowPair<Real>>) {
+      if (provenance_ == nullptr && placement_.is_identity() && at.step == -1) {
+        interleave_backwards(at.above, at.below, static_cast<std::size_t>(m) + 1, vertex_, stores_);
+        vertex_ += 2 * (m + 1);
+        draw_->count += 2 * (m + 1);
+        return end();
+      }
+    }
+    for (int q = 0; q < 2 * (m + 1); ++q) put(at(q), PartPoint{part, q / 2, m - row - q % 2});
     end();
   }
 
@@ -100,7 +112,8 @@ class QuadDrawWriter {
   }
   void put(const Vertex& v, PartPoint p) { put(v, faces_.lattice(patch_.face, patch_.depth, p)); }
   void put(const Vertex& v, const LatticePoint& lattice) {
-    *vertex_++ = placed(v, placement_);
+    const Vertex here = placed(v, placement_);
+    copy_vertices(&here, 1, vertex_++, stores_);
     if (provenance_ != nullptr) *provenance_++ = lattice;
     ++draw_->count;
   }
@@ -121,6 +134,7 @@ class QuadDrawWriter {
   LatticePoint* provenance_;
   Draw* draw_;
   std::int64_t first_;
+  Stores stores_;
 };
 
 }  // namespace limitcheck::fast

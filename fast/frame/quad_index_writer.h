@@ -98,11 +98,12 @@ class QuadIndexWriter {
   /// Leaves out strips that somebody else writes.
   void skip(std::int64_t strips) { triangle_ += strips * 2 * m_; }
 
-  void strip(int part, int row, const Vertex* strip) {
+  template <class At>
+  void strip(int part, int row, const At& at) {
     const int j = m_ - row;
     for (int i = 0; i <= m_; ++i) {
-      write_own({part, i, j}, strip[2 * i]);
-      if (j == 1) write_own({part, i, 0}, strip[2 * i + 1]);
+      write_own({part, i, j}, at(2 * i));
+      if (j == 1) write_own({part, i, 0}, at(2 * i + 1));
     }
     cells(part, 0, m_, j, Kind::kPair);
   }

@@ -9,7 +9,8 @@
 namespace limitcheck::fast {
 
 template <class Real>
-FrameStats QuadEngineState<Real>::plan_frame(std::span<const std::int32_t> depth) {
+FrameStats QuadEngineState<Real>::plan_frame(std::span<const std::int32_t> depth,
+                                             std::span<const Grid> /*keep*/) {
   const auto start = std::chrono::steady_clock::now();
   FrameStats stats;
   check_depths(depth, faces.size(), kDeepest);

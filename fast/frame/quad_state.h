@@ -11,6 +11,7 @@
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/quad_draw_writer.h"
 #include "fast/frame/quad_index_writer.h"
+#include "fast/frame/quad_patch_writer.h"
 #include "fast/plan/quad_depth.h"
 
 namespace limitcheck::fast {
@@ -23,14 +24,18 @@ struct QuadEngineState : FrameEngine<Real> {
       : FrameEngine<Real>(given, with), quads(mesh), faces(mesh.faces, quads), semi_sharp(quads) {}
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
-      FrameEngine<Real>::plan;
+      FrameEngine<Real>::plan, FrameEngine<Real>::stores;
 
   int face_count() const final { return faces.size(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
     if (!heuristics) heuristics.emplace(faces, semi_sharp, options.max_depth);
     return heuristics->depths(strategy, camera);
   }
-  FrameStats plan_frame(std::span<const std::int32_t> depth) final;
+  void points_moved() override {
+    quads = QuadMesh(mesh);  // the same but for the positions
+    heuristics.reset();
+  }
+  FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> /*keep*/) final;
   std::size_t patch_count() const final { return patches.size(); }
   DrawSize patch_size(std::size_t i) const final { return quad_draw_size(patches[i], faces, plan); }
   DrawSize measure_index() final {
@@ -40,6 +45,16 @@ struct QuadEngineState : FrameEngine<Real> {
   void write_index(IndexedMesh<Real>& out) final {
     write_control_vertices(out);
     index(layout_, out);
+  }
+
+  void list_patches(std::vector<PatchWanted>& out) const final {
+    out.clear();
+    for (const QuadPatch& patch : patches) out.push_back(wanted_quad_patch(patch, faces, plan));
+  }
+  void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
+                       std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const final {
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      out.push_back(quad_patch_draw(patches[i], faces, plan, places[i].first, form, patterns, indices));
   }
 
   /// Evaluates all patches into an indexed mesh that has room for them, through index_writer().
@@ -57,7 +72,8 @@ struct QuadEngineState : FrameEngine<Real> {
             out.vertices.data() + at.vertices,
             options.provenance ? out.provenance.data() + at.vertices : nullptr,
             out.draws.data() + at.draws,
-            at.vertices};
+            at.vertices,
+            stores};
   }
   QuadIndexWriter<Real> index_writer(std::size_t i, const QuadIndexLayout& layout,
                                      IndexedMesh<Real>& out) const {

@@ -13,6 +13,9 @@ struct Placement {
   T centre[3]{};
   T unit = T(1);
 
+  bool is_identity() const {
+    return unit == T(1) && centre[0] == T(0) && centre[1] == T(0) && centre[2] == T(0);
+  }
   Vec3<T> operator()(const Vec3<T>& x) const { return unit * x + Vec3<T>{centre[0], centre[1], centre[2]}; }
 };
 

@@ -166,9 +166,15 @@ std::vector<Facing> BasicDepthHeuristics<Surface>::facing(const Camera& camera) 
 template <class Surface>
 std::int32_t BasicDepthHeuristics<Surface>::project_sphere(std::int32_t face, const Camera& camera,
                                                            double target_pixels) const {
+  return project_sphere(face, camera, camera.focal_pixels(), target_pixels);
+}
+
+template <class Surface>
+std::int32_t BasicDepthHeuristics<Surface>::project_sphere(std::int32_t face, const Camera& camera,
+                                                           double focal_pixels, double target_pixels) const {
   const auto& [centroid, radius] = spheres_[face];
   const double distance = std::max(length(camera.eye - centroid) - radius, camera.near);
-  double pixels = 2 * radius * camera.focal_pixels() / distance;
+  double pixels = 2 * radius * focal_pixels / distance;
   std::int32_t level = 0;
   for (; level < max_depth_ && pixels > target_pixels; ++level) pixels /= 2;  // edges halve with each level
   return level;
@@ -251,12 +257,13 @@ std::vector<std::int32_t> BasicDepthHeuristics<Surface>::depths(const DepthOptio
       vertex_depth[v] = cone_depth(v, cosines[static_cast<std::size_t>(vertex_class)]);
     });
   }
+  const double focal_pixels = sphere ? camera.focal_pixels() : 0;
   for_each_index(result.size(), [&](std::int32_t f) {
     if (cull && facing(f, back) == Facing::kBack) {
       result[f] = kCulled;
       return;
     }
-    if (sphere) result[f] = project_sphere(f, camera, options.target_pixels);
+    if (sphere) result[f] = project_sphere(f, camera, focal_pixels, options.target_pixels);
     if (cone) {
       std::int32_t corners = kCulled;
       surface_.for_each_corner(f, [&](std::int32_t v) { corners = std::max(corners, vertex_depth[v]); });

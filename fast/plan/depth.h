@@ -102,6 +102,8 @@ class BasicDepthHeuristics {
   bool faces_away(std::int32_t v, const Camera& camera) const;
   std::vector<std::uint8_t> away(const Camera& camera) const;
   Facing facing(std::int32_t face, std::span<const std::uint8_t> away) const;
+  std::int32_t project_sphere(std::int32_t face, const Camera& camera, double focal_pixels,
+                              double target_pixels) const;
   Facing vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const;
   void prepare_cones() const;
 

@@ -19,7 +19,8 @@ constexpr int kTaken = 4;  // paired, singleton or culled: in none of S0 .. S3
 // the queues need no deletion: what has moved on since it was appended is skipped when it comes up.
 class Greedy {
  public:
-  Greedy(const Adjacency& adjacency, const PrintedRules& rules, PairingResult& result)
+  Greedy(const Adjacency& adjacency, const PrintedRules& rules, PairingResult& result,
+         std::span<const Grid> keep)
       : adjacency_(adjacency), rules_(rules), result_(result), nodes_(result.depth.size()) {
     const auto faces = static_cast<std::int32_t>(nodes_.size());
     for (std::int32_t f = 0; f < faces; ++f) {
@@ -27,6 +28,11 @@ class Greedy {
         nodes_[f].set = kTaken;
         ++result_.culled;
       }
+    }
+    for (const Grid& grid : keep) {
+      nodes_[grid.face0].set = nodes_[grid.face1].set = kTaken;
+      result_.grids.push_back(grid);
+      ++result_.pair_count;
     }
     for (std::int32_t f = 0; f < faces; ++f) {
       if (nodes_[f].set != kTaken) nodes_[f].free = count_free(f);
@@ -213,12 +219,12 @@ class Greedy {
 }  // namespace
 
 PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                         const PrintedRules& rules) {
+                         const PrintedRules& rules, std::span<const Grid> keep) {
   check_depths(depth, adjacency.face_count(), std::numeric_limits<std::int32_t>::max());
   PairingResult result;
   result.depth.assign(depth.begin(), depth.end());
   result.grids.reserve(depth.size() / 2 + 1);
-  Greedy(adjacency, rules, result).run();
+  Greedy(adjacency, rules, result, keep).run();
   return result;
 }
 

@@ -32,9 +32,10 @@ struct PrintedRules {
   EdgeDepthRule edge_depth = EdgeDepthRule::kMaximum;
 };
 
-/// As the functions of the same names without rules.
+/// As the functions of the same names without rules. `keep`: pairs that are there before the others, each
+/// of faces of one depth.
 PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                         const PrintedRules& rules);
+                         const PrintedRules& rules, std::span<const Grid> keep = {});
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules);
 /// Of the control faces of a mesh of quads: a cut is an edge like others, so that its sides meet.

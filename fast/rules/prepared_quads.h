@@ -55,7 +55,7 @@ class PreparedQuads {
     limits_.resize(positions_.size());
     sums_.resize(positions_.size());
     slot_.resize(4 * static_cast<std::size_t>(adjacency.face_count()));
-    StarWeightTable table;
+    StarWeightTable<Weight> table;
     OwnQuadStar<Wide> own;
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
       const auto fan = adjacency.fan(v);
@@ -82,7 +82,9 @@ class PreparedQuads {
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:
-  Vertex limit_of(OwnQuadStar<Wide>& own, const StarWeights& weights) {
+  using Weight = typename NumberTraits<Wide>::Scalar;
+
+  Vertex limit_of(OwnQuadStar<Wide>& own, const StarWeights<Weight>& weights) {
     const LimitFrame<Wide> wide = star_limit(own.star, weights);
     if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
       bool degenerate = false;

@@ -13,37 +13,45 @@
 namespace limitcheck::fast {
 
 /// Weights of the differences between the points of a ring and its centre; one entry per point.
+template <class S>
 struct StarWeights {
-  std::vector<double> du, dv;
-  std::vector<double> position;  // of a dart; elsewhere it is a sum that star_limit() knows
+  std::vector<S> du, dv;
+  std::vector<S> position;  // of a dart; elsewhere it is a sum that star_limit() knows
 };
 
 /// For a star of so many faces. Tangents are left eigenvectors, so exact wherever there is a tangent plane;
-/// du x dv points outward.
+/// du x dv points outward. S: double, or a number with roots (quad_limit_impl.h).
 ///   closed    n >= 3; du points to e_0
 ///   boundary  n >= 1: du = e_0 - e_n along, dv across. From 4 faces on there is no tangent plane in general,
 ///             and this is the plane of the mask.
 ///   held      open: du = e_0 - c, dv = e_n - c, which is the tangent plane of up to two faces; closed: there
 ///             is none, and these are the smooth tangents.
-///   dart      by iteration, to about 1e-14: they have no closed form
-StarWeights star_weights(int faces, bool open, VertexKind kind);
+///   dart      by iteration, in double to about 1e-14: they have no closed form
+template <class S>
+StarWeights<S> star_weights(int faces, bool open, VertexKind kind);
 
 /// The weights for every kind of star that a mesh has, each made when it is first asked for. Not for several
 /// threads at once.
+template <class S>
 class StarWeightTable {
  public:
-  const StarWeights& of(int faces, bool open, VertexKind kind);
+  const StarWeights<S>& of(int faces, bool open, VertexKind kind) {
+    auto& list = list_[2 * static_cast<std::size_t>(kind) + (open ? 1 : 0)];
+    if (static_cast<std::size_t>(faces) >= list.size()) list.resize(static_cast<std::size_t>(faces) + 1);
+    auto& entry = list[static_cast<std::size_t>(faces)];
+    if (entry == nullptr) entry = std::make_unique<StarWeights<S>>(star_weights<S>(faces, open, kind));
+    return *entry;
+  }
 
  private:
-  std::vector<std::unique_ptr<StarWeights>> list_[6];
+  std::vector<std::unique_ptr<StarWeights<S>>> list_[6];
 };
 
-/// The limit of a star without semi-sharp edges. The position is exact in a field; the tangents' weights are
-/// doubles.
+/// The limit of a star without semi-sharp edges.
 template <class W>
-LimitFrame<W> star_limit(const QuadStar<W>& star, const StarWeights& weights) {
+LimitFrame<W> star_limit(const QuadStar<W>& star,
+                         const StarWeights<typename NumberTraits<W>::Scalar>& weights) {
   using T = NumberTraits<W>;
-  using S = typename T::Scalar;
   Vec3<W> edges{}, faces{}, du{}, dv{}, dart{};
   const bool is_dart = star.kind == VertexKind::kDart;
   for (int i = 0; i < star.size(); ++i) {
@@ -51,9 +59,9 @@ LimitFrame<W> star_limit(const QuadStar<W>& star, const StarWeights& weights) {
     const Vec3<W> d = star.ring[i] - star.centre;
     Vec3<W>& sum = i % 2 == 0 ? edges : faces;
     sum = sum + d;
-    if (is_dart) dart = dart + static_cast<S>(weights.position[k]) * d;
-    du = du + static_cast<S>(weights.du[k]) * d;
-    dv = dv + static_cast<S>(weights.dv[k]) * d;
+    if (is_dart) dart = dart + weights.position[k] * d;
+    du = du + weights.du[k] * d;
+    dv = dv + weights.dv[k] * d;
   }
   const Vec3<W>& v = star.centre;
   const int n = star.faces;

@@ -37,7 +37,7 @@ class QuadRing {
   std::span<const StarTags> tags_;
   int taken_ = 0;  // steps that the mesh has taken before
   OwnQuadStar<double> own_, final_;
-  StarWeightTable weights_;
+  StarWeightTable<double> weights_;
 };
 
 }  // namespace limitcheck::fast

@@ -126,9 +126,11 @@ KernelPlacement<T> scaled(KernelPlacement<T> placement, int depth) {
   return placement;
 }
 
+inline constexpr int kEveryRow = -1;
+
 /// Where the vertices of a batch go: vertex i of row j of the grid in lane k, position then unit normal,
-/// starts at base + k * lane_stride + j * row_stride + 6 * i, in numbers. row_stride 0 reuses one row. `row`
-/// is called, if set, after each row.
+/// starts at base + k * lane_stride + (j & row_mask) * row_stride + 6 * i, in numbers. row_mask 0 reuses one
+/// row, 1 two in turn. `row` is called, if set, after each row.
 template <class T>
 struct Target {
   T* base = nullptr;
@@ -136,6 +138,9 @@ struct Target {
   std::ptrdiff_t row_stride = 0;
   void (*row)(void* context, int j) = nullptr;
   void* context = nullptr;
+  int row_mask = kEveryRow;
+
+  std::ptrdiff_t row_offset(int j) const { return (j & row_mask) * row_stride; }
 };
 
 }  // namespace limitcheck::fast::row_stream

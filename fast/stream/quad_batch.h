@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 #include "fast/mesh/adjacency.h"
@@ -64,7 +63,7 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
       const T* centre = rings.head(at.vertex) + Block::kCentre;
       for (int t = 0; t < width; ++t) {
         const std::int32_t k = first + t;
-        std::memcpy(window[lane] + 3 * t, k < 0 || k >= at.entries ? centre : numbers + 3 * k, 3 * sizeof(T));
+        std::copy_n(k < 0 || k >= at.entries ? centre : numbers + 3 * k, 3, window[lane] + 3 * t);
       }
       block[Block::kEnds * lanes + lane] = static_cast<T>(-first);
       block[(Block::kEnds + 1) * lanes + lane] = static_cast<T>(at.entries - 1 - first);
@@ -73,7 +72,7 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
       if (k < 0) k += at.entries;
       for (int t = 0; t < width;) {  // a ring is there twice
         const int run = std::min(width - t, at.entries);
-        std::memcpy(window[lane] + 3 * t, numbers + 3 * k, 3 * static_cast<std::size_t>(run) * sizeof(T));
+        std::copy_n(numbers + 3 * k, 3 * run, window[lane] + 3 * t);
         t += run;
       }
       block[Block::kEnds * lanes + lane] = block[(Block::kEnds + 1) * lanes + lane] = T(-1);

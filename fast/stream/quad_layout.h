@@ -141,14 +141,18 @@ T quad_unit(T unit, int depth) {
 }
 
 /// Where the vertices of a batch go: vertex i of row j of the quad in lane k, position then unit normal,
-/// starts at lane[k] + j * row_stride + 6 * i, in numbers. Several lanes may go to the same place if they are
-/// the same quad. `row` is called, if set, after each row.
+/// starts at lane[k] + (j & row_mask) * row_stride + 6 * i, in numbers: row_mask 0 reuses one row, 1 two in
+/// turn. Several lanes may go to the same place if they are the same quad. `row` is called, if set, after
+/// each row.
 template <class T>
 struct QuadTarget {
   T* const* lane = nullptr;
   std::ptrdiff_t row_stride = 0;
   void (*row)(void* context, int j) = nullptr;
   void* context = nullptr;
+  int row_mask = kEveryRow;
+
+  std::ptrdiff_t row_offset(int j) const { return (j & row_mask) * row_stride; }
 };
 
 }  // namespace limitcheck::fast::row_stream

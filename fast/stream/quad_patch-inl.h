@@ -43,7 +43,7 @@ class QuadPatch {
     prepare();
     const int size = 1 << depth_;
     for (int j = 0; j <= size; ++j) {
-      const std::ptrdiff_t offset = j * target_.row_stride;
+      const std::ptrdiff_t offset = target_.row_offset(j);
       Vertex<N> first, last;
       if (j == 0 || j == size) {
         first.load(limit_of(j == 0 ? 0 : 3)), last.load(limit_of(j == 0 ? 1 : 2));

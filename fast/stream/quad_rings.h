@@ -29,16 +29,21 @@ enum class QuadClass : std::uint8_t {
   kOpen      ///< some vertex on a boundary or a cut
 };
 
-/// Rings and limits of all control vertices of a mesh of quads, T float or double.
+/// Rings and limits of all control vertices of a mesh of quads, T float or double, or a number that knows
+/// linear maps alone (quad_rings_impl.h).
 ///
-/// Order: an interior ring starts at its lexicographically smallest edge neighbour (position, then the
-/// positions that follow it), a boundary ring at the first boundary edge. So what is computed here depends on
-/// positions alone: not on the numbering of vertices and faces nor on the rotation of corners. [claim D14]
+/// Order in floating point: an interior ring starts at its lexicographically smallest edge neighbour
+/// (position, then the positions that follow it), a boundary ring at the first boundary edge. So what is
+/// computed here depends on positions alone: not on the numbering of vertices and faces nor on the rotation
+/// of corners. Other numbers start where the adjacency does. [claim D14]
 template <class T>
 class BasicQuadRings {
  public:
   /// Throws data::ArgumentError: something is semi-sharp.
-  explicit BasicQuadRings(const QuadMesh& mesh);
+  explicit BasicQuadRings(const QuadMesh& mesh) : BasicQuadRings(mesh, place_points<T>(mesh.positions), 0) {}
+  /// Points of the caller's, one per vertex of the adjacency.
+  ///   tangent   of numbers without lengths: which limit tangent stands for a vertex's normal, 0 or 1
+  BasicQuadRings(const QuadMesh& mesh, PlacedPoints<T> points, int tangent);
 
   /// The points around a vertex, three numbers each: e_0 f_0 e_1 f_1 ... A closed ring has 2 n entries and is
   /// there twice, an open one 2 K + 1.
@@ -73,10 +78,11 @@ class BasicQuadRings {
   std::int64_t degenerate_normals() const { return degenerate_normals_; }
 
  private:
+  using Wide = typename NumberTraits<T>::Wide;
   struct Scratch;
   void lay_out(const QuadAdjacency& adjacency);
   void make_vertex(const QuadMesh& mesh, std::int32_t v, Scratch& scratch);
-  void make_dart(std::int32_t v, const OwnQuadStar<double>& own);
+  void make_dart(std::int32_t v, const OwnQuadStar<Wide>& own);
   void find_kinds(const QuadMesh& mesh);
 
   std::vector<T> numbers_;
@@ -86,6 +92,7 @@ class BasicQuadRings {
   std::vector<QuadClass> kinds_;
   std::vector<std::unique_ptr<DartCentres>> darts_;  // per vertex, or empty
   KernelPlacement<T> placement_;
+  int tangent_;
   std::int64_t degenerate_normals_ = 0;
 };
 

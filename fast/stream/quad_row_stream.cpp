@@ -23,11 +23,6 @@ void prepare(Workspace& workspace, int depth, int lanes) {
   workspace.work.grow(n * static_cast<std::size_t>(quad_work_size(depth)));
 }
 
-// Floats of a row, up to a whole number of cache lines.
-std::size_t row_pitch(int depth) {
-  return (6 * static_cast<std::size_t>(side(depth)) + 15) / 16 * 16;
-}
-
 /// The quads of a list that wait for others of their class.
 class Queue {
  public:
@@ -118,14 +113,15 @@ std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> fa
 }
 
 void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
-                         void (*visit)(void*, const QuadRowView&), void* context, Order order) const {
+                         void (*visit)(void*, const QuadRowView&), void* context, Order order,
+                         Kept kept) const {
   prepare(workspace, depth, kernel_.lanes);
-  workspace.row.grow(static_cast<std::size_t>(kernel_.lanes) * row_pitch(depth));
-  const auto pitch = static_cast<std::ptrdiff_t>(row_pitch(depth));
-  Rows rows{{{}, depth, 0, workspace.row.data(), pitch}, visit, context};
+  Rows rows{{{}, depth, 0, RowBuffer::in(workspace.row, depth, kernel_.lanes, kept)}, visit, context};
+  const RowBuffer& buffer = rows.view.rows;
   std::array<float*, kMaxLanes> lane;
-  for (int k = 0; k < kMaxLanes; ++k) lane[k] = workspace.row.data() + std::min(k, kernel_.lanes - 1) * pitch;
-  const QuadTarget<float> target{lane.data(), 0, visit ? &visit_row : nullptr, &rows};
+  for (int k = 0; k < kMaxLanes; ++k) lane[k] = buffer.base + std::min(k, kernel_.lanes - 1) * buffer.pitch;
+  const QuadTarget<float> target{lane.data(), buffer.stride, visit ? &visit_row : nullptr, &rows,
+                                 buffer.mask};
   const Evaluation evaluation{rings_, kernel_, faces, depth, workspace, order};
   Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
     rows.view.index = index;

@@ -14,18 +14,17 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// Row j of a batch of quads, overwritten by the next row. Row 0 runs from corner A = 0 of a face to B = 1.
+/// Row j of a batch of quads, overwritten by the next row or, if two are kept, by the one after it. Row 0 runs from corner A = 0 of a face to B = 1.
 struct QuadRowView {
   std::span<const std::uint32_t> index;  // of the quads, in the caller's list
   int depth;
   int j;
-  const float* base;
-  std::ptrdiff_t pitch;  // in floats
+  RowBuffer rows;
 
-  /// The side(depth) vertices of quad index[lane].
-  const Vertex* vertices(std::size_t lane) const {
-    return reinterpret_cast<const Vertex*>(base + static_cast<std::ptrdiff_t>(lane) * pitch);
-  }
+  /// The side(depth) vertices of quad index[lane],
+  const Vertex* vertices(std::size_t lane) const { return rows.row(lane, j); }
+  /// and those of the row before, j > 0, if two are kept.
+  const Vertex* before(std::size_t lane) const { return rows.row(lane, j - 1); }
 };
 
 /// A mesh of quads prepared for the kernel: the rings and limits of its vertices. Read-only afterwards,
@@ -64,7 +63,8 @@ class QuadRowStream {
   /// together from anywhere in the list; its rows come one after the other. From C, rows and columns are
   /// counted from that corner; the points are the same, those inside regular quads but for rounding.
   void rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
-            void (*visit)(void*, const QuadRowView&), void* context, Order order = Order::kFromA) const;
+            void (*visit)(void*, const QuadRowView&), void* context, Order order = Order::kFromA,
+            Kept kept = Kept::kOneRow) const;
 
   /// All vertices: those of faces[p] from out[p * side * side], row by row. `kernel`: another one for this
   /// call, with the same bits.

@@ -97,7 +97,7 @@ class QuadStream {
   HWY_ATTR void corners(int first, int last, int j) {
     Vertex<N> a, b;
     a.load(limit_of(first)), b.load(limit_of(last));
-    N::scatter_couple(a, b, target_.lane, j * target_.row_stride);
+    N::scatter_couple(a, b, target_.lane, target_.row_offset(j));
     if (target_.row) target_.row(target_.context, j);
   }
 
@@ -290,7 +290,7 @@ class QuadStream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    const std::ptrdiff_t offset = j * target_.row_stride;
+    const std::ptrdiff_t offset = target_.row_offset(j);
     Vertex<N> first, last;
     if (j == 0 || j == size) {
       first.load(limit_of(j == 0 ? kA : kD)), last.load(limit_of(j == 0 ? kB : kC));
@@ -319,7 +319,7 @@ class QuadStream {
   HWY_ATTR void inside(const Scalar* s, const Scalar* m, const Scalar* n, int j, const Vertex<N>& first,
                        const Vertex<N>& last) const {
     const int size = 1 << depth_, q = j / 2;
-    const std::ptrdiff_t offset = j * target_.row_stride;
+    const std::ptrdiff_t offset = target_.row_offset(j);
     if (!fused_ || j == 1 || j == size - 1) {
       QuadLimitRow<N> points(s, m, n, 1, centre_, unit_);
       return scatter_row<N>(points, size, first, last, target_.lane, offset);

@@ -17,27 +17,51 @@ const QuadKernel& narrow_of(const QuadKernel& kernel) {
   return narrow != nullptr ? *narrow : kernel;
 }
 
+constexpr auto none = [](std::size_t) { return false; };
+
 }  // namespace
 
 QuadStreamState::QuadStreamState(const data::ControlMesh& given, const TessellatorOptions& with,
                                  const QuadKernel& kernel)
-    : QuadEngineState<float>(given, with), stream(quads, kernel), narrow(narrow_of(kernel)) {
+    : QuadEngineState<float>(given, with), stream(std::in_place, quads, kernel), narrow(narrow_of(kernel)) {
   std::vector<std::int32_t> all(static_cast<std::size_t>(quads.adjacency.face_count()));
   std::iota(all.begin(), all.end(), 0);
   rank.resize(all.size());
   std::int32_t place = 0;
-  for (const std::int32_t quad : stream.sorted(all)) rank[quad] = place++;
+  for (const std::int32_t quad : stream->sorted(all)) rank[quad] = place++;
+}
+
+void QuadStreamState::points_moved() {
+  QuadEngineState<float>::points_moved();
+  stream.emplace(quads, stream->kernel());
 }
 
 void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
-  run(first, last, [&](std::size_t i) { return draw_writer(first, i, out); });
+  stores = stores_for(sizeof(Vertex) * out.vertices.size());
+  run(
+      first, last, [&](std::size_t i) { return draw_writer(first, i, out); }, none);
 }
 void QuadStreamState::index(const QuadIndexLayout& layout, IndexedMesh<float>& out) {
-  run(0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); });
+  stores = Stores::kOrdinary;
+  run(
+      0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); }, none);
+}
+void QuadStreamState::write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
+                                    LatticePoint* provenance) {
+  stores = Stores::kOrdinary;
+  run(
+      0, patches.size(),
+      [&](std::size_t i) {
+        const std::int64_t at = places[i].first;
+        return QuadPatchWriter<float>(patches[i], faces, plan, placement, vertices + at,
+                                      provenance != nullptr ? provenance + at : nullptr);
+      },
+      [&](std::size_t i) { return !places[i].fresh; });
 }
 
-// Quads of one depth and of like valences side by side, whatever faces they are parts of. In a fixed order.
-void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
+// Quads of the patches that are not skipped, of one depth and of like valences side by side, whatever faces they are parts of. In a fixed order.
+template <class Skip>
+void QuadStreamState::make_batches(std::size_t first, std::size_t last, Skip&& skip) {
   const int cut = faces.cut() ? 1 : 0;
   const auto depth_of = [&](std::size_t i) {
     return patches[i].display == Display::kStrips && !corners_only(patches[i], faces) ? patches[i].depth - cut
@@ -45,6 +69,7 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
   };
   parts.clear();
   for (std::size_t i = first; i < last; ++i) {
+    if (skip(i)) continue;
     const int count = depth_of(i) < 0 ? 1 : faces.parts(patches[i].face);
     for (int k = 0; k < count; ++k) parts.push_back({i, k});
   }
@@ -54,10 +79,10 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
   std::sort(parts.begin(), parts.end(),
             [&](const QuadPart& a, const QuadPart& b) { return key(a) < key(b); });
   const auto kind_of = [&](const QuadPart& p) {
-    return stream.rings().kind(faces.quad(patches[p.patch].face, p.part));
+    return stream->rings().kind(faces.quad(patches[p.patch].face, p.part));
   };
   batches.clear();
-  const auto lanes = static_cast<std::size_t>(stream.kernel().lanes);
+  const auto lanes = static_cast<std::size_t>(stream->kernel().lanes);
   for (std::size_t at = 0, end; at < parts.size(); at = end) {
     const int depth = depth_of(parts[at].patch);
     const QuadClass kind = kind_of(parts[at]);
@@ -68,17 +93,17 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last) {
   }
 }
 
-// Evaluates patches first .. last - 1 in parallel, each into make_writer(i); a writer must not care about the
+// Evaluates patches first .. last - 1 but those skipped in parallel, each into make_writer(i); a writer must not care about the
 // order of patches.
-template <class MakeWriter>
-void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
-  make_batches(first, last);
-  const QuadStreamFrame frame{stream, narrow, faces, plan, patches, options.cracks.centre};
-  run_batches<QuadStreamWorker>(arena, batches.size(), parts.size(),
-                                [&](QuadStreamWorker& worker, std::size_t b) {
-                                  worker.run(frame, batches[b], make_writer);
-                                  return batches[b].parts.size();
-                                });
+template <class MakeWriter, class Skip>
+void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip) {
+  make_batches(first, last, skip);
+  const QuadStreamFrame frame{*stream, narrow, faces, plan, patches, options.cracks.centre};
+  run_batches(arena, workers, batches.size(), parts.size(), [&](QuadStreamWorker& worker, std::size_t b) {
+    worker.run(frame, batches[b], make_writer);
+    fence(stores);
+    return batches[b].parts.size();
+  });
 }
 
 }  // namespace limitcheck::fast::row_stream

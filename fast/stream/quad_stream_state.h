@@ -4,7 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-
+#include <optional>
 #include <vector>
 
 #include "fast/frame/quad_state.h"
@@ -17,21 +17,26 @@ struct QuadStreamState final : QuadEngineState<float>, StreamHooks {
   /// throws   data::ArgumentError: what QuadEngineState and QuadRowStream refuse
   QuadStreamState(const data::ControlMesh& given, const TessellatorOptions& with, const QuadKernel& kernel);
 
+  void points_moved() override;
   void prepare() override { worker_bytes = 0; }
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override;
   void index(const QuadIndexLayout& layout, IndexedMesh<float>& out) override;
-  SurfaceVertex<float> limit(std::int32_t v) const override { return stream.limit(v); }
-  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
+  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
+                     LatticePoint* provenance) override;
+  SurfaceVertex<float> limit(std::int32_t v) const override { return stream->limit(v); }
+  std::int64_t zero_normals() const override { return stream->rings().degenerate_normals(); }
 
  private:
-  void make_batches(std::size_t first, std::size_t last);
-  template <class MakeWriter>
-  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer);
+  template <class Skip>
+  void make_batches(std::size_t first, std::size_t last, Skip&& skip);
+  template <class MakeWriter, class Skip>
+  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip);
 
-  QuadRowStream stream;
+  std::optional<QuadRowStream> stream;
   const QuadKernel& narrow;
   std::vector<std::int32_t> rank;  // of each quad, in the order that is best for the lanes
 
+  std::vector<QuadStreamWorker> workers;
   std::vector<QuadPart> parts;
   std::vector<QuadFrameBatch> batches;
 };

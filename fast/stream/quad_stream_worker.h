@@ -61,52 +61,36 @@ class QuadStreamWorker {
       writers.back().skip(std::int64_t{part.part} * frame.faces.part_size(patch.depth));
       quads_.push_back(frame.faces.quad(patch.face, part.part));
     }
-    const auto n = static_cast<std::size_t>(side(batch.depth));
-    before_.resize(batch.parts.size() * n);
-    strip_.resize(2 * n);
     struct Context {
-      QuadStreamWorker& worker;
       const QuadFrameBatch& batch;
       std::vector<Writer>& writers;
-    } context{*this, batch, writers};
+    } context{batch, writers};
     frame.stream.rows(
         quads_, batch.depth, workspace_,
         [](void* opaque, const QuadRowView& view) {
+          if (view.j == 0) return;
+          // Two rows make a strip. They come from the top, from right to left.
           Context& c = *static_cast<Context*>(opaque);
+          const int last = 1 << view.depth;
           for (std::size_t lane = 0; lane < view.index.size(); ++lane) {
             const std::uint32_t i = view.index[lane];
-            c.worker.take_row(view, lane, i, c.batch.parts[i].part, c.writers[i]);
+            c.writers[i].strip(c.batch.parts[i].part, view.j - 1,
+                               RowPair<float>{points_of(view.before(lane)) + last,
+                                              points_of(view.vertices(lane)) + last, -1});
           }
         },
-        &context, Order::kFromC);
+        &context, Order::kFromC, Kept::kTwoRows);
   }
 
   /// Bytes of its own, writers aside.
   std::size_t bytes() const {
-    std::size_t count = strip_.capacity() + points_.points.capacity();
+    std::size_t count = points_.points.capacity();
     for (const auto& points : border_) count += points.capacity();
-    return workspace_.bytes() + sizeof(Point) * count + sizeof(Vertex) * before_.capacity();
+    return workspace_.bytes() + sizeof(Point) * count;
   }
 
  private:
   static const Point* points_of(const Vertex* v) { return reinterpret_cast<const Point*>(v); }
-
-  // Two rows make a strip: this one and the one before, which is kept. They come from the top, from right to
-  // left.
-  template <class Writer>
-  void take_row(const QuadRowView& view, std::size_t lane, std::size_t i, int part, Writer& writer) {
-    const auto n = static_cast<std::size_t>(side(view.depth));
-    const Vertex* now = view.vertices(lane);
-    Vertex* before = before_.data() + i * n;
-    if (view.j > 0) {
-      for (std::size_t c = 0; c < n; ++c) {
-        strip_[2 * c] = points_of(before)[n - 1 - c];
-        strip_[2 * c + 1] = points_of(now)[n - 1 - c];
-      }
-      writer.strip(part, view.j - 1, strip_.data());
-    }
-    std::copy_n(now, n, before);
-  }
 
   template <class Writer>
   void alone(const QuadStreamFrame& frame, const QuadPatch& patch, Writer& writer) {
@@ -172,8 +156,6 @@ class QuadStreamWorker {
 
   Workspace workspace_;
   std::vector<std::int32_t> quads_;
-  std::vector<Vertex> before_;
-  std::vector<Point> strip_;
   QuadBorder<float> border_;
   FacePoints<float> points_;
 };

@@ -25,11 +25,6 @@ void prepare(Workspace& workspace, int depth, int lanes) {
   workspace.work.grow(n * static_cast<std::size_t>(work_size(depth)));
 }
 
-// Floats of a row, up to a whole number of cache lines.
-std::size_t row_pitch(int depth) {
-  return (6 * static_cast<std::size_t>(side(depth)) + 15) / 16 * 16;
-}
-
 struct Rows {
   RowView view;
   void (*visit)(void*, const RowView&);
@@ -58,23 +53,31 @@ void AlignedFloats::grow(std::size_t count) {
   size_ = count;
 }
 
+RowBuffer RowBuffer::in(AlignedFloats& memory, int depth, int lanes, Kept kept) {
+  // A whole number of cache lines.
+  const std::size_t pitch = (6 * static_cast<std::size_t>(side(depth)) + 15) / 16 * 16;
+  const std::size_t row = static_cast<std::size_t>(lanes) * pitch;
+  memory.grow(kept == Kept::kTwoRows ? 2 * row : row);
+  return {memory.data(), static_cast<std::ptrdiff_t>(pitch), static_cast<std::ptrdiff_t>(row),
+          static_cast<int>(kept)};
+}
+
 RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel)
     : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency) {}
 
 void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspace,
-                     void (*visit)(void*, const RowView&), void* context, Order order) const {
-  batches(kernel_, grids, depth, workspace, visit, context, order);
+                     void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
+  batches(kernel_, grids, depth, workspace, visit, context, order, kept);
 }
 
 void RowStream::batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
-                        void (*visit)(void*, const RowView&), void* context, Order order) const {
+                        void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   prepare(workspace, depth, kernel.lanes);
-  workspace.row.grow(lanes * row_pitch(depth));
-
-  const auto pitch = static_cast<std::ptrdiff_t>(row_pitch(depth));
-  Rows rows{{{}, depth, 0, workspace.row.data(), pitch}, visit, context};
-  Target<float> target{workspace.row.data(), pitch, 0, visit ? &visit_row : nullptr, &rows};
+  Rows rows{{{}, depth, 0, RowBuffer::in(workspace.row, depth, kernel.lanes, kept)}, visit, context};
+  const RowBuffer& buffer = rows.view.rows;
+  const Target<float> target{buffer.base, buffer.pitch, buffer.stride, visit ? &visit_row : nullptr,
+                             &rows,       buffer.mask};
   for (std::size_t first = 0; first < grids.size(); first += lanes) {
     rows.view.grids = grids.subspan(first, std::min(lanes, grids.size() - first));
     gather(adjacency_, rings_, rows.view.grids, depth, kernel.lanes, workspace.input.data(), order);
@@ -107,7 +110,7 @@ void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspa
           std::memcpy(static_cast<Vertex*>(context) + (lane * n + static_cast<std::size_t>(view.j)) * n,
                       view.vertices(lane), n * sizeof(Vertex));
       },
-      rest, Order::kFromA);
+      rest, Order::kFromA, Kept::kOneRow);
 }
 
 void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
@@ -117,17 +120,19 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
   const auto length = static_cast<std::size_t>(side(depth));
   workspace.input.grow(lanes * static_cast<std::size_t>(edge_input_size(checked(depth))));
   workspace.work.grow(lanes * static_cast<std::size_t>(edge_work_size(depth)));
-  workspace.row.grow(lanes * static_cast<std::size_t>(edge_output_size(depth)));
+  const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
 
   for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
     const auto batch = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
     gather_edges(adjacency_, rings_, batch, depth, kernel.lanes, workspace.input.data());
+    // The lanes beyond the last edge write too, but not into the caller's memory.
+    const bool full = batch.size() == lanes;
+    Vertex* to = out + first * length;
     kernel.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
-                     workspace.row.data());
-    for (std::size_t e = 0; e < batch.size(); ++e) {
-      float* to = out[(first + e) * length].position;
-      for (std::size_t k = 0; k < 6 * length; ++k) to[k] = workspace.row.data()[k * lanes + e];
-    }
+                     full ? to->position : rest.base,
+                     full ? 6 * static_cast<std::ptrdiff_t>(length) : rest.pitch);
+    for (std::size_t e = 0; e < batch.size() && !full; ++e)
+      std::memcpy(to + e * length, rest.row(e, 0), length * sizeof(Vertex));
   }
 }
 

@@ -2,6 +2,7 @@
 // Row streaming: the sliding window with every point of every level computed once, one grid per vector lane.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -35,7 +36,7 @@ class AlignedFloats {
 };
 
 /// The memory of one thread: a batch's control points, the kernel's rows and a row of output.
-/// 143 040 bytes at depth 5 with 16 lanes, whatever the mesh.
+/// 143 040 bytes at depth 5 with 16 lanes, whatever the mesh; 156 352 if two rows are kept.
 struct Workspace {
   AlignedFloats input, work, row;
   std::size_t bytes() const { return 4 * (input.size() + work.size() + row.size()); }
@@ -46,18 +47,35 @@ constexpr int side(int depth) {
   return (1 << depth) + 1;
 }
 
-/// Row j of a batch of grids, overwritten by the next row.
+/// How many rows of a batch are kept: only the last, or the one before it as well.
+enum class Kept : std::uint8_t { kOneRow = 0, kTwoRows = 1 };
+
+/// Where the last rows of a batch lie.
+struct RowBuffer {
+  float* base;
+  std::ptrdiff_t pitch;   // from lane to lane, in floats
+  std::ptrdiff_t stride;  // from row to row
+  int mask;               // row j is at place j & mask
+
+  /// Room for the rows of so many lanes.
+  static RowBuffer in(AlignedFloats& memory, int depth, int lanes, Kept kept);
+  const Vertex* row(std::size_t lane, int j) const {
+    return reinterpret_cast<const Vertex*>(base + static_cast<std::ptrdiff_t>(lane) * pitch +
+                                           (j & mask) * stride);
+  }
+};
+
+/// Row j of a batch of grids, overwritten by the next row or, if two are kept, by the one after it.
 struct RowView {
   std::span<const Grid> grids;
   int depth;
   int j;
-  const float* base;
-  std::ptrdiff_t pitch;  // in floats
+  RowBuffer rows;
 
-  /// The side(depth) vertices of grids[lane].
-  const Vertex* vertices(std::size_t lane) const {
-    return reinterpret_cast<const Vertex*>(base + static_cast<std::ptrdiff_t>(lane) * pitch);
-  }
+  /// The side(depth) vertices of grids[lane],
+  const Vertex* vertices(std::size_t lane) const { return rows.row(lane, j); }
+  /// and those of the row before, j > 0, if two are kept.
+  const Vertex* before(std::size_t lane) const { return rows.row(lane, j - 1); }
 };
 
 /// A control mesh prepared for the kernel: the rings and limits of its vertices. Read-only afterwards, so
@@ -80,7 +98,8 @@ class RowStream {
   /// Calls visit(context, RowView) for each row of each batch of grids, which all have this depth. From C,
   /// rows and columns are counted from that corner.
   void rows(std::span<const Grid> grids, int depth, Workspace& workspace,
-            void (*visit)(void*, const RowView&), void* context, Order order = Order::kFromA) const;
+            void (*visit)(void*, const RowView&), void* context, Order order = Order::kFromA,
+            Kept kept = Kept::kOneRow) const;
 
   /// All vertices: those of grids[p] from out[p * side * side], row by row. `kernel`: another one for this
   /// call, with the same bits.
@@ -101,7 +120,7 @@ class RowStream {
 
  private:
   void batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
-               void (*visit)(void*, const RowView&), void* context, Order order) const;
+               void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const;
 
   const Adjacency& adjacency_;
   const Kernel& kernel_;

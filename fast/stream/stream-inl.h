@@ -150,12 +150,11 @@ class Stream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    const LimitRow<N> row(s, m, n, centre_, unit_, target_.base + j * target_.row_stride,
-                          target_.lane_stride);
+    const LimitRow<N> row(s, m, n, centre_, unit_, target_.base + target_.row_offset(j), target_.lane_stride);
     if (placement_.has_local_origin(depth_)) {
       if (j == 0) return;
       if (j == size) {
-        scatter_kept<N>(strip(kDC, 0), size, target_.base + j * target_.row_stride, target_.lane_stride);
+        scatter_kept<N>(strip(kDC, 0), size, target_.base + target_.row_offset(j), target_.lane_stride);
       } else {
         row.run(size, strip(kAD, j), j, strip(kAC, j), strip(kBC, j));
       }

@@ -32,11 +32,19 @@ const Kernel& narrow_of(const Kernel& kernel) {
 struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   State(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
       : EngineState<float>(given, with, PrintedRules{}),
-        stream(mesh, adjacency, kernel),
+        stream(std::in_place, mesh, adjacency, kernel),
         narrow(narrow_of(kernel)) {}
+
+  void points_moved() override {
+    EngineState<float>::points_moved();
+    stream.emplace(mesh, adjacency, stream->kernel());
+    control.reset();
+    centres.clear();
+  }
 
   void prepare() override {
     if (plan.fans > 0 && !control) make_control();
+    if (plan.fans > 0) centres.resize(static_cast<std::size_t>(adjacency.face_count()));
     worker_bytes = 0;
   }
 
@@ -44,57 +52,82 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   void make_control() {
     std::vector<Vec3<float>> positions;
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-      const auto& p = stream.rings().points()[v];
+      const auto& p = stream->rings().points()[v];
       positions.push_back({p[0], p[1], p[2]});
     }
     control.emplace(adjacency, positions);
   }
 
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
-    run(first, last, [&](std::size_t i, StreamWorker& worker) {
-      return draw_writer(first, first + i, out, worker.scratch());
-    });
+    stores = stores_for(sizeof(Vertex) * out.vertices.size());
+    const std::size_t count = last - first;
+    run(std::span<const Grid>(pairing.grids).subspan(first, count),
+        std::span<const Patch>(patches).subspan(first, count), [&](std::size_t i, StreamWorker& worker) {
+          return draw_writer(first, first + i, out, worker.scratch());
+        });
   }
   void index(const IndexLayout& layout, IndexedMesh<float>& out) override {
-    run(0, patches.size(), [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
+    stores = Stores::kOrdinary;
+    run(pairing.grids, patches, [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
+  }
+  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
+                     LatticePoint* provenance) override {
+    fresh_grids.clear(), fresh_patches.clear(), firsts.clear();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!places[i].fresh) continue;
+      fresh_grids.push_back(pairing.grids[i]);
+      fresh_patches.push_back(patches[i]);
+      firsts.push_back(places[i].first);
+    }
+    stores = Stores::kOrdinary;
+    run(fresh_grids, fresh_patches, [&](std::size_t i, StreamWorker&) {
+      return PatchWriter<float>(fresh_patches[i], plan, placement, vertices + firsts[i],
+                                provenance != nullptr ? provenance + firsts[i] : nullptr);
+    });
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
-    const float* x = stream.rings().corner(v).head.data() + CornerBlock::kLimit;
+    const float* x = stream->rings().corner(v).head.data() + CornerBlock::kLimit;
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
   }
 
-  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
+  std::int64_t zero_normals() const override { return stream->rings().degenerate_normals(); }
 
-  // Evaluates patches first .. last - 1 in parallel, patch first + i into make_writer(i, worker); a writer
-  // must not care about the order of patches.
+  // Evaluates patches in parallel, shown[i] into make_writer(i, worker); a writer must not care about the
+  // order of patches.
   template <class MakeWriter>
-  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
-    const std::size_t total = last - first;
-    const std::span shown = std::span<const Patch>(patches).subspan(first, total);
-    batches.make(shown, static_cast<std::size_t>(stream.kernel().lanes),
+  void run(std::span<const Grid> grids, std::span<const Patch> shown, MakeWriter&& make_writer) {
+    const std::size_t total = shown.size();
+    batches.make(shown, static_cast<std::size_t>(stream->kernel().lanes),
                  static_cast<std::size_t>(narrow.lanes));
     const StreamFrame frame{adjacency,
-                            stream,
+                            *stream,
                             narrow,
                             plan,
-                            std::span<const Grid>(pairing.grids).subspan(first, total),
+                            grids,
                             shown,
                             control ? &*control : nullptr,
-                            options.cracks.centre,
-                            max_depth};
-    run_batches<StreamWorker>(arena, batches.list().size(), total, [&](StreamWorker& worker, std::size_t b) {
+                            centres,
+                            options.cracks.centre};
+    run_batches(arena, workers, batches.list().size(), total, [&](StreamWorker& worker, std::size_t b) {
       const Batch& batch = batches.list()[b];
-      if (worker.scratch().inner.empty()) worker.scratch().reserve(max_depth);
+      if (worker.scratch().stride < std::size_t{1} << max_depth) worker.scratch().reserve(max_depth);
       worker.run(frame, batch, make_writer);
+      fence(stores);
       return batch.patches.size();
     });
   }
 
-  RowStream stream;
+  std::optional<RowStream> stream;
   const Kernel& narrow;
   std::optional<PreparedMesh<float>> control;
+  std::vector<CachedCentre> centres;
+  std::vector<StreamWorker> workers;
   StreamBatches batches;
+  // The patches of a frame that are to be evaluated, and where they go.
+  std::vector<Grid> fresh_grids;
+  std::vector<Patch> fresh_patches;
+  std::vector<std::int64_t> firsts;
 };
 
 std::unique_ptr<FrameEngine<float>> StreamTessellator::make_state(const data::ControlMesh& mesh,

@@ -29,8 +29,8 @@ class StreamTessellator : public Engine<float> {
   /// frame after the other if it goes to a sink): by any thread, one at a time, some calls left out.
   void on_progress(std::function<void(std::size_t done, std::size_t total)> tell);
 
-  /// Largest memory of a thread in the last frame, output aside; at depth 5 at most 200 000 bytes, whatever
-  /// the mesh.
+  /// Largest memory of a thread in the frames so far, output aside; at depth 5 at most 256 000 bytes,
+  /// whatever the mesh. Of these 156 000 are the kernel's, the rest are border points of faces in repair.
   std::size_t worker_bytes() const;
 
  private:

@@ -2,24 +2,27 @@
 // One thread's part of a frame: evaluates a batch and hands its points to the patches' writers.
 #pragma once
 
-#include <algorithm>
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/draw_writer.h"
+#include "fast/stream/border_points.h"
 #include "fast/stream/row_stream.h"
 #include "fast/stream/stream_batches.h"
 
 namespace limitcheck::fast::row_stream {
 
-inline SurfaceVertex<float> as_point(const Vertex& v) {
-  return {{v.position[0], v.position[1], v.position[2]}, {v.normal[0], v.normal[1], v.normal[2]}};
-}
+/// The centre of a face's fan, once it has been evaluated.
+struct CachedCentre {
+  SurfaceVertex<float> point;
+  bool known = false;
+};
 
-/// What all threads read.
+/// What all threads read; of `centres` each writes those of its own faces.
 struct StreamFrame {
   const Adjacency& adjacency;
   const RowStream& stream;
@@ -28,8 +31,8 @@ struct StreamFrame {
   std::span<const Grid> grids;
   std::span<const Patch> patches;
   const PreparedMesh<float>* control;  // for the centres of fans; null if there are none
+  std::span<CachedCentre> centres;     // one per face, or none likewise
   FanCentre centre;
-  int deepest;  // of grids and edges
 };
 
 class StreamWorker {
@@ -42,30 +45,26 @@ class StreamWorker {
   template <class MakeWriter>
   void run(const StreamFrame& frame, const Batch& batch, MakeWriter&& make_writer) {
     using Writer = decltype(make_writer(std::size_t{}, *this));
+    border_.evaluate(frame.stream, frame.narrow, frame.patches, frame.plan, batch.patches, workspace_);
     if (batch.delivery == Delivery::kRowsFromA || batch.delivery == Delivery::kRowsFromC) {
       std::vector<Writer> writers;
       writers.reserve(batch.patches.size());
       for (const std::size_t i : batch.patches) writers.push_back(make_writer(i, *this));
       rows(frame, batch, writers);
-      for (std::size_t lane = 0; lane < writers.size(); ++lane)
-        repairs(frame, frame.patches[batch.patches[lane]], writers[lane]);
+      for (std::size_t lane = 0; lane < writers.size(); ++lane) repairs(frame, batch, lane, writers[lane]);
       return;
     }
     if (batch.delivery == Delivery::kWhole) evaluate_whole(frame, batch);
     for (std::size_t lane = 0; lane < batch.patches.size(); ++lane) {
-      const Patch& patch = frame.patches[batch.patches[lane]];
       auto writer = make_writer(batch.patches[lane], *this);
-      if (batch.delivery == Delivery::kWhole) whole(patch, lane, writer);
-      repairs(frame, patch, writer);
+      if (batch.delivery == Delivery::kWhole) whole(frame.patches[batch.patches[lane]], lane, writer);
+      repairs(frame, batch, lane, writer);
     }
   }
 
   /// Bytes of its own, writers aside.
   std::size_t bytes() const {
-    std::size_t count = scratch_.inner.capacity() + strip_.capacity();
-    for (const auto& points : border_) count += points.capacity();
-    return workspace_.bytes() + sizeof(Point) * count +
-           sizeof(Vertex) * (before_.capacity() + edge_.capacity());
+    return workspace_.bytes() + border_.bytes() + sizeof(Point) * scratch_.inner.capacity();
   }
 
  private:
@@ -74,60 +73,47 @@ class StreamWorker {
     for (const std::size_t i : batch.patches) grids_.push_back(frame.grids[i]);
   }
 
-  // Two rows make a strip: this one and the one before, which is kept. Frames count columns from D's side.
+  // Two rows make a strip. Frames count columns from D's side, the kernel from the other.
   template <class Writer>
   void rows(const StreamFrame& frame, const Batch& batch, std::vector<Writer>& writers) {
     collect(frame, batch);
-    const auto n = static_cast<std::size_t>(side(batch.depth));
-    before_.resize(batch.patches.size() * n);
-    strip_.resize(2 * n);
     struct Context {
-      StreamWorker& worker;
       const StreamFrame& frame;
       const Batch& batch;
       std::vector<Writer>& writers;
-    } context{*this, frame, batch, writers};
+    } context{frame, batch, writers};
     frame.stream.rows(
         grids_, batch.depth, workspace_,
         [](void* opaque, const RowView& view) {
+          if (view.j == 0) return;
           Context& c = *static_cast<Context*>(opaque);
           for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
-            c.worker.take_row(c.frame.patches[c.batch.patches[lane]], view, lane, c.batch.delivery,
-                              c.writers[lane]);
+            take_rows(c.frame.patches[c.batch.patches[lane]], view, lane, c.batch.delivery, c.writers[lane]);
         },
-        &context, batch.delivery == Delivery::kRowsFromC ? Order::kFromC : Order::kFromA);
+        &context, batch.delivery == Delivery::kRowsFromC ? Order::kFromC : Order::kFromA, Kept::kTwoRows);
   }
 
   // Row r of either half's own frame is row r counted from the corner that the rows come from, and its
   // columns run the other way.
   template <class Writer>
-  void take_row(const Patch& patch, const RowView& view, std::size_t lane, Delivery delivery,
-                Writer& writer) {
-    const auto n = static_cast<std::size_t>(side(view.depth));
-    const Vertex* now = view.vertices(lane);
-    Vertex* before = before_.data() + lane * n;
-    if (view.j > 0) {
-      for (std::size_t c = 0; c < n; ++c) {
-        strip_[2 * c] = as_point(before[n - 1 - c]);
-        strip_[2 * c + 1] = as_point(now[n - 1 - c]);
-      }
-      const Point* strip = strip_.data();
-      if (patch.full())
-        writer.whole_strip(view.j - 1, strip);
-      else
-        writer.half_strip(delivery == Delivery::kRowsFromC ? 0 : 1, view.j - 1,
-                          [&](int q) -> const Point& { return strip[q]; });
-    }
-    std::copy_n(now, n, before);
+  static void take_rows(const Patch& patch, const RowView& view, std::size_t lane, Delivery delivery,
+                        Writer& writer) {
+    const int last = 1 << view.depth;
+    const RowPair<float> strip{points_of(view.before(lane)) + last, points_of(view.vertices(lane)) + last,
+                               -1};
+    if (patch.full())
+      writer.whole_strip(view.j - 1, strip);
+    else
+      writer.half_strip(delivery == Delivery::kRowsFromC ? 0 : 1, view.j - 1, strip);
   }
+
+  static const Point* points_of(const Vertex* v) { return reinterpret_cast<const Point*>(v); }
 
   void evaluate_whole(const StreamFrame& frame, const Batch& batch) {
     collect(frame, batch);
     const auto n = static_cast<std::size_t>(side(batch.depth));
-    // The grids lie behind what narrow kernels need of the same memory, so that frames need no more than
-    // rows.
-    const auto kernels_own = static_cast<std::size_t>(
-        frame.narrow.lanes * std::max(work_size(batch.depth), edge_work_size(frame.deepest)));
+    // The grids lie behind what the kernel needs of the same memory, so that frames need no more than rows.
+    const auto kernels_own = static_cast<std::size_t>(frame.narrow.lanes * work_size(batch.depth));
     workspace_.work.grow(kernels_own + 6 * batch.patches.size() * n * n);
     whole_ = reinterpret_cast<Vertex*>(workspace_.work.data() + kernels_own);
     frame.stream.whole(grids_, batch.depth, workspace_, whole_, &frame.narrow);
@@ -137,60 +123,43 @@ class StreamWorker {
   template <class Writer>
   void whole(const Patch& patch, std::size_t lane, Writer& writer) {
     const int k = 1 << patch.depth;
-    const Vertex* points = whole_ + lane * static_cast<std::size_t>((k + 1) * (k + 1));
-    strip_.resize(2 * static_cast<std::size_t>(k + 1));
+    const Point* points = points_of(whole_ + lane * static_cast<std::size_t>((k + 1) * (k + 1)));
     for (int h = 0; h < 2; ++h) {
       if (!patch.half[h].uses_window()) continue;
-      const auto at = [&](int row, int column) {
-        return as_point(h == 0 ? points[(k - row) * (k + 1) + column] : points[row * (k + 1) + k - column]);
-      };
       for (int row = 0; row < k; ++row) {
-        for (int c = 0; c <= k; ++c) {
-          strip_[2 * static_cast<std::size_t>(c)] = at(row, c);
-          strip_[2 * static_cast<std::size_t>(c) + 1] = at(row + 1, c);
-        }
-        writer.half_strip(h, row, [&](int q) -> const Point& { return strip_[q]; });
+        const Point *first = points + (k - row) * (k + 1), *last = points + row * (k + 1) + k;
+        writer.half_strip(
+            h, row,
+            h == 0 ? RowPair<float>{first, first - (k + 1), 1} : RowPair<float>{last, last + (k + 1), -1});
       }
     }
   }
 
   template <class Writer>
-  void repairs(const StreamFrame& frame, const Patch& patch, Writer& writer) {
+  void repairs(const StreamFrame& frame, const Batch& batch, std::size_t lane, Writer& writer) {
+    const Patch& patch = frame.patches[batch.patches[lane]];
     for (int s = 0; s < 2; ++s) {
       const Half& half = patch.half[s];
-      if (!half.repaired()) continue;
-      const Border<float> border = evaluate_border(frame, half.face);
-      if (half.display == Display::kStitch) {
-        writer.ring(s, border);
-        continue;
-      }
-      if (!centre_) centre_.emplace(frame.adjacency.max_valence());
-      const Placement<float>& placement = frame.stream.rings().placement();
-      writer.fan(s, placed(centre_->evaluate(*frame.control, half.face, frame.centre), placement), border);
+      if (half.display == Display::kStitch) writer.ring(s, border_.of(lane, s));
+      if (half.display == Display::kFan) writer.fan(s, centre(frame, half.face), border_.of(lane, s));
     }
   }
 
-  Border<float> evaluate_border(const StreamFrame& frame, std::int32_t face) {
-    Border<float> border;
-    for (int e = 0; e < 3; ++e) {
-      const std::int32_t h = 3 * face + e;
-      const int depth = edge_depth(frame.plan, face, e);
-      edge_.resize(static_cast<std::size_t>(side(depth)));
-      frame.stream.edges({&h, 1}, depth, workspace_, edge_.data(), &frame.narrow);
-      auto& points = border_[e];
-      points.clear();
-      for (const Vertex& v : edge_) points.push_back(as_point(v));
-      border[e] = points.data();
+  const Point& centre(const StreamFrame& frame, std::int32_t face) {
+    CachedCentre& cached = frame.centres[face];
+    if (!cached.known) {
+      if (!centre_) centre_.emplace(frame.adjacency.max_valence());
+      cached = {
+          placed(centre_->evaluate(*frame.control, face, frame.centre), frame.stream.rings().placement()),
+          true};
     }
-    return border;
+    return cached.point;
   }
 
   Workspace workspace_;
+  BorderPoints border_;
   std::vector<Grid> grids_;
-  std::vector<Vertex> before_, edge_;
   Vertex* whole_ = nullptr;  // in workspace_.work
-  std::vector<Point> strip_;
-  std::array<std::vector<Point>, 3> border_;
   DrawWriter<float>::Scratch scratch_;
   std::optional<FanCentreEvaluator<float>> centre_;
 };

@@ -33,10 +33,10 @@ HWY_ATTR const char* run_lanes(float* input, int depth, const KernelPlacement<fl
 
 template <int lanes>
 HWY_ATTR void run_edge_lanes(const float* input, int depth, const KernelPlacement<float>& placement,
-                             float* work, float* out) {
+                             float* work, float* out, std::ptrdiff_t lane_stride) {
   EdgeStream<LaneNumber<hn::CappedTag<float, lanes>>> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
-  strip.store(out);
+  strip.scatter(out, lane_stride);
 }
 
 template <int lanes>
@@ -75,10 +75,10 @@ const char* run_scalar(float* input, int depth, const KernelPlacement<float>& pl
 }
 
 void run_edge_scalar(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
-                     float* out) {
+                     float* out, std::ptrdiff_t lane_stride) {
   generic::EdgeStream<ScalarNumber<float>> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth), 0);
-  strip.store(out);
+  strip.scatter(out, lane_stride);
 }
 
 std::vector<Kernel> find_kernels() {

@@ -2,6 +2,7 @@
 // The compiled variants of the float kernel, and which of them this machine can run.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "fast/stream/layout.h"
@@ -17,9 +18,9 @@ struct Kernel {
   /// into it.
   const char* (*run)(float* input, int depth, const KernelPlacement<float>& placement, float* work,
                      const Target<float>& target);
-  /// `lanes` control edges, see EdgeStream: edge_output_size(depth) * lanes numbers to out.
+  /// `lanes` control edges, see EdgeStream: the vertices of edge e from out + e * lane_stride, in numbers.
   void (*run_edges)(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
-                    float* out);
+                    float* out, std::ptrdiff_t lane_stride);
 };
 
 /// The variants that this machine can run, best first; the last is plain scalar code and always there.

@@ -56,7 +56,7 @@ void evaluate(const PreparedMesh<Real>& mesh, const Patch& patch, const CrackPla
     const bool full = patch.full();
     const std::int32_t h0 = 3 * patch.half[0].face + patch.half[0].edge;
     worker.window.run(mesh, h0, patch.depth, [&](int row, const Vertex* strip) {
-      if (full) return writer.whole_strip(row, strip);
+      if (full) return writer.whole_strip(row, [&](int q) -> const Vertex& { return strip[q]; });
       if (patch.half[0].uses_window())
         writer.half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
       if (patch.half[1].uses_window())

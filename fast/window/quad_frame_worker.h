@@ -79,8 +79,9 @@ void evaluate(const PreparedQuads<Real>& mesh, const QuadPatch& patch, const Qua
   }
   if (patch.display == Display::kStrips) {
     for (int part = 0; part < faces.parts(f); ++part)
-      worker.window.run(mesh, faces.quad(f, part), part_depth,
-                        [&](int row, const Vertex* strip) { writer.strip(part, row, strip); });
+      worker.window.run(mesh, faces.quad(f, part), part_depth, [&](int row, const Vertex* strip) {
+        writer.strip(part, row, [&](int q) -> const Vertex& { return strip[q]; });
+      });
     return;
   }
   worker.border.resize(static_cast<std::size_t>(faces.sides(f)));

@@ -84,6 +84,11 @@ struct Tessellator<Real>::State final : EngineState<Real> {
         isolated_faces = true;
   }
 
+  void points_moved() override {
+    EngineState<Real>::points_moved();
+    prepared.emplace(adjacency, place<Real>(mesh.positions, placement));
+  }
+
   /// Makes workers that are deep enough for the frame.
   void prepare() override {
     if (workers.empty() || max_depth > worker_depth) {
@@ -105,6 +110,19 @@ struct Tessellator<Real>::State final : EngineState<Real> {
   void index(const IndexLayout& layout, IndexedMesh<Real>& out) override {
     run(0, patches.size(), [&](std::size_t i, Worker<Real>&) { return this->index_writer(i, layout, out); });
   }
+  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<Real>* vertices,
+                     LatticePoint* provenance) override {
+    fresh.clear();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i].fresh) fresh.push_back(i);
+    run_each(
+        0, fresh.size(), [&](std::size_t k) { return fresh[k]; },
+        [&](std::size_t i, Worker<Real>&) {
+          const std::int64_t at = places[i].first;
+          return PatchWriter<Real>(patches[i], plan, placement, vertices + at,
+                                   provenance != nullptr ? provenance + at : nullptr);
+        });
+  }
 
   SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }
 
@@ -114,12 +132,19 @@ struct Tessellator<Real>::State final : EngineState<Real> {
     return count;
   }
 
-  /// Evaluates patches first .. last - 1 in parallel, each into make_writer(i, worker).
+  /// Evaluates patches first .. last - 1 in parallel, each into make_writer(i, worker); or those that
+  /// number(first) .. number(last - 1) name.
   template <class MakeWriter>
   void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
+    run_each(
+        first, last, [](std::size_t i) { return i; }, make_writer);
+  }
+  template <class Number, class MakeWriter>
+  void run_each(std::size_t first, std::size_t last, Number&& number, MakeWriter&& make_writer) {
     const auto chunk = [&](std::size_t from, std::size_t to) {
       Worker<Real>& worker = *workers[tbb::this_task_arena::current_thread_index()];
-      for (std::size_t i = from; i < to; ++i) {
+      for (std::size_t k = from; k < to; ++k) {
+        const std::size_t i = number(k);
         auto writer = make_writer(i, worker);
         evaluate(*prepared, patches[i], plan, options.cracks.centre, worker, writer);
       }
@@ -135,6 +160,7 @@ struct Tessellator<Real>::State final : EngineState<Real> {
   std::vector<std::unique_ptr<Worker<Real>>> workers;
   int worker_depth = 0;
   std::int64_t zero_normals_before = 0;  // of the workers, in the frames before
+  std::vector<std::size_t> fresh;        // patches that are to be evaluated
 };
 
 // The same with a grid for each quad.
@@ -145,7 +171,13 @@ struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
       QuadEngineState<Real>::plan, QuadEngineState<Real>::quads;
 
   QuadState(const data::ControlMesh& given, const TessellatorOptions& with)
-      : QuadEngineState<Real>(given, with), prepared(quads, place<Real>(quads.positions, placement)) {}
+      : QuadEngineState<Real>(given, with),
+        prepared(std::in_place, quads, place<Real>(quads.positions, placement)) {}
+
+  void points_moved() override {
+    QuadEngineState<Real>::points_moved();
+    prepared.emplace(quads, place<Real>(quads.positions, placement));
+  }
 
   void prepare() override {
     if (workers.empty() || max_depth > worker_depth) {
@@ -164,9 +196,22 @@ struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
   void index(const QuadIndexLayout& layout, IndexedMesh<Real>& out) override {
     run(0, patches.size(), [&](std::size_t i) { return this->index_writer(i, layout, out); });
   }
-  SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared.limit(v), placement); }
+  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<Real>* vertices,
+                     LatticePoint* provenance) override {
+    fresh.clear();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i].fresh) fresh.push_back(i);
+    run_each(
+        0, fresh.size(), [&](std::size_t k) { return fresh[k]; },
+        [&](std::size_t i) {
+          const std::int64_t at = places[i].first;
+          return QuadPatchWriter<Real>(patches[i], faces, plan, placement, vertices + at,
+                                       provenance != nullptr ? provenance + at : nullptr);
+        });
+  }
+  SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }
   std::int64_t zero_normals() const override {
-    std::int64_t count = prepared.zero_normals() - zero_normals_before;
+    std::int64_t count = prepared->zero_normals() - zero_normals_before;
     for (const auto& worker : workers) count += worker->zero_normals();
     return count;
   }
@@ -174,22 +219,29 @@ struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
   /// Evaluates patches first .. last - 1 in parallel, each into make_writer(i).
   template <class MakeWriter>
   void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
+    run_each(
+        first, last, [](std::size_t i) { return i; }, make_writer);
+  }
+  template <class Number, class MakeWriter>
+  void run_each(std::size_t first, std::size_t last, Number&& number, MakeWriter&& make_writer) {
     arena.execute([&] {
       tbb::parallel_for(
           tbb::blocked_range<std::size_t>(first, last, 16), [&](const tbb::blocked_range<std::size_t>& r) {
             QuadWorker<Real>& worker = *workers[tbb::this_task_arena::current_thread_index()];
-            for (std::size_t i = r.begin(); i < r.end(); ++i) {
+            for (std::size_t k = r.begin(); k < r.end(); ++k) {
+              const std::size_t i = number(k);
               auto writer = make_writer(i);
-              evaluate(prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
+              evaluate(*prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
             }
           });
     });
   }
 
-  PreparedQuads<Real> prepared;
+  std::optional<PreparedQuads<Real>> prepared;
   std::vector<std::unique_ptr<QuadWorker<Real>>> workers;
   int worker_depth = 0;
   std::int64_t zero_normals_before = 0;  // of the workers, in the frames before
+  std::vector<std::size_t> fresh;        // patches that are to be evaluated
 };
 
 template <class Real>

@@ -5,38 +5,14 @@
 // The mesh is cut along the edge: the ring is a sector of n faces whose ends e_0 and e_n are the same points.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "reference/catmull_clark/masks.h"
-#include "reference/number/left_eigenvector.h"
+#include "reference/number/dart_rows.h"
 
 namespace limitcheck::reference::catmull_clark {
-
-/// One step of the ring c, e_0 .. e_{n-1}, f_0 .. f_{n-1}.
-template <class N>
-SquareMatrix<N> dart_matrix(int n) {
-  const auto count = static_cast<std::size_t>(n);
-  SquareMatrix<N> a(2 * count + 1, std::vector<N>(2 * count + 1, N(0)));
-  const auto e = [&](std::size_t i) { return 1 + i % count; };
-  const auto f = [&](std::size_t i) { return 1 + count + i % count; };
-  a[0][0] = N(1) - N(7) / N(4 * n);
-  for (std::size_t i = 0; i < count; ++i) {
-    a[0][e(i)] = N(3) / (N(2) * N(n) * N(n));
-    a[0][f(i)] = N(1) / (N(4) * N(n) * N(n));
-    a[f(i)][0] = a[f(i)][e(i)] = a[f(i)][e(i + 1)] = a[f(i)][f(i)] = N(1) / N(4);
-    if (i == 0) {
-      a[e(i)][0] = a[e(i)][e(i)] = N(1) / N(2);
-      continue;
-    }
-    a[e(i)][0] = a[e(i)][e(i)] = N(3) / N(8);
-    for (const std::size_t near : {e(i + 1), e(i + count - 1), f(i), f(i + count - 1)})
-      a[e(i)][near] += N(1) / N(16);
-  }
-  return a;
-}
 
 /// Weights of e_0 .. e_{n-1}, f_0 .. f_{n-1}; c has what is missing to 1, or to 0 in a tangent.
 template <class N>
@@ -44,30 +20,76 @@ struct RingWeights {
   std::vector<N> e, f;
 };
 
-/// The limit: the left null vector of the matrix less one. Rational.
+/// The limit. With w of c, and h_i = n^2 / w of e_i, 7 h_i - h_{i-1} - h_{i+1} = 20 as if h_0 were zero, and
+/// f_i has (h_i + h_{i+1}) / 12 + 1/3; then e_0 has h_1 / 3 + 10/3.
 template <class N>
 RingWeights<N> make_dart_limit(int n) {
-  const std::vector<N> row = stationary_row(dart_matrix<N>(n));
-  return {{row.begin() + 1, row.begin() + 1 + n}, {row.begin() + 1 + n, row.end()}};
+  RingWeights<N> weights{between_zeros<N>(n, 7, 20), {}};
+  std::vector<N>& e = weights.e;
+  for (std::size_t i = 0; i < e.size(); ++i)
+    weights.f.push_back((e[i] + e[(i + 1) % e.size()]) / N(12) + N(1) / N(3));
+  e[0] = (e[1] + N(10)) / N(3);
+  N sum = N(n) * N(n);
+  for (const auto* list : {&weights.e, &weights.f})
+    for (const N& w : *list) sum += w;
+  for (auto* list : {&weights.e, &weights.f})
+    for (N& w : *list) w = w / sum;
+  return weights;
 }
 
-/// The tangent along the sharp edge, the same on either side of it; towards e_0. Its eigenvalue has no closed
-/// form. On a regular star of radius 1 the weights of the e_i give 2 n, as those of interior_tangents.
+/// Of the tangent along the sharp edge: with mu as in masks.h, d = mu - 1/4, and s = (sum of all weights) /
+/// (4 n^2), each f_i has ((e_i + e_{i+1}) / 16 - s) / d as if e_0 had none, and the e_i are the arch where
+///   (6 + 1 / (2 d)) s = 3/8 - mu + 1 / (32 d) + 2 (1/16 + 1 / (64 d)).
+/// The rule at e_0, (1/2 - mu) e_0 + (e_1 + e_{n-1}) / 16 + (f_0 + f_{n-1}) / 4 = 6 s, tells t.
+struct DartTangentRule {
+  int n;
+
+  /// All but s and what is missing to the rule are of the arch itself.
+  template <class N>
+  struct Values {
+    N d, share, own, missing;  ///< the last three times the arch's end
+  };
+  template <class N>
+  Values<N> of(const Arch<N>& arch) const {
+    using T = NumberTraits<N>;
+    const N cosine = T::cos(arch.t);
+    const N mu = (N(5) + cosine + T::cos(arch.t / N(2)) * T::sqrt(N(2) * (N(9) + cosine))) / N(16);
+    const N d = mu - N(1) / N(4);
+    const N share = (N(1) / N(2) - mu + N(1) / (N(16) * d)) / (N(6) + N(1) / (N(2) * d)) * arch.end;
+    const N near = arch.scaled_sum(), far = (near / N(8) - share * N(n)) / d;
+    const N own = share * N(4) * N(n) * N(n) - near - far, first = arch.scaled(1);
+    return {d, share, own,
+            (N(1) / N(2) - mu) * own + first / N(8) + (first / N(16) - share) / (N(2) * d) - share * N(6)};
+  }
+  template <class N>
+  N operator()(const N& t) const {
+    return of(Arch<N>{n, t}).missing;
+  }
+};
+
+/// The tangent along the sharp edge, the same on either side of it; towards e_0. On a regular star of radius 1
+/// the weights of the e_i give 2 n, as those of interior_tangents.
+///   throws   data::ArgumentError in a number type without angles
 template <class N>
 RingWeights<N> make_dart_tangent(int n) {
-  const auto count = static_cast<std::size_t>(n);
-  // Points that mirror each other have equal weights: e_0; e_1, e_{n-1}; ..; f_0, f_{n-1}; ..
-  std::vector<std::array<std::size_t, 2>> pairs;
-  for (std::size_t i = 0; 2 * i <= count; ++i) pairs.push_back({1 + i, 1 + (count - i) % count});
-  for (std::size_t i = 0; 2 * i < count; ++i) pairs.push_back({1 + count + i, 2 * count - i});
-  const std::vector<N> row = mirrored_left_eigenvector(dart_matrix<N>(n), pairs);
-  RingWeights<N> result{{row.begin(), row.begin() + n}, {row.begin() + n, row.end()}};
-  const CircleTable<N>& table = circle_table<N>(n);
-  N size(0);
-  for (std::size_t i = 0; i < count; ++i) size += result.e[i] * table.cosine[2 * i];
-  const N share = N(2 * n) / size;
-  for (auto* weights : {&result.e, &result.f})
-    for (N& w : *weights) w *= share;
+  const DartTangentRule rule{n};
+  const N t = dart_angle<N>(n, rule);
+  RingWeights<N> result;
+  if constexpr (kHasAngles<N>) {
+    const Arch<N> arch{n, t};
+    const auto values = rule.of(arch);
+    result.e = arch.values();
+    const N share = values.share / arch.end;
+    for (std::size_t i = 0; i < result.e.size(); ++i)
+      result.f.push_back(((result.e[i] + result.e[(i + 1) % result.e.size()]) / N(16) - share) / values.d);
+    result.e[0] = values.own / arch.end;
+    const CircleTable<N>& table = circle_table<N>(n);
+    N size(0);
+    for (std::size_t i = 0; i < result.e.size(); ++i) size += result.e[i] * table.cosine[2 * i];
+    const N factor = N(2 * n) / size;
+    for (auto* weights : {&result.e, &result.f})
+      for (N& w : *weights) w *= factor;
+  }
   return result;
 }
 

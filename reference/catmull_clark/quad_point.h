@@ -13,12 +13,6 @@
 
 namespace limitcheck::reference::catmull_clark {
 
-/// Whether normals can be had: not in exact rationals, which have no square roots.
-template <class N>
-inline constexpr bool kHasNormals = requires(N a) {
-  NumberTraits<N>::sqrt(a);
-};
-
 /// How the parameters of a sub-quad that starts at corner k of its quad are turned against the quad's:
 /// its u is uu u + uv v and its v is vu u + vv v, up to constants.
 struct Turn {
@@ -71,6 +65,13 @@ Vec3<N> area_of(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3
   return cross(c - a, d - b);
 }
 
+/// A corner of a quad: the faces of its vertex, and which of them the quad is.
+struct CornerPlace {
+  int faces, sector;
+  bool on_boundary;
+  VertexState state;
+};
+
 /// At an extraordinary corner itself: a vertex of valence other than four, or of other than two faces on the
 /// boundary. Towards it the derivatives of order d grow like (2^d lambda)^J, lambda as in masks.h: they
 /// vanish at valence 3 and have no limit above 4, so that none is said to exist there. What is given is the
@@ -81,18 +82,19 @@ Vec3<N> area_of(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3
 ///   dart       t1 along the sharp edge, t2 across it
 ///   k          which corner of the quad it is
 template <class N>
-SurfacePoint<N> extraordinary_corner(const RingedCorner<Vec3<N>>& corner, std::size_t k, Order order) {
+SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPlace& corner, std::size_t k,
+                                     Order order) {
   SurfacePoint<N> result;
   result.at_corner = true;
-  result.position = limit_position(corner);
+  result.position = limit.position;
   if constexpr (kHasNormals<N>) {
-    const Tangents<N> tangents = limit_tangents(corner);
-    const Normal<N> normal = limit_normal(corner, tangents);
+    const Tangents<N>& tangents = limit.tangents;
+    const Normal<N>& normal = limit.normal;
     result.normal = normal.direction;
     result.normal_kind = normal.kind;
     result.normal_condition = normal.condition;
     if (order == Order::kPosition) return result;
-    const int count = corner.face_count();
+    const int count = corner.faces;
     if (corner.state == VertexState::kDart || (corner.state == VertexState::kHeld && corner.on_boundary)) {
       const N share = corner.state == VertexState::kDart ? N(1) / N(2 * count) : N(1);
       result.t1 = tangents.first * share;

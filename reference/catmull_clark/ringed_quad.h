@@ -143,14 +143,22 @@ RingedCorner<Point> gather_vertex(const Topology& topology, std::int32_t v, Poin
   return c;
 }
 
+/// Corner k of a face of a mesh of quads.
+template <class Point, class PointOf>
+RingedCorner<Point> gather_corner(const Topology& topology, std::size_t face, std::size_t k, PointOf&& point,
+                                  std::span<const VertexState> states = {}) {
+  RingedCorner<Point> corner = gather_vertex<Point>(topology, topology.faces()[face][k], point, states);
+  corner.sector = topology.ring_index(face, k);
+  return corner;
+}
+
 /// The face of a mesh of quads with its neighbourhood.
 template <class Point, class PointOf>
 RingedQuad<Point> gather(const Topology& topology, std::size_t face, PointOf&& point,
                          std::span<const VertexState> states = {}) {
   RingedQuad<Point> result;
   for (std::size_t k = 0; k < 4; ++k) {
-    result.corner[k] = gather_vertex<Point>(topology, topology.faces()[face][k], point, states);
-    result.corner[k].sector = topology.ring_index(face, k);
+    result.corner[k] = gather_corner<Point>(topology, face, k, point, states);
     const auto edge = static_cast<std::size_t>(topology.edge(face, k));
     result.edge_on_boundary[k] = topology.edges()[edge].on_boundary();
   }

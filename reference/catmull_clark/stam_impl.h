@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
 #include "reference/catmull_clark/quad_point.h"
 #include "reference/catmull_clark/refine.h"
 #include "reference/catmull_clark/stam.h"
+#include "reference/catmull_clark/stepped_ring_impl.h"
 #include "reference/catmull_clark/two_ring_impl.h"
 #include "reference/mesh/next_step.h"
 #include "reference/point/parameter_exact.h"
@@ -186,7 +188,7 @@ class StamData {
               from_bottom = 2 * at.v;
       const P x = k == 0 ? from_left : k == 1 ? from_bottom : k == 2 ? from_right : from_top;
       const P y = k == 0 ? from_bottom : k == 1 ? from_right : k == 2 ? from_top : from_left;
-      if (x == 0 && y == 0) return extraordinary_corner<N>(corner_of(at.quad, k), k, order);
+      if (x == 0 && y == 0) return evaluate_corner(at.quad, k, order);
       near_corner(rings_[static_cast<std::size_t>(ring)], mesh_.topology.ring_index(at.quad, k), x, y,
                   turn_of(k), halved, order, result);
     }
@@ -222,11 +224,20 @@ class StamData {
     return result;
   }
 
-  RingedCorner<Vec3<N>> corner_of(std::size_t quad, std::size_t k) const {
-    return gather<Vec3<N>>(
-               mesh_.topology, quad,
-               [&](std::int32_t v) { return mesh_.positions[static_cast<std::size_t>(v)]; }, mesh_.states)
-        .corner[k];
+  SurfacePoint<N> evaluate_corner(std::size_t quad, std::size_t k, Order order) const {
+    const std::int32_t v = mesh_.topology.faces()[quad][k];
+    const auto known = limit_of_.find(v);
+    const Sector sector = mesh_.topology.sector(v);
+    return extraordinary_corner<N>(known != limit_of_.end() ? known->second : limit_of(corner_of(v)),
+                                   {static_cast<int>(sector.faces.size()), mesh_.topology.ring_index(quad, k),
+                                    !sector.closed, state_of(mesh_.states, v)},
+                                   k, order);
+  }
+  RingedCorner<Vec3<N>> corner_of(std::int32_t v) const {
+    return gather_vertex<Vec3<N>>(
+        mesh_.topology, v,
+        [&](std::int32_t of) -> const Vec3<N>& { return mesh_.positions[static_cast<std::size_t>(of)]; },
+        mesh_.states);
   }
   Vec3<N> fallback(std::size_t quad) const {
     const auto at = [&](std::size_t k) -> const Vec3<N>& {
@@ -245,8 +256,8 @@ class StamData {
     ring.sector(sector, steps, s);
     const int i = a >= 1 ? 1 : 0, j = b >= 1 ? 1 : 0;
     const PatchPoint<N> p = evaluate_patch<N>(FinerSector<N>(s).patch(i, j), number_from<N>(P(a - i)),
-                                              number_from<N>(P(b - j)), order, ring.size());
-    const N& growth = ring.growth();
+                                              number_from<N>(P(b - j)), order, ring.size(steps));
+    const N growth = ring.growth();
     result.position = ring.limit() + (p.position - s.c_to_limit) * power(growth, steps);
     set_derivatives(result, p, turn, N(4) * halved * power(N(2) * growth, steps),
                     N(16) * halved * halved * power(N(4) * growth, steps), order);
@@ -265,11 +276,13 @@ class StamData {
       TwoRingPoints<N> points;
       points.c = at(v);
       for (const std::int32_t f : sector.faces) {
-        const auto quad = gather<std::int32_t>(finer, static_cast<std::size_t>(f), index);
+        const auto quad = finer.faces()[static_cast<std::size_t>(f)];
         std::size_t k = 0;
-        while (quad.corner[k].point != v) ++k;
-        const auto &next = quad.corner[(k + 1) % 4], &far = quad.corner[(k + 2) % 4],
-                   &last = quad.corner[(k + 3) % 4];
+        while (quad[k] != v) ++k;
+        const auto corner = [&](std::size_t i) {  // of the quad, but for v, whose ring may be large
+          return gather_corner<std::int32_t>(finer, static_cast<std::size_t>(f), (k + i) % 4, index);
+        };
+        const auto next = corner(1), far = corner(2), last = corner(3);
         points.e.push_back(at(next.point)), points.p.push_back(at(next.edge(-1)));
         points.f.push_back(at(far.point)), points.r.push_back(at(far.face(2)));
         points.g.push_back(at(next.face(-1))), points.h.push_back(at(last.face(1)));
@@ -277,11 +290,16 @@ class StamData {
           points.e.push_back(at(last.point)), points.p.push_back(at(last.edge(2)));
       }
       two_ring_of_[id] = static_cast<std::int32_t>(rings_.size());
-      const std::pair key(faces, state);
-      if (sector.closed)
+      if (sector.closed && faces < kManyFaces) {
+        const std::pair key(faces, state);
         rings_.emplace_back(interior_.try_emplace(key, faces, state).first->second, points);
-      else
-        rings_.emplace_back(boundary_.try_emplace(key, faces, state).first->second, points);
+      } else {
+        const std::tuple key(faces, sector.closed, state);
+        const bool closed = sector.closed;
+        rings_.emplace_back(stepped_.try_emplace(key, faces, closed, state).first->second, points);
+      }
+      if (kRounds<N> && faces >= kManyFaces)  // who asks for balls asks for few points
+        limit_of_.emplace(v, limit_of(corner_of(v)));
     }
   }
 
@@ -305,8 +323,9 @@ class StamData {
   std::vector<std::array<std::int32_t, 16>> patches_;  ///< of the quads of that step
   std::vector<std::int32_t> two_ring_of_;              ///< of each vertex of mesh_, -1 where it is regular
   std::map<std::pair<int, VertexState>, InteriorKind<N>> interior_;
-  std::map<std::pair<int, VertexState>, BoundaryKind<N>> boundary_;
+  std::map<std::tuple<int, bool, VertexState>, SteppedKind<N>> stepped_;
   std::vector<TwoRing<N>> rings_;
+  std::map<std::int32_t, CornerLimit<N>> limit_of_;  ///< of vertices of many faces, each of which may ask
 };
 
 }  // namespace detail

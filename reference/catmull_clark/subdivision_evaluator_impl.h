@@ -49,7 +49,9 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Pa
     const bool right = at.u > half, up = at.v > half;
     const std::size_t k = up ? (right ? 2 : 3) : (right ? 1 : 0);
     if (at.u == (right ? 1 : 0) && at.v == (up ? 1 : 0) && !quad.corner[k].is_regular()) {
-      SurfacePoint<N> result = extraordinary_corner<N>(quad.corner[k], k, order);
+      const RingedCorner<Vec3<N>>& c = quad.corner[k];
+      SurfacePoint<N> result = extraordinary_corner<N>(
+          limit_of(c), {c.face_count(), c.sector, c.on_boundary, c.state}, k, order);
       if (steps > 0) scale_derivatives(result, NumberTraits<N>::scale(N(1), steps));
       return result;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points around an extraordinary vertex after any number of steps, without taking the steps.
+// The points around an extraordinary vertex after any number of steps.
 //
 // After one step all that is near a vertex c is regular but c itself. Its two-ring has six points a sector,
 // seen in the frame with c = (0, 0), e_i = (1, 0), e_{i+1} = (0, 1):
@@ -15,12 +15,16 @@
 //     point's distance from c keeps its relative accuracy however close they come.
 //   - Around an interior vertex, Fourier's transform in i takes the map apart into one 6 x 6 block for each
 //     frequency [Stam 1998]; its J-th power comes by repeated squaring. No eigenvector is needed, and no case
-//     distinction where eigenvalues coincide. A sector on the boundary keeps its one map of 6 K + 2 points.
+//     distinction where eigenvalues coincide.
+// On the boundary, at darts, and where there are so many faces that the transform would be slow, the steps are
+// taken, each with as many neighbours only as the sector that is asked for still hears of. Only c hears of
+// all; how it moves is known beforehand, except at a dart.
 // Everything is divided by growth^J, so that nothing underflows: growth is the largest eigenvalue.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "reference/mesh/sharp_tags.h"
@@ -79,28 +83,41 @@ class InteriorKind {
   std::vector<std::vector<Block>> table_;  ///< of small exponents
 };
 
-/// The same of a sector of K faces on the boundary: an ordinary one, K other than 2; a held one, K other than
-/// 1; a dart.
+/// From so many faces on, an interior vertex takes steps, too.
+inline constexpr int kManyFaces = 65;
+
+/// The same of a vertex that takes the steps: on the boundary an ordinary one of K faces, K other than 2, or a
+/// held one, K other than 1; a dart, which has an open sector; inside one of many faces.
 template <class N>
-class BoundaryKind {
+class SteppedKind {
  public:
-  BoundaryKind(int faces, VertexState state);
+  SteppedKind(int faces, bool closed, VertexState state);
   int faces() const { return faces_; }
-  const N& growth() const { return growth_; }
-  /// Takes J steps, over growth^J. The points are e_0 .. e_K, p_0 .. p_K, then f, g, h, r.
-  std::vector<Vec3<N>> advance(std::vector<Vec3<N>> points, long steps) const;
-  /// What such points add to c: in one step, and in the limit.
-  Vec3<N> after(const std::vector<Vec3<N>>& points) const;
-  Vec3<N> to_limit(const std::vector<Vec3<N>>& points) const;
+  bool closed() const { return closed_; }
+  VertexState state() const { return state_; }
+  /// Of e and of p: K + 1, inside K.
+  int entries() const { return faces_ + (closed_ ? 0 : 1); }
+  /// What the points are divided by in a step, exactly, and how they grow then.
+  static N growth() { return N(1) / N(2); }
+  const N& grown() const { return grown_; }
+
+  /// What c hears of a ring: on the boundary e_0 + e_K, otherwise the means of all e_i and of all f_i.
+  struct Heard {
+    Vec3<N> e, f;
+  };
+  Heard heard(std::span<const Vec3<N>> e, std::span<const Vec3<N>> f) const;
+  /// The same after a step, over the growth. A dart needs the ring itself.
+  Heard next(const Heard& heard) const;
+  /// What such a ring adds to c: in one step, and in the limit.
+  Vec3<N> after(const Heard& heard) const;
+  Vec3<N> to_limit(const Heard& heard, std::span<const Vec3<N>> e, std::span<const Vec3<N>> f) const;
 
  private:
-  using Matrix = std::vector<N>;  ///< row by row
-  Matrix times(const Matrix& a, const Matrix& b) const;
+  bool hears_ends() const { return !closed_ && state_ == VertexState::kOrdinary; }
   int faces_;
+  bool closed_;
   VertexState state_;
-  std::size_t size_;
-  N growth_;
-  std::vector<Matrix> squares_;  ///< the map to the powers 1, 2, 4, .. that were asked for
+  N grown_;
 };
 
 /// The two-ring of one vertex.
@@ -108,26 +125,28 @@ template <class N>
 class TwoRing {
  public:
   TwoRing(const InteriorKind<N>& kind, const TwoRingPoints<N>& points);
-  TwoRing(const BoundaryKind<N>& kind, const TwoRingPoints<N>& points);
+  TwoRing(const SteppedKind<N>& kind, const TwoRingPoints<N>& points);
 
-  const N& growth() const { return interior_ != nullptr ? interior_->growth() : boundary_->growth(); }
+  N growth() const { return interior_ != nullptr ? interior_->growth() : stepped_->growth(); }
   const Vec3<N>& limit() const { return limit_; }
-  /// The largest coordinate of the points given: what their rounding is relative to.
-  const N& size() const { return size_; }
+  /// What the rounding of the points after J steps is relative to, over growth^J: the largest coordinate of those
+  /// given, grown as they are.
+  N size(long steps) const;
   /// Sector i after J steps, over growth^J.
   void sector(int i, long steps, TwoRingSector<N>& s) const;
 
  private:
   using Amplitude = std::array<Vec3<N>, 2>;  ///< real and imaginary part
   void interior_sector(int i, long steps, TwoRingSector<N>& s) const;
-  void boundary_sector(int i, long steps, TwoRingSector<N>& s) const;
+  void stepped_sector(int i, long steps, TwoRingSector<N>& s) const;
 
   const InteriorKind<N>* interior_ = nullptr;
-  const BoundaryKind<N>* boundary_ = nullptr;
+  const SteppedKind<N>* stepped_ = nullptr;
   Vec3<N> limit_;
   N size_{};
   std::vector<std::array<Amplitude, 6>> amplitudes_;  ///< interior: of each frequency
-  std::vector<Vec3<N>> points_;                       ///< boundary: differences
+  TwoRingPoints<N> points_;                           ///< stepped: differences from c
+  typename SteppedKind<N>::Heard heard_;
 };
 
 }  // namespace limitcheck::reference::catmull_clark

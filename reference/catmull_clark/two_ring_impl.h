@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "reference/catmull_clark/dart.h"
 #include "reference/catmull_clark/masks.h"
 #include "reference/catmull_clark/two_ring.h"
 
@@ -114,100 +113,6 @@ const std::vector<typename InteriorKind<N>::Block>& InteriorKind<N>::power(long 
   return buffer;
 }
 
-template <class N>
-BoundaryKind<N>::BoundaryKind(int faces, VertexState state)
-    : faces_(faces), state_(state), size_(6 * static_cast<std::size_t>(faces) + 2) {
-  const auto count = static_cast<std::size_t>(faces);
-  if (state == VertexState::kDart)  // near enough: growth is only what the powers are divided by
-    growth_ = NumberTraits<N>::from_double(std::max(.5, (four_lambda_minus_one<double>(faces) + 1) * .25));
-  else
-    growth_ = faces == 1 ? N(1) / N(2) : (four_lambda_minus_one<N>(2 * faces) + N(1)) * (N(1) / N(4));
-  const std::size_t e = 0, p = count + 1, f = 2 * count + 2, g = f + count, h = g + count, r = h + count;
-  Matrix a(size_ * size_, N(0));
-  const auto add = [&](std::size_t row, std::size_t column, int weight, int over) {
-    a[row * size_ + column] += N(weight) / N(over);
-  };
-  for (std::size_t i = 0; i <= count; ++i) {
-    if (i == 0 || i == count) {  // the boundary's own curve
-      add(e + i, e + i, 1, 2);
-      add(p + i, e + i, 6, 8), add(p + i, p + i, 1, 8);
-      continue;
-    }
-    add(e + i, e + i, 6, 16), add(e + i, e + i - 1, 1, 16), add(e + i, e + i + 1, 1, 16);
-    add(e + i, f + i, 1, 16), add(e + i, f + i - 1, 1, 16);
-    add(p + i, e + i, 36, 64), add(p + i, e + i - 1, 1, 64), add(p + i, e + i + 1, 1, 64);
-    add(p + i, f + i, 6, 64), add(p + i, f + i - 1, 6, 64), add(p + i, p + i, 6, 64);
-    add(p + i, g + i, 1, 64), add(p + i, h + i - 1, 1, 64);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    add(f + i, e + i, 1, 4), add(f + i, e + i + 1, 1, 4), add(f + i, f + i, 1, 4);
-    add(g + i, e + i, 6, 16), add(g + i, e + i + 1, 1, 16), add(g + i, f + i, 6, 16);
-    add(g + i, p + i, 1, 16), add(g + i, g + i, 1, 16);
-    add(h + i, e + i + 1, 6, 16), add(h + i, e + i, 1, 16), add(h + i, f + i, 6, 16);
-    add(h + i, p + i + 1, 1, 16), add(h + i, h + i, 1, 16);
-    add(r + i, f + i, 36, 64), add(r + i, e + i, 6, 64), add(r + i, e + i + 1, 6, 64);
-    add(r + i, g + i, 6, 64), add(r + i, h + i, 6, 64);
-    add(r + i, p + i, 1, 64), add(r + i, p + i + 1, 1, 64), add(r + i, r + i, 1, 64);
-  }
-  const N share = N(1) / growth_;
-  for (std::size_t row = 0; row < size_; ++row) {  // c moves: see after()
-    if (state == VertexState::kOrdinary) add(row, e, -1, 8), add(row, e + count, -1, 8);
-    for (std::size_t i = 0; i < count && state == VertexState::kDart; ++i)
-      add(row, e + i, -3, 2 * faces * faces), add(row, f + i, -1, 4 * faces * faces);
-    for (std::size_t column = 0; column < size_; ++column) a[row * size_ + column] *= share;
-  }
-  squares_.push_back(std::move(a));
-  if constexpr (std::is_same_v<N, double>)  // 2^11 steps are beyond the smallest double
-    for (int bit = 1; bit <= 10; ++bit) squares_.push_back(times(squares_.back(), squares_.back()));
-}
-
-template <class N>
-Vec3<N> BoundaryKind<N>::after(const std::vector<Vec3<N>>& points) const {
-  const auto count = static_cast<std::size_t>(faces_);
-  if (state_ == VertexState::kOrdinary) return (points[0] + points[count]) * (N(1) / N(8));
-  Vec3<N> near{}, far{};
-  for (std::size_t i = 0; i < count && state_ == VertexState::kDart; ++i)
-    near += points[i], far += points[2 * count + 2 + i];
-  return (near * N(6) + far) * (N(1) / (N(4) * N(faces_) * N(faces_)));
-}
-
-template <class N>
-Vec3<N> BoundaryKind<N>::to_limit(const std::vector<Vec3<N>>& points) const {
-  const auto count = static_cast<std::size_t>(faces_);
-  if (state_ == VertexState::kOrdinary) return (points[0] + points[count]) * (N(1) / N(6));
-  if (state_ == VertexState::kHeld) return {};
-  const std::span<const Vec3<N>> all(points);
-  return weighted(dart_limit_weights<N>(faces_), Vec3<N>{}, all.first(count),
-                  all.subspan(2 * count + 2, count));
-}
-
-template <class N>
-typename BoundaryKind<N>::Matrix BoundaryKind<N>::times(const Matrix& a, const Matrix& b) const {
-  Matrix result(a.size(), N(0));
-  for (std::size_t i = 0; i < size_; ++i)
-    for (std::size_t k = 0; k < size_; ++k) {
-      const N& factor = a[i * size_ + k];
-      for (std::size_t j = 0; j < size_; ++j) result[i * size_ + j] += factor * b[k * size_ + j];
-    }
-  return result;
-}
-
-template <class N>
-std::vector<Vec3<N>> BoundaryKind<N>::advance(std::vector<Vec3<N>> points, long steps) const {
-  Matrix own = squares_.front();
-  for (std::size_t bit = 0; (steps >> bit) != 0; ++bit) {
-    const bool known = bit < squares_.size();
-    if (!known) own = times(own, own);
-    if (known) own = squares_[bit];
-    if (((steps >> bit) & 1) == 0) continue;
-    std::vector<Vec3<N>> next(size_);
-    for (std::size_t i = 0; i < size_; ++i)
-      for (std::size_t k = 0; k < size_; ++k) next[i] += points[k] * own[i * size_ + k];
-    points = std::move(next);
-  }
-  return points;
-}
-
 namespace detail {
 
 template <class N>
@@ -244,16 +149,17 @@ TwoRing<N>::TwoRing(const InteriorKind<N>& kind, const TwoRingPoints<N>& points)
 }
 
 template <class N>
-TwoRing<N>::TwoRing(const BoundaryKind<N>& kind, const TwoRingPoints<N>& points) : boundary_(&kind) {
-  if constexpr (kRounds<N>) size_ = detail::largest(points);
-  for (const auto* list : {&points.e, &points.p, &points.f, &points.g, &points.h, &points.r})
-    for (const Vec3<N>& x : *list) points_.push_back(x - points.c);
-  limit_ = points.c + kind.to_limit(points_);
+N TwoRing<N>::size(long steps) const {
+  if (interior_ != nullptr) return size_;
+  N size = size_, factor = stepped_->grown();
+  for (; steps > 0; steps >>= 1, factor *= factor)
+    if ((steps & 1) != 0) size *= factor;
+  return size;
 }
 
 template <class N>
 void TwoRing<N>::sector(int i, long steps, TwoRingSector<N>& s) const {
-  interior_ != nullptr ? interior_sector(i, steps, s) : boundary_sector(i, steps, s);
+  interior_ != nullptr ? interior_sector(i, steps, s) : stepped_sector(i, steps, s);
 }
 
 template <class N>
@@ -290,35 +196,6 @@ void TwoRing<N>::interior_sector(int i, long steps, TwoRingSector<N>& s) const {
       s.c_to_limit = (x[kE][0] * N(4) + x[kF][0]) * (N(1) / (entries + N(5)));
     }
   }
-}
-
-template <class N>
-void TwoRing<N>::boundary_sector(int i, long steps, TwoRingSector<N>& s) const {
-  using Side = typename TwoRingSector<N>::Side;
-  s = {};
-  const int count = boundary_->faces();
-  const std::vector<Vec3<N>> points = boundary_->advance(points_, steps);
-  const auto list = [&](int first) {
-    return
-        [&points, first](int at) -> const Vec3<N>& { return points[static_cast<std::size_t>(first + at)]; };
-  };
-  const auto e = list(0), p = list(count + 1), f = list(2 * count + 2), g = list(3 * count + 2),
-             h = list(4 * count + 2), r = list(5 * count + 2);
-  for (int at = -2; at <= 3; ++at)
-    if (i + at >= 0 && i + at <= count) s.e[static_cast<std::size_t>(at + 2)] = e(i + at);
-  for (int at = -2; at <= 2; ++at)
-    if (i + at >= 0 && i + at < count) s.f[static_cast<std::size_t>(at + 2)] = f(i + at);
-  s.p = {p(i), p(i + 1)};
-  s.g = g(i), s.h = h(i), s.r = r(i);
-  if (i > 0) s.h_before = h(i - 1);
-  if (i + 1 < count) s.g_after = g(i + 1);
-  const auto side = [](int faces) {
-    return faces == 0 ? Side::kBoundary : faces == 1 ? Side::kFaceThenBoundary : Side::kFaces;
-  };
-  s.before = side(i);
-  s.after = side(count - 1 - i);
-  s.c_after = boundary_->after(points);
-  s.c_to_limit = boundary_->to_limit(points);
 }
 
 }  // namespace limitcheck::reference::catmull_clark

@@ -11,6 +11,12 @@
 
 namespace limitcheck::reference::catmull_clark {
 
+/// Whether normals can be had: not in exact rationals, which have no square roots.
+template <class N>
+inline constexpr bool kHasNormals = requires(N a) {
+  NumberTraits<N>::sqrt(a);
+};
+
 /// Where a vertex goes.
 template <class N>
 Vec3<N> limit_position(const RingedCorner<Vec3<N>>& c) {
@@ -69,6 +75,23 @@ Normal<N> limit_normal(const RingedCorner<Vec3<N>>& corner, const Tangents<N>& t
     if (dot(sum, sum) > N(0)) return {unit(sum), NormalKind::kFallback, {}};
   }
   return unit_normal(Tangents<N>{}, sum_of(corner));
+}
+
+/// Where a corner's limit lies and which way it faces. Without tangents and normal in exact rationals.
+template <class N>
+struct CornerLimit {
+  Vec3<N> position;
+  Tangents<N> tangents;
+  Normal<N> normal;
+};
+template <class N>
+CornerLimit<N> limit_of(const RingedCorner<Vec3<N>>& corner) {
+  CornerLimit<N> limit{limit_position(corner), {}, {}};
+  if constexpr (kHasNormals<N>) {
+    limit.tangents = limit_tangents(corner);
+    limit.normal = limit_normal(corner, limit.tangents);
+  }
+  return limit;
 }
 
 }  // namespace limitcheck::reference::catmull_clark

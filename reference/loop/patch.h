@@ -111,13 +111,14 @@ Tangents<N> tangents_of(const SurfacePoint<N>& point) {
 ///                         is 3/8: they do not. For K >= 4 one is above 1/2.
 ///   held, dart            none are said to exist. t1, t2 are along the two edges of a held corner; at a dart
 ///                         along the sharp edge and across it
-///   ring_index   of the face in the corner's ring (Topology), which is that of the control mesh
+///   limit        of the vertex, from the control mesh
+///   n            entries of its ring
+///   ring_index   of the face in that ring (Topology)
 ///   at           (a, b) towards the corner's next and previous neighbour in the face; level is not used
 template <class N>
-SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
-                                     int ring_index, const ParameterGradients& at, Weights weights,
-                                     Order order, VertexState state = VertexState::kOrdinary) {
-  const VertexLimit<N> limit = vertex_limit(v, ring, on_boundary, weights, state);
+SurfacePoint<N> extraordinary_corner(const VertexLimit<N>& limit, std::size_t n, bool on_boundary,
+                                     int ring_index, const ParameterGradients& at, Order order,
+                                     VertexState state = VertexState::kOrdinary) {
   SurfacePoint<N> result;
   result.at_corner = true;
   result.position = limit.position;
@@ -125,7 +126,6 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
   result.normal_kind = limit.normal.kind;
   result.normal_condition = limit.normal.condition;
   const Vec3<N>&c = limit.tangents.first, &s = limit.tangents.second;
-  const std::size_t n = ring.size();
   if (state == VertexState::kDart || (state == VertexState::kHeld && on_boundary)) {
     const N share = state == VertexState::kDart ? N(2) / N(static_cast<int>(n) - 1) : N(1);
     result.t1 = result.d1 = c * share;
@@ -176,6 +176,15 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
   result.t1_terms = on_boundary ? c_terms : c_terms + s_terms;
   result.t2_terms = on_boundary ? s_terms : c_terms + s_terms;
   return result;
+}
+
+/// The same from the vertex and its ring.
+template <class N>
+SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
+                                     int ring_index, const ParameterGradients& at, Weights weights,
+                                     Order order, VertexState state = VertexState::kOrdinary) {
+  return extraordinary_corner<N>(vertex_limit(v, ring, on_boundary, weights, state), ring.size(), on_boundary,
+                                 ring_index, at, order, state);
 }
 
 }  // namespace limitcheck::reference

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The two-ring of a held vertex or a dart after any number of steps: by powers of its matrix itself, which
-// has no such closed form as that of two_ring_modes.h.
+// The two-ring of a vertex after any number of steps, by taking the steps: of a held vertex or a dart, whose
+// map has no such closed form as that of two_ring_modes.h, and of any vertex of many faces, where the closed
+// form would cost the square of their number.
 //
 // The points and their names are those of two_ring_modes.h, taken as differences from c, so that there is no
-// eigenvalue 1, and divided by growth^J, about the largest eigenvalue.
+// eigenvalue 1, and times 2^J, so that nothing underflows and all weights are exact. A step reaches one
+// neighbour farther, so that the points around a face after J steps come from J more on either side. Only c
+// hears of all; how it moves is known beforehand, except at a dart.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -18,7 +23,10 @@
 
 namespace limitcheck::reference {
 
-/// All that held vertices, or darts, of K faces have in common. A dart has an open sector.
+/// From so many faces on, an ordinary vertex takes steps, too.
+inline constexpr int kManyFaces = 65;
+
+/// All that such vertices of K faces have in common. A dart has an open sector.
 template <class N>
 class SpecialRingKind {
  public:
@@ -26,30 +34,29 @@ class SpecialRingKind {
 
   int faces() const { return faces_; }
   bool closed() const { return closed_; }
-  const N& growth() const { return growth_; }
-  /// r (K + 1, inside K), then p likewise, then q (K), J steps later and over growth^J.
-  std::vector<Vec3<N>> advance(std::vector<Vec3<N>> points, long steps) const;
-  std::size_t entries() const { return static_cast<std::size_t>(faces_) + (closed_ ? 0 : 1); }
+  VertexState state() const { return state_; }
+  /// What the points are divided by in a step, and how they grow then.
+  static N growth() { return N(1) / N(2); }
+  const N& grown() const { return grown_; }
+  /// Of r and of p: K + 1, inside K.
+  int entries() const { return faces_ + (closed_ ? 0 : 1); }
 
-  /// What such points add to c: in one step, and in the limit.
-  Vec3<N> after(const std::vector<Vec3<N>>& points) const { return sum(points, after_); }
-  Vec3<N> to_limit(const std::vector<Vec3<N>>& points) const { return sum(points, to_limit_); }
-
- private:
-  using Matrix = std::vector<N>;  ///< row by row
-  Matrix times(const Matrix& a, const Matrix& b) const;
-  Vec3<N> sum(const std::vector<Vec3<N>>& points, const std::vector<N>& weights) const {
-    Vec3<N> result{};
-    for (std::size_t i = 0; i < weights.size(); ++i) result += points[i] * weights[i];
-    return result;
+  /// What c hears of a ring: inside the mean of all r_i, on the boundary r_0 + r_K, and how that changes in a
+  /// step, over the growth. A dart needs the ring itself.
+  Vec3<N> heard(std::span<const Vec3<N>> r) const;
+  const N& change() const { return change_; }
+  /// What c moves by in one step, and by what it is away from the limit.
+  Vec3<N> after(const Vec3<N>& heard) const { return heard * after_; }
+  Vec3<N> to_limit(const Vec3<N>& heard, std::span<const Vec3<N>> r) const {
+    return state_ == VertexState::kDart ? weighted(dart_limit_, Vec3<N>{}, r) : heard * to_limit_;
   }
 
+ private:
   int faces_;
   bool closed_;
-  std::size_t size_;
-  N growth_;
-  std::vector<N> after_, to_limit_;  ///< weights of r_0, r_1, ..
-  std::vector<Matrix> squares_;      ///< powers 1, 2, 4, .. of the matrix
+  VertexState state_;
+  N grown_, change_{0}, after_{0}, to_limit_{0};
+  std::vector<N> dart_limit_;
 };
 
 /// One such vertex.
@@ -58,20 +65,16 @@ class SpecialRing {
  public:
   /// As TwoRing. Keeps a pointer to the kind.
   SpecialRing(const SpecialRingKind<N>& kind, const Vec3<N>& c, const std::vector<Vec3<N>>& r,
-              const std::vector<Vec3<N>>& q, const std::vector<Vec3<N>>& p)
-      : kind_(&kind) {
-    for (const auto* list : {&r, &p, &q})
-      for (const Vec3<N>& x : *list) {
-        if constexpr (kRounds<N>) size_ = std::max({size_, magnitude(x), magnitude(c)});
-        points_.push_back(x - c);
-      }
-    limit_ = c + kind.to_limit(points_);
-  }
+              const std::vector<Vec3<N>>& q, const std::vector<Vec3<N>>& p);
 
   const SpecialRingKind<N>& kind() const { return *kind_; }
   const Vec3<N>& limit() const { return limit_; }
-  /// The largest coordinate of the points given.
-  const N& size() const { return size_; }
+  /// As TwoRing.
+  N size(long exponent) const { return size_ * reference::power(decay_, exponent); }
+  /// As TwoRing, for an ordinary vertex on the boundary.
+  SpecialRing without_dominant() const;
+  SpecialRing only_dominant() const;
+
   /// The points around face i after J steps, over growth^J, as differences from c; and from c to its place
   /// after one more step, and to the limit.
   struct FacePoints {
@@ -82,97 +85,142 @@ class SpecialRing {
 
  private:
   const SpecialRingKind<N>* kind_;
-  Vec3<N> limit_;
-  N size_{};
-  std::vector<Vec3<N>> points_;
+  Vec3<N> limit_, heard_;
+  N size_{}, decay_{1};  ///< the second in a step, over the growth
+  std::vector<Vec3<N>> r_, q_, p_;
 };
 
 template <class N>
 SpecialRingKind<N>::SpecialRingKind(int faces, bool closed, VertexState state, Weights weights)
-    : faces_(faces), closed_(closed) {
-  const auto count = static_cast<std::size_t>(faces);
-  const std::size_t r = 0, p = entries(), q = 2 * entries();
-  size_ = q + count;
-  if (state == VertexState::kDart) {
-    after_.assign(count, ring_weight<N>(faces, weights) / N(faces));  // r_n is r_0
-    to_limit_ = dart_limit_weights<N>(faces, weights);
-  }
-  if (closed)
-    growth_ = N(5) / N(8);
-  else if (state == VertexState::kDart)  // near enough: growth is only what the powers are divided by
-    growth_ = NumberTraits<N>::from_double(std::max(.5, .375 + NumberTraits<double>::cos_pi(2, faces) / 4));
-  else
-    growth_ = N(1) / N(2) + (faces > 3 ? NumberTraits<N>::cos_pi(1, faces) / N(4) - N(1) / N(8) : N(0));
+    : faces_(faces), closed_(closed), state_(state) {
+  using T = NumberTraits<N>;
+  const N smooth = N(3) / N(8);
+  N largest = N(1) / N(2);  // eigenvalue; of a dart near enough
+  if (state == VertexState::kDart)
+    largest = T::from_double(std::max(.5, .375 + NumberTraits<double>::cos_pi(2, faces) / 4));
+  else if (closed)
+    largest = state == VertexState::kHeld ? N(5) / N(8) : smooth + T::cos_pi(2, faces) / N(4);
+  else if (faces > 3)
+    largest = smooth + T::cos_pi(1, faces) / N(4);
+  grown_ = largest / growth();
 
-  Matrix a(size_ * size_, N(0));
-  const auto add = [&](std::size_t row, std::size_t column, int weight) {
-    a[row * size_ + column] += N(weight) / N(16);
-  };
-  for (std::size_t i = 0; i < entries(); ++i) {
-    if (!closed && (i == 0 || i == count)) {  // the sharp edge's own curve
-      add(r + i, r + i, 8);
-      add(p + i, r + i, 12), add(p + i, p + i, 2);
-      continue;
-    }
-    const std::size_t next = closed ? (i + 1) % count : i + 1, before = (i + count - 1) % count;
-    add(r + i, r + i, 6), add(r + i, r + next, 2), add(r + i, r + before, 2);
-    add(p + i, r + i, 10), add(p + i, p + i, 1);
-    add(p + i, r + next, 1), add(p + i, r + before, 1), add(p + i, q + i % count, 1),
-        add(p + i, q + before, 1);
+  if (state == VertexState::kHeld) return;
+  if (closed || state == VertexState::kDart) {
+    after_ = ring_weight<N>(faces, weights);
+    change_ = (N(5) / N(8) - after_) / growth();
+    to_limit_ = after_ / (smooth + after_);
+    if (state == VertexState::kDart) dart_limit_ = dart_limit_weights<N>(faces, weights);
+  } else {
+    after_ = N(1) / N(8);
+    change_ = N(1) / (N(4) * growth());
+    to_limit_ = N(1) / N(6);
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = closed ? (i + 1) % count : i + 1;
-    add(q + i, r + i, 6), add(q + i, r + next, 6), add(q + i, q + i, 2);
-  }
-  const N share = N(1) / growth_;
-  for (std::size_t row = 0; row < size_; ++row) {  // c moves
-    for (std::size_t i = 0; i < after_.size(); ++i) a[row * size_ + r + i] -= after_[i];
-    for (std::size_t column = 0; column < size_; ++column) a[row * size_ + column] *= share;
-  }
-  squares_.push_back(std::move(a));
-  if constexpr (std::is_same_v<N, double>)  // 2^11 steps are beyond the smallest double
-    for (int bit = 1; bit <= 10; ++bit) squares_.push_back(times(squares_.back(), squares_.back()));
 }
 
 template <class N>
-typename SpecialRingKind<N>::Matrix SpecialRingKind<N>::times(const Matrix& a, const Matrix& b) const {
-  Matrix result(a.size(), N(0));
-  for (std::size_t i = 0; i < size_; ++i)
-    for (std::size_t k = 0; k < size_; ++k)
-      for (std::size_t j = 0; j < size_; ++j) result[i * size_ + j] += a[i * size_ + k] * b[k * size_ + j];
+Vec3<N> SpecialRingKind<N>::heard(std::span<const Vec3<N>> r) const {
+  if (state_ == VertexState::kHeld) return {};
+  if (!closed_ && state_ == VertexState::kOrdinary) return r.front() + r.back();
+  Vec3<N> sum{};
+  for (const Vec3<N>& x : r.first(static_cast<std::size_t>(faces_))) sum += x;  // a dart's r_n is its r_0
+  return sum * (N(1) / N(faces_));
+}
+
+template <class N>
+SpecialRing<N>::SpecialRing(const SpecialRingKind<N>& kind, const Vec3<N>& c, const std::vector<Vec3<N>>& r,
+                            const std::vector<Vec3<N>>& q, const std::vector<Vec3<N>>& p)
+    : kind_(&kind), r_(r), q_(q), p_(p) {
+  for (auto* list : {&r_, &q_, &p_})
+    for (Vec3<N>& x : *list) {
+      if constexpr (kRounds<N>) size_ = std::max({size_, magnitude(x), magnitude(c)});
+      x -= c;
+    }
+  decay_ = kind.grown();
+  heard_ = kind.heard(r_);
+  limit_ = c + kind.to_limit(heard_, r_);
+}
+
+template <class N>
+SpecialRing<N> SpecialRing<N>::without_dominant() const {
+  SpecialRing result = *this;
+  const int count = kind_->faces();
+  const Vec3<N> amplitude =
+      boundary_tangents<N>(Vec3<N>{}, std::span<const Vec3<N>>(r_)).second * (N(2) / N(count));
+  const CircleTable<N>& circle = circle_table<N>(count);
+  for (std::size_t i = 1; i + 1 < r_.size(); ++i) result.r_[i] -= amplitude * circle.sine[i];
+  result.decay_ = (N(3) / N(8) + circle.cosine[2] / N(4)) / kind_->growth();
   return result;
 }
 
 template <class N>
-std::vector<Vec3<N>> SpecialRingKind<N>::advance(std::vector<Vec3<N>> points, long steps) const {
-  Matrix square = squares_.front();
-  for (std::size_t bit = 0; (steps >> bit) != 0; ++bit) {
-    if (bit > 0) square = bit < squares_.size() ? squares_[bit] : times(square, square);
-    if (((steps >> bit) & 1) == 0) continue;
-    std::vector<Vec3<N>> next(size_);
-    for (std::size_t i = 0; i < size_; ++i)
-      for (std::size_t k = 0; k < size_; ++k) next[i] += points[k] * square[i * size_ + k];
-    points = std::move(next);
-  }
-  return points;
+SpecialRing<N> SpecialRing<N>::only_dominant() const {
+  SpecialRing result = *this;
+  result.limit_ = result.heard_ = Vec3<N>{};
+  result.size_ = N(0);
+  for (auto* all : {&result.r_, &result.q_, &result.p_}) all->assign(all->size(), Vec3<N>{});
+  const CircleTable<N>& circle = circle_table<N>(kind_->faces());
+  for (std::size_t i = 1; i + 1 < r_.size(); ++i) result.r_[i].x = circle.sine[i];
+  return result;
 }
 
 template <class N>
 typename SpecialRing<N>::FacePoints SpecialRing<N>::face_points(int face, long steps) const {
-  const std::vector<Vec3<N>> points = kind_->advance(points_, steps);
-  const int count = kind_->faces(), entries = static_cast<int>(kind_->entries());
-  const bool closed = kind_->closed();
+  const bool closed = kind_->closed(), dart = kind_->state() == VertexState::kDart;
+  const long count = kind_->faces(), entries = kind_->entries();
+  const auto wrap = [](long i, long n) { return static_cast<std::size_t>((i % n + n) % n); };
+
+  // The r_i from `low` to `high`. Those beyond what a step still reaches are left behind; but where all are
+  // needed, or there are no more than these, all are kept.
+  long low = face - 2 - steps, high = face + 3 + steps;
+  const bool whole = dart || (closed && high - low + 1 >= count);
+  if (whole) low = 0, high = entries - 1;
+  if (!closed) low = std::max(low, 0L), high = std::min(high, entries - 1);
+  std::vector<Vec3<N>> r, next;
+  for (long i = low; i <= high; ++i) r.push_back(r_[wrap(i, entries)]);
+  long first = low;  // the index of r.front()
+  const auto at = [&](long i) -> const Vec3<N>& {
+    return r[whole && closed ? wrap(i, count) : static_cast<std::size_t>(i - first)];
+  };
+
   FacePoints result{};
   auto& s = result.points;
+  const auto has_q = [&](long i) { return closed || (i >= 0 && i < count); };
+  for (int k = 0; k < 3; ++k)
+    if (has_q(face - 1 + k)) s.q[k] = q_[wrap(face - 1 + k, count)];
+  for (int k = 0; k < 2; ++k) s.p[k] = p_[wrap(face + k, entries)];
+
+  Vec3<N> heard = heard_;
+  const N share = N(1) / kind_->growth(), sixteenth = share / N(16);
+  const N two = N(2) * sixteenth, six = N(6) * sixteenth, eight = N(8) * sixteenth, ten = N(10) * sixteenth,
+          twelve = N(12) * sixteenth;
+  const auto on_end = [&](long i) { return !closed && (i == 0 || i == count); };
+  for (long step = 0; step < steps; ++step) {
+    const Vec3<N> move = kind_->after(heard) * share;
+    for (int k = 0; k < 2; ++k) {
+      const long i = face + k;
+      s.p[k] = on_end(i)
+                   ? at(i) * twelve + s.p[k] * two - move
+                   : at(i) * ten + (at(i - 1) + at(i + 1) + s.q[k] + s.q[k + 1] + s.p[k]) * sixteenth - move;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const long i = face - 1 + k;
+      if (has_q(i)) s.q[k] = (at(i) + at(i + 1)) * six + s.q[k] * two - move;
+    }
+    next.clear();
+    const bool keeps_low = whole || (!closed && low == 0), keeps_high = whole || (!closed && high == count);
+    const long from = keeps_low ? low : low + 1, to = keeps_high ? high : high - 1;
+    for (long i = from; i <= to; ++i)
+      next.push_back(on_end(i) ? at(i) * eight - move : at(i) * six + (at(i - 1) + at(i + 1)) * two - move);
+    r.swap(next);
+    first = low = from;
+    high = to;
+    heard = dart ? kind_->heard(r) : heard * kind_->change();
+  }
+
+  for (long k = 0; k < 6; ++k)
+    if (const long i = face - 2 + k; closed || (i >= 0 && i <= count)) s.r[k] = at(i);
   s.first_edge_on_boundary = !closed && face == 0;
   s.last_edge_on_boundary = !closed && face + 1 == count;
-  const auto set = [&](Vec3<N>& point, int first, int at, int number) {
-    if (closed) at = (at + number) % number;
-    if (at >= 0 && at < number) point = points[static_cast<std::size_t>(first + at)];
-  };
-  for (int k = 0; k < 6; ++k) set(s.r[k], 0, face - 2 + k, entries);
-  for (int k = 0; k < 2; ++k) set(s.p[k], entries, face + k, entries);
-  for (int k = 0; k < 3; ++k) set(s.q[k], 2 * entries, face - 1 + k, count);
   if (s.first_edge_on_boundary) {
     s.r[1] = ghost_point(s.c, s.r[2], s.r[3]);
     s.q[0] = ghost_point(s.r[2], s.p[0], s.q[1]);
@@ -181,8 +229,8 @@ typename SpecialRing<N>::FacePoints SpecialRing<N>::face_points(int face, long s
     s.r[4] = ghost_point(s.c, s.r[3], s.r[2]);
     s.q[2] = ghost_point(s.r[3], s.p[1], s.q[1]);
   }
-  result.c_after = kind_->after(points);
-  result.c_to_limit = kind_->to_limit(points);
+  result.c_after = kind_->after(heard);
+  result.c_to_limit = kind_->to_limit(heard, r);
   return result;
 }
 

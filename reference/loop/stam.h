@@ -38,7 +38,9 @@ struct StamError {
 /// Limit surface of a control mesh, Loop's or Warren's weights, B-spline boundary with the ordinary interior
 /// rule next to it. Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
 ///
-///   construction  O(n + sum of squared valences)
+///   construction  O(n)
+///   a point       near a vertex of few faces O(their number); of 65 and more, or held, O(J^2), where 2^-J is
+///                 the distance from the vertex; near a dart of n faces O(J n)
 ///   threads       any number may evaluate at once
 ///   error         in double StamError; second derivatives beyond 1e308 come out infinite
 ///   parameters    l1, l2 >= 0, l1 + l2 <= 1.

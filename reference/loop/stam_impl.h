@@ -53,14 +53,19 @@ class StamData {
     else if (location.u + location.v == 0)
       return evaluate_corner(f, location.subface, location.gradients, order);
     else if (special >= 0)
-      evaluate_near_special(f, location, special_rings_[special], order, result);
+      evaluate_near_corner(f, location, special_rings_[special], order, result);
     else
       evaluate_near_corner(f, location, two_rings_[two_ring], order, result);
     if (order == Order::kPosition) return result;
     Tangents<N> tangents = tangents_of(result);
-    if (two_ring >= 0 && topology_.on_boundary(topology_.faces()[f][corner]) &&
-        nearly_parallel(result.t1, result.t2))
-      separate_tangents(f, location, two_rings_[two_ring], tangents);
+    const bool near_vertex = two_ring >= 0 || special >= 0;
+    if (near_vertex && is_ordinary_end(topology_.faces()[f][corner]) &&
+        nearly_parallel(result.t1, result.t2)) {
+      if (two_ring >= 0)
+        separate_tangents(f, location, two_rings_[two_ring], tangents);
+      else
+        separate_tangents(f, location, special_rings_[special], tangents);
+    }
     set_normal(result, tangents, fallback_normal(f));
     return result;
   }
@@ -83,12 +88,14 @@ class StamData {
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
         q.push_back(refined_.point(refined_.edge_point(topology_.edge(f, (k + 1) % 3))));
       }
-      if (state != VertexState::kOrdinary) {
+      if (state != VertexState::kOrdinary || sector.faces.size() >= kManyFaces) {
         const std::tuple kind(static_cast<int>(q.size()), sector.closed, state);
         const auto [faces, closed, what] = kind;
         const auto& found = special_kinds_.try_emplace(kind, faces, closed, what, weights_).first->second;
         special_ring_of_[id] = static_cast<std::int32_t>(special_rings_.size());
         special_rings_.emplace_back(found, refined_.point(v), r, q, p);
+        if (kRounds<N> && sector.faces.size() >= kManyFaces)  // who asks for balls asks for few points
+          limit_of_.emplace(v, limit_at(v));
         continue;
       }
       const std::pair key(static_cast<int>(q.size()), !sector.closed);
@@ -118,10 +125,21 @@ class StamData {
                                   Order order) const {
     const std::int32_t v = topology_.faces()[f][k];
     const Sector sector = topology_.sector(v);
+    const auto known = limit_of_.find(v);
+    return extraordinary_corner<N>(known != limit_of_.end() ? known->second : limit_at(v),
+                                   sector.neighbours.size(), !sector.closed, topology_.ring_index(f, k),
+                                   gradients, order, state_of(mesh_.states, v));
+  }
+
+  bool is_ordinary_end(std::int32_t v) const {
+    return topology_.on_boundary(v) && state_of(mesh_.states, v) == VertexState::kOrdinary;
+  }
+
+  VertexLimit<N> limit_at(std::int32_t v) const {
+    const Sector sector = topology_.sector(v);
     std::vector<Vec3<N>> ring;
     for (const std::int32_t r : sector.neighbours) ring.push_back(control_[r]);
-    return extraordinary_corner<N>(control_[v], ring, !sector.closed, topology_.ring_index(f, k), gradients,
-                                   weights_, order, state_of(mesh_.states, v));
+    return vertex_limit<N>(control_[v], ring, !sector.closed, weights_, state_of(mesh_.states, v));
   }
 
   /// Near semi-sharp tags: on the piece of the face that has none.
@@ -161,8 +179,8 @@ class StamData {
   }
 
   template <class P>
-  void evaluate_near_special(std::size_t f, const SubFaceLocation<P>& location, const SpecialRing<N>& ring,
-                             Order order, SurfacePoint<N>& result) const {
+  void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const SpecialRing<N>& ring,
+                            Order order, SurfacePoint<N>& result) const {
     const int face = topology_.ring_index(f, location.subface);
     const long steps = steps_to_corner(location.u, location.v);
     const SubTriangle<P> outer(location, steps);
@@ -171,8 +189,8 @@ class StamData {
     evaluate_basis(basis, number_from<N>(outer.a), number_from<N>(outer.b), order);
     const LocalPoint<N> local = evaluate_patch<N>(
         outer_patch(ring.kind().faces(), !ring.kind().closed(), face, s.points, s.c_after, outer.which),
-        basis, order, ring.size());
-    const N& growth = ring.kind().growth();
+        basis, order, ring.size(steps));
+    const N growth = ring.kind().growth();
     const ParameterGradients& g = location.gradients;
     result.position = ring.limit() + (local.position - s.c_to_limit) * power(growth, steps);
     set_derivatives(result, local, outer.which == 2 ? g.turned() : g, N(4) * power(N(2) * growth, steps),
@@ -274,12 +292,12 @@ class StamData {
 
   /// Replaces one of d1, d2 so that their product keeps its direction and no longer cancels, near a boundary
   /// vertex: (f1 A + r1) x (f2 A + r2) = d1 x (r2 - (f2 / f1) r1).
-  template <class P>
-  void separate_tangents(std::size_t f, const SubFaceLocation<P>& location, const TwoRing<N>& two_ring,
+  template <class P, class Ring>
+  void separate_tangents(std::size_t f, const SubFaceLocation<P>& location, const Ring& ring,
                          Tangents<N>& t) const {
     SurfacePoint<N> rest, factor;
-    evaluate_near_corner(f, location, two_ring.without_dominant(), Order::kFirst, rest);
-    evaluate_near_corner(f, location, two_ring.only_dominant(), Order::kFirst, factor);
+    evaluate_near_corner(f, location, ring.without_dominant(), Order::kFirst, rest);
+    evaluate_near_corner(f, location, ring.only_dominant(), Order::kFirst, factor);
     const N f1 = factor.d1.x, f2 = factor.d2.x;
     if (f1 * f1 > f2 * f2) {
       t.second = rest.d2 - rest.d1 * (f2 / f1);
@@ -305,9 +323,10 @@ class StamData {
   std::vector<std::int32_t> two_ring_of_;
   std::map<std::pair<int, bool>, TwoRingModes<N>> modes_;
   std::vector<TwoRing<N>> two_rings_;
-  std::vector<std::int32_t> special_ring_of_;  ///< of each vertex, -1 where it is neither held nor a dart
+  std::vector<std::int32_t> special_ring_of_;  ///< of each vertex, -1 where it has a two-ring or is regular
   std::map<std::tuple<int, bool, VertexState>, SpecialRingKind<N>> special_kinds_;
   std::vector<SpecialRing<N>> special_rings_;
+  std::map<std::int32_t, VertexLimit<N>> limit_of_;  ///< of vertices of many faces
 };
 
 }  // namespace detail

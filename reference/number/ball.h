@@ -80,6 +80,16 @@ struct NumberTraits<Ball> {
     arb_sqrt(result.raw(), a.raw(), Ball::precision());
     return result;
   }
+  static Ball cos(const Ball& a) {
+    Ball result;
+    arb_cos(result.raw(), a.raw(), Ball::precision());
+    return result;
+  }
+  static Ball sin(const Ball& a) {
+    Ball result;
+    arb_sin(result.raw(), a.raw(), Ball::precision());
+    return result;
+  }
   /// Of the largest magnitude the ball may have: only used to bring numbers to a common scale, exactly.
   static long exponent(const Ball& a) {
     mag_t bound;

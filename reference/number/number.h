@@ -30,6 +30,8 @@ struct NumberTraits<double> {
     return std::cos(std::numbers::pi * static_cast<double>(p) / static_cast<double>(q));
   }
   static double sqrt(double a) { return std::sqrt(a); }
+  static double cos(double a) { return std::cos(a); }
+  static double sin(double a) { return std::sin(a); }
   /// Binary exponent of a, so that scale(a, -exponent(a)) is in [1, 2); very negative for zero.
   static long exponent(double a) { return a == 0 ? kZeroExponent : std::ilogb(a); }
   /// The cross product of two tangents is not trusted where the sine of their angle is below this. [D12]

@@ -63,6 +63,8 @@ struct NumberTraits<Decimal<Digits>> {
     return boost::multiprecision::cos(pi * p / q);
   }
   static N sqrt(const N& a) { return boost::multiprecision::sqrt(a); }
+  static N cos(const N& a) { return boost::multiprecision::cos(a); }
+  static N sin(const N& a) { return boost::multiprecision::sin(a); }
   static long exponent(const N& a) { return a == 0 ? kZeroExponent : boost::multiprecision::ilogb(a); }
   static constexpr double kNormalThreshold = Digits <= 50 ? 1e-40 : 1e-90;
   static constexpr double kRounding = Digits <= 50 ? 1e-50 : 1e-100;

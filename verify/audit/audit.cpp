@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <span>
@@ -17,6 +19,7 @@
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
 #include "verify/audit/vector.h"
+#include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
 #include "verify/subject/weights_option.h"
@@ -117,6 +120,8 @@ Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> o
 Auditor::~Auditor() = default;
 
 void Auditor::step(const std::string& subject, const std::string& mesh, std::string_view check) {
+  if (interrupted() != 0) return;  // nobody may be there any more
+  if (keep_rows_) keep_rows_();
   if (on_step_) on_step_({subject, mesh, std::string(check), done_, total_});
 }
 
@@ -137,15 +142,37 @@ ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, data::Sch
 }
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
-  std::vector<Result> results;
-  bool no_memory = false;
+  // The rows as they come, and those that were there before the last check. Work that is left keeps both.
+  struct Shared {
+    std::vector<Result> rows;
+    std::mutex mutex;
+    std::vector<Result> kept;
+  };
+  const auto shared = std::make_shared<Shared>();
+  bool no_memory = false, left = false;
   try {
-    if (interrupted() == 0) judge(audited, mesh, results);
+    if (interrupted() == 0 && !leaves_) {
+      judge(audited, mesh, shared->rows);
+    } else if (interrupted() == 0) {
+      keep_rows_ = [shared] {
+        const std::scoped_lock lock(shared->mutex);
+        shared->kept = shared->rows;
+      };
+      left = !run_or_abandon([this, &audited, &mesh, shared] { judge(audited, mesh, shared->rows); });
+    }
   } catch (const Interrupted&) {
   } catch (const std::bad_alloc&) {
     no_memory = true;
   } catch (const HostOutOfMemory&) {
     no_memory = true;
+  }
+  std::vector<Result> results;
+  if (left) {
+    abandoned_ = true;
+    const std::scoped_lock lock(shared->mutex);
+    results = shared->kept;
+  } else {
+    results = std::move(shared->rows);
   }
   if (no_memory) {
     cache_.clear();
@@ -239,6 +266,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   close(*session, results.front());
 
   run_checks(evidence, rows, no_reference);
+  if (keep_rows_) keep_rows_();
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
   if (interrupted() == 0 && related(mesh, judged.faces.size())) {
     const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };

@@ -48,6 +48,12 @@ class Auditor {
 
   /// Whether an interrupt left something out.
   bool gave_up() const { return gave_up_; }
+  /// From now on an interrupt does not wait for a check, or a subject in this process, that takes longer than
+  /// kToEnd: it is left on a thread of its own (run_or_abandon).
+  void leave_what_is_interrupted() { leaves_ = true; }
+  /// Whether that has happened: then neither this nor the subjects and meshes that it was given may be
+  /// destroyed before the process ends.
+  bool abandoned() const { return abandoned_; }
   /// Whether a lack of memory, of this program and not of a subject, left something out.
   bool out_of_memory() const { return out_of_memory_; }
 
@@ -76,7 +82,8 @@ class Auditor {
   std::function<void(const AuditStep&)> on_step_;
   Level level_;
   std::size_t done_ = 0, total_ = 1;
-  bool gave_up_ = false, out_of_memory_ = false;
+  bool gave_up_ = false, out_of_memory_ = false, leaves_ = false, abandoned_ = false;
+  std::function<void()> keep_rows_;  // called between two checks
   std::map<std::pair<std::string, data::Scheme>, std::vector<Refusal>> refusals_;  // of each subject, once
   std::string cached_mesh_;
   std::vector<std::unique_ptr<ReferenceSurface>>

@@ -9,6 +9,7 @@
 #include "data/validate.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/relations.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -81,7 +82,7 @@ class Shrinker {
   }
 
  private:
-  bool late() const { return std::chrono::steady_clock::now() >= end_; }
+  bool late() const { return interrupted() != 0 || std::chrono::steady_clock::now() >= end_; }
 
   bool take(AuditMesh candidate) {
     if (late() || candidate.mesh.faces.empty() ||

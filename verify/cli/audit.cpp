@@ -29,6 +29,7 @@
 #include "verify/cli/progress.h"
 #include "verify/cli/subject_loader.h"
 #include "verify/cli/subject_output.h"
+#include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/host.h"
 #include "verify/subject/registry.h"
@@ -259,26 +260,48 @@ int audit(const Job& job) {
         progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
       },
       level(a.output));
+  auditor.leave_what_is_interrupted();
   const auto journal = a.must_refuse ? nullptr
                                      : open_journal(a.json.empty() && job.whole ? kReportFile : a.json,
                                                     a.resume, audited, meshes, report, a.output.level);
-  report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
-                                 : auditor.run(audited, meshes, journal.get());
-  report.containment = loader.containment();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  screen.end();
-  report.printed = output.take();
-  const int signal = auditor.gave_up() ? verify::interrupted() : 0;
-  report.incomplete = incomplete(auditor, meshes, report, signal);
-  const bool judged = judged_as_required(a.output, report);
-  waive(a.output, audited, report);
-  compare(a.output, report);
+  try {
+    report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
+                                   : auditor.run(audited, meshes, journal.get());
+  } catch (const verify::Interrupted&) {  // there is no half of an answer whether broken meshes are refused
+    screen.end();
+    (void)output.take();
+    fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
+    return kSignalled + verify::interrupted();
+  }
+  const auto finish = [&] {
+    report.containment = loader.containment();
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    screen.end();
+    report.printed = output.take();
+    const int signal = auditor.gave_up() ? verify::interrupted() : 0;
+    report.incomplete = incomplete(auditor, meshes, report, signal);
+    const bool judged = judged_as_required(a.output, report);
+    waive(a.output, audited, report);
+    compare(a.output, report);
 
-  const bool done = signal == 0 && !auditor.out_of_memory();
-  const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
-  print(job, report, asked.scheme_line);
-  if (not_written) std::rethrow_exception(not_written);
-  return exit_code_of(auditor, report, signal, judged);
+    const bool done = signal == 0 && !auditor.out_of_memory();
+    const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
+    print(job, report, asked.scheme_line);
+    if (not_written) std::rethrow_exception(not_written);
+    const int later = a.output.shrink_seconds > 0 ? verify::interrupted() : signal;
+    if (later != signal)
+      fmt::print(stderr, "limitcheck: interrupted by {}: not all witnesses are written\n",
+                 verify::signal_name(later));
+    return exit_code_of(auditor, report, later, judged);
+  };
+  if (!auditor.abandoned()) return finish();
+  int code = kBadInput;
+  try {
+    code = finish();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "limitcheck: {}\n", error.what());
+  }
+  verify::leave(code, kBadInput);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "verify/audit/witness_files.h"
 #include "verify/cli/finite.h"
 #include "verify/cli/subject_output.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 
@@ -179,6 +180,7 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       if (verify::is_bad(r)) findings.push_back(&r);
   }
   for (const verify::Result* finding : findings) {
+    if (verify::interrupted() != 0 && a.shrink_seconds > 0) return;
     const verify::AuditMesh* mesh = case_of(*finding, meshes);
     const auto subject = std::find(report.subjects.begin(), report.subjects.end(), finding->subject);
     if (mesh == nullptr || subject == report.subjects.end()) continue;
@@ -216,7 +218,8 @@ void write_html(const std::string& file, const std::vector<verify::AuditSubject>
     const verify::AuditMesh* mesh = case_of(row, meshes);
     const auto at = std::find(report.subjects.begin(), report.subjects.end(), row.subject);
     const auto number = static_cast<std::size_t>(at - report.subjects.begin());
-    shapes.push_back(mesh == nullptr || number >= subjects.size()
+    // After an interrupt no subject is asked again: it may be the one that does not answer.
+    shapes.push_back(mesh == nullptr || number >= subjects.size() || !report.incomplete.empty()
                          ? std::nullopt
                          : verify::error_shape(subjects[number], *mesh, row, threads));
   }

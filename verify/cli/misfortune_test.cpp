@@ -223,6 +223,28 @@ TEST_F(Misfortune, NamesMayHaveSpacesQuotesAndOtherAlphabets) {
   EXPECT_EQ(o.code, 0) << o.out << o.err;
 }
 
+// A built-in subject in this process, and the reference, look for no signal.
+TEST_F(Misfortune, ASignalEndsWhatTakesLong) {
+  for (const std::string& command : {std::string("audit naive bumpy:4000 --depth 6 --json r.json"),
+                                     std::string("audit naive bipyramid:60000 --depth 1 --json r.json")}) {
+    const Outcome o = shell("rm -f r.*\nenv --default-signal '" LIMITCHECK_PROGRAM "' " + command +
+                            " --level quick &\nwhile [ ! -e r.jsonl ]; do sleep 0.05; done\nsleep 0.5\n"
+                            "kill -TERM $!\nwait $!");
+    EXPECT_EQ(o.code, 143) << command << o.err;
+    EXPECT_NE(o.out.find("INCOMPLETE: interrupted by SIGTERM"), std::string::npos) << o.out;
+    EXPECT_EQ(nlohmann::json::parse(read("r.json"))["incomplete"], "interrupted by SIGTERM");
+  }
+}
+
+TEST_F(Misfortune, ASignalEndsTheQuestionWhetherBrokenMeshesAreRefused) {
+  write("mute.sh", "touch asked\nsleep 1000\n");
+  write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n");
+  const Outcome o = shell("env --default-signal '" LIMITCHECK_PROGRAM
+                          "' audit --must-refuse --program 'bash mute.sh' broken.obj &\n"
+                          "while [ ! -e asked ]; do sleep 0.05; done\nkill -TERM $!\nwait $!");
+  EXPECT_EQ(o.code, 143) << o.out << o.err;
+}
+
 TEST_F(Misfortune, ASignalLeavesAPartialReportAndNoProcess) {
   // Says what it can do, and is silent from then on.
   write(

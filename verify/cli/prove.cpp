@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "data/error.h"
+#include "data/scheme.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/progress.h"
 #include "verify/interrupt/interrupt.h"
@@ -22,7 +23,7 @@ namespace limitcheck::cli {
 namespace {
 
 struct Request {
-  std::string valences = "3:12", kernel = "all", set = "standard";
+  std::string scheme = "loop", valences, kernel = "all", set = "standard";
   int depth = 6;
   bool json = false, each = false;
 };
@@ -60,7 +61,9 @@ std::vector<int> valences(const std::string& text) {
 
 int run(const Request& request) {
   verify::ProofRequest what;
-  what.valences = valences(request.valences);
+  const bool quads = request.scheme == "catmull-clark";
+  if (quads) what.scheme = data::Scheme::kCatmullClark;
+  what.valences = valences(!request.valences.empty() ? request.valences : quads ? "3:8" : "3:12");
   what.depth = request.depth;
   what.sliding_window = request.kernel != "row-stream";
   what.row_stream = request.kernel != "sliding-window";
@@ -85,7 +88,7 @@ int run(const Request& request) {
   if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
   std::vector<verify::CertifiedLine> certified;
   if (verify::interrupted() == 0)
-    certified = verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12);
+    certified = verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12, what.scheme);
   const verify::ProofReport report(set, rows, std::move(certified));
   if (request.json) {
     fmt::print("{}\n", report.json());
@@ -103,9 +106,11 @@ void add_prove(CLI::App& app, int& exit_code) {
       "prove",
       "Prove that the kernels compute the exact limit surface, whatever the geometry, topology by topology");
   auto request = std::make_shared<Request>();
-  command
-      ->add_option("--valences", request->valences, "Interior valences of the triples: 3:12, or a list 3,4,6")
+  command->add_option("--scheme", request->scheme, "The subdivision scheme")
+      ->check(CLI::IsMember({"loop", "catmull-clark"}))
       ->capture_default_str();
+  command->add_option("--valences", request->valences,
+                      "Interior valences: of the triples 3:12 or a list 3,4,6; 3:8 of a quad's four corners");
   command->add_option("--depth", request->depth, "Deepest subdivision")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
@@ -131,6 +136,14 @@ void add_prove(CLI::App& app, int& exit_code) {
       "  alone      the face without neighbours                     m 4, b 4 | m 6, b 6\n"
       "  spheres    all pairs of bumpy:200 | 200 800 2000 4000      m 3, b 3 | m 6, b 4\n"
       "Maps again to 45 digits, depth 1-2 | 3, and exactly for valences 3, 4, 6, depth 2 | 5.\n"
+      "Of Catmull-Clark's scheme, maps in residues (r), rationals (e) and to 45 digits (d):\n"
+      "  quadruples every four valences in every order              r 2, e 1, d 0, b 2 | r 4, e 3, d 2, b 4\n"
+      "  deep       the regular quad and others                     r 6, e 3, d 2, b 5 | r 7, e 5, d 4, b 6\n"
+      "  high       valences 20 and 50 at every corner              r 2, e 1, d 0, b 2 | r 5, e 2, d 1, b 4\n"
+      "  boundary   boundary edges and vertices                     r 3, e 1, d 0, b 2 | r 5, e 3, d 2, b 4\n"
+      "  cuts       creases and corners                             e 2, d 0, b 2      | e 3, d 2, b 4\n"
+      "  darts      ends of creases                                 d 1, b 2           | d 3, b 4\n"
+      "  semi-sharp edges and vertices, sliding window              e 1, b 2           | e 3, b 4\n"
       "Ctrl-C ends with the table of the proofs so far: exit code 130, or 1 if one of them failed.");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }

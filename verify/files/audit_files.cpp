@@ -34,7 +34,10 @@ std::string per_vertex(const FileEvidence& e) {
   for (const auto& n : t.normals) {
     const std::int32_t point = e.point_of(n.vertex);
     if (point < 0 || !e.foot[point].has_normal) continue;
-    const double a = angle_degrees(n.direction, e.foot[point].normal);
+    double a = angle_degrees(n.direction, e.foot[point].normal);
+    if (e.place[point].face >= 0 && e.surface.domain().on_cut(e.place[point]))
+      for (const Foot& side : in_all_faces(e, e.place[point], e.position(point)))
+        if (side.has_normal) a = std::min(a, angle_degrees(n.direction, side.normal));
     if (!(a <= angle[n.vertex])) angle[n.vertex] = a;
   }
   const bool loop = e.scheme() == data::Scheme::kLoop;
@@ -87,22 +90,31 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   }
 
   FileEvidence e{control_name, control, surface, tessellation, options.tolerance};
-  place_points(e, provenance,
-               [&](std::size_t done, std::size_t total) { step("closest points", done, total); });
+  const auto placed = [&](std::size_t done, std::size_t total) { step("closest points", done, total); };
+  place_points(e, provenance, placed, Search::kQuick);
   append(audit.results, check_file_finite(e));
   append(audit.results, check_file_unused(e));
-  append(audit.results, check_file_distance(e));
-  append(audit.results, check_file_normals(e));
+  const auto by_feet = [&] {
+    std::vector<Result> rows = check_file_distance(e);
+    append(rows, check_file_normals(e));
+    step("coverage", 0, 1);
+    append(rows, check_file_cover(e));
+    append(rows, check_file_triangles(e));
+    step("watertight", 0, 1);
+    append(rows, check_file_watertight(e));
+    return rows;
+  };
+  std::vector<Result> rows = by_feet();
+  if (any_quick(e) && std::any_of(rows.begin(), rows.end(), is_bad)) {
+    place_points(e, provenance, placed, Search::kThorough);
+    rows = by_feet();
+  }
+  append(audit.results, std::move(rows));
   if (tessellation.normals.empty() && options.needs_normals) {
     Result& normals = row(audit, "file-normals");
     normals.status = Status::kFinding;
     normals.bad = normals.of = static_cast<std::int64_t>(tessellation.positions.size());
   }
-  step("coverage", 0, 1);
-  append(audit.results, check_file_cover(e));
-  append(audit.results, check_file_triangles(e));
-  step("watertight", 0, 1);
-  append(audit.results, check_file_watertight(e));
   append(audit.results,
          check_file_hausdorff(e, options.hausdorff.value_or(-1), [&] { step("Hausdorff distance", 0, 1); }));
   if (!tessellation.triangles.empty()) audit.notes.push_back(row(audit, "file-hausdorff").message);

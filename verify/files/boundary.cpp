@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "data/cut_out.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -13,6 +15,13 @@ using OpenEdge = SurfaceReport::Edge;
 
 bool off_the_surface(const FileEvidence& e, std::int32_t point) {
   return e.foot[point].distance > e.tolerance * e.surface.diagonal();
+}
+
+// Whether the surface that is shown ends at a side of a face.
+bool is_rim(const FileEvidence& e, std::int32_t face, int side) {
+  const std::int32_t next = e.surface.domain().across(face, side);
+  const LimitSurface& surface = e.surface.surface();
+  return surface.is_hole(face) ? next >= 0 && !surface.is_hole(next) : next < 0 || surface.is_hole(next);
 }
 
 // Both ends lie on the limit of one boundary edge of the domain.
@@ -30,18 +39,22 @@ bool on_limit_boundary(const FileEvidence& e, const OpenEdge& edge) {
       if (!domain.express(e.place[edge.from], face, x) || !domain.express(e.place[edge.to], face, y))
         continue;
       for (int k = 0; k < chart.corners(); ++k)
-        if (chart.height(k, x.l) == 0 && chart.height(k, y.l) == 0 && domain.across(face, k) < 0) return true;
+        if (chart.height(k, x.l) == 0 && chart.height(k, y.l) == 0 && is_rim(e, face, k)) return true;
     }
   }
   return false;
 }
 
-// The control vertices along each closed walk of boundary edges.
+// The control vertices along each closed walk of boundary edges, those of holes included. Where two holes
+// meet in a vertex one walk leads through it twice.
 std::vector<std::vector<std::int32_t>> loops_of(const Lattice& control) {
-  std::map<std::int32_t, std::int32_t> next;
+  std::vector<bool> hole(control.face_count(), false);
+  for (const std::int32_t f : control.mesh().holes) hole[f] = true;
+  std::multimap<std::int32_t, std::int32_t> next;
   for (std::int32_t f = 0; f < control.face_count(); ++f)
     for (int k = 0; k < control.domain(f).corners(); ++k)
-      if (control.across(f, k) < 0) next[control.vertex(f, k)] = control.vertex(f, control.domain(f).next(k));
+      if (!hole[f] && (control.across(f, k) < 0 || hole[control.across(f, k)]))
+        next.emplace(control.vertex(f, k), control.vertex(f, control.domain(f).next(k)));
   std::vector<std::vector<std::int32_t>> loops;
   while (!next.empty()) {
     loops.emplace_back();
@@ -53,6 +66,19 @@ std::vector<std::vector<std::int32_t>> loops_of(const Lattice& control) {
     }
   }
   return loops;
+}
+
+// How many vertices the faces that are shown would need more, so that they touch in no vertex only.
+std::int64_t touching(const data::ControlMesh& mesh) {
+  if (mesh.holes.empty()) return 0;
+  data::Faces shown;
+  for (std::size_t f = 0, h = 0; f < mesh.faces.size(); ++f) {
+    if (h < mesh.holes.size() && mesh.holes[h] == static_cast<std::int32_t>(f))
+      ++h;
+    else
+      shown.push_back(mesh.faces[f]);
+  }
+  return static_cast<std::int64_t>(data::split_fans(shown, mesh.positions.size()).size());
 }
 
 // Two boundary edges of the control mesh in one place.
@@ -135,6 +161,7 @@ FileBoundary compare_boundary(const FileEvidence& e, const SurfaceReport& report
   const FacesAround around(e.control.faces, e.control.positions.size());
   boundary.loops = static_cast<std::int64_t>(loops.size());
   boundary.seams = has_seams(e.control, loops);
+  boundary.touching = touching(e.control);
 
   std::vector<bool> explained;
   for (const OpenEdge& edge : open) explained.push_back(on_limit_boundary(e, edge));

@@ -14,6 +14,7 @@ namespace limitcheck::verify {
 struct FileBoundary {
   std::vector<SurfaceReport::Edge> cracks;  // open edges that are no boundary, in the order of the report
   std::int64_t loops = 0;                   // closed walks along the boundary edges of the control mesh
+  std::int64_t touching = 0;                // points in which faces touch between holes, in no edge
   bool seams = false;  // some of its boundary edges coincide, and so may the tessellation's
   std::string remark;  // a sentence, if the boundary is not that of the limit surface
 };

@@ -11,7 +11,8 @@
 namespace limitcheck::verify {
 namespace {
 
-// A face of the domain is covered once if the areas of the triangles on it, in its parameters, add up to 1.
+// A face of the domain is covered once if the areas of the triangles on it, in its parameters, add up to 1; a
+// hole is left open if they add up to 0.
 // Feet are put on edges and corners, so a face's share is exact but for rounding; one triangle at depth 6 is
 // 2.4e-4.
 constexpr double kShare = 1e-4;
@@ -67,7 +68,11 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
                          : fmt::format("{} of {} triangles face inwards", facing.bad, facing.of);
   }
 
+  const LimitSurface& surface = e.surface.surface();
   std::vector<double> share(e.surface.domain().face_count(), 0);
+  const auto wanted = [&](std::size_t f) { return surface.is_hole(static_cast<std::int32_t>(f)) ? 0. : 1.; };
+  double faces = 0;
+  for (std::size_t f = 0; f < share.size(); ++f) faces += wanted(f);
   std::int64_t crossing = 0, lost = 0;
   double all = 0;
   for (std::size_t t = 0; t < placed.size(); ++t) {
@@ -82,35 +87,36 @@ std::vector<Result> check_file_cover(const FileEvidence& e) {
   if (crossing == 0 && lost == 0) {
     cover.bound = kShare;
     cover.of = static_cast<std::int64_t>(share.size());
-    std::int64_t less = 0, more = 0;
+    std::int64_t less = 0, more = 0, holes = 0;
     double worst = -1, sum = 0;
     for (std::size_t f = 0; f < share.size(); ++f) {
-      const double off = std::abs(share[f] - 1);
-      less += share[f] < 1 - kShare;
-      more += share[f] > 1 + kShare;
+      const double off = std::abs(share[f] - wanted(f));
+      less += share[f] < wanted(f) - kShare;
+      more += share[f] > 1 + kShare && wanted(f) > 0;
+      holes += share[f] > kShare && wanted(f) == 0;
       sum += off * off;
       if (off <= worst) continue;
       worst = off;
-      const auto at = e.surface.surface().control_point({static_cast<std::int32_t>(f), {}});
+      const auto at = surface.control_point({static_cast<std::int32_t>(f), {}});
       cover.witness = Witness{};
       cover.witness->face = at.face;
       cover.witness->corner = at.corner;
-      cover.witness->expected = {1};
+      cover.witness->expected = {wanted(f)};
       cover.witness->got = {share[f]};
     }
-    cover.bad = less + more;
+    cover.bad = less + more + holes;
     cover.worst = worst;
     cover.rms = std::sqrt(sum / static_cast<double>(share.size()));
     if (cover.bad > 0) {
       cover.status = Status::kFinding;
       cover.message = fmt::format(
           "{} {} are not wholly covered, {} more than once", less,
-          e.surface.surface().has_control_faces() ? "control faces" : "quads at the corners of control faces",
-          more);
+          surface.has_control_faces() ? "control faces" : "quads at the corners of control faces", more);
+      if (holes > 0)
+        cover.message += fmt::format(", and {} that are holes of the control mesh are covered", holes);
     }
     return {facing, cover};
   }
-  const double faces = static_cast<double>(share.size());
   cover.bound = kCrossingShare + 2 * static_cast<double>(lost) / static_cast<double>(placed.size());
   cover.of = 1;
   cover.worst = cover.rms = std::abs(all / faces - 1);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "verify/audit/bounds.h"
 #include "verify/audit/normal_origin.h"
@@ -51,6 +53,62 @@ Result length_row(const FileEvidence& e) {
   return r;
 }
 
+// Of the normals on edges that stay sharp, by their number: the faces of the triangles that have them there.
+std::map<std::int32_t, std::set<std::int32_t>> faces_of_cut_normals(const FileEvidence& e) {
+  std::map<std::int32_t, std::set<std::int32_t>> faces;
+  const FileTessellation& t = e.tessellation;
+  const auto on_cut = [&](std::int32_t vertex) {
+    const std::int32_t point = e.point_of(vertex);
+    return point >= 0 && e.place[point].face >= 0 && e.surface.domain().on_cut(e.place[point]);
+  };
+  std::vector<std::int32_t> of_vertex(t.positions.size(), -1);
+  for (std::size_t k = 0; k < t.normals.size(); ++k) {
+    const std::int32_t vertex = t.normals[k].vertex;
+    of_vertex[vertex] = static_cast<std::int32_t>(k);
+    if (on_cut(vertex)) faces[static_cast<std::int32_t>(k)];
+  }
+  if (faces.empty()) return faces;
+  for (std::size_t i = 0; i < t.triangles.size(); ++i) {
+    const auto& v = t.triangles[i];
+    PlacedTriangle placed;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto its = faces.find(t.corner_normals.empty() ? of_vertex[v[c]] : t.corner_normals[i][c]);
+      if (its == faces.end()) continue;
+      if (placed.face < 0)
+        placed = place_triangle(e, {e.point_of(v[0]), e.point_of(v[1]), e.point_of(v[2])});
+      if (placed.face >= 0 && !placed.crosses) its->second.insert(placed.face);
+    }
+  }
+  return faces;
+}
+
+// What a normal on an edge that stays sharp is held against.
+struct SideNormal {
+  enum Kind { kJudged, kUndefined, kShared } kind;
+  Vector expected{};
+};
+
+// The normal of the side on which its triangles lie; if they tell nothing, that of the nearest. One that
+// triangles of two sides share, with normals that differ by more than the bound, is right on one at most.
+SideNormal side_normal(const FileEvidence& e, std::int32_t point, const Vector& direction,
+                       const std::set<std::int32_t>& faces, double bound) {
+  SideNormal side{SideNormal::kUndefined, {}};
+  double nearest = std::numeric_limits<double>::infinity(), apart = 0;
+  std::vector<Vector> normals;
+  for (const Foot& foot : in_all_faces(e, e.place[point], e.position(point))) {
+    if (!faces.empty() && !faces.contains(foot.at.face)) continue;
+    if (!foot.has_normal) return {SideNormal::kUndefined, {}};
+    for (const Vector& other : normals) apart = std::max(apart, angle_degrees(other, foot.normal));
+    normals.push_back(foot.normal);
+    const double angle = angle_degrees(direction, foot.normal);
+    if (side.kind == SideNormal::kJudged && !(angle < nearest)) continue;
+    side = {SideNormal::kJudged, foot.normal};
+    nearest = angle;
+  }
+  if (!faces.empty() && apart > bound) return {SideNormal::kShared, {}};
+  return side;
+}
+
 }  // namespace
 
 std::vector<Result> check_file_normals(const FileEvidence& e) {
@@ -65,10 +123,20 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   }
   std::vector<double> angle(normals.size(), -1);
   std::vector<Vector> expected(normals.size());
-  std::int64_t undefined = 0;
+  std::int64_t undefined = 0, shared = 0;
+  const auto sides = faces_of_cut_normals(e);
   for (std::size_t k = 0; k < normals.size(); ++k) {
     const std::int32_t vertex = normals[k].vertex, point = e.point_of(vertex);
     if (point < 0 || !e.tessellation.used[vertex]) continue;
+    if (const auto faces = sides.find(static_cast<std::int32_t>(k)); faces != sides.end()) {
+      const SideNormal side = side_normal(e, point, normals[k].direction, faces->second, *r.bound);
+      undefined += side.kind == SideNormal::kUndefined;
+      shared += side.kind == SideNormal::kShared;
+      if (side.kind != SideNormal::kJudged) continue;
+      expected[k] = side.expected;
+      angle[k] = angle_degrees(normals[k].direction, side.expected);
+      continue;
+    }
     const bool told = !e.claimed.empty() && e.claimed[vertex].face >= 0;
     const Vector& at = e.tessellation.positions[vertex];
     const Foot foot = told ? e.surface.at(e.claimed[vertex], at) : e.foot[point];
@@ -98,6 +166,9 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
     r.witness->got = list(normals[s.worst_at].direction);
   }
   if (undefined > 0) r.message = fmt::format("{} more where the surface has no normal", undefined);
+  if (shared > 0)
+    r.message += fmt::format("{}{} more on edges that stay sharp stand for both sides, which have two normals",
+                             r.message.empty() ? "" : "; ", shared);
   if (s.bad == 0) return {r, length_row(e)};
 
   const FileTessellation& t = e.tessellation;

@@ -70,10 +70,11 @@ std::vector<Result> check_file_watertight(const FileEvidence& e) {
   part(report.duplicate_triangles, "duplicate triangles");
   part(report.crowded_edges, "edges of three or more triangles");
   part(report.clashing_edges, "edges of two triangles that run the same way");
-  part(report.bow_tie_points, "points with more than one fan of triangles");
+  part(std::max<std::int64_t>(0, report.bow_tie_points - boundary.touching),
+       "points with more than one fan of triangles");
   part(t.left_out, "faces of fewer than three corners, or of vertices that do not exist");
   // A hole of the control mesh that is filled. Seams may be closed by merging equal positions, or not.
-  if (r.bad == 0 && !boundary.seams && report.open_loops != boundary.loops) {
+  if (r.bad == 0 && !boundary.seams && boundary.touching == 0 && report.open_loops != boundary.loops) {
     r.bad = 1;
     r.message = fmt::format("{} boundary loops instead of {}", report.open_loops, boundary.loops);
   }

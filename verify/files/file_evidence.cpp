@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
+
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {
 
@@ -65,8 +68,12 @@ FacePoint snapped(const FileEvidence& e, const Foot& foot, double slack) {
 
 }  // namespace
 
+bool any_quick(const FileEvidence& e) {
+  return std::find(e.quick.begin(), e.quick.end(), 1) != e.quick.end();
+}
+
 void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
-                  const std::function<void(std::size_t, std::size_t)>& on_step) {
+                  const std::function<void(std::size_t, std::size_t)>& on_step, Search search) {
   const FileTessellation& t = e.tessellation;
   std::vector<double> flat;
   flat.reserve(3 * t.positions.size());
@@ -74,8 +81,10 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
   e.merged = merge_identical(std::span<const double>(flat));
 
   const std::size_t points = e.merged.vertex_of.size();
-  e.foot.assign(points, {});
-  e.place.assign(points, {});
+  const bool again = !e.quick.empty();
+  e.foot.resize(points);
+  e.place.resize(points);
+  e.quick.resize(points, 0);
   std::vector<FacePoint> claim(points);
   if (!provenance.empty()) {
     e.claimed.assign(t.positions.size(), {});
@@ -97,14 +106,39 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
   std::mutex mutex;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points, 256), [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      if (used[k] == 0) continue;
+      if (used[k] == 0 || (again && e.quick[k] == 0)) continue;
+      end_if_interrupted();
       const Vector& p = e.position(static_cast<std::int32_t>(k));
-      e.foot[k] = claim[k].face >= 0 ? e.surface.at(claim[k], p) : e.surface.closest(p);
+      std::optional<Foot> foot;
+      if (claim[k].face >= 0) {
+        foot = e.surface.at(claim[k], p);
+      } else if (search == Search::kQuick) {
+        foot = e.surface.on_surface(p, slack / 4);
+        e.quick[k] = foot ? 1 : 0;
+      }
+      e.foot[k] = foot ? *foot : e.surface.closest(p);
       e.place[k] = snapped(e, e.foot[k], slack);
     }
     const std::lock_guard lock(mutex);
     on_step(done += range.size(), points);
   });
+}
+
+std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const Vector& p) {
+  const Domain& domain = e.surface.domain();
+  const Chart chart = domain.chart();
+  std::vector<Foot> feet;
+  if (const int k = chart.corner_at(at.l); k >= 0) {
+    for (const std::int32_t face : domain.faces_at(domain.vertex(at.face, k)))
+      if (FacePoint there; domain.express(at, face, there)) feet.push_back(e.surface.at(there, p));
+    return feet;
+  }
+  feet.push_back(e.surface.at(at, p));
+  for (int k = 0; k < chart.corners(); ++k)
+    if (FacePoint there; chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0 &&
+                         domain.express(at, domain.across(at.face, k), there))
+      feet.push_back(e.surface.at(there, p));
+  return feet;
 }
 
 PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points) {

@@ -29,6 +29,7 @@ struct FileEvidence {
   /// Of each point: the foot as a point of the domain, put on an edge or a corner if it lies there within the
   /// tolerance. Face -1: the point is not used.
   std::vector<FacePoint> place{};
+  std::vector<char> quick{};         // of each point, whether its foot was found by Search::kQuick
   std::vector<FacePoint> claimed{};  // of each vertex, by its provenance (face -1: none); empty without
 
   std::int32_t point_of(std::int32_t vertex) const { return merged.point_of[vertex]; }
@@ -40,10 +41,24 @@ struct FileEvidence {
   Witness at_point(const FacePoint& at) const;
 };
 
+/// How feet are looked for.
+enum class Search {
+  kThorough,  ///< the whole surface for each
+  kQuick      ///< where one descent ends on the surface, within a quarter of the tolerance, that is the foot
+};
+
 /// Merges, projects and places all used vertices, in parallel. `on_step`: points done, of how many; from any
-/// thread, one at a time.
+/// thread, one at a time. Whoever would blame the file for feet that were found quickly is to search
+/// thoroughly first, because the surface may have come near itself; the other feet then stay as they are.
 void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance,
-                  const std::function<void(std::size_t, std::size_t)>& on_step);
+                  const std::function<void(std::size_t, std::size_t)>& on_step,
+                  Search search = Search::kThorough);
+/// Whether any foot was found quickly.
+bool any_quick(const FileEvidence& evidence);
+
+/// A point of the domain in all faces that have it, evaluated in each: on an edge that stays sharp the normals
+/// of its sides differ. `p` is the point that projected there.
+std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const Vector& p);
 
 /// The three corners of a triangle in one face of the domain, unfolded across an edge if need be.
 struct PlacedTriangle {

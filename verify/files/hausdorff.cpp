@@ -51,10 +51,12 @@ class Measurer {
     std::vector<double> apart(over_.size(), 0);
     tbb::parallel_for(std::size_t{0}, over_.size(), [&](std::size_t f) {
       const auto polygon = one_polygon(f);
+      const bool hole = is_hole(static_cast<std::int32_t>(f));
       for (std::size_t k = 0; k < per_face; ++k) {
         const std::size_t index = f * per_face + k;
         const Piece piece = lattice.piece(index);
         bounds_[index] = look(piece, near(piece, over_[f]));
+        if (hole) continue;
         for (const Vector& c : piece.corner)
           apart[f] = std::max(apart[f], distance_to(polygon, c) + piece.deviation);
       }
@@ -71,6 +73,7 @@ class Measurer {
                 [&](std::size_t x, std::size_t y) { return value(bounds_[x]) > value(bounds_[y]); });
       for (std::size_t k = 0; k < std::min(kExact, order.size()); ++k) {
         const Bound& bound = bounds_[order[k]];
+        if (!forwards && !(bound.from_surface > 0)) break;
         if (forwards && (bound.triangle < 0 || reach(bound.triangle) <= enough_for(bracket, tightness)))
           continue;
         tick_();
@@ -110,6 +113,9 @@ class Measurer {
   }
 
  private:
+  // Of the surface over holes nobody expects triangles.
+  bool is_hole(std::int32_t face) const { return e_.surface.surface().is_hole(face); }
+
   struct Bound {
     double from_triangles = 0, from_surface = 0;
     FacePoint at_triangles, at_surface;  // where they are taken
@@ -176,11 +182,10 @@ class Measurer {
     Bound bound;
     const double area = determinant(piece.at[0], piece.at[1], piece.at[2]);
     double left = area;
-    std::vector<Barycentric> part;
     for (const Over& o : over) {
       const double o_area = determinant(o.l[0], o.l[1], o.l[2]);
       if (std::abs(o_area) < kNoArea) continue;
-      clip(o.l, piece.at, part);
+      const Part part = clip(o.l, piece.at);
       if (part.size() < 3) continue;
       left -= area_of(part);
       const auto& triangle = corners_[o.triangle];
@@ -201,7 +206,9 @@ class Measurer {
         }
       }
     }
-    if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
+    if (is_hole(piece.face)) {
+      bound.from_surface = 0;
+    } else if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
       // No point of the piece is farther from its middle than a corner is, and the distance to the triangles
       // changes no faster than the place.
       constexpr Barycentric kMiddle{1. / 3, 1. / 3, 1. / 3};
@@ -254,7 +261,9 @@ class Measurer {
     double d = 0;
     FacePoint where = at;
     if (forwards) {
-      const Foot foot = e_.surface.closest(mix(corners_[bound.triangle], bound.weight));
+      const Vector p = mix(corners_[bound.triangle], bound.weight);
+      if (cannot_raise(p, bracket)) return;
+      const Foot foot = e_.surface.closest(p);
       d = foot.distance;
       where = foot.at;
     } else {
@@ -265,10 +274,17 @@ class Measurer {
     bracket.where = where;
   }
 
+  // Where a point of the surface is near enough the nearest need not be known.
+  bool cannot_raise(const Vector& p, const Bracket& bracket) const {
+    return bracket.where.face >= 0 && e_.surface.at_most(p) <= bracket.at_least * (1 + 1e-12);
+  }
+
   // A triangle that is not over one face: its middle and those of its sides.
   void sample(const std::array<Vector, 3>& t, Bracket& bracket) const {
     for (const Barycentric& weight : kMiddles) {
-      const Foot foot = e_.surface.closest(mix(t, weight));
+      const Vector p = mix(t, weight);
+      if (cannot_raise(p, bracket)) continue;
+      const Foot foot = e_.surface.closest(p);
       if (foot.distance <= bracket.at_least && bracket.where.face >= 0) continue;
       bracket.at_least = foot.distance;
       bracket.where = foot.at;
@@ -292,7 +308,7 @@ class Measurer {
   // The same of a triangle that is not over one face, cut smaller.
   double at_most(const std::array<Vector, 3>& t, double enough, int level) const {
     double corner = 0;
-    for (const Vector& p : t) corner = std::max(corner, e_.surface.closest(p).distance);
+    for (const Vector& p : t) corner = std::max(corner, e_.surface.at_most(p));
     const double bound = corner + longest_side(t) / std::sqrt(3.0);
     if (bound <= enough || level == kLooseSplits) return bound;
     const std::array<Vector, 3> m{.5 * (t[0] + t[1]), .5 * (t[1] + t[2]), .5 * (t[2] + t[0])};

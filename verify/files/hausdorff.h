@@ -16,8 +16,8 @@ struct Bracket {
 };
 
 struct Hausdorff {
-  Bracket from_triangles;       // max over the triangles of the distance to the surface
-  Bracket from_surface;         // max over the surface of the distance to the triangles
+  Bracket from_triangles;       // max over the triangles of the distance to the surface, holes included
+  Bracket from_surface;         // max over the surface, but for holes, of the distance to the triangles
   std::int64_t loose = 0;       // triangles that reach over several control faces, or cover none
   double one_polygon_each = 0;  // at most so far is the surface from one polygon per control face
 };

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "verify/audit/vector.h"
 
@@ -32,19 +32,40 @@ inline Barycentric within(const std::array<Barycentric, 3>& t, double area, cons
           determinant(t[0], t[1], u) / area};
 }
 
+// A convex polygon of few corners. Cutting along a side adds one corner at most, but for rounding.
+class Part {
+ public:
+  static constexpr std::size_t kMost = 12;
+  std::size_t size() const { return size_; }
+  const Barycentric& operator[](std::size_t k) const { return corner_[k]; }
+  const Barycentric* begin() const { return corner_.data(); }
+  const Barycentric* end() const { return corner_.data() + size_; }
+  void clear() { size_ = 0; }
+  void push_back(const Barycentric& corner) {
+    if (size_ < kMost) corner_[size_++] = corner;
+  }
+
+ private:
+  std::array<Barycentric, kMost> corner_;
+  std::size_t size_ = 0;
+};
+
 // The common part of two triangles of the domain: Sutherland
 // and Hodgman's clipping of `a` along the sides of `b`.
-inline void clip(const std::array<Barycentric, 3>& a, const std::array<Barycentric, 3>& b,
-                 std::vector<Barycentric>& part) {
-  const double area = determinant(b[0], b[1], b[2]);
-  part.assign(a.begin(), a.end());
-  std::vector<Barycentric> before;
-  for (int k = 0; k < 3 && !part.empty(); ++k) {
-    before.swap(part);
+inline Part clip(const std::array<Barycentric, 3>& a, const std::array<Barycentric, 3>& b) {
+  const double sign = determinant(b[0], b[1], b[2]) < 0 ? -1 : 1;
+  Part part;
+  for (const Barycentric& corner : a) part.push_back(corner);
+  for (std::size_t k = 0; k < 3 && part.size() > 0; ++k) {
+    const Part before = part;
+    std::array<double, Part::kMost> height;  // over side k of b, in any unit
+    for (std::size_t i = 0; i < before.size(); ++i)
+      height[i] = sign * determinant(before[i], b[(k + 1) % 3], b[(k + 2) % 3]);
     part.clear();
     for (std::size_t i = 0; i < before.size(); ++i) {
-      const Barycentric &p = before[i], &q = before[(i + 1) % before.size()];
-      const double x = within(b, area, p)[k], y = within(b, area, q)[k];
+      const std::size_t next = i + 1 < before.size() ? i + 1 : 0;
+      const Barycentric &p = before[i], &q = before[next];
+      const double x = height[i], y = height[next];
       if (x >= 0) part.push_back(p);
       if ((x > 0 && y < 0) || (x < 0 && y > 0)) {
         const double s = x / (x - y);
@@ -52,9 +73,10 @@ inline void clip(const std::array<Barycentric, 3>& a, const std::array<Barycentr
       }
     }
   }
+  return part;
 }
 
-inline double area_of(const std::vector<Barycentric>& part) {
+inline double area_of(const Part& part) {
   double sum = 0;
   for (std::size_t k = 1; k + 1 < part.size(); ++k) sum += determinant(part[0], part[k], part[k + 1]);
   return std::abs(sum);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "data/error.h"
 #include "data/io/polygon_soup.h"
@@ -22,6 +23,11 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
   t.positions = std::move(soup.positions);
 
   std::vector<std::pair<std::int32_t, std::int64_t>> pairs;  // vertex, normal
+  std::vector<std::array<std::int64_t, 3>> given;            // normals of the corners of triangles
+  const auto normal_at = [&](std::size_t at) {
+    const std::int64_t normal = soup.corner_normals[at];
+    return normal >= 0 && normal < static_cast<std::int64_t>(soup.normals.size()) ? normal : -1;
+  };
   t.used.assign(t.positions.size(), false);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < soup.polygon_end.size(); begin = soup.polygon_end[i++]) {
@@ -37,14 +43,15 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
     for (std::size_t k = 0; k < n; ++k) {
       t.used[corner[k]] = true;
       if (soup.corner_normals.empty()) continue;
-      const std::int64_t normal = soup.corner_normals[begin + k];
-      if (normal >= 0 && normal < static_cast<std::int64_t>(soup.normals.size()))
+      if (const std::int64_t normal = normal_at(begin + k); normal >= 0)
         pairs.emplace_back(static_cast<std::int32_t>(corner[k]), normal);
     }
     for (std::size_t k = 1; k + 1 < n; ++k) {
       t.triangles.push_back({static_cast<std::int32_t>(corner[0]), static_cast<std::int32_t>(corner[k]),
                              static_cast<std::int32_t>(corner[k + 1])});
       t.polygon.push_back(static_cast<std::int64_t>(i));
+      if (!soup.corner_normals.empty())
+        given.push_back({normal_at(begin), normal_at(begin + k), normal_at(begin + k + 1)});
     }
   }
   if (t.triangles.empty()) t.used.assign(t.positions.size(), true);  // a cloud of points
@@ -56,6 +63,14 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     for (const auto& [vertex, normal] : pairs) t.normals.push_back({vertex, soup.normals[normal]});
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      auto& which = t.corner_normals.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::pair key(t.triangles[k][c], given[k][c]);
+        const auto at = std::lower_bound(pairs.begin(), pairs.end(), key);
+        which[c] = at != pairs.end() && *at == key ? static_cast<std::int32_t>(at - pairs.begin()) : -1;
+      }
+    }
   }
   return t;
 }

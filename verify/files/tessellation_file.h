@@ -22,6 +22,8 @@ struct FileTessellation {
   std::vector<Vector> positions;  // of the vertices, in file order, perhaps not finite
   std::vector<NormalAt> normals;  // each combination of vertex and normal once; may be empty
   std::vector<std::array<std::int32_t, 3>> triangles;  // larger polygons as fans from their first corner
+  /// Of the corners of each triangle, which of `normals` they have, -1: none. Empty if that is the vertex's.
+  std::vector<std::array<std::int32_t, 3>> corner_normals;
   std::vector<std::int64_t> polygon;                   // of each triangle: its number in the file, from 0
   std::vector<bool> used;                            // vertices that a triangle names; all, if there are none
   std::int64_t polygons = 0, quads = 0, larger = 0;  // read; of four corners; of more

@@ -147,6 +147,7 @@ KillTable run_mutants(const std::function<void(const std::string&, std::size_t, 
   std::vector<AuditMesh> plan = default_plan(Level::kStandard);
   const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
                                           {find_subject(kQuadBase), ""},
+                                          {find_subject(kQuadBase), "route=kernel"},
                                           {find_subject("row-stream"), "repair=stitch"},
                                           {find_subject("sliding-window"), "precision=double,repair=stitch"}};
   const std::size_t total = plan.size() * correct.size() + table.kills.size();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "data/bounding_box.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/projection/newton.h"
 #include "verify/projection/triangle.h"
 
@@ -39,7 +40,8 @@ bool may_be_nearer(const SurfaceLattice& lattice, const LimitSurface& surface, c
 
 ClosestPoint::ClosestPoint(const data::ControlMesh& mesh, data::Scheme scheme, std::size_t pieces)
     : surface_(mesh, scheme),
-      lattice_(surface_.mesh(), SurfaceLattice::depth_for(surface_.mesh(), pieces)),
+      lattice_(surface_.mesh(), SurfaceLattice::depth_for(surface_.mesh(), pieces, surface_.tags()),
+               surface_.tags()),
       tree_(boxes(lattice_)),
       diagonal_(data::box_diagonal(mesh)) {}
 
@@ -54,6 +56,42 @@ Foot ClosestPoint::at(const FacePoint& where, const Vector& p) const {
   return foot;
 }
 
+Piece ClosestPoint::nearest_flat(const Vector& p, OnTriangle& flat) const {
+  std::size_t nearest = 0;
+  flat.distance = std::numeric_limits<double>::infinity();
+  tree_.near(p, [&](std::size_t index) {
+    const OnTriangle here = closest_on_triangle(p, lattice_.corners(index));
+    if (here.distance < flat.distance) {
+      flat = here;
+      nearest = index;
+    }
+    return flat.distance;
+  });
+  return lattice_.piece(nearest);
+}
+
+double ClosestPoint::at_most(const Vector& p) const {
+  OnTriangle flat;
+  const Piece piece = nearest_flat(p, flat);
+  double least = descend(surface_, p, piece.parameter(flat.weight), diagonal_, true).distance;
+  for (const Vector& corner : piece.corner) least = std::min(least, norm(p - corner));
+  return least;
+}
+
+std::optional<Foot> ClosestPoint::on_surface(const Vector& p, double within) const {
+  OnTriangle flat;
+  const Piece piece = nearest_flat(p, flat);
+  if (flat.distance > within + piece.deviation) return std::nullopt;
+  const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_, true);
+  // Next to an extraordinary vertex Newton's iteration may end nearby; the vertex itself is on the surface.
+  for (int k = 0; k < 3; ++k)
+    if (const double d = norm(p - piece.corner[k]);
+        d <= within && d <= found.distance && domain().chart().corner_at(piece.at[k]) >= 0)
+      return at({piece.face, piece.at[k]}, p);
+  if (!found.stationary || found.distance > within) return std::nullopt;
+  return at(found.at, p);
+}
+
 Foot ClosestPoint::closest(const Vector& p) const {
   // A nearer point that could only be nearer by rounding is not worth looking for.
   const double rounding = 1e-16 * diagonal_;
@@ -62,6 +100,7 @@ Foot ClosestPoint::closest(const Vector& p) const {
   double at_least = best.distance;
   int descents = 0;
   tree_.near(p, [&](std::size_t index) {
+    end_if_interrupted();
     const auto corners = lattice_.corners(index);
     const OnTriangle flat = closest_on_triangle(p, corners);
     const double bound = flat.distance - lattice_.deviation(index);
@@ -80,7 +119,9 @@ Foot ClosestPoint::closest(const Vector& p) const {
     if (!may_be_nearer(lattice_, surface_, piece, p, best.distance - rounding, cuts))
       return best.distance - rounding;
     if (descents++ < 256) {
-      const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_);
+      // Where Newton's iteration fails, the slow search is for the first minimum: others that it alone would
+      // find lie at kinks of the surface, which corners of pieces show too.
+      const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_, best.stationary);
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
         best = found;
     }

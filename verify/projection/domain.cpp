@@ -2,8 +2,40 @@
 #include "verify/projection/domain.h"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace limitcheck::verify {
+
+Domain::Domain(const data::ControlMesh& mesh, const reference::SharpTags& tags)
+    : lattice_(mesh, 0), around_(mesh.faces, mesh.positions.size()) {
+  std::set<std::pair<std::int32_t, std::int32_t>> lasting;
+  for (const auto& edge : tags.edges)
+    if (edge.sharpness.as_double() >= data::kInfiniteSharpness) lasting.insert(std::minmax(edge.a, edge.b));
+  if (lasting.empty()) return;
+  cut_.assign(lattice_.corner_count(), false);
+  for (std::int32_t f = 0; f < lattice_.face_count(); ++f)
+    for (int k = 0; k < chart().corners(); ++k) {
+      const Lattice::Edge& edge = lattice_.edge(f, k);
+      cut_[lattice_.corner_number(f, k)] = !edge.on_boundary() && lasting.contains({edge.a, edge.b});
+    }
+}
+
+bool Domain::on_cut(const FacePoint& at) const {
+  if (cut_.empty()) return false;
+  if (const int corner = chart().corner_at(at.l); corner >= 0) {
+    const std::int32_t v = vertex(at.face, corner);
+    for (const std::int32_t f : faces_at(v)) {
+      const int its = *lattice_.corner_of(f, v), sides = chart().corners();
+      for (const int begin : {its, (its + sides - 1) % sides})
+        if (cut_[lattice_.corner_number(f, begin)]) return true;
+    }
+    return false;
+  }
+  for (int k = 0; k < chart().corners(); ++k)
+    if (chart().height(k, at.l) == 0 && is_cut(at.face, k)) return true;
+  return false;
+}
 
 std::int32_t Domain::across(std::int32_t face, int k) const {
   return lattice_.across(face, chart().first(k));
@@ -86,8 +118,8 @@ FacePoint Domain::walk(FacePoint from, Chart::Affine step) const {
     from.l = shape.clamp(from.l);
     if (exit < 0) return from;
     from.l = shape.clamp(shape.put_on(exit, from.l));
+    if (!goes_on(from.face, exit)) return from;
     const std::int32_t next = across(from.face, exit);
-    if (next < 0) return from;
     for (double& s : step) s *= 1 - way;
     const int entry = side_across(from.face, exit);
     const Chart::Affine on = turned(from.face, exit, step, 0);

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "reference/mesh/sharp_tags.h"
 #include "verify/audit/faces_around.h"
 #include "verify/audit/lattice.h"
 #include "verify/projection/chart.h"
@@ -20,13 +22,13 @@ struct FacePoint {
 };
 
 /// Two faces unfold into a plane as two triangles, or two squares, of a regular lattice, in which the limit
-/// surface is C2 across their edge. So a straight walk goes on in the next face.
+/// surface is C2 across their edge. So a straight walk goes on in the next face. Across an edge that stays
+/// sharp the surface is continuous and no more: it is cut there, as the surface is at its boundary.
 class Domain {
  public:
   /// All faces of the mesh are triangles, of Loop's scheme, or all are quads, of Catmull-Clark's. It is valid
-  /// (data/validate.h) and outlives this.
-  explicit Domain(const data::ControlMesh& mesh)
-      : lattice_(mesh, 0), around_(mesh.faces, mesh.positions.size()) {}
+  /// (data/validate.h) and outlives this. `tags`: those of its sharp edges.
+  Domain(const data::ControlMesh& mesh, const reference::SharpTags& tags = {});
 
   Chart chart() const {
     return lattice_.scheme() == data::Scheme::kLoop ? Chart::triangle() : Chart::square();
@@ -37,6 +39,14 @@ class Domain {
 
   /// The face across side k, or -1 on the boundary.
   std::int32_t across(std::int32_t face, int k) const;
+  /// Whether side k lies on an edge that stays sharp, inside of the mesh.
+  bool is_cut(std::int32_t face, int k) const {
+    return !cut_.empty() && cut_[lattice_.corner_number(face, chart().first(k))];
+  }
+  /// Whether the surface goes on smoothly across side k.
+  bool goes_on(std::int32_t face, int k) const { return across(face, k) >= 0 && !is_cut(face, k); }
+  /// Whether a point lies on an edge that stays sharp.
+  bool on_cut(const FacePoint& at) const;
   /// The side of the face across that is side k of this one, which is not on the boundary.
   int side_across(std::int32_t face, int k) const;
 
@@ -50,7 +60,8 @@ class Domain {
   /// A point, inside of the face or not, in the coordinates of the face across side k.
   Chart::Affine unfolded(std::int32_t face, int k, const Chart::Affine& l) const;
 
-  /// Goes from `from` by `step`, across interior edges, up to its end or to the boundary.
+  /// Goes from `from` by `step`, across interior edges, up to its end, to the boundary, or to an edge that
+  /// stays sharp.
   FacePoint walk(FacePoint from, Chart::Affine step) const;
 
  private:
@@ -58,6 +69,7 @@ class Domain {
 
   Lattice lattice_;
   FacesAround around_;
+  std::vector<bool> cut_;  // of each corner, the side that begins there; empty if no edge stays sharp
 };
 
 }  // namespace limitcheck::verify

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "data/error.h"
 #include "reference/catmull_clark/refined_mesh.h"
+#include "reference/mesh/sharpness.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -13,23 +13,6 @@ bool has_other_faces(const data::ControlMesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     if (mesh.faces[f].size() != 4) return true;
   return false;
-}
-
-const data::ControlMesh& without_tags(const data::ControlMesh& mesh) {
-  if (!mesh.sharpness.empty() || !mesh.holes.empty())
-    throw data::ArgumentError(
-        "the surface of a control mesh with sharp edges or holes is not searched for points");
-  return mesh;
-}
-
-std::unique_ptr<const data::ControlMesh> refined_once(const data::ControlMesh& mesh, data::Scheme scheme) {
-  if (scheme == data::Scheme::kLoop || !has_other_faces(mesh)) return nullptr;
-  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
-  refined.refine();
-  auto quads = std::make_unique<data::ControlMesh>();
-  for (const auto& p : refined.positions()) quads->positions.push_back(vector_of(p));
-  quads->faces = refined.topology().faces();
-  return quads;
 }
 
 std::vector<std::int32_t> faces_of_corners(const data::ControlMesh& mesh) {
@@ -41,19 +24,79 @@ std::vector<std::int32_t> faces_of_corners(const data::ControlMesh& mesh) {
 
 }  // namespace
 
+std::unique_ptr<const LimitSurface::Refined> LimitSurface::refined_once(const data::ControlMesh& mesh,
+                                                                        data::Scheme scheme) {
+  if (scheme == data::Scheme::kLoop || !has_other_faces(mesh)) return nullptr;
+  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh),
+                                                        mesh.sharpness);
+  const reference::Topology before = refined.topology();
+  refined.refine();
+  auto result = std::make_unique<Refined>();
+  for (const auto& p : refined.positions()) result->mesh.positions.push_back(vector_of(p));
+  result->mesh.faces = refined.topology().faces();
+  if (!mesh.sharpness.empty())
+    result->tags = reference::Sharpness(before, mesh.sharpness)
+                       .refined(before, refined.topology())
+                       .tags(refined.topology());
+  return result;
+}
+
 LimitSurface::LimitSurface(const data::ControlMesh& mesh, data::Scheme scheme)
-    : control_(without_tags(mesh)),
+    : control_(mesh),
       scheme_(scheme),
+      control_tags_(mesh.sharpness),
       refined_(refined_once(mesh, scheme)),
       control_face_(refined_ ? faces_of_corners(mesh) : std::vector<std::int32_t>()),
-      domain_(this->mesh()),
-      surface_(this->mesh(), scheme) {}
+      domain_(this->mesh(), tags()),
+      surface_(mesh, scheme) {
+  make_hubs();
+  if (mesh.holes.empty()) return;
+  hole_.assign(mesh.faces.size(), false);
+  for (const std::int32_t face : mesh.holes) hole_[face] = true;
+}
+
+// Vertices of so many faces that the sums over all of them are what evaluation costs.
+void LimitSurface::make_hubs() {
+  constexpr std::size_t kMany = 40;
+  if (!tags().empty()) return;
+  const auto vertices = static_cast<std::int32_t>(mesh().positions.size());
+  std::vector<std::int32_t> many;
+  for (std::int32_t v = 0; v < vertices; ++v)
+    if (domain_.faces_at(v).size() > kMany) many.push_back(v);
+  if (many.empty()) return;
+  hub_of_.assign(mesh().positions.size(), -1);
+  const reference::Topology topology(mesh().positions.size(), mesh().faces);
+  for (const std::int32_t v : many) {
+    hub_of_[v] = static_cast<std::int32_t>(hubs_.size());
+    hubs_.push_back(std::make_unique<const Hub>(mesh(), topology, scheme_, v));
+  }
+}
+
+std::optional<reference::SurfacePoint<double>> LimitSurface::near_hub(const FacePoint& at,
+                                                                      reference::Order order) const {
+  if (hub_of_.empty()) return std::nullopt;
+  for (int k = 0; k < domain_.chart().corners(); ++k)
+    if (const std::int32_t hub = hub_of_[domain_.vertex(at.face, k)]; hub >= 0)
+      if (auto point = hubs_[hub]->evaluate(at.face, k, at.l, order)) return point;
+  return std::nullopt;
+}
 
 reference::SurfacePoint<double> LimitSurface::evaluate(const FacePoint& at, reference::Order order) const {
+  if (auto point = near_hub(at, order)) return *point;
   double first = at.l[1], second = at.l[2];
-  if (scheme_ == data::Scheme::kLoop && first + second > 1)
-    (first > second ? second : first) = 1 - (first > second ? first : second);
-  return surface_.evaluate(at.face, 0, first, second, order);
+  if (!refined_) {
+    // So that 1 - l1 - l2 is not negative by rounding; the difference from the larger is exact.
+    if (scheme_ == data::Scheme::kLoop && second > 1 - first)
+      (first > second ? second : first) = 1 - (first > second ? first : second);
+    return surface_.evaluate(at.face, 0, first, second, order);
+  }
+  const std::int32_t face = control_face_[at.face];
+  const int k = control_corner_of(at.face);
+  if (!is_quarter(at.face)) return surface_.evaluate(face, k, first, second, order);
+  const Chart::Affine corner = Chart::square().corner(k);
+  auto point = surface_.evaluate(face, 0, (corner[1] + first) / 2, (corner[2] + second) / 2, order);
+  reference::scale_derivatives(point, .5);
+  return point;
 }
 
 // A quarter of a quad keeps the directions of u and v; the quad at a corner of another face begins there.

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "data/scheme.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/surface/surface.h"
 #include "verify/audit/vector.h"
 #include "verify/projection/domain.h"
+#include "verify/projection/hub.h"
 
 namespace limitcheck::verify {
 
@@ -18,6 +21,7 @@ namespace limitcheck::verify {
 ///   of Catmull-Clark's       its quads; or, if it has other faces, the quads of the mesh after one step: one
 ///                            for each corner of each control face, in order. Their limit surface is the
 ///                            same.
+/// Points are evaluated on the control mesh, with its own sharp edges and vertices, semi-sharp ones included.
 class LimitSurface {
  public:
   /// `mesh` is valid for the scheme (data/validate.h) and outlives this.
@@ -25,7 +29,12 @@ class LimitSurface {
 
   data::Scheme scheme() const { return scheme_; }
   /// Whose faces are those of the domain. The first vertices are the control vertices.
-  const data::ControlMesh& mesh() const { return refined_ ? *refined_ : control_; }
+  const data::ControlMesh& mesh() const { return refined_ ? refined_->mesh : control_; }
+  /// Its sharp edges and vertices, exactly: those of the control mesh, or what a step leaves of them. (The
+  /// refined mesh has none of its own, which floats could not hold.)
+  const reference::SharpTags& tags() const { return refined_ ? refined_->tags : control_tags_; }
+  /// Whether a face of the domain lies in a face of the control mesh that is not shown.
+  bool is_hole(std::int32_t face) const { return !hole_.empty() && hole_[control_face(face)]; }
   const Domain& domain() const { return domain_; }
   /// Whether the faces of the domain are the control faces.
   bool has_control_faces() const { return refined_ == nullptr; }
@@ -62,12 +71,24 @@ class LimitSurface {
   }
   bool is_quarter(std::int32_t face) const { return control_.faces[control_face_[face]].size() == 4; }
 
+  struct Refined {
+    data::ControlMesh mesh;
+    reference::SharpTags tags;
+  };
+  void make_hubs();
+  std::optional<reference::SurfacePoint<double>> near_hub(const FacePoint& at, reference::Order order) const;
+  static std::unique_ptr<const Refined> refined_once(const data::ControlMesh& mesh, data::Scheme scheme);
+
   const data::ControlMesh& control_;
   data::Scheme scheme_;
-  std::unique_ptr<const data::ControlMesh> refined_;  // if the domain has its faces
-  std::vector<std::int32_t> control_face_;            // of each of those
+  reference::SharpTags control_tags_;
+  std::unique_ptr<const Refined> refined_;  // if the domain has its faces
+  std::vector<std::int32_t> control_face_;  // of each of those
+  std::vector<bool> hole_;                  // of each control face; empty if there is none
   Domain domain_;
   reference::Surface surface_;
+  std::vector<std::unique_ptr<const Hub>> hubs_;
+  std::vector<std::int32_t> hub_of_;  // of each vertex of mesh(), -1: none; empty if no vertex has one
 };
 
 }  // namespace limitcheck::verify

@@ -19,6 +19,12 @@ class Descent {
     evaluate(at_);
   }
 
+  Minimum run_quickly() {
+    if (s_.at_corner) leave_corner();
+    const bool stationary = newton();
+    return {at_, position_, distance_, stationary};
+  }
+
   Minimum run() {
     const FacePoint start = at_;
     const double from_start = distance_;
@@ -54,7 +60,7 @@ class Descent {
   };
 
   // Newton's step, or Gauss and Newton's where the second derivatives do not make for a minimum; kept on the
-  // boundary where it would leave the surface.
+  // boundary, and on an edge that stays sharp, where it would leave the surface.
   bool step(Step& out) const {
     if (s_.at_corner) return false;
     const Vector r = position_ - p_, d1 = vector_of(s_.d1), d2 = vector_of(s_.d2);
@@ -81,7 +87,7 @@ class Descent {
       out.l = {(g1 + g2) / size, -g1 / size, -g2 / size};
     }
     for (int k = 0; k < chart_.corners(); ++k) {
-      if (chart_.height(k, at_.l) != 0 || chart_.slope(k, out.l) >= 0 || domain_.across(at_.face, k) >= 0)
+      if (chart_.height(k, at_.l) != 0 || chart_.slope(k, out.l) >= 0 || domain_.goes_on(at_.face, k))
         continue;
       // One dimension is left: along the edge.
       const Chart::Affine e = chart_.along(k);
@@ -163,8 +169,10 @@ class Descent {
 
 }  // namespace
 
-Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale) {
-  return Descent(surface, p, start, scale).run();
+Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale,
+                bool quickly) {
+  Descent descent(surface, p, start, scale);
+  return quickly ? descent.run_quickly() : descent.run();
 }
 
 }  // namespace limitcheck::verify

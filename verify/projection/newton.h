@@ -15,7 +15,8 @@ struct Minimum {
 };
 
 /// Descends from `start` to a local minimum of |s - p|.
-/// `scale`: the size of the mesh, which says what counts as rounding.
-Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale);
+/// `scale`: the size of the mesh, which says what counts as rounding. `quickly`: by Newton's iteration alone.
+Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale,
+                bool quickly = false);
 
 }  // namespace limitcheck::verify

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "reference/loop/triangles.h"
+#include "verify/projection/cut_mesh.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 using reference::RefinedMesh;
 using reference::Topology;
 using reference::Triangle;
+using reference::VertexState;
 using Point = reference::Vec3<double>;
 
 constexpr int kSteps = 14;  // (5/8)^14 = 1.4e-3 of the size of the lattice triangle
@@ -30,7 +32,9 @@ struct Ring {
   const Point& operator[](int k) const { return point[(k + 12) % 6]; }
 };
 
-bool ring_of(const Topology& topology, std::span<const Point> positions, std::int32_t v, Ring& ring) {
+bool ring_of(const Topology& topology, std::span<const Point> positions, std::int32_t v,
+             std::span<const VertexState> states, Ring& ring) {
+  if (reference::state_of(states, v) != VertexState::kOrdinary) return false;
   const auto neighbours = topology.ring(v);
   const bool boundary = topology.on_boundary(v);
   if (neighbours.size() != (boundary ? 4U : 6U)) return false;
@@ -49,10 +53,10 @@ bool ring_of(const Topology& topology, std::span<const Point> positions, std::in
 }  // namespace
 
 std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
-                                    const Triangle& triangle) {
+                                    const Triangle& triangle, std::span<const VertexState> states) {
   std::array<Ring, 3> rings;
   for (int k = 0; k < 3; ++k)
-    if (!ring_of(topology, positions, triangle[k], rings[k])) return std::nullopt;
+    if (!ring_of(topology, positions, triangle[k], states, rings[k])) return std::nullopt;
   double largest = 0;
   const auto look = [&](const Point& before, const Point& centre, const Point& after) {
     largest = std::max(largest, length((before - centre) + (after - centre)));
@@ -73,12 +77,8 @@ std::optional<double> regular_bound(const Topology& topology, std::span<const Po
 namespace {
 
 // A vertex (number 0) with the faces around it and around its neighbours.
-struct Surroundings {
-  std::vector<Point> positions;
-  std::vector<Triangle> triangles;
-};
-
-Surroundings surroundings(const Topology& topology, std::span<const Point> positions, std::int32_t vertex) {
+Surroundings surroundings(const Topology& topology, std::span<const Point> positions, std::int32_t vertex,
+                          const SharpVertexOf& sharp = {}) {
   std::vector<std::int32_t> faces;
   const auto add = [&](std::int32_t v) {
     for (const std::int32_t f : topology.sector(v).faces) faces.push_back(f);
@@ -87,37 +87,31 @@ Surroundings surroundings(const Topology& topology, std::span<const Point> posit
   for (const std::int32_t v : topology.ring(vertex)) add(v);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return surroundings_of(topology, positions, vertex, faces, sharp);
+}
 
-  Surroundings s;
-  std::map<std::int32_t, std::int32_t> number{{vertex, 0}};
-  s.positions.push_back(positions[vertex]);
-  for (const std::int32_t f : faces) {
-    Triangle t = triangle_of(topology, f);
-    for (std::int32_t& v : t) {
-      const auto [it, is_new] = number.try_emplace(v, static_cast<std::int32_t>(s.positions.size()));
-      if (is_new) s.positions.push_back(positions[v]);
-      v = it->second;
-    }
-    s.triangles.push_back(t);
-  }
-  return s;
+RefinedMesh<double> mesh_of(const Surroundings& s) {
+  return {s.positions, data::Triangles(s.faces).to_vector(), reference::Weights::kLoop, s.tags};
 }
 
 }  // namespace
 
-CornerBounds corner_bounds(const Topology& topology, std::span<const Point> positions, std::int32_t vertex) {
-  Surroundings now = surroundings(topology, positions, vertex);
-  std::vector<Point> limits = RefinedMesh<double>(now.positions, now.triangles).limits().positions;
+CornerBounds corner_bounds(const Topology& topology, std::span<const Point> positions, std::int32_t vertex,
+                           const SharpVertexOf& sharp) {
+  Surroundings now = surroundings(topology, positions, vertex, sharp);
+  std::vector<Point> limits = mesh_of(now).limits().positions;
   CornerBounds bounds;
   bounds.outer.assign(kSteps + 1, 0);
   std::vector<double> shift(kSteps + 1, 0);  // between a flat triangle and the next four, at their corners
   double last = 0;
   for (int step = 1; step <= kSteps; ++step) {
-    RefinedMesh<double> fine(now.positions, now.triangles);
-    fine.refine();
+    RefinedMesh<double> fine = mesh_of(now);
+    const auto sharpness = refine_tagged(fine, now.tags, 1);
+    std::optional<CutMesh> cut;
+    if (sharpness) cut.emplace(fine.topology(), fine.positions(), *sharpness);
     const std::vector<Point> fine_limits = fine.limits().positions;
-    for (std::size_t f = 0; f < now.triangles.size(); ++f) {
-      const Triangle& t = now.triangles[f];
+    for (std::size_t f = 0; f < now.faces.size(); ++f) {
+      const auto t = std::as_const(now.faces)[f];
       const int at = t[0] == 0 ? 0 : t[1] == 0 ? 1 : t[2] == 0 ? 2 : -1;
       if (at < 0) continue;
       for (int k = 0; k < 3; ++k) {  // the edge's middle on the surface against that of the flat triangle
@@ -128,15 +122,15 @@ CornerBounds corner_bounds(const Topology& topology, std::span<const Point> posi
       for (std::size_t child = 4 * f; child < 4 * f + 4; ++child) {
         const Triangle& piece = fine.triangles()[child];
         if (std::find(piece.begin(), piece.end(), 0) != piece.end()) continue;
-        const auto bound = regular_bound(fine.topology(), fine.positions(), piece);
+        const auto bound = cut ? regular_bound(cut->topology, cut->positions,
+                                               triangle_of(cut->topology, child), cut->states)
+                               : regular_bound(fine.topology(), fine.positions(), piece);
         bounds.outer[step] = std::max(bounds.outer[step], bound.value_or(1e300));
       }
     }
     // The control points of the pieces at the vertex: those of its two-ring.
-    now = surroundings(fine.topology(), fine.positions(), 0);
-    limits.assign(now.positions.size(), Point{});
-    const Surroundings limit_of = surroundings(fine.topology(), fine_limits, 0);
-    limits = limit_of.positions;
+    now = surroundings(fine.topology(), fine.positions(), 0, {sharpness ? &*sharpness : nullptr, sharp.held});
+    limits = surroundings(fine.topology(), fine_limits, 0).positions;
     if (step < kSteps) continue;
     double hull = 0, flat = 0;
     for (const Point& p : now.positions) hull = std::max(hull, length(p - limits[0]));

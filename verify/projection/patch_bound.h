@@ -22,13 +22,25 @@
 
 #include "reference/loop/refine.h"
 
+namespace limitcheck::reference {
+class Sharpness;
+}
+
 namespace limitcheck::verify {
+
+/// What is sharp at a vertex for which bounds are wanted, in a mesh that has no semi-sharp tags around it.
+struct SharpVertexOf {
+  const reference::Sharpness* sharpness = nullptr;  // of the mesh; none if it has no tags
+  bool held = false;                                // the vertex stays where it is
+};
 
 /// The bound for one triangle of a refined mesh, or nothing if a corner is not regular (interior: valence 6,
 /// boundary: 3 faces).
+///   states   of the vertices of a mesh that is cut along its sharp edges: held ones and darts are not regular
 std::optional<double> regular_bound(const reference::Topology& topology,
                                     std::span<const reference::Vec3<double>> positions,
-                                    const reference::Triangle& triangle);
+                                    const reference::Triangle& triangle,
+                                    std::span<const reference::VertexState> states = {});
 
 /// The pieces around one extraordinary vertex, the largest over its sectors. Level 0 is the lattice triangle
 /// at the vertex itself.
@@ -38,8 +50,9 @@ struct CornerBounds {
 };
 
 /// Bounds for the triangles at a vertex of a refined mesh
-/// of depth >= 2 that was a vertex of the control mesh.
+/// of depth >= 2 that was a vertex of the control mesh. With sharp edges the mesh is not cut.
 CornerBounds corner_bounds(const reference::Topology& topology,
-                           std::span<const reference::Vec3<double>> positions, std::int32_t vertex);
+                           std::span<const reference::Vec3<double>> positions, std::int32_t vertex,
+                           const SharpVertexOf& sharp = {});
 
 }  // namespace limitcheck::verify

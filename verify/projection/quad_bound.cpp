@@ -3,17 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "reference/catmull_clark/refined_mesh.h"
+#include "verify/projection/cut_mesh.h"
 
 namespace limitcheck::verify {
 namespace {
 
 using reference::Sector;
 using reference::Topology;
+using reference::VertexState;
 using reference::catmull_clark::RefinedMesh;
 using Point = reference::Vec3<double>;
 
@@ -33,8 +34,9 @@ int corner_of(std::span<const std::int32_t> quad, std::int32_t vertex) {
 using Nine = std::array<std::array<Point, 3>, 3>;
 
 bool gather(const Topology& topology, std::span<const Point> positions, const Quad& quad, int corner,
-            Nine& nine) {
+            std::span<const VertexState> states, Nine& nine) {
   const std::int32_t v = quad[static_cast<std::size_t>(corner)];
+  if (reference::state_of(states, v) != VertexState::kOrdinary) return false;
   const Sector sector = topology.sector(v);
   if (sector.faces.size() != (sector.closed ? 4U : 2U)) return false;
   const std::int32_t next = quad[static_cast<std::size_t>(corner + 1) % 4];
@@ -70,12 +72,12 @@ bool gather(const Topology& topology, std::span<const Point> positions, const Qu
 }  // namespace
 
 std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
-                                    const Quad& quad) {
+                                    const Quad& quad, std::span<const VertexState> states) {
   std::array<std::array<Point, 4>, 4> p;  // [i][j], i along u, the quad's corners at 1 and 2
   constexpr std::array<std::array<int, 2>, 4> kCorner{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
   for (int k = 0; k < 4; ++k) {
     Nine nine;
-    if (!gather(topology, positions, quad, k, nine)) return std::nullopt;
+    if (!gather(topology, positions, quad, k, states, nine)) return std::nullopt;
     const auto [i, j] = kCorner[k];
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y) {
@@ -101,51 +103,40 @@ std::optional<double> regular_bound(const Topology& topology, std::span<const Po
 namespace {
 
 // A vertex (number 0) with the faces around it and around all vertices of these.
-struct Surroundings {
-  std::vector<Point> positions;
-  data::Faces quads;
-};
-
-Surroundings surroundings(const Topology& topology, std::span<const Point> positions, std::int32_t vertex) {
+Surroundings surroundings(const Topology& topology, std::span<const Point> positions, std::int32_t vertex,
+                          const SharpVertexOf& sharp = {}) {
   std::vector<std::int32_t> faces;
   for (const std::int32_t near : topology.sector(vertex).faces)
     for (const std::int32_t v : topology.faces()[near])
-      for (const std::int32_t f : topology.sector(v).faces) faces.push_back(f);
+      if (v != vertex)
+        for (const std::int32_t f : topology.sector(v).faces) faces.push_back(f);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return surroundings_of(topology, positions, vertex, faces, sharp);
+}
 
-  Surroundings s;
-  std::map<std::int32_t, std::int32_t> number{{vertex, 0}};
-  s.positions.push_back(positions[vertex]);
-  for (const std::int32_t f : faces) {
-    Quad quad{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::int32_t v = topology.faces()[f][k];
-      const auto [it, is_new] = number.try_emplace(v, static_cast<std::int32_t>(s.positions.size()));
-      if (is_new) s.positions.push_back(positions[v]);
-      quad[k] = it->second;
-    }
-    s.quads.push_back(quad);
-  }
-  return s;
+RefinedMesh<double> mesh_of(const Surroundings& s) {
+  return {s.faces, s.positions, s.tags};
 }
 
 }  // namespace
 
 CornerBounds quad_corner_bounds(const Topology& topology, std::span<const Point> positions,
-                                std::int32_t vertex) {
-  Surroundings now = surroundings(topology, positions, vertex);
-  std::vector<Point> limits = RefinedMesh<double>(now.quads, now.positions).limits().positions;
+                                std::int32_t vertex, const SharpVertexOf& sharp) {
+  Surroundings now = surroundings(topology, positions, vertex, sharp);
+  std::vector<Point> limits = mesh_of(now).limits().positions;
   CornerBounds bounds;
   bounds.outer.assign(kSteps + 1, 0);
   std::vector<double> shift(kSteps + 1, 0);  // between a flat triangle and the next four, at their corners
   double last = 0;
   for (int step = 1; step <= kSteps; ++step) {
-    RefinedMesh<double> fine(now.quads, now.positions);
-    fine.refine();
+    RefinedMesh<double> fine = mesh_of(now);
+    const auto sharpness = refine_tagged(fine, now.tags, 1);
+    std::optional<CutMesh> cut;
+    if (sharpness) cut.emplace(fine.topology(), fine.positions(), *sharpness);
     const std::vector<Point> fine_limits = fine.limits().positions;
-    for (std::size_t f = 0; f < now.quads.size(); ++f) {
-      const auto quad = std::as_const(now.quads)[f];
+    for (std::size_t f = 0; f < now.faces.size(); ++f) {
+      const auto quad = std::as_const(now.faces)[f];
       const int at = corner_of(quad, 0);
       if (at == 4) continue;
       // The middles of the sides and of the diagonal, on the surface against those of the flat triangles.
@@ -159,15 +150,17 @@ CornerBounds quad_corner_bounds(const Topology& topology, std::span<const Point>
       apart(0, 1, quad[3], quad[0]);
       apart(1, 1, 0, quad[static_cast<std::size_t>(at + 2) % 4]);
       for (std::size_t child = 4 * f; child < 4 * f + 4; ++child) {
-        const auto corners = fine.topology().faces()[child];
-        if (corner_of(corners, 0) < 4) continue;
-        const auto bound = regular_bound(fine.topology(), fine.positions(),
-                                         Quad{corners[0], corners[1], corners[2], corners[3]});
+        if (corner_of(fine.topology().faces()[child], 0) < 4) continue;
+        const Topology& its = cut ? cut->topology : fine.topology();
+        const auto corners = its.faces()[child];
+        const Quad piece{corners[0], corners[1], corners[2], corners[3]};
+        const auto bound = cut ? regular_bound(its, cut->positions, piece, cut->states)
+                               : regular_bound(its, fine.positions(), piece);
         bounds.outer[step] = std::max(bounds.outer[step], bound.value_or(1e300));
       }
     }
     // The control points of the pieces at the vertex are among those of its faces and of the faces around.
-    now = surroundings(fine.topology(), fine.positions(), 0);
+    now = surroundings(fine.topology(), fine.positions(), 0, {sharpness ? &*sharpness : nullptr, sharp.held});
     limits = surroundings(fine.topology(), fine_limits, 0).positions;
     if (step < kSteps) continue;
     double hull = 0, flat = 0;

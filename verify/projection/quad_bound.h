@@ -34,11 +34,15 @@ using Quad = std::array<std::int32_t, 4>;
 
 /// The bound for the two triangles of one quad of a refined mesh, or nothing if a corner is not regular
 /// (interior: valence 4, boundary: 2 faces).
+///   states   as for triangles
 std::optional<double> regular_bound(const reference::Topology& topology,
-                                    std::span<const reference::Vec3<double>> positions, const Quad& quad);
+                                    std::span<const reference::Vec3<double>> positions, const Quad& quad,
+                                    std::span<const reference::VertexState> states = {});
 
 /// Bounds for the triangles at a vertex of a mesh of quads, refined once or more, that was a vertex before.
+/// With sharp edges the mesh is not cut.
 CornerBounds quad_corner_bounds(const reference::Topology& topology,
-                                std::span<const reference::Vec3<double>> positions, std::int32_t vertex);
+                                std::span<const reference::Vec3<double>> positions, std::int32_t vertex,
+                                const SharpVertexOf& sharp = {});
 
 }  // namespace limitcheck::verify

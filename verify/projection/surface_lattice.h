@@ -22,6 +22,7 @@ struct Piece {
   std::array<Vector, 3> corner;     // limit points
   double deviation = 0;             // |surface - flat triangle| at equal parameters is at most this
   std::int32_t irregular = -1;      // index of the extraordinary vertex at a corner, or -1
+  bool rough = false;               // semi-sharp edges are near: the deviation is also that of its pieces
   int steps = 0;                    // taken towards that vertex from the lattice
 
   Vector flat(const std::array<double, 3>& weight) const {
@@ -32,13 +33,20 @@ struct Piece {
 
 /// All faces of a domain subdivided uniformly. Quads of the lattice are cut along the diagonal that runs
 /// towards the nearest corner of their face.
+///
+/// With sharp edges the refined mesh is cut along those that stay sharp, and has the same surface then:
+/// pieces at the cut are boundary pieces. A piece near an edge whose sharpness has not run out at this depth
+/// has no polynomial yet, and its bound is the size of the convex hull of the control points that it depends
+/// on: it lies in the hull, because the sharp rules make convex combinations, too.
 class SurfaceLattice {
  public:
   /// depth >= 2. All faces are triangles, or all are quads; the mesh is valid (data/validate.h).
-  SurfaceLattice(const data::ControlMesh& mesh, int depth);
+  SurfaceLattice(const data::ControlMesh& mesh, int depth, const reference::SharpTags& tags = {});
 
-  /// The depth of at most so many pieces, 2 to 7.
-  static int depth_for(const data::ControlMesh& mesh, std::size_t pieces);
+  /// The depth of at most so many pieces, 2 to 7; with semi-sharp tags as deep as the largest of them, of up
+  /// to four times as many pieces.
+  static int depth_for(const data::ControlMesh& mesh, std::size_t pieces,
+                       const reference::SharpTags& tags = {});
 
   int depth() const { return depth_; }
   std::size_t size() const { return triangles_.size(); }
@@ -52,8 +60,8 @@ class SurfaceLattice {
   std::array<Piece, 4> split(const Piece& piece, const LimitSurface& surface) const;
 
  private:
-  void subdivide_triangles(const data::ControlMesh& mesh);
-  void subdivide_quads(const data::ControlMesh& mesh);
+  void subdivide_triangles(const data::ControlMesh& mesh, const reference::SharpTags& tags);
+  void subdivide_quads(const data::ControlMesh& mesh, const reference::SharpTags& tags);
 
   int depth_;
   Chart chart_;
@@ -61,6 +69,7 @@ class SurfaceLattice {
   std::vector<Vector> limits_;
   std::vector<double> deviation_;
   std::vector<std::int32_t> irregular_;  // of each triangle
+  std::vector<char> rough_;              // of each triangle; empty if none is
   std::vector<CornerBounds> bounds_;     // of each control vertex; empty where regular
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "verify/proof/linear_runs.h"
+#include "verify/proof/quad_weights.h"
 
 namespace limitcheck::verify {
 
@@ -16,6 +17,13 @@ template <int tangent>
 struct BoundLane : fast::row_stream::LinearNumber<BoundFloat, tangent> {
   static BoundFloat fma(const BoundFloat& a, const BoundFloat& b, const BoundFloat& c) {
     return BoundFloat(BoundForm::fused(a.form(), b.form(), 1, c.form()));
+  }
+  // Of small integers, which are exact.
+  static BoundFloat equal(const BoundFloat& a, const BoundFloat& b) {
+    return BoundFloat(a.form().constant() == b.form().constant() ? 1 : 0);
+  }
+  static BoundFloat select(const BoundFloat& chosen, const BoundFloat& a, const BoundFloat& b) {
+    return chosen.form().is_zero() ? b : a;
   }
 };
 
@@ -50,8 +58,10 @@ const char* name_of(BoundedKernel kernel) {
       return "crack-centre";
     case BoundedKernel::kRowStream:
       return "row-stream";
-    default:
+    case BoundedKernel::kRowStreamEdge:
       return "row-stream-edge";
+    default:
+      return "row-stream-patch";
   }
 }
 
@@ -82,7 +92,8 @@ KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourho
   for (auto& p : points) p.x = BoundFloat(BoundForm::variable());
   LinearRuns<BoundFloat, BoundLane> runs(neighbourhood.mesh, points);
   KernelBounds bounds{kernel, depth, {}};
-  const bool stream = kernel == BoundedKernel::kRowStream || kernel == BoundedKernel::kRowStreamEdge;
+  const bool stream = kernel == BoundedKernel::kRowStream || kernel == BoundedKernel::kRowStreamEdge ||
+                      kernel == BoundedKernel::kRowStreamPatch;
   const auto tangent = [&](const BoundFloat& t) -> TangentBound {
     return {t.error(), t.form().true_magnitude(), control_weights(t.form(), n)};
   };

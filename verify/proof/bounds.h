@@ -17,7 +17,8 @@ enum class BoundedKernel : std::uint8_t {
   kCrackEdge,
   kCrackCentre,
   kRowStream,
-  kRowStreamEdge
+  kRowStreamEdge,
+  kRowStreamPatch  ///< of regular quads
 };
 const char* name_of(BoundedKernel kernel);
 

@@ -27,6 +27,7 @@ constexpr double kUpward = 1 + 0x1p-48;
 fast::IndexedMesh<float> tessellate(FloatKernel kernel, const data::ControlMesh& mesh, int depth) {
   fast::TessellatorOptions options;
   options.provenance = true;
+  options.scheme = data::natural_scheme(mesh);
   const std::vector<std::int32_t> depths(mesh.faces.size(), depth);
   fast::IndexedMesh<float> out;
   if (kernel == FloatKernel::kSlidingWindow)
@@ -80,7 +81,7 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
                                   int digits) {
   const double box = diagonal(mesh);
   const auto tessellation = tessellate(kernel, mesh, depth);
-  const reference::CertifiedEvaluator evaluator(mesh);
+  const reference::CertifiedEvaluator evaluator(mesh, data::natural_scheme(mesh));
   CertifiedErrors errors;
   const std::size_t count = tessellation.vertices.size();
   const std::size_t step = std::max<std::size_t>(1, count / static_cast<std::size_t>(std::max(points, 1)));
@@ -88,7 +89,7 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
     const fast::LatticePoint& at = tessellation.provenance[k];
     const auto l1 = reference::Parameter::fraction(at.i, at.denominator);
     const auto l2 = reference::Parameter::fraction(at.j, at.denominator);
-    const reference::CertifiedPoint exact = evaluator.evaluate(at.face, l1, l2, digits);
+    const reference::CertifiedPoint exact = evaluator.evaluate(at.face, at.corner, l1, l2, digits);
     double radius = 0;
     const double position =
         distance(exact.position, tessellation.vertices[k].position, radius) / box * kUpward;
@@ -96,7 +97,8 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
     ++errors.points;
     if (position > errors.position) {
       errors.position = position;
-      errors.face = at.face, errors.l1 = l1.to_string(), errors.l2 = l2.to_string();
+      errors.face = at.face, errors.corner = at.corner, errors.l1 = l1.to_string(),
+      errors.l2 = l2.to_string();
     }
     if (exact.normal_kind != reference::NormalKind::kRegular) continue;
     // The unit vector is at least as near to the found one, of whatever length, as to the line along it.
@@ -109,9 +111,13 @@ CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& m
 }
 
 std::vector<CertifiedLine> certify_stock_shapes(const std::vector<FloatKernel>& kernels, int depth,
-                                                int points) {
+                                                int points, data::Scheme scheme) {
+  const std::vector<std::string> quads{"quad-cube",    "quad-torus",    "quad-wheel:3", "quad-wheel:5",
+                                       "quad-wheel:8", "quad-wheel:50", "quad-fan:1",   "quad-fan:2",
+                                       "quad-fan:3",   "pawn",          "prism:5",      "mixed-pawn",
+                                       "mixed:1:60",   "creased-cube",  "crease-ring"};
   std::vector<CertifiedLine> lines;
-  for (const std::string& name : data::stock_shapes())
+  for (const std::string& name : scheme == data::Scheme::kLoop ? data::stock_shapes() : quads)
     for (const FloatKernel kernel : kernels)
       lines.push_back(
           {name, kernel == FloatKernel::kSlidingWindow ? "sliding-window" : "row-stream", depth, {}});

@@ -38,6 +38,22 @@ TEST(Certified, PositionsOfBothKernelsLieWithin3e7OfTheTrueSurface) {
   fmt::print("certified: {:.3g} of the diagonal, {:.3g} degrees\n", worst.position, worst.normal);
 }
 
+TEST(Certified, QuadKernelsAreNearTheTrueSurface) {
+  CertifiedErrors worst;
+  for (const CertifiedLine& line : certify_stock_shapes(
+           {FloatKernel::kSlidingWindow, FloatKernel::kRowStream}, 3, 12, data::Scheme::kCatmullClark)) {
+    EXPECT_GT(line.errors.points, 2) << line.mesh;
+    EXPECT_LT(line.errors.position, 3e-7) << line.mesh << ' ' << line.kernel << " face " << line.errors.face
+                                          << ' ' << line.errors.l1 << ' ' << line.errors.l2;
+    EXPECT_GT(line.errors.position, 0) << line.mesh;
+    worst.position = std::max(worst.position, line.errors.position);
+    worst.normal = std::max(worst.normal, line.errors.normal);
+  }
+  RecordProperty("worst_position", fmt::format("{:.3g} of the diagonal", worst.position));
+  EXPECT_LT(worst.normal, .1);
+  fmt::print("certified quads: {:.3g} of the diagonal, {:.3g} degrees\n", worst.position, worst.normal);
+}
+
 TEST(Certified, SeesAMovedControlPoint) {
   // The kernel's own mesh is not the one asked about: one coordinate two float steps off.
   auto mesh = data::named_mesh("icosahedron");

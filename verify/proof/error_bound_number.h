@@ -83,7 +83,11 @@ class BoundNumber {
  public:
   BoundNumber() = default;
   explicit BoundNumber(int value) : form_(BoundForm::exact(value)) {}
-  explicit BoundNumber(double value) : form_(BoundForm::exact(value)) {}
+  /// What a constant of a float kernel becomes if it is no float.
+  explicit BoundNumber(double value)
+      : form_(kSingle && static_cast<double>(static_cast<float>(value)) != value
+                  ? BoundForm::rounded_constant(value, 0, true, false)
+                  : BoundForm::exact(value)) {}
   explicit BoundNumber(BoundForm form) : form_(std::move(form)) {}
   /// To float: one rounding. To double: exact.
   explicit BoundNumber(const BoundNumber<!kSingle>& other)

@@ -13,20 +13,11 @@
 #include "fast/window/crack_edge.h"
 #include "fast/window/sliding_window.h"
 #include "fast/window/triangle_lattice.h"
+#include "verify/proof/linear_surface.h"
 
 namespace limitcheck::verify {
 
 using fast::LatticePoint;
-
-/// Position and two tangents, whose plane is the tangent plane: all that is linear in a limit point.
-template <class N>
-struct LinearSurface {
-  using Vertex = fast::LimitFrame<N>;
-  static constexpr bool kLinear = true;
-  static Vertex vertex(const Vertex& frame, auto&& /*substitute*/, std::int64_t& /*zero_normals*/) {
-    return frame;
-  }
-};
 
 /// A mesh prepared for the sliding window and the crack fans. What a vertex is decides Surface: a limit
 /// frame, a position and a normal, or whatever the number type has.

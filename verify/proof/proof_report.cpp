@@ -133,6 +133,11 @@ std::string ProofReport::table(bool each) const {
         fmt::format("No face of a manifold mesh has the valences {}.\n", fmt::join(set_.impossible, ", "));
   text += fmt::format("{}: {} limit points, {:.0f} s of processor time.\n",
                       held() ? "Every map is the reference's" : "Some proofs FAILED", points, seconds);
+  if (set_.scheme == data::Scheme::kCatmullClark)
+    text +=
+        "Exact and modulo p and q: all positions, and all tangents but those of control vertices that are "
+        "not "
+        "regular, which need roots and are compared in the lines with digits.\n";
   if (held())
     text +=
         "The weights of x are equal one by one. y and z, of random numbers, agree with the weights of x; a "
@@ -210,11 +215,9 @@ std::string ProofReport::json() const {
                          {"points", line.errors.points},
                          {"position", line.errors.position},
                          {"normal", line.errors.normal}});
-  const nlohmann::ordered_json document = {{"held", held()},
-                                           {"complete", complete()},
-                                           {"rows", rows},
-                                           {"impossible", set_.impossible},
-                                           {"certified", certified}};
+  const nlohmann::ordered_json document = {{"scheme", name_of(set_.scheme)}, {"held", held()},
+                                           {"complete", complete()},         {"rows", rows},
+                                           {"impossible", set_.impossible},  {"certified", certified}};
   return document.dump(2);
 }
 

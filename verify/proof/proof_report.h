@@ -24,8 +24,8 @@ class ProofReport {
   bool complete() const;
   /// A line per group and kernel, or with `each` per topology and kernel; then what failed, with its witness.
   std::string table(bool each) const;
-  /// {"held": .., "complete": .., "rows": [{"group", "topology", "kernel", "depths", "points", "map",
-  /// "arithmetic", "digits", "witness", "bound", "worst", ..}], "impossible": [..], "certified": [{"mesh",
+  /// {"scheme": .., "held": .., "complete": .., "rows": [{"group", "topology", "kernel", "depths", "points",
+  /// "map", "arithmetic", "digits", "witness", "bound", "worst", ..}], "impossible": [..], "certified": [{"mesh",
   /// "kernel", "depth", "points", "position", "normal"}]}
   std::string json() const;
 

@@ -87,6 +87,7 @@ double estimated_seconds(const ProofTask& task) {
 }  // namespace
 
 ProofSet proof_set(const ProofRequest& request) {
+  if (request.scheme == data::Scheme::kCatmullClark) return quad_proof_set(request);
   ProofSet set;
   const bool full = request.size == ProofSize::kFull;
   const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic,

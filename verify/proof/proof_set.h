@@ -6,17 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "data/scheme.h"
 #include "verify/proof/prove_map.h"
 
 namespace limitcheck::verify {
 
 enum class ProofSize : std::uint8_t {
   kStandard,  ///< every kind of topology; two minutes on two cores
-  kFull       ///< deeper, and all bumpy spheres; some twenty minutes
+  kFull       ///< deeper, and of Loop's scheme all bumpy spheres; some twenty minutes
 };
 
 struct ProofRequest {
-  std::vector<int> valences{3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< of the interior triples
+  data::Scheme scheme = data::Scheme::kLoop;
+  std::vector<int> valences{3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< of the interior triples or quadruples
   int depth = 6;                                               ///< the deepest
   bool sliding_window = true, row_stream = true;
   ProofSize size = ProofSize::kStandard;
@@ -39,6 +41,7 @@ struct ProofTask {
 };
 
 struct ProofSet {
+  data::Scheme scheme = data::Scheme::kLoop;
   std::vector<ProofTask> tasks;
   std::vector<std::string> impossible;  ///< triples of valences that no face of a manifold mesh has
 };
@@ -61,6 +64,27 @@ struct ProofSet {
 ///                                                                         exact       0-3 | 0-6
 ///     spheres        every pair of the bumpy sphere of 200 | of 200,      residues    0-3 | 0-6  0-3 | 0-4
 ///                    800, 2000 and 4000 faces
+///
+/// and of Catmull-Clark's scheme:
+///
+///     quadruples     every four valences in every order                   residues    0-2 | 0-4  0-2 | 0-4
+///                    every four valences, one of their turns              exact       0-1 | 0-3
+///                                                                         digits      0   | 0-2
+///     deep           the regular quad and four others, in turns           residues    0-6 | 0-7  0-5 | 0-6
+///                                                                         exact       0-3 | 0-5
+///                                                                         digits      0-2 | 0-4
+///     high           valences 20 and 50, in turns                         residues    0-2 | 0-5  0-2 | 0-4
+///                    (standard: those that sum to 70 or less)             exact       0-1 | 0-2
+///                                                                         digits      0   | 0-1
+///     boundary       boundary edges and vertices around quads of two |    residues    0-3 | 0-5  0-2 | 0-4
+///                    three kinds                                          exact       0-1 | 0-3
+///                                                                         digits      0   | 0-2
+///     cuts           creases and corners at quads of two kinds            exact       0-2 | 0-3  0-2 | 0-4
+///                                                                         digits      0   | 0-2
+///     darts          those with a dart                                    digits      0-1 | 0-3  0-2 | 0-4
+///     semi-sharp     semi-sharp edges and vertices, sliding window        exact       0-1 | 0-3  0-2 | 0-4
 ProofSet proof_set(const ProofRequest& request);
+/// The latter.
+ProofSet quad_proof_set(const ProofRequest& request);
 
 }  // namespace limitcheck::verify

@@ -17,8 +17,9 @@ namespace limitcheck::verify {
 namespace {
 
 std::optional<BoundProof> bound_of(const std::string& kernel, const ProofTask& task) {
-  for (const auto k : {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge, BoundedKernel::kCrackCentre,
-                       BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge}) {
+  for (const auto k :
+       {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge, BoundedKernel::kCrackCentre,
+        BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge, BoundedKernel::kRowStreamPatch}) {
     if (kernel != name_of(k)) continue;
     const BoundOptions& o = *task.bounds;
     if (k == BoundedKernel::kCrackCentre) {  // knows no depth
@@ -33,9 +34,10 @@ std::optional<BoundProof> bound_of(const std::string& kernel, const ProofTask& t
 std::optional<CostProof> cost_of(const std::string& kernel, const ProofTask& task) {
   const bool window = kernel == name_of(BoundedKernel::kSlidingWindow);
   if (!window && kernel != name_of(BoundedKernel::kRowStream)) return std::nullopt;
-  if (task.neighbourhood.mesh.faces.size() == 1) return std::nullopt;  // counted per pair
+  const data::ControlMesh& mesh = task.neighbourhood.mesh;
+  if (mesh.faces.size() == 1 || !mesh.faces.are_triangles()) return std::nullopt;  // counted per pair
   const KernelCost cost = count_operations(window ? CountedKernel::kSlidingWindow : CountedKernel::kRowStream,
-                                           task.neighbourhood.mesh, task.options.last_depth);
+                                           mesh, task.options.last_depth);
   return CostProof{cost.flops_per_point(), cost.vectors_per_point()};
 }
 

@@ -4,44 +4,16 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <tuple>
 #include <vector>
 
-#include "fast/frame/sink.h"
 #include "reference/loop/refine_impl.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/subdivision_evaluator_impl.h"
-#include "verify/proof/coefficient.h"
+#include "verify/proof/map_row.h"
 
 namespace limitcheck::verify {
-
-/// One limit point: the weights of all control points in its position and its two tangents.
-template <class C>
-struct MapRow {
-  MapRow() = default;
-  explicit MapRow(std::size_t n) : position(n), d1(n), d2(n) {}
-
-  /// The point's x, y and z belong to points[first], points[first + 1] and points[first + 2].
-  void put(const std::vector<std::size_t>& points, std::size_t first, const reference::SurfacePoint<C>& p) {
-    constexpr std::array<C reference::Vec3<C>::*, 3> kCoordinates{
-        &reference::Vec3<C>::x, &reference::Vec3<C>::y, &reference::Vec3<C>::z};
-    for (std::size_t c = 0; c < 3 && first + c < points.size(); ++c) {
-      const std::size_t v = points[first + c];
-      position[v] = p.position.*kCoordinates[c];
-      d1[v] = p.t1.*kCoordinates[c];
-      d2[v] = p.t2.*kCoordinates[c];
-    }
-  }
-
-  std::vector<C> position, d1, d2;
-};
-
-inline fast::LatticePoint lowest_terms(fast::LatticePoint p) {
-  for (; (p.i | p.j | p.denominator) % 2 == 0; p.i /= 2, p.j /= 2) p.denominator /= 2;
-  return p;
-}
 
 /// The vertices that a face's limit points depend on: the rings of its corners.
 inline std::vector<std::size_t> points_near(const data::ControlMesh& mesh, std::int32_t face) {
@@ -55,17 +27,6 @@ inline std::vector<std::size_t> points_near(const data::ControlMesh& mesh, std::
   for (std::size_t v = 0; v < near.size(); ++v)
     if (near[v]) points.push_back(v);
   return points;
-}
-
-/// Control points that are zero, but points[first] is (1, 0, 0), the next (0, 1, 0), the one after (0, 0, 1).
-template <class C>
-std::vector<reference::Vec3<C>> unit_vectors(const data::ControlMesh& mesh,
-                                             const std::vector<std::size_t>& points, std::size_t first) {
-  std::vector<reference::Vec3<C>> unit(mesh.positions.size());
-  unit[points[first]].x = C(1);
-  if (first + 1 < points.size()) unit[points[first + 1]].y = C(1);
-  if (first + 2 < points.size()) unit[points[first + 2]].z = C(1);
-  return unit;
 }
 
 /// Rows of a mesh, computed once each.

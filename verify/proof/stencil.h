@@ -151,6 +151,7 @@ namespace limitcheck::fast {
 template <class C>
 struct WeightTraits {
   static C cosine(int p, int q) { return verify::Coefficient<C>::cosine(p, q); }
+  static C sine(int p, int q) { return verify::Coefficient<C>::sine(p, q); }
 };
 template <>
 struct NumberTraits<verify::Residue> : WeightTraits<verify::Residue> {};

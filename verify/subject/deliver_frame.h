@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fast/frame/patch_mesh.h"
 #include "fast/frame/sink.h"
 #include "fast/window/tessellator.h"
 #include "verify/subject/adapter.h"
@@ -72,6 +73,38 @@ void deliver_frame(Engine& engine, std::span<const std::int32_t> depth, bool ind
         output.triangles[at++] = static_cast<std::uint32_t>(draw.first + v);
     }
   }
+}
+
+/// The same from patches. Vertices that no triangle has, such as those of patches that are not shown, are left
+/// out.
+template <class Real, class Engine>
+void deliver_patches(Engine& engine, std::span<const std::int32_t> depth, fast::PatchMesh<Real>& patches,
+                     const lc_request& request, lc_tessellation& out, bool corners) {
+  refuse_too_many_vertices(depth);
+  engine.frame(depth, patches);
+  constexpr std::uint32_t kUnused = UINT32_MAX;
+  std::vector<fast::SurfaceVertex<Real>> vertices;
+  std::vector<fast::LatticePoint> provenance;
+  std::vector<std::uint32_t> triangles, number;
+  std::vector<std::int32_t> faces;
+  for (const fast::PatchDraw& draw : patches.draws()) {
+    number.assign(static_cast<std::size_t>(draw.vertex_count), kUnused);
+    for (std::uint32_t i = 0; i < draw.index_count; ++i) {
+      const std::uint32_t v = patches.indices()[draw.first_index + i];
+      if (number[v] == kUnused) {
+        const auto at = static_cast<std::size_t>(draw.base_vertex) + v;
+        number[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(patches.vertices()[at]);
+        provenance.push_back(patches.provenance()[at]);
+      }
+      triangles.push_back(number[v]);
+    }
+    for (std::int32_t t = 0; t < draw.triangles; ++t)
+      faces.push_back(t < draw.split ? draw.face : draw.face_after);
+  }
+  const auto output = deliver_vertices(request, out, vertices, provenance, faces.size(), corners);
+  std::copy(triangles.begin(), triangles.end(), output.triangles);
+  std::copy(faces.begin(), faces.end(), output.triangle_face);
 }
 
 }  // namespace limitcheck::verify

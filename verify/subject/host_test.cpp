@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <tuple>
 
 #include "data/error.h"
 #include "data/shapes.h"
 #include "verify/subject/faulty_subjects.h"
+#include "verify/subject/host_memory.h"
 #include "verify/subject/registry.h"
 
 extern "C" const lc_subject* subject_in_c(void);
@@ -157,6 +160,18 @@ TEST(Host, SeesWritesOutsideTheArrays) {
   ASSERT_EQ(before.overruns().size(), 1u);
   EXPECT_TRUE(before.overruns()[0].before);
   EXPECT_LE(before.overruns()[0].distance, 8);
+}
+
+// Whatever the pattern's secret is.
+TEST(Host, SeesTheLastByteOfANumberOutsideAnArray) {
+  for (int k = 0; k < 3000; ++k)
+    for (const double number : {1., -1., 1e-3, 1e6}) {
+      detail::Memory memory;
+      auto* const data = static_cast<std::byte*>(detail::Memory::allocate(&memory, 24));
+      ASSERT_NE(data, nullptr);
+      std::memcpy(data + 24, &number, sizeof number);
+      ASSERT_EQ(memory.written_behind(memory.blocks().front()), 8) << number;
+    }
 }
 
 TEST(Host, SeesWhatIsLeftUnwritten) {

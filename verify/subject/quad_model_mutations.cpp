@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The faults that the quad model can be told to have, each of a kind that a real tessellator could have.
+#include "verify/subject/quad_kernel_model.h"
 #include "verify/subject/quad_model_rules.h"
 
 namespace limitcheck::verify {
@@ -67,6 +68,7 @@ std::span<const Mutation> quad_mutations() {
   };
   static const std::vector<Mutation> list = [] {
     std::vector<Mutation> all = own;
+    all.insert(all.end(), quad_kernel_mutations().begin(), quad_kernel_mutations().end());
     all.insert(all.end(), sharp_mutations().begin(), sharp_mutations().end());
     return all;
   }();

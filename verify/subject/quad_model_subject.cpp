@@ -3,7 +3,8 @@
 // one way. Uniform refinement to the deepest level asked for, every point once; triangles along a deeper
 // neighbour are cut until they meet its points. Computes in double.
 //
-//   options   mutation=NAME (default none)
+//   options   mutation=NAME (default none), route=refine|kernel (default refine): the whole mesh at once, or
+//             quad by quad as kernels do it; faults of kernels choose the latter
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +20,7 @@
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/face_domain.h"
+#include "verify/subject/quad_kernel_model.h"
 #include "verify/subject/quad_model_rules.h"
 #include "verify/subject/registry.h"
 
@@ -67,6 +69,13 @@ struct Level {
       limits.push_back(rules.limit(mesh.topology(), points, tags, static_cast<std::int32_t>(v)));
   }
 };
+
+bool by_kernel(Options& options, std::string_view mutation) {
+  const bool asked = options.choice("route", {"refine", "kernel"}) == 1;
+  const auto faults = quad_kernel_mutations();
+  return asked ||
+         std::any_of(faults.begin(), faults.end(), [&](const Mutation& m) { return m.name == mutation; });
+}
 
 // The triangles of one face, by points over n steps to a side.
 class Tiles {
@@ -125,7 +134,9 @@ class QuadModelSubject {
   static constexpr std::int32_t kSchemes = LC_DOES_CATMULL_CLARK;
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     lc_capabilities c{LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, kDeepest, 1, 1, 1};
-    c.sharp = declared_kinds(mutation(options)) | LC_SHARP_SMOOTH_TRIANGLES;
+    const std::string_view name = mutation(options);
+    c.sharp = by_kernel(options, name) ? LC_SHARP_CREASES | LC_SHARP_CORNERS : declared_kinds(name);
+    c.sharp |= LC_SHARP_SMOOTH_TRIANGLES;
     return c;
   }
 
@@ -145,6 +156,8 @@ class QuadModelSubject {
     } catch (const data::ArgumentError& error) {
       throw SubjectError(LC_INVALID_INPUT, error.what());
     }
+    const std::string_view name = mutation(options);
+    if (by_kernel(options, name)) kernel_ = std::make_unique<QuadKernelModel>(control_, name);
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
@@ -227,6 +240,10 @@ class QuadModelSubject {
         const std::int32_t inside = number(p.i < most ? p.i + 1 : p.i - 1, p.j < most ? p.j + 1 : p.j - 1);
         const ModelLimit& limit = points.limits[v];
         Vertex made{limit.position, limit.normal(points.mesh.topology(), v, inside, inside), {}, p.part};
+        if (kernel_) {
+          const auto [x, w] = kernel_->at(f, p.part, p.i, p.j, level);
+          made.position = {x.x, x.y, x.z}, made.normal = {w.x, w.y, w.z};
+        }
         auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
         if (rules_.is("u_for_v")) std::swap(i, j);
         if (rules_.is("sides_apart_by_an_ulp") && f % 2 == 1 && limit.normals.size() > 1)
@@ -276,6 +293,7 @@ class QuadModelSubject {
   const QuadModelRules rules_;
   data::ControlMesh control_;
   std::unique_ptr<reference::Topology> topology_;
+  std::unique_ptr<QuadKernelModel> kernel_;
   std::vector<Vertex> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::int32_t> faces_;
@@ -292,6 +310,6 @@ extern "C" const lc_subject* lc_subject_quad_model() {
   static const lc_subject subject = make_subject<QuadModelSubject>(
       "quad-model",
       "a plain tessellator of Catmull-Clark's surfaces that is right, or wrong in one stated way",
-      "mutation=NAME (default none)");
+      "mutation=NAME (default none), route=refine|kernel (default refine)");
   return &subject;
 }

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Row streaming as a subject, of both schemes. As strips and fans (the default) every face and pair delivers
-// its border points itself, so that their bits can be compared; as an indexed mesh they are shared. `target`
-// forces one compiled variant.
+// its border points itself, so that their bits can be compared; as an indexed mesh they are shared. As
+// patches, which stay in their places as long as they are as they were, frames=N walks through N frames of
+// other depths before the one that is asked for. (Not with sticky pairs: what these deliver depends on the
+// frames before, which the audit's check of state finds.) `target` forces one compiled variant.
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "data/error.h"
+#include "data/splitmix64.h"
 #include "fast/stream/stream_tessellator.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
@@ -23,7 +28,9 @@ namespace rs = limitcheck::fast::row_stream;
 
 struct Settings {
   explicit Settings(Options& options) {
-    indexed = options.choice("output", {"strips", "indexed"}) == 1;
+    output = static_cast<Output>(options.choice("output", {"strips", "indexed", "patches"}));
+    frames = options.integer("frames", 0, 0, 1000);
+    if (frames > 0) output = Output::kPatches;
     tessellator.provenance = true;
     constexpr std::array kRepairs{fast::Repair::kStitch, fast::Repair::kFan, fast::Repair::kNone};
     tessellator.cracks.repair = kRepairs[options.choice("repair", {"stitch", "fan", "none"})];
@@ -35,7 +42,9 @@ struct Settings {
       throw SubjectError(LC_INVALID_INPUT, "target=" + target + ": this machine has " + known);
     }
   }
-  bool indexed = false;
+  enum class Output { kStrips, kIndexed, kPatches };
+  Output output = Output::kStrips;
+  int frames = 0;
   fast::TessellatorOptions tessellator;
   const rs::Kernel* kernel = nullptr;
 };
@@ -58,11 +67,29 @@ class RowStreamSubject {
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     if (request.threads != settings_.tessellator.threads) use_threads(request.threads);
-    deliver_frame<float>(*tessellator_, {request.face_depth, mesh_.faces.size()}, settings_.indexed, request,
-                         out, settings_.tessellator.scheme == data::Scheme::kCatmullClark);
+    const std::span<const std::int32_t> depth(request.face_depth, mesh_.faces.size());
+    const bool quads = settings_.tessellator.scheme == data::Scheme::kCatmullClark;
+    if (settings_.output != Settings::Output::kPatches)
+      return deliver_frame<float>(*tessellator_, depth, settings_.output == Settings::Output::kIndexed,
+                                  request, out, quads);
+    walk(depth);
+    deliver_patches(*tessellator_, depth, patches_, request, out, quads);
   }
 
  private:
+  // Frames with the depth of every fourth face changed by one, or with faces gone, at random.
+  void walk(std::span<const std::int32_t> depth) {
+    data::SplitMix64 random(static_cast<std::uint64_t>(settings_.frames));
+    for (int frame = 0; frame < settings_.frames; ++frame) {
+      std::vector<std::int32_t> other(depth.begin(), depth.end());
+      for (std::int32_t& d : other) {
+        const std::uint64_t what = random.next() % 16;
+        if (what < 4)
+          d = what == 0 ? -1 : std::clamp<std::int32_t>(d + (what < 3 ? 1 : -1), -1, rs::kMaxDepth);
+      }
+      tessellator_->frame(other, patches_);
+    }
+  }
   void use_threads(int threads) {
     settings_.tessellator.threads = threads;
     try {
@@ -75,6 +102,7 @@ class RowStreamSubject {
   Settings settings_;
   data::ControlMesh mesh_;
   std::unique_ptr<rs::StreamTessellator> tessellator_;
+  fast::PatchMesh<float> patches_{fast::PatchOptions{.incremental = true}};
 };
 
 }  // namespace
@@ -83,6 +111,7 @@ const lc_subject* lc_subject_row_stream() {
   static const lc_subject subject = make_subject<RowStreamSubject>(
       "row-stream",
       "limitcheck's row streaming: one grid per vector lane, shared points bit-identical; both schemes",
-      "output=strips|indexed, repair=stitch|fan|none, target=avx512|avx2|avx2/4|sse4|scalar|...");
+      "output=strips|indexed|patches, frames=N (patches, after a walk of N frames), repair=stitch|fan|none, "
+      "target=avx512|avx2|avx2/4|sse4|scalar|...");
   return &subject;
 }

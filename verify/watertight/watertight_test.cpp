@@ -13,6 +13,19 @@ using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
 const Triangles kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
+// With a closed surface apart, so many triangles at either apex that CGAL's mesh is put together in another
+// way.
+Triangles with_hubs(std::int32_t points, Triangles triangles) {
+  constexpr std::int32_t kCount = 1100;
+  const std::int32_t top = points, bottom = points + 1, first = points + 2;
+  for (std::int32_t i = 0; i < kCount; ++i) {
+    const std::int32_t a = first + i, b = first + (i + 1) % kCount;
+    triangles.push_back({a, b, top});
+    triangles.push_back({b, a, bottom});
+  }
+  return triangles;
+}
+
 // Both methods are asked, and must agree on manifold and closed; the report of ours is returned.
 SurfaceReport look(std::int64_t points, const Triangles& triangles) {
   const SurfaceReport report = inspect_surface(points, triangles);
@@ -21,6 +34,14 @@ SurfaceReport look(std::int64_t points, const Triangles& triangles) {
   if (report.manifold()) {
     EXPECT_EQ(report.closed(), judgement.closed);
     EXPECT_EQ(report.open_loops, judgement.boundary_cycles);
+  }
+  const auto known = static_cast<std::int32_t>(points);
+  const SurfaceJudgement linked = judge_surface(points + 1102, with_hubs(known, triangles));
+  EXPECT_EQ(linked.manifold(), judgement.manifold());
+  EXPECT_TRUE(linked.valid);
+  if (report.manifold()) {
+    EXPECT_EQ(linked.closed, judgement.closed);
+    EXPECT_EQ(linked.boundary_cycles, judgement.boundary_cycles);
   }
   return report;
 }

@@ -1,26 +1,33 @@
 // SPDX-License-Identifier: MIT
-#include "fast/stream/quad_rings.h"
+// BasicQuadRings for any number; quad_rings_instances.cpp has those of float and double.
+#pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "data/error.h"
 #include "fast/rules/prepared_quads.h"
+#include "fast/stream/quad_rings.h"
 
 namespace limitcheck::fast::row_stream {
 
-namespace {
-
-using Point = Vec3<double>;
+namespace detail {
 
 // Where a closed ring of edge and face neighbours, read from there on, is lexicographically smallest.
-int canonical_quad_start(const QuadStar<double>& star) {
+template <class W>
+int canonical_quad_start(const QuadStar<W>& star) {
   const int count = star.size();
   int best = 0;
   for (int k = 2; k < count; k += 2) {
     for (int t = 0; t < count; ++t) {
-      const Point &a = star.ring[(k + t) % count], &b = star.ring[(best + t) % count];
+      const Vec3<W>&a = star.ring[(k + t) % count], &b = star.ring[(best + t) % count];
       if (a == b) continue;
       if (a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z) best = k;
       break;
@@ -30,28 +37,34 @@ int canonical_quad_start(const QuadStar<double>& star) {
 }
 
 // k0 .. k4 of a QuadCornerBlock. A dart's centre does not come from sums.
-std::array<double, 5> sum_weights(const QuadStar<double>& star) {
-  if (star.kind != VertexKind::kPlain) return {0, 0, 0, 0, 0};
-  if (star.open) return {.5, 0, 1, 0, 0};
-  const double n = star.faces;
-  return {6 / (n * n), 1 / (n * n), 2 - 6 / n, .5 - 1 / n, 1 - 1 / n};
+template <class W>
+std::array<typename NumberTraits<W>::Scalar, 5> sum_weights(const QuadStar<W>& star) {
+  using T = NumberTraits<W>;
+  using S = typename T::Scalar;
+  const S zero(0), one(1), half = T::ratio(1, 2);
+  if (star.kind != VertexKind::kPlain) return {zero, zero, zero, zero, zero};
+  if (star.open) return {half, zero, one, zero, zero};
+  const int n = star.faces;
+  return {T::ratio(6, n * n), T::ratio(1, n * n), S(2) - T::ratio(6, n), half - T::ratio(1, n),
+          one - T::ratio(1, n)};
 }
 
-}  // namespace
+}  // namespace detail
 
 template <class T>
 struct BasicQuadRings<T>::Scratch {
   std::vector<ControlPoint<T>> points;
-  StarWeightTable weights;
-  OwnQuadStar<double> own;
+  StarWeightTable<typename NumberTraits<Wide>::Scalar> weights;
+  OwnQuadStar<Wide> own;
 };
 
 template <class T>
-BasicQuadRings<T>::BasicQuadRings(const QuadMesh& mesh) {
+BasicQuadRings<T>::BasicQuadRings(const QuadMesh& mesh, PlacedPoints<T> placed, int tangent)
+    : placement_(placed.placement), tangent_(tangent) {
   if (mesh.semi_sharp())
     throw data::ArgumentError("row streaming: semi-sharp edges and vertices are not supported");
-  PlacedPoints<T> placed = place_points<T>(mesh.positions);
-  placement_ = placed.placement;
+  if (placed.points.size() != static_cast<std::size_t>(mesh.adjacency.vertex_count()))
+    throw data::ArgumentError("row streaming: not one point per vertex");
   lay_out(mesh.adjacency);
   Scratch scratch{std::move(placed.points), {}, {}};
   for (std::int32_t v = 0; v < mesh.adjacency.vertex_count(); ++v)
@@ -78,13 +91,17 @@ template <class T>
 void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratch& scratch) {
   const std::span<const std::int32_t> fan = mesh.adjacency.fan(v);
   const Ring at = rings_[v];
-  OwnQuadStar<double>& own = scratch.own;
+  using Point = Vec3<Wide>;
+  OwnQuadStar<Wide>& own = scratch.own;
   own.gather(mesh, v, [&](std::int32_t w) {
     const auto& p = scratch.points[w];
-    return Point{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    return widen<T>(Vec3<T>{p[0], p[1], p[2]});
   });
-  QuadStar<double>& star = own.star;
-  const int start = star.open ? 0 : canonical_quad_start(star);
+  QuadStar<Wide>& star = own.star;
+  int start = 0;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (!star.open) start = detail::canonical_quad_start(star);
+  }
   std::rotate(star.ring, star.ring + start, star.ring + star.size());
   for (int k = 0; k < star.faces; ++k) {
     const int slot = (k + star.faces - start / 2) % star.faces;
@@ -101,10 +118,11 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
   }
 
   auto& head = heads_[v];
-  const auto put = [](const Point& p, T* to) {
-    to[0] = static_cast<T>(p.x), to[1] = static_cast<T>(p.y), to[2] = static_cast<T>(p.z);
+  const auto put = [](const Point& wide, T* to) {
+    const Vec3<T> p = narrow<T>(wide);
+    to[0] = p.x, to[1] = p.y, to[2] = p.z;
   };
-  const std::array<double, 5> weights = sum_weights(star);
+  const auto weights = detail::sum_weights(star);
   for (std::size_t k = 0; k < weights.size(); ++k) head[k] = static_cast<T>(weights[k]);
   put(c, head.data() + QuadCornerBlock::kCentre);
   put(de, head.data() + QuadCornerBlock::kEdges);
@@ -113,32 +131,37 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
   for (int copy = 0; copy < (star.open ? 1 : 2); ++copy)
     for (int k = 0; k < star.size(); ++k, out += 3) put(star.ring[k], out);
 
-  const LimitFrame<double> limit = star_limit(star, scratch.weights.of(star.faces, star.open, star.kind));
-  const Point origin{static_cast<double>(placement_.centre[0]), static_cast<double>(placement_.centre[1]),
-                     static_cast<double>(placement_.centre[2])};
-  put(static_cast<double>(placement_.unit) * limit.position + origin, head.data() + QuadCornerBlock::kLimit);
+  const LimitFrame<Wide> limit = star_limit(star, scratch.weights.of(star.faces, star.open, star.kind));
+  const Point origin = widen<T>(Vec3<T>{placement_.centre[0], placement_.centre[1], placement_.centre[2]});
+  put(NumberTraits<T>::widen(placement_.unit) * limit.position + origin,
+      head.data() + QuadCornerBlock::kLimit);
   if (star.kind == VertexKind::kDart) make_dart(v, own);
-  bool degenerate = false;
-  put(star_normal(limit, own, degenerate),
-      head.data() + QuadCornerBlock::kLimit + 3);  // may subdivide the star
-  if (degenerate) ++degenerate_normals_;
+  T* const direction = head.data() + QuadCornerBlock::kLimit + 3;
+  if constexpr (std::is_floating_point_v<T>) {
+    bool degenerate = false;
+    put(star_normal(limit, own, degenerate), direction);  // may subdivide the star
+    if (degenerate) ++degenerate_normals_;
+  } else {
+    put(tangent_ == 0 ? limit.du : limit.dv, direction);
+  }
   for (std::size_t k = QuadCornerBlock::kLimit + 3; k < QuadCornerBlock::kHead; ++k) head[k] = head[k] + T(0);
 }
 
 template <class T>
-void BasicQuadRings<T>::make_dart(std::int32_t v, const OwnQuadStar<double>& own) {
-  OwnQuadStar<double> star;
+void BasicQuadRings<T>::make_dart(std::int32_t v, const OwnQuadStar<Wide>& own) {
+  using S = typename NumberTraits<Wide>::Scalar;
+  OwnQuadStar<Wide> star;
   star.resize(own.star.faces, own.star.open, own.star.kind);
   star.star.centre = own.star.centre;
   std::copy_n(own.star.ring, own.star.size(), star.star.ring);
   if (darts_.empty()) darts_.resize(rings_.size());
   darts_[v] = std::make_unique<DartCentres>();
-  double scale = 1;
+  S scale(1);
   for (int level = 0; level < kMaxDepth; ++level) {
     star.subdivide();
-    scale *= 4;
-    const Point c = scale * star.star.centre;
-    (*darts_[v])[level] = {static_cast<T>(c.x), static_cast<T>(c.y), static_cast<T>(c.z)};
+    scale = S(4) * scale;
+    const Vec3<T> c = narrow<T>(scale * star.star.centre);
+    (*darts_[v])[level] = {c.x, c.y, c.z};
   }
 }
 
@@ -161,8 +184,5 @@ void BasicQuadRings<T>::find_kinds(const QuadMesh& mesh) {
     kinds_[f] = all ? QuadClass::kRegular : open ? QuadClass::kOpen : QuadClass::kClosed;
   }
 }
-
-template class BasicQuadRings<float>;
-template class BasicQuadRings<double>;
 
 }  // namespace limitcheck::fast::row_stream

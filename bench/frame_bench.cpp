@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Frames of a bumpy sphere that turns from frame to frame, by one degree unless the name says otherwise: from
+// the camera to the triangles. Names: form/strategy/faces:N/threads:T. Forms: draw (a list of strips and
+// fans), indexed (one mesh), patches (points once, index patterns), kept (patches that stay as they are keep
+// their places), sticky (pairs stay together, too). Counters: frames/s, triangles/s.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "data/generators/bumpy_sphere.h"
+#include "fast/stream/stream_tessellator.h"
+
+namespace {
+
+using namespace limitcheck;
+
+const data::ControlMesh& mesh_of(int faces) {
+  static std::map<int, data::ControlMesh> known;
+  const auto [at, fresh] = known.try_emplace(faces);
+  if (fresh) at->second = data::bumpy_sphere(faces, 1);
+  return at->second;
+}
+
+/// The camera in step i of a walk around the mesh, so many degrees a step.
+fast::Camera turned(std::int64_t i, double degrees) {
+  const double angle = static_cast<double>(i) * degrees * std::numbers::pi / 180;
+  fast::Camera camera;
+  camera.eye = {4 * std::sin(angle), 0, 4 * std::cos(angle)};
+  return camera;
+}
+
+struct Case {
+  std::string name;
+  int faces;
+  fast::DepthOptions strategy;
+};
+
+std::vector<Case> cases() {
+  const auto uniform = [](int depth) {
+    fast::DepthOptions o;
+    o.strategy = fast::Strategy::kUniform;
+    o.depth = depth;
+    return o;
+  };
+  const auto adaptive = [](fast::Strategy strategy, double pixels) {
+    fast::DepthOptions o;
+    o.strategy = strategy;
+    o.target_pixels = pixels;
+    return o;
+  };
+  const fast::DepthOptions combined = adaptive(fast::Strategy::kCombined, fast::DepthOptions{}.target_pixels);
+  return {{"project-sphere:60", 800, adaptive(fast::Strategy::kProjectSphere, 60)},
+          {"uniform:1", 800, uniform(1)},
+          {"uniform:3", 800, uniform(3)},
+          {"uniform:5", 800, uniform(5)},
+          {"combined", 4000, combined},
+          {"project-sphere:10", 4000, adaptive(fast::Strategy::kProjectSphere, 10)}};
+}
+
+template <class Output>
+void frames(benchmark::State& state, const Case& c, int threads, Output out = {}, double degrees = 1) {
+  fast::TessellatorOptions options;
+  options.threads = threads;
+  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), options);
+  fast::FrameStats stats;
+  double triangles = 0;
+  for (std::int64_t i = 0; i < 360; i += 30) tessellator.frame(c.strategy, turned(i, 1), out);
+  for (std::int64_t i = -20; i < 0; ++i) tessellator.frame(c.strategy, turned(i, degrees), out);
+  std::int64_t i = 0;
+  for (auto _ : state) {
+    stats = tessellator.frame(c.strategy, turned(i++, degrees), out);
+    triangles += static_cast<double>(stats.triangles);
+    benchmark::ClobberMemory();
+  }
+  using benchmark::Counter;
+  state.counters["frames/s"] = Counter(1, Counter::kIsIterationInvariantRate);
+  state.counters["triangles/s"] = Counter(triangles, Counter::kIsRate);
+}
+
+template <class Function>
+void add(const std::string& name, Function function) {
+  benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMicrosecond)->UseRealTime();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const Case& c : cases()) {
+    const std::string name = c.name + "/faces:" + std::to_string(c.faces);
+    for (const int threads : {1, 2})
+      add("draw/" + name + "/threads:" + std::to_string(threads),
+          [=](auto& s) { frames<fast::DrawList<float>>(s, c, threads); });
+    const auto patches = [&](const std::string& form, const fast::PatchOptions& with, double degrees) {
+      add(form + "/" + name + "/threads:1",
+          [=](auto& s) { frames(s, c, 1, fast::PatchMesh<float>(with), degrees); });
+    };
+    patches("patches", {}, 1);
+    for (const double degrees : {1., .25}) {
+      const std::string step = degrees == 1 ? "" : ":quarter";
+      patches("kept" + step, {.incremental = true}, degrees);
+      patches("sticky" + step, {.incremental = true, .sticky = true}, degrees);
+    }
+    add("indexed/" + name + "/threads:1", [=](auto& s) { frames<fast::IndexedMesh<float>>(s, c, 1); });
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: MIT
+#include "fast/frame/patch_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "data/error.h"
+#include "data/generators/named_mesh.h"
+#include "fast/stream/stream_tessellator.h"
+#include "fast/test_support/exact_weld.h"
+#include "fast/test_support/shared_points.h"
+#include "fast/test_support/test_meshes.h"
+#include "fast/window/tessellator.h"
+
+namespace limitcheck::fast::row_stream {
+namespace {
+
+using Corner = std::array<std::uint32_t, 6>;  // bits
+using Soup = std::vector<std::tuple<std::int32_t, int, std::array<Corner, 3>>>;
+
+// Face, kind and the bits of the corners of every triangle, in an order of their own.
+void add(Soup& soup, std::int32_t face, Kind kind, const SurfaceVertex<float>& a,
+         const SurfaceVertex<float>& b, const SurfaceVertex<float>& c) {
+  std::array<Corner, 3> corners;
+  const SurfaceVertex<float>* from[3] = {&a, &b, &c};
+  for (std::size_t k = 0; k < 3; ++k) std::memcpy(corners[k].data(), from[k], sizeof(Corner));
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  soup.emplace_back(face, static_cast<int>(kind), corners);
+}
+
+Soup soup_of(const DrawList<float>& list) {
+  Soup soup;
+  for (const Draw& draw : list.draws) {
+    for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
+      const auto v = draw.triangle(t);
+      const auto* at = list.vertices.data() + draw.first;
+      add(soup, draw.face_of(t), draw.kind, at[v[0]], at[v[1]], at[v[2]]);
+    }
+  }
+  std::sort(soup.begin(), soup.end());
+  return soup;
+}
+
+// As a graphics library sees it, with the vertices in a buffer of its own.
+Soup soup_of(const PatchMesh<float>& mesh, std::span<const SurfaceVertex<float>> vertices) {
+  Soup soup;
+  const bool narrow = mesh.options().narrow;
+  const auto index = [&](std::uint32_t i) {
+    if (!narrow) return mesh.indices()[i];
+    return mesh.indices16()[i] == kRestartIndex16 ? kRestartIndex : mesh.indices16()[i];
+  };
+  for (const PatchDraw& draw : mesh.draws()) {
+    std::int32_t done = 0;
+    const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      const auto at = [&](std::uint32_t i) {
+        EXPECT_LT(i, static_cast<std::uint32_t>(draw.vertex_count));
+        return vertices[static_cast<std::size_t>(draw.base_vertex) + i];
+      };
+      add(soup, done++ < draw.split ? draw.face : draw.face_after, draw.kind, at(a), at(b), at(c));
+    };
+    const std::uint32_t end = draw.first_index + draw.index_count;
+    if (draw.form == IndexForm::kTriangles) {
+      for (std::uint32_t i = draw.first_index; i < end; i += 3)
+        triangle(index(i), index(i + 1), index(i + 2));
+    } else {
+      std::uint32_t strip = draw.first_index;
+      for (std::uint32_t i = draw.first_index; i < end; ++i) {
+        if (index(i) == kRestartIndex) {
+          strip = i + 1;
+        } else if (i >= strip + 2) {
+          (i - strip) % 2 == 0 ? triangle(index(i - 2), index(i - 1), index(i))
+                               : triangle(index(i - 1), index(i - 2), index(i));
+        }
+      }
+    }
+    EXPECT_EQ(done, draw.triangles);
+  }
+  std::sort(soup.begin(), soup.end());
+  return soup;
+}
+Soup soup_of(const PatchMesh<float>& mesh) {
+  return soup_of(mesh, mesh.vertices());
+}
+
+struct Model {
+  std::string name;
+  data::ControlMesh mesh;
+  data::Scheme scheme;
+};
+
+std::vector<Model> models() {
+  const auto loop = data::Scheme::kLoop, quads = data::Scheme::kCatmullClark;
+  return {{"torus", shaken(grid_torus(4, 5), .2, 2), loop},
+          {"sheet", shaken(grid_sheet(3, 4), .1, 4), loop},
+          {"fan", shaken(fan(5), .05, 5), loop},
+          {"triangle", single_triangle(), loop},
+          {"cube", data::named_mesh("cube-quads"), quads},
+          {"polygons", data::named_mesh("mixed:1"), quads},
+          {"creases", data::named_mesh("creased-cube"), quads}};
+}
+
+std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, data::SplitMix64& random) {
+  std::vector<std::int32_t> depth;
+  for (std::size_t f = 0; f < faces; ++f)
+    depth.push_back(static_cast<std::int32_t>(below(random, static_cast<std::size_t>(most - least) + 1)) +
+                    least);
+  return depth;
+}
+
+// The next frame of a walk: mostly small changes; sometimes faces appear or go, or everything does.
+void step(std::vector<std::int32_t>& depth, data::SplitMix64& random) {
+  const std::size_t what = below(random, 8);
+  if (what == 0) depth = random_depths(depth.size(), -1, 4, random);
+  if (what == 1) depth.assign(depth.size(), -1);
+  if (what > 2)
+    for (int i = 0; i < 2; ++i)
+      depth[below(random, depth.size())] = static_cast<std::int32_t>(below(random, 6)) - 1;
+}
+
+TessellatorOptions options_of(const Model& model, Repair repair) {
+  TessellatorOptions options;
+  options.scheme = model.scheme;
+  options.cracks.repair = repair;
+  return options;
+}
+
+template <class Engine>
+void expect_the_triangles_of_a_draw_list(Engine& engine, std::size_t faces, const PatchOptions& with) {
+  data::SplitMix64 random(7);
+  for (int i = 0; i < 6; ++i) {
+    const auto depth = i < 4 ? std::vector<std::int32_t>(faces, i) : random_depths(faces, -1, 4, random);
+    DrawList<float> list;
+    PatchMesh<float> patches(with);
+    const FrameStats a = engine.frame(depth, list), b = engine.frame(depth, patches);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_LE(b.vertices, a.vertices + static_cast<std::int64_t>(faces));
+    ASSERT_EQ(soup_of(patches), soup_of(list));
+  }
+}
+
+TEST(PatchMesh, HasTheTrianglesOfADrawListToTheBit) {
+  for (const Model& model : models()) {
+    for (const Repair repair : {Repair::kFan, Repair::kStitch, Repair::kNone}) {
+      for (const IndexForm form : {IndexForm::kTriangles, IndexForm::kStrips}) {
+        SCOPED_TRACE(model.name);
+        const PatchOptions with{form, form == IndexForm::kStrips};
+        StreamTessellator stream(model.mesh, options_of(model, repair));
+        expect_the_triangles_of_a_draw_list(stream, model.mesh.faces.size(), with);
+        Tessellator<float> window(model.mesh, options_of(model, repair));
+        expect_the_triangles_of_a_draw_list(window, model.mesh.faces.size(), with);
+      }
+    }
+  }
+}
+
+TEST(PatchMesh, KnowsWhereEveryPointLies) {
+  for (const Model& model : models()) {
+    TessellatorOptions options = options_of(model, Repair::kStitch);
+    options.provenance = true;
+    StreamTessellator engine(model.mesh, options);
+    data::SplitMix64 random(5);
+    const auto depth = random_depths(model.mesh.faces.size(), 0, 4, random);
+    DrawList<float> list;
+    PatchMesh<float> patches;
+    engine.frame(depth, list), engine.frame(depth, patches);
+    ASSERT_EQ(patches.provenance().size(), patches.vertices().size());
+    using Place = std::tuple<std::int32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::int32_t, Corner>;
+    const auto place = [](const LatticePoint& at, const SurfaceVertex<float>& v) {
+      Corner bits;
+      std::memcpy(bits.data(), &v, sizeof bits);
+      // A corner between edges of two depths has two names in a draw list.
+      const std::uint32_t d = std::gcd(std::gcd(at.i, at.j), at.denominator);
+      return Place{at.face, at.i / d, at.j / d, at.denominator / d, at.corner, bits};
+    };
+    std::vector<Place> a, b;
+    for (std::size_t v = 0; v < list.vertices.size(); ++v)
+      a.push_back(place(list.provenance[v], list.vertices[v]));
+    for (const PatchDraw& draw : patches.draws()) {
+      for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; ++i) {
+        const auto v = static_cast<std::size_t>(draw.base_vertex) + patches.indices()[i];
+        b.push_back(place(patches.provenance()[v], patches.vertices()[v]));
+      }
+    }
+    for (auto* places : {&a, &b}) {
+      std::sort(places->begin(), places->end());
+      places->erase(std::unique(places->begin(), places->end()), places->end());
+    }
+    std::vector<Place> only;
+    std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
+    EXPECT_EQ(only.size(), 0u) << model.name << " of " << a.size();
+  }
+}
+
+// A walk through frames: the triangles are those of a fresh frame to the bit, and a copy of the buffer to
+// which only the changed ranges went has them as well.
+TEST(PatchMesh, StaysAFreshFrameOnAnyWalk) {
+  std::int64_t kept = 0, all = 0;
+  for (const Model& model : models()) {
+    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+      SCOPED_TRACE(model.name);
+      StreamTessellator engine(model.mesh, options_of(model, repair));
+      PatchOptions with;
+      with.incremental = true;
+      PatchMesh<float> patches(with);
+      data::SplitMix64 random(11);
+      auto depth = random_depths(model.mesh.faces.size(), 0, 3, random);
+      std::vector<SurfaceVertex<float>> copy;
+      for (int frame = 0; frame < 60; ++frame, step(depth, random)) {
+        DrawList<float> list;
+        engine.frame(depth, list);
+        const FrameStats stats = engine.frame(depth, patches);
+        copy.resize(patches.vertices().size());
+        all += stats.vertices;
+        kept += stats.vertices;
+        for (const VertexRange& range : patches.changed()) {
+          const auto some = patches.vertices().subspan(static_cast<std::size_t>(range.first),
+                                                       static_cast<std::size_t>(range.count));
+          std::copy(some.begin(), some.end(), copy.begin() + range.first);
+          kept -= range.count;
+        }
+        ASSERT_EQ(soup_of(patches, copy), soup_of(list)) << "frame " << frame;
+      }
+    }
+  }
+  EXPECT_GT(static_cast<double>(kept), .4 * static_cast<double>(all)) << "or nothing is tested";
+}
+
+// Sticky pairs depend on the frames before, incremental or not: both outputs have taken the same walk. They
+// leave no crack.
+TEST(PatchMesh, KeepsPairsAndClosesCracksIfSticky) {
+  const Model model = models()[0];
+  StreamTessellator engine(model.mesh, options_of(model, Repair::kFan));
+  PatchOptions with;
+  with.sticky = true;
+  PatchMesh<float> fresh(with);
+  with.incremental = true;
+  PatchMesh<float> patches(with);
+  data::SplitMix64 random(3);
+  auto depth = random_depths(model.mesh.faces.size(), 0, 3, random);
+  std::int64_t differs = 0;
+  for (int frame = 0; frame < 100; ++frame, step(depth, random)) {
+    for (auto& d : depth) d = std::max(d, 0);
+    engine.frame(depth, patches);
+    const std::vector<Grid> pairs = engine.last_pairing().grids;
+    engine.frame(depth, fresh);
+    ASSERT_EQ(pairs, engine.last_pairing().grids);
+    ASSERT_EQ(soup_of(patches), soup_of(fresh)) << "frame " << frame;
+    std::vector<std::array<SurfaceVertex<float>, 3>> triangles;
+    for (const PatchDraw& draw : patches.draws())
+      for (std::uint32_t i = 0; i < draw.index_count; i += 3) {
+        const auto at = [&](std::uint32_t k) {
+          return patches.vertices()[static_cast<std::size_t>(draw.base_vertex) +
+                                    patches.indices()[draw.first_index + i + k]];
+        };
+        triangles.push_back({at(0), at(1), at(2)});
+      }
+    ASSERT_TRUE(weld(triangles, true).closed());
+    DrawList<float> list;
+    engine.frame(depth, list);
+    differs += engine.last_pairing().grids != pairs ? 1 : 0;
+  }
+  EXPECT_GT(differs, 10) << "or nothing is tested";
+}
+
+// The bound of the header, whatever comes: a turn around, then other depths, then few faces.
+TEST(PatchMesh, StaysInItsMemory) {
+  const data::ControlMesh mesh = shaken(grid_torus(24, 30), .02, 2);
+  StreamTessellator engine(mesh);
+  PatchOptions with;
+  with.incremental = true;
+  PatchMesh<float> patches(with);
+  const std::size_t faces = mesh.faces.size();
+  std::int64_t most = 0;
+  for (int frame = 0; frame < 120; ++frame) {
+    std::vector<std::int32_t> depth(faces, -1);
+    const int level = frame < 60 ? 3 : frame < 90 ? 4 - frame % 4 : 2;
+    for (std::size_t f = 0; f < faces / 2; ++f)
+      depth[(f + static_cast<std::size_t>(frame) * faces / 24) % faces] = level;
+    const FrameStats stats = engine.frame(depth, patches);
+    most = std::max(most, static_cast<std::int64_t>(patches.vertices().size()));
+    ASSERT_LE(static_cast<std::int64_t>(patches.vertices().size()),
+              3 * stats.vertices + PatchMesh<float>::kSlack)
+        << frame;
+  }
+  EXPECT_GT(most, PatchMesh<float>::kSlack);
+}
+
+// Whoever wrote last is the one whose patches stay; another engine, or clear(), begins anew.
+TEST(PatchMesh, BeginsAnewForAnotherEngine) {
+  const auto one = shaken(grid_torus(4, 5), .2, 2), two = shaken(grid_torus(4, 5), .2, 3);
+  const auto quads = data::named_mesh("mixed:1");
+  TessellatorOptions catmull_clark;
+  catmull_clark.scheme = data::Scheme::kCatmullClark;
+  StreamTessellator first(one), second(two), third(quads, catmull_clark);
+  PatchOptions with;
+  with.incremental = true;
+  PatchMesh<float> patches(with);
+  const auto check = [&](StreamTessellator& engine) {
+    const std::vector<std::int32_t> depth(static_cast<std::size_t>(engine.face_count()), 2);
+    DrawList<float> list;
+    engine.frame(depth, list);
+    engine.frame(depth, patches);
+    ASSERT_EQ(soup_of(patches), soup_of(list));
+  };
+  for (StreamTessellator* engine : {&first, &second, &third, &first, &first}) check(*engine);
+  EXPECT_TRUE(patches.changed().empty()) << "the same frame again";
+  patches.clear();
+  check(first);
+  EXPECT_FALSE(patches.changed().empty());
+}
+
+// After points have moved every output is that of a new engine; a refusal changes nothing.
+TEST(PatchMesh, FollowsPointsThatMove) {
+  for (const Model& model : models()) {
+    SCOPED_TRACE(model.name);
+    PatchOptions with;
+    with.incremental = true;
+    const auto options = options_of(model, Repair::kFan);
+    StreamTessellator stream(model.mesh, options);
+    Tessellator<float> window(model.mesh, options);
+    PatchMesh<float> patches(with), other(with);
+    data::SplitMix64 random(9);
+    for (int frame = 0; frame < 8; ++frame) {
+      const auto mesh =
+          frame % 2 == 0 ? model.mesh : shaken(model.mesh, .1, static_cast<std::uint64_t>(frame));
+      stream.move_points(mesh.positions), window.move_points(mesh.positions);
+      auto broken = mesh.positions;
+      broken[0][1] = std::nan("");
+      EXPECT_THROW(stream.move_points(broken), data::ArgumentError);
+      broken.pop_back();
+      EXPECT_THROW(window.move_points(broken), data::ArgumentError);
+      const auto depth = random_depths(mesh.faces.size(), 0, 3, random);
+      DrawList<float> expected;
+      StreamTessellator(mesh, options).frame(depth, expected);
+      stream.frame(depth, patches);
+      ASSERT_EQ(soup_of(patches), soup_of(expected)) << frame;
+      Tessellator<float>(mesh, options).frame(depth, expected);
+      window.frame(depth, other);
+      ASSERT_EQ(soup_of(other), soup_of(expected)) << frame;
+      Camera camera;
+      DepthOptions strategy;
+      strategy.strategy = Strategy::kCombined;
+      stream.frame(strategy, camera, patches);
+      StreamTessellator(mesh, options).frame(strategy, camera, expected);
+      ASSERT_EQ(soup_of(patches), soup_of(expected)) << frame;
+    }
+  }
+}
+
+// Memory that fails once: the frame is lost, the next one is whole.
+struct FailingMemory final : VertexMemory {
+  std::vector<SurfaceVertex<float>> memory;
+  bool fails = false;
+  std::byte* reserve(std::size_t bytes, std::size_t keep) override {
+    if (fails) throw std::bad_alloc();
+    std::vector<SurfaceVertex<float>> other(bytes / sizeof(SurfaceVertex<float>) + 1);
+    if (keep > 0) std::memcpy(static_cast<void*>(other.data()), memory.data(), keep);
+    memory = std::move(other);
+    return reinterpret_cast<std::byte*>(memory.data());
+  }
+};
+
+TEST(PatchMesh, GoesIntoTheCallersMemory) {
+  const auto mesh = shaken(grid_torus(4, 5), .2, 2);
+  StreamTessellator engine(mesh);
+  FailingMemory memory;
+  PatchOptions with;
+  with.incremental = true;
+  PatchMesh<float> patches(with, &memory);
+  data::SplitMix64 random(2);
+  auto depth = random_depths(mesh.faces.size(), 0, 3, random);
+  for (int frame = 0; frame < 20; ++frame, step(depth, random)) {
+    memory.fails = frame % 5 == 4;
+    if (memory.fails) {
+      EXPECT_THROW(engine.frame(depth, patches), std::bad_alloc);
+      continue;
+    }
+    DrawList<float> list;
+    engine.frame(depth, list);
+    engine.frame(depth, patches);
+    ASSERT_EQ(static_cast<const void*>(patches.vertices().data()), memory.memory.data());
+    ASSERT_EQ(soup_of(patches), soup_of(list)) << frame;
+  }
+}
+
+TEST(PatchMesh, RefusesPatchesThatNarrowIndicesDoNotReach) {
+  StreamTessellator engine(tetrahedron());
+  PatchOptions with;
+  with.narrow = true;
+  PatchMesh<float> patches(with);
+  EXPECT_NO_THROW(engine.frame(std::vector<std::int32_t>(4, 7), patches));
+  EXPECT_THROW(engine.frame(std::vector<std::int32_t>(4, 8), patches), data::ArgumentError);
+}
+
+}  // namespace
+}  // namespace limitcheck::fast::row_stream

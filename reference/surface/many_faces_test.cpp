@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Vertices of many faces: their evaluators take steps in place of closed forms, to the same surface.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "reference/catmull_clark/stam.h"
+#include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/loop/stam.h"
+#include "reference/loop/subdivision_evaluator.h"
+#include "reference/number/number_exact.h"
+#include "reference/surface/test_many_faces.h"
+
+namespace limitcheck::reference {
+namespace {
+
+using test::hub;
+using test::positions;
+using test::quads;
+using test::Shape;
+using test::triangles;
+namespace cc = catmull_clark;
+
+/// Where closed forms end (loop/special_ring.h, catmull_clark/two_ring.h).
+constexpr int kManyFaces = 65;
+
+/// Parameters of a face seen from its corner k, from the corner itself to the middle.
+struct Place {
+  const char *along, *across;
+};
+constexpr Place kPlaces[] = {{"0", "0"}, {"1/3", "1/4"}, {"1/5", "0"}, {"1/300", "1/200"}, {"0", "1/5000"}};
+
+/// (l1, l2) or (u, v) of a place at corner k.
+std::array<Parameter, 2> at(const Place& place, std::size_t k, std::size_t corners) {
+  const Rational x(place.along), y(place.across);
+  std::array<Rational, 2> p{x, y};
+  if (corners == 3)
+    p = k == 0   ? std::array{x, y}
+        : k == 1 ? std::array{Rational(1 - x - y), x}
+                 : std::array{y, Rational(1 - x - y)};
+  else if (k != 0)
+    p = k == 1   ? std::array{Rational(1 - y), x}
+        : k == 2 ? std::array{Rational(1 - x), Rational(1 - y)}
+                 : std::array{y, Rational(1 - x)};
+  return {Parameter::parse(p[0].str()), Parameter::parse(p[1].str())};
+}
+
+/// All around the hub in steps, and the faces at both ends: what the two evaluators say, in fifty digits. At
+/// 1/5000 subdivision takes 13 steps, and differences of order d between points 2^-13 apart lose 4 d digits.
+template <class Stam, class Subdivision>
+void expect_same(const Stam& stam, const Subdivision& subdivision, const Shape& shape) {
+  using N = Decimal50;
+  const std::int32_t centre = hub(shape.mesh);
+  std::vector<std::size_t> around;
+  for (std::size_t f = 0; f < shape.mesh.faces.size(); ++f)
+    if (std::ranges::count(shape.mesh.faces[f], centre) > 0) around.push_back(f);
+  for (std::size_t i = 0; i < around.size(); i += i < 2 || i + 4 > around.size() ? 1 : 7) {
+    const auto corners = shape.mesh.faces[around[i]];
+    const auto k = static_cast<std::size_t>(std::ranges::find(corners, centre) - corners.begin());
+    for (const Place& place : kPlaces) {
+      const auto [u, v] = at(place, k, corners.size());
+      const SurfacePoint<N> p = stam(static_cast<int>(around[i]), u, v),
+                            q = subdivision(static_cast<int>(around[i]), u, v);
+      const auto compare = [&](const Vec3<N>& a, const Vec3<N>& b, const char* what, const N& bound) {
+        EXPECT_LE(magnitude(a - b), bound * (N(1) + magnitude(b)))
+            << shape.name << " face " << around[i] << " (" << place.along << ", " << place.across << ") "
+            << what;
+      };
+      compare(p.position, q.position, "position", N("1e-47"));
+      EXPECT_EQ(p.normal_kind, q.normal_kind) << shape.name << " " << place.along;
+      EXPECT_EQ(p.first_exist, q.first_exist);
+      EXPECT_EQ(p.second_exist, q.second_exist);
+      if (p.normal_kind == NormalKind::kRegular) compare(p.normal, q.normal, "normal", N("1e-40"));
+      if (p.first_exist) compare(p.d1, q.d1, "d1", N("1e-43")), compare(p.d2, q.d2, "d2", N("1e-43"));
+      if (p.second_exist)
+        compare(p.d11, q.d11, "d11", N("1e-39")), compare(p.d12, q.d12, "d12", N("1e-39")),
+            compare(p.d22, q.d22, "d22", N("1e-39"));
+    }
+  }
+}
+
+TEST(ManyFaces, HaveTheSurfaceOfSubdivision) {
+  using N = Decimal50;
+  for (const int n : {kManyFaces - 1, kManyFaces, 90}) {
+    for (const Shape& s : triangles(n)) {
+      const StamEvaluator<N> stam(s.mesh);
+      const SubdivisionEvaluator<N> subdivision(s.mesh);
+      expect_same([&](int f, const auto& a, const auto& b) { return stam.evaluate(f, a, b); },
+                  [&](int f, const auto& a, const auto& b) { return subdivision.evaluate(f, a, b); }, s);
+    }
+    for (const Shape& s : quads(n)) {
+      const cc::StamEvaluator<N> stam(s.mesh.faces, positions<N>(s.mesh), s.mesh.sharpness);
+      const cc::SubdivisionEvaluator<N> subdivision(s.mesh.faces, positions<N>(s.mesh), s.mesh.sharpness);
+      expect_same([&](int f, const auto& a, const auto& b) { return stam.evaluate(f, 0, a, b); },
+                  [&](int f, const auto& a, const auto& b) { return subdivision.evaluate(f, 0, a, b); }, s);
+    }
+  }
+}
+
+/// In double against a hundred digits, down to 1e-300 from the vertex.
+TEST(ManyFaces, LoseNoDigitsTowardsTheVertex) {
+  using N = Decimal100;
+  const auto expect_near = [](const Vec3<double>& a, const Vec3<N>& b, const std::string& what) {
+    const N size = std::max(magnitude(b), N("1e-300"));
+    const Vec3<N> wide{N(a.x), N(a.y), N(a.z)};
+    const auto error = N(magnitude(wide - b) / size).convert_to<double>();
+    EXPECT_LE(error, StamError::kNearCorner) << what;
+  };
+  const auto compare = [&](const SurfacePoint<double>& p, const SurfacePoint<N>& q, const std::string& what) {
+    expect_near(p.position, q.position, what + " position");
+    expect_near(p.d1, q.d1, what + " d1");
+    expect_near(p.d2, q.d2, what + " d2");
+    if (q.normal_kind == NormalKind::kRegular && p.normal_kind == NormalKind::kRegular &&
+        q.normal_condition < 1e6)
+      expect_near(p.normal, q.normal, what + " normal");
+  };
+  for (const double near : {1e-3, 1e-30, 1e-300}) {
+    for (const Shape& s : triangles(100)) {
+      const StamEvaluator<double> rounded(s.mesh);
+      const StamEvaluator<N> exact(s.mesh);
+      const std::int32_t centre = hub(s.mesh);
+      for (int f = 0; f < 4; ++f)
+        if (s.mesh.faces[static_cast<std::size_t>(f)][0] == centre)
+          compare(rounded.evaluate(f, near, near / 3), exact.evaluate(f, near, near / 3), s.name);
+    }
+    for (const Shape& s : quads(100)) {
+      const cc::StamEvaluator<double> rounded(s.mesh.faces, positions<double>(s.mesh), s.mesh.sharpness);
+      const cc::StamEvaluator<N> exact(s.mesh.faces, positions<N>(s.mesh), s.mesh.sharpness);
+      const std::int32_t centre = hub(s.mesh);
+      for (int f = 0; f < 4; ++f)
+        if (s.mesh.faces[static_cast<std::size_t>(f)][0] == centre)
+          compare(rounded.evaluate(f, 0, near, near / 3), exact.evaluate(f, 0, near, near / 3), s.name);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::reference

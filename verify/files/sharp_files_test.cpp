@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// The audit of files against surfaces with sharp edges: files that are right, and with a fault each.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "verify/files/test_files.h"
+#include "verify/files/test_sharp_files.h"
+#include "verify/projection/test_sharp_meshes.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using namespace test;
+
+FilesAudit audit_sharp(const SharpMesh& m, FileTessellation t) {
+  FilesOptions options;
+  options.scheme = m.scheme;
+  options.needs_normals = true;
+  return audit(m.mesh, std::move(t), options);
+}
+
+std::string said(const FilesAudit& a) {
+  std::string text;
+  for (const Result& r : a.results)
+    if (is_bad(r)) text += r.check + ": " + r.message + "; ";
+  return text;
+}
+
+SharpMesh named(const std::string& name) {
+  for (SharpMesh& m : sharp_meshes())
+    if (m.name == name) return std::move(m);
+  throw std::out_of_range(name);
+}
+
+TEST(SharpFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
+  double worst = 0;
+  for (const SharpMesh& m : sharp_meshes()) {
+    const FilesAudit a = audit_sharp(m, sharp_file(m.mesh, m.scheme, 2));
+    EXPECT_EQ(findings(a), "") << m.name << ": " << said(a);
+    worst = std::max(worst, *row(a, "file-distance").worst);
+    EXPECT_LE(*row(a, "file-distance").worst, 1e-14) << m.name;
+    EXPECT_EQ(row(a, "file-normals").message.find("both sides"), std::string::npos)
+        << m.name << ": every corner has the normal of its side";
+  }
+  RecordProperty("worst_distance_in_diagonals", std::to_string(worst * 1e16) + "e-16");
+}
+
+// A vertex on an edge that stays sharp has two normals; a file with one of them is not to be blamed.
+TEST(SharpFiles, OneNormalForBothSidesOfACreaseIsCountedAndNotJudged) {
+  for (const char* name : {"cube 10", "dart 5", "corner 3", "dart 4 of triangles", "ring 10"}) {
+    const SharpMesh m = named(name);
+    const FilesAudit a = audit_sharp(m, with_one_normal_each(sharp_file(m.mesh, m.scheme, 2)));
+    EXPECT_EQ(findings(a), "") << m.name << ": " << said(a);
+    EXPECT_NE(row(a, "file-normals").message.find("stand for both sides"), std::string::npos)
+        << m.name << ": " << row(a, "file-normals").message;
+  }
+  const SharpMesh smooth = named("cube 2");
+  const FilesAudit a = audit_sharp(smooth, with_one_normal_each(sharp_file(smooth.mesh, smooth.scheme, 2)));
+  EXPECT_EQ(row(a, "file-normals").message.find("both sides"), std::string::npos)
+      << "a semi-sharp edge has one normal";
+}
+
+// Files of the wrong surface; the control mesh is right.
+TEST(SharpFiles, ASurfaceOfOtherTagsIsFound) {
+  const auto with = [](const SharpMesh& m, auto&& fault) {
+    data::ControlMesh wrong = m.mesh;
+    fault(wrong.sharpness);
+    return findings(audit_sharp(m, sharp_file(wrong, m.scheme, 2)));
+  };
+  const auto smooth = [](data::Sharpness& s) { s = {}; };
+  const auto one_less = [](data::Sharpness& s) {
+    for (data::SharpEdge& e : s.edges) e.sharpness = std::max(0.F, e.sharpness - 1);
+  };
+  for (const char* name : {"cube 1", "cube 2", "cube 0.500000", "cube 10", "dart 4", "dart 3 of triangles",
+                           "corner 3 of triangles", "ring 2.3", "cone", "corners kept", "random quads 1"}) {
+    const SharpMesh m = named(name);
+    EXPECT_TRUE(with(m, smooth).starts_with("file-distance")) << m.name << " as if smooth";
+  }
+  for (const char* name : {"cube 1", "cube 2", "cube 3.000000", "ring 2.3", "dart of triangles 2.250000"}) {
+    const SharpMesh m = named(name);
+    EXPECT_TRUE(with(m, one_less).starts_with("file-distance")) << m.name << " one level short";
+  }
+  const SharpMesh chaikin = named("random quads 2");
+  const auto switched = with(chaikin, [](data::Sharpness& s) {
+    s.creasing = s.creasing == data::Creasing::kChaikin ? data::Creasing::kUniform : data::Creasing::kChaikin;
+  });
+  EXPECT_TRUE(switched.starts_with("file-distance")) << "the other way of creasing";
+}
+
+// The limit of a dart's vertex is not where the mask of a smooth one puts it.
+TEST(SharpFiles, ADartAtTheLimitOfASmoothVertexIsFound) {
+  for (const int n : {3, 4, 5, 7}) {
+    const SharpMesh m = named("dart " + std::to_string(n));
+    FileTessellation t = sharp_file(m.mesh, m.scheme, 2);
+    reference::catmull_clark::RefinedMesh<double> refined(
+        m.mesh.faces, reference::positions_of<double>(m.mesh), m.mesh.sharpness);
+    refined.refine();
+    refined.refine();
+    const auto smooth =
+        reference::catmull_clark::RefinedMesh<double>(refined.topology().faces(), refined.positions())
+            .limits()
+            .positions;
+    const data::SharpEdge& edge = m.mesh.sharpness.edges.at(0);
+    for (const std::int32_t v : {edge.a, edge.b}) t.positions[v] = vector_of(smooth[v]);
+    const FilesAudit a = audit_sharp(m, t);
+    EXPECT_EQ(row(a, "file-distance").status, Status::kFinding) << m.name;
+    EXPECT_LE(row(a, "file-distance").bad, 2) << m.name;
+  }
+}
+
+TEST(SharpFiles, TheNormalsOfTheTwoSidesExchangedAreFound) {
+  for (const char* name : {"cube 10", "dart 5", "dart 4 of triangles", "ring 10"}) {
+    const SharpMesh m = named(name);
+    FileTessellation t = sharp_file(m.mesh, m.scheme, 2);
+    // Two corners at one vertex whose normals differ: each gets the other's.
+    bool swapped = false;
+    for (std::size_t a = 0; a < t.normals.size() && !swapped; ++a)
+      for (std::size_t b = a + 1; b < t.normals.size() && !swapped; ++b)
+        if (t.normals[a].vertex == t.normals[b].vertex &&
+            norm(t.normals[a].direction - t.normals[b].direction) > .01) {
+          std::swap(t.normals[a].direction, t.normals[b].direction);
+          swapped = true;
+        }
+    ASSERT_TRUE(swapped) << m.name;
+    const FilesAudit a = audit_sharp(m, t);
+    EXPECT_EQ(findings(a), "file-normals") << m.name << ": " << said(a);
+    EXPECT_EQ(row(a, "file-normals").bad, 2) << m.name;
+  }
+}
+
+SharpMesh with_holes(const std::string& name, std::vector<std::int32_t> holes) {
+  SharpMesh m = name == "torus" ? SharpMesh{"torus", data::quad_torus(6, 5), data::Scheme::kCatmullClark}
+                                : named(name);
+  m.mesh.holes = std::move(holes);
+  return m;
+}
+
+TEST(SharpFiles, AHoleIsToBeLeftOpen) {
+  for (const SharpMesh& m :
+       {with_holes("cube 10", {2}), with_holes("cube 2", {0, 5}), with_holes("torus", {3, 4}),
+        with_holes("random prism", {1, 2}), with_holes("dart 5 of triangles", {0})}) {
+    const FilesAudit open = audit_sharp(m, sharp_file(m.mesh, m.scheme, 2));
+    EXPECT_EQ(findings(open), "") << m.name << ": " << said(open);
+    data::ControlMesh covered = m.mesh;
+    covered.holes.clear();
+    const FilesAudit filled = audit_sharp(m, sharp_file(covered, m.scheme, 2));
+    EXPECT_TRUE(findings(filled).starts_with("file-coverage")) << m.name << ": " << findings(filled);
+    EXPECT_NE(row(filled, "file-coverage").message.find("holes"), std::string::npos);
+    data::ControlMesh more = m.mesh;
+    more.holes.insert(more.holes.begin(), {m.mesh.holes[0] == 0 ? 1 : 0});
+    std::sort(more.holes.begin(), more.holes.end());
+    more.holes.erase(std::unique(more.holes.begin(), more.holes.end()), more.holes.end());
+    const std::string missing = findings(audit_sharp(m, sharp_file(more, m.scheme, 2)));
+    EXPECT_TRUE(missing.find("file-coverage") != std::string::npos) << m.name << ": a face left out that is none";
+  }
+}
+
+// Two holes that touch in a corner leave a vertex with two fans of faces.
+TEST(SharpFiles, HolesThatTouchInACornerAreNoBowTie) {
+  SharpMesh m = with_holes("torus", {});
+  const data::Faces& faces = m.mesh.faces;
+  for (std::int32_t f = 1; f < static_cast<std::int32_t>(faces.size()) && m.mesh.holes.empty(); ++f) {
+    int common = 0;
+    for (const std::int32_t v : faces[0])
+      common += static_cast<int>(std::count(faces[f].begin(), faces[f].end(), v));
+    if (common == 1) m.mesh.holes = {0, f};
+  }
+  ASSERT_EQ(m.mesh.holes.size(), 2U);
+  const FilesAudit a = audit_sharp(m, sharp_file(m.mesh, m.scheme, 2));
+  EXPECT_EQ(findings(a), "") << said(a);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -253,7 +253,7 @@ int audit(const Job& job) {
   const verify::InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
   SubjectOutput output;
-  if (output.screen() != nullptr) progress.to(output.screen());
+  const ProgressTo screen(progress, output.screen());
   verify::Auditor auditor(
       a.depth, a.threads,
       [&](const verify::AuditStep& s) {
@@ -268,15 +268,15 @@ int audit(const Job& job) {
     report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
                                    : auditor.run(audited, meshes, journal.get());
   } catch (const verify::Interrupted&) {  // there is no half of an answer whether broken meshes are refused
-    progress.clear();
+    screen.end();
+    (void)output.take();
     fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
     return kSignalled + verify::interrupted();
   }
   const auto finish = [&] {
     report.containment = loader.containment();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    progress.clear();
-    progress.to(stderr);
+    screen.end();
     report.printed = output.take();
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;
     report.incomplete = incomplete(auditor, meshes, report, signal);

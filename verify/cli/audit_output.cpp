@@ -23,6 +23,7 @@
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
 #include "verify/cli/finite.h"
+#include "verify/cli/subject_output.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
@@ -104,7 +105,7 @@ bool explained(const OutputArguments& a) {
                e.bound, e.source);
     found = true;
   }
-  if (found) fmt::print("\nIn tables\n{}", verify::words_of_tables());
+  if (found) fmt::print("\n{}\n{}", "In tables", verify::words_of_tables());
   if (!found)
     throw data::ArgumentError(fmt::format("there is no check '{}'; there are: {}", a.explain, known));
   return true;
@@ -211,15 +212,18 @@ void write_html(const std::string& file, const std::vector<verify::AuditSubject>
                 const std::string& level, int threads) {
   const std::vector<verify::Cause> causes = verify::causes(report);
   std::vector<std::optional<verify::ErrorShape>> shapes;
+  SubjectOutput output;  // the report has it already
   for (const verify::Cause& c : causes) {
     const verify::Result& row = report.results[c.example];
     const verify::AuditMesh* mesh = case_of(row, meshes);
     const auto at = std::find(report.subjects.begin(), report.subjects.end(), row.subject);
     const auto number = static_cast<std::size_t>(at - report.subjects.begin());
-    shapes.push_back(mesh == nullptr || number >= subjects.size()
+    // After an interrupt no subject is asked again: it may be the one that does not answer.
+    shapes.push_back(mesh == nullptr || number >= subjects.size() || !report.incomplete.empty()
                          ? std::nullopt
                          : verify::error_shape(subjects[number], *mesh, row, threads));
   }
+  (void)output.take();
   verify::write_text(file, verify::to_html(report, causes, shapes, level));
 }
 

@@ -30,4 +30,23 @@ class Progress {
   std::chrono::steady_clock::time_point last_{};
 };
 
+/// A progress display elsewhere than on standard error, until it ends.
+class ProgressTo {
+ public:
+  /// nullptr: where it was.
+  ProgressTo(Progress& progress, std::FILE* stream) : progress_(progress) {
+    if (stream != nullptr) progress_.to(stream);
+  }
+  ~ProgressTo() { end(); }
+  ProgressTo(const ProgressTo&) = delete;
+  ProgressTo& operator=(const ProgressTo&) = delete;
+  void end() const {
+    progress_.clear();
+    progress_.to(stderr);
+  }
+
+ private:
+  Progress& progress_;
+};
+
 }  // namespace limitcheck::cli

@@ -7,13 +7,16 @@
 
 #include <algorithm>
 #include <csignal>
+#include <iterator>
 #include <utility>
 
 namespace limitcheck::cli {
 namespace {
 
 constexpr int kFatal[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+constexpr std::size_t kFatals = std::size(kFatal);
 int kept_file = -1, real_error = -1;
+struct sigaction before[kFatals];  // a sanitizer has its own
 
 // Only calls that are allowed in a handler.
 void show_the_end(int signal) {
@@ -22,7 +25,8 @@ void show_the_end(int signal) {
   const off_t size = lseek(kept_file, 0, SEEK_END);
   const ssize_t count = pread(kept_file, text, kShown, size > kShown ? size - kShown : 0);
   if (count > 0) (void)!write(real_error, text, static_cast<std::size_t>(count));
-  std::signal(signal, SIG_DFL);
+  for (std::size_t k = 0; k < kFatals; ++k)
+    if (kFatal[k] == signal) sigaction(signal, &before[k], nullptr);
   (void)raise(signal);
 }
 
@@ -41,8 +45,9 @@ SubjectOutput::SubjectOutput() {
   if (error_ >= 0) dup2(file_, STDERR_FILENO);
   kept_file = file_;
   real_error = error_;
-  if (error_ >= 0)
-    for (const int signal : kFatal) std::signal(signal, show_the_end);
+  struct sigaction action {};
+  action.sa_handler = show_the_end;
+  for (std::size_t k = 0; error_ >= 0 && k < kFatals; ++k) sigaction(kFatal[k], &action, &before[k]);
 }
 
 std::string SubjectOutput::take() {
@@ -50,8 +55,7 @@ std::string SubjectOutput::take() {
   if (file_ < 0) return "";
   std::fflush(stdout);
   std::fflush(stderr);
-  if (error_ >= 0)
-    for (const int signal : kFatal) std::signal(signal, SIG_DFL);
+  for (std::size_t k = 0; error_ >= 0 && k < kFatals; ++k) sigaction(kFatal[k], &before[k], nullptr);
   if (out_ >= 0) dup2(out_, STDOUT_FILENO);
   if (error_ >= 0) dup2(error_, STDERR_FILENO);
   for (int* fd : {&out_, &error_})

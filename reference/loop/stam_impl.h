@@ -2,6 +2,7 @@
 // Definitions behind stam.h, for the .cpp files that instantiate them.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <tuple>
@@ -145,8 +146,9 @@ class StamData {
   /// Near semi-sharp tags: on the piece of the face that has none.
   template <class P>
   SurfacePoint<N> evaluate_after_steps(std::size_t f, const P& l1, const P& l2, Order order) const {
-    const bool beyond = l1 + l2 > 1;  // two doubles whose rounded sum is 1
-    SubFacePath<P> path(beyond && l1 > l2 ? P(1 - l2) : l1, beyond && l1 <= l2 ? P(1 - l1) : l2);
+    // Two doubles may be more than 1 by a last bit; from the larger one 1 - l is exact.
+    const P largest = P(1) - std::max(l1, l2);
+    SubFacePath<P> path(l1 < l2 ? std::min(l1, largest) : l1, l1 < l2 ? l2 : std::min(l2, largest));
     SurfacePoint<N> p;
     if constexpr (std::is_same_v<N, double>) {
       const StamData* level = this;

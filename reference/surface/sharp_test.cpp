@@ -2,6 +2,7 @@
 // What sharp edges do to a surface, whatever its numbers; both schemes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -305,6 +306,23 @@ TEST(SharpEdges, ThatDoNotFitAreRefused) {
   refused({.edges = {{a, b, std::numeric_limits<float>::quiet_NaN()}}, .vertices = {}});
   refused({.edges = {{a, b, 1}, {b, a, 2}}, .vertices = {}});
   refused({.edges = {}, .vertices = {{8, 1}}});
+}
+
+// A point on the last side of a face, whose coordinates are more than 1 by a last bit, where steps are taken
+// for a tag nearby: it was refused.
+TEST(SharpEdges, DoNotMakeRoundedSidesLieOutside) {
+  const ControlMesh mesh = data::dart(3, true);
+  const Surface surface(mesh, data::Scheme::kLoop);
+  data::SplitMix64 random(1);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (int i = 0; i < 2000; ++i) {
+      const double l1 = random.unit(), l2 = 1 - l1;
+      const auto p = surface.evaluate(static_cast<int>(f), 0, l1, l2),
+                 q = surface.evaluate(static_cast<int>(f), 0, l2, l1);
+      EXPECT_TRUE(std::isfinite(p.position.x) && std::isfinite(q.position.x)) << f << " " << l1;
+    }
+  }
+  EXPECT_NO_THROW(surface.evaluate(2, 0, 0.72393962371015741, 0.27606037628984265));
 }
 
 }  // namespace

@@ -55,17 +55,34 @@ std::map<std::string, std::function<Case()>> cases() {
       };
     }
   }
-  list["frame/row-stream/random-depths"] = [] {
+  // Frames at unequal depths: as a draw list, as patches, and as patches of which few have changed.
+  const auto engine = [] {
     fast::TessellatorOptions options;
     options.threads = 1;
-    const auto engine = std::make_shared<fast::row_stream::StreamTessellator>(
-        mesh, options, *fast::row_stream::find_kernel("avx2"));
+    return std::make_shared<fast::row_stream::StreamTessellator>(mesh, options,
+                                                                 *fast::row_stream::find_kernel("avx2"));
+  };
+  const auto depths = [](std::size_t deeper) {
     std::vector<std::int32_t> depth;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) depth.push_back(static_cast<std::int32_t>(f * 7 % 5));
-    const auto out = std::make_shared<fast::DrawList<float>>();
-    engine->frame(depth, *out);
-    return Case{[=] { engine->frame(depth, *out); }};
+    for (std::size_t f = 0; f < deeper; ++f) ++depth[40 * f];
+    return depth;
   };
+  list["frame/row-stream/random-depths"] = [=] {
+    const auto out = std::make_shared<fast::DrawList<float>>();
+    const auto by = engine();
+    by->frame(depths(0), *out);
+    return Case{[=, depth = depths(0)] { by->frame(depth, *out); }};
+  };
+  for (const bool kept : {false, true}) {
+    list[std::string("frame/row-stream/patches") + (kept ? "-kept" : "")] = [=] {
+      const auto out = std::make_shared<fast::PatchMesh<float>>(fast::PatchOptions{.incremental = kept});
+      const auto by = engine();
+      by->frame(depths(4), *out);
+      by->frame(depths(0), *out);
+      return Case{[=, depth = depths(4)] { by->frame(depth, *out); }};
+    };
+  }
   return list;
 }
 

@@ -301,7 +301,11 @@ TEST_F(Breakdown, WhatAProgramStartedEndsWithIt) {
 
 TEST_F(Breakdown, BuiltInSubjectsRunIsolatedToTheSameResults) {
   const std::string arguments = "audit row-stream bumpy:100 holes --depths random --json -";
-  EXPECT_EQ(report_of(arguments + " --isolate", 0)["results"], report_of(arguments, 0)["results"]);
+  json isolated = report_of(arguments + " --isolate", 0)["results"],
+       here = report_of(arguments, 0)["results"];
+  for (json* rows : {&isolated, &here})
+    for (json& row : *rows) row.erase("seconds");
+  EXPECT_TRUE(isolated == here) << json::diff(isolated, here);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ struct Capabilities {
   lc_capabilities values{};
   Payload payload = Payload::kBinary;  // of everything after this answer, both ways
   int version = kVersion;              // likewise
+  std::string options;                 // what options it takes, in words; may be empty
 };
 
 /// Requests, ready to be sent.

@@ -81,6 +81,8 @@ struct RemoteCalls {
     const lc_status status = answer(s, *child, message, input(s, given), [&] {
       child->ask(protocol::ask_capabilities(given, out->scheme));
       s.capabilities_ = protocol::read_capabilities(*child);
+      s.options_text_ = s.capabilities_.options;
+      s.subject_.options = s.options_text_.c_str();
       const lc_scheme scheme = out->scheme;
       *out = s.capabilities_.values;
       out->size = sizeof *out;

@@ -55,6 +55,7 @@ class RemoteSubject {
   std::unique_ptr<ChildProcess> waiting_;
   std::string waiting_options_;
   lc_scheme waiting_scheme_ = LC_SCHEME_LOOP;
+  std::string options_text_;
   protocol::Capabilities capabilities_;
   bool has_answered_ = false;
   std::optional<Containment> containment_;

@@ -121,7 +121,8 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"max_depth", c.max_depth},
           {"normals", c.normals != 0},
           {"per_face_depth", c.per_face_depth != 0},
-          {"exact_lattice", c.exact_lattice != 0}};
+          {"exact_lattice", c.exact_lattice != 0},
+          {"options", subject.options != nullptr ? subject.options : ""}};
 }
 
 // [block, offset], null, or [-1, 0]: see replay.cpp.

@@ -57,7 +57,7 @@ TEST_F(ClaimsCommand, ASignalLeavesNothingBehind) {
 }
 
 TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {
-  const Outcome o = run("claims C86");
+  const Outcome o = run("claims C87");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("C01 to C86"), std::string::npos) << o.err;
 }

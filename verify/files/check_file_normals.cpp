@@ -109,11 +109,11 @@ SideNormal side_normal(const FileEvidence& e, std::int32_t point, const Vector& 
   return side;
 }
 
-// How far a foot may be from where its vertex was made: the rounding of three floats, and as much along the
-// surface as it is off it, if that is rounding too.
-double rounding(const FileEvidence& e, const Vector& at, const Foot& foot) {
+// How far a foot may be from where its vertex was made: the rounding of three floats, and what computing them
+// in float costs about the mesh (1e-7 of its diagonal).
+double rounding(const FileEvidence& e, const Vector& at) {
   const double largest = std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
-  return 0x1p-23 * largest + std::min(foot.distance, 0x1p-23 * e.surface.diagonal());
+  return 0x1p-23 * (largest + e.surface.diagonal());
 }
 
 }  // namespace
@@ -165,7 +165,7 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
       expected[k] = place.normal;
     }
     if (angle[k] > *r.bound)
-      angle[k] = least_angle_nearby(e.surface, foot, normals[k].direction, rounding(e, at, foot), *r.bound);
+      angle[k] = least_angle_nearby(e.surface, foot, normals[k].direction, rounding(e, at), *r.bound);
   }
   const Statistics s = summarise(angle, *r.bound);
   take(r, s);

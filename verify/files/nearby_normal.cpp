@@ -7,29 +7,55 @@
 
 namespace limitcheck::verify {
 
+namespace {
+
+// Steps in the parameters that move a point by `radius` in the direction in which it moves fastest, and in the
+// one in which it moves slowest: the axes of an ellipse, which is long where tangents are nearly parallel.
+struct Axes {
+  double fast[2], slow[2];
+
+  Axes(const LimitSurface& surface, const FacePoint& at, double radius) {
+    const auto p = surface.evaluate(at, reference::Order::kFirst);
+    const Vector d1 = vector_of(p.d1), d2 = vector_of(p.d2);
+    const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);
+    const double turn = std::atan2(2 * b, a - c) / 2, middle = (a + c) / 2,
+                 spread = std::hypot((a - c) / 2, b);
+    const auto length = [&](double square) {
+      constexpr double kMost = .25;  // of a face
+      return square * kMost * kMost > radius * radius ? radius / std::sqrt(square) : kMost;
+    };
+    const double most = length(middle + spread), least = length(middle - spread);
+    fast[0] = most * std::cos(turn), fast[1] = most * std::sin(turn);
+    slow[0] = -least * std::sin(turn), slow[1] = least * std::cos(turn);
+  }
+};
+
+}  // namespace
+
 double least_angle_nearby(const ClosestPoint& surface, const Foot& foot, const Vector& direction,
                           double radius, double enough) {
   constexpr int kDirections = 8, kSteps = 64;
-  constexpr double kWorthIt = 1e-3;  // of what is missing, gained by the first step
-  double angle = angle_degrees(direction, foot.normal);
-  const auto tangents = surface.surface().evaluate(foot.at, reference::Order::kFirst);
-  const double speed = std::max(norm(vector_of(tangents.d1)), norm(vector_of(tangents.d2)));
-  double step = speed > 0 ? std::min(radius / speed, .25) : .25;
+  constexpr int kSeen = 4;           // steps after which it is seen
+  constexpr double kWorthIt = 1e-3;  // of what is missing, gained by then
+  const double first = angle_degrees(direction, foot.normal);
+  double angle = first, scale = .5;
   FacePoint best = foot.at;
   for (int i = 0; i < kSteps && angle > enough; ++i) {
+    const Axes axes(surface.surface(), best, radius);
     double least = angle;
     FacePoint there = best;
     for (int k = 0; k < kDirections; ++k) {
-      const double turn = 2 * std::numbers::pi * k / kDirections, a = step * std::cos(turn),
-                   b = step * std::sin(turn);
-      const FacePoint at = surface.domain().walk(best, {-a - b, a, b});
+      const double turn = 2 * std::numbers::pi * k / kDirections, c = scale * std::cos(turn),
+                   s = scale * std::sin(turn);
+      const double x = c * axes.fast[0] + s * axes.slow[0], y = c * axes.fast[1] + s * axes.slow[1];
+      const FacePoint at = surface.domain().walk(best, {-x - y, x, y});
       const Foot other = surface.at(at, foot.position);
       if (!other.has_normal || other.distance > radius) continue;
       const double its = angle_degrees(direction, other.normal);
       if (its < least) least = its, there = at;
     }
-    if (i == 0 && angle - least < kWorthIt * (angle - enough)) return angle;
-    step *= least < angle ? 2 : .5;
+    if (i == kSeen && first - least < kWorthIt * (first - enough)) return least;
+    scale = least < angle ? std::min(1., 2 * scale) : scale / 2;
     angle = least, best = there;
   }
   return angle;

@@ -76,7 +76,7 @@ class Interpolation final : public Contender {
     return static_cast<T*>(memory);
   }
 
-  // Point by point: rtcInterpolateN of Debian's 3.13 reads memory that is not its own.
+  // Point by point: rtcInterpolateN of Debian's 3.13 ends with a segmentation fault here.
   void evaluate(std::size_t face) {
     const std::size_t n = u_.size();
     float* out = out_.data() + 6 * n * face;

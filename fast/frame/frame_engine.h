@@ -81,6 +81,11 @@ struct FrameEngine : FrameState {
   /// Vertices of this frame whose normal came from the rule for vanishing tangents.
   virtual std::int64_t zero_normals() const = 0;
 
+  /// How a draw list is written: past the caches if it is large, but for the part that a sink reads at once.
+  Stores stores_of(const DrawList<Real>& out) const {
+    return &out == &part ? Stores::kOrdinary : stores_for(sizeof(SurfaceVertex<Real>) * out.vertices.size());
+  }
+
   Placement<Real> placement;          // from the coordinates of what the writers are given to the caller's
   std::vector<DrawSize> offsets;      // where each patch of the draw list begins, and the end
   Stores stores = Stores::kOrdinary;  // of the vertices of a draw list

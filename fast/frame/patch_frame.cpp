@@ -58,7 +58,12 @@ PatchMesh<Real>& PatchMesh<Real>::operator=(PatchMesh&&) noexcept = default;
 
 template <class Real>
 void PatchMesh<Real>::clear() {
-  store_->writer = 0;
+  *store_ = PatchStore();  // not {}: clang 14 then leaves the destructor out of a template
+  draws_.clear(), changed_.clear();
+  indices_.clear(), indices16_.clear();
+  vertices_ = {};
+  provenance_.clear();
+  first_new_index_ = 0;
 }
 
 template <class Real>
@@ -89,7 +94,7 @@ std::int64_t PatchFrame<Real>::write(std::span<const std::int32_t> depth) {
                                 " vertices of a patch are more than 16-bit indices reach");
   }
   if (store.mesh != engine_.id) {
-    store.indices = {};
+    store.indices = PatchIndices();
     out_.indices_.clear(), out_.indices16_.clear();
   }
   const bool reuse = continues();
@@ -121,15 +126,11 @@ template <class Real>
 void PatchFrame<Real>::add_draws() {
   PatchStore& store = *out_.store_;
   out_.draws_.clear();
-  out_.first_new_index_ = out_.indices_.size() + out_.indices16_.size();
-  // Patterns are made as 32 bits; narrow ones are kept as 16.
-  std::vector<std::uint32_t>& made = out_.indices_;
-  if (out_.options_.narrow) made.assign(out_.indices16_.begin(), out_.indices16_.end());
-  engine_.add_patch_draws(store.places, out_.options_.form, store.indices, made, out_.draws_);
+  out_.first_new_index_ = out_.indices_.size();
+  engine_.add_patch_draws(store.places, out_.options_.form, store.indices, out_.indices_, out_.draws_);
   if (!out_.options_.narrow) return;
-  for (std::size_t i = out_.first_new_index_; i < made.size(); ++i)
-    out_.indices16_.push_back(static_cast<std::uint16_t>(made[i]));
-  made.clear();
+  for (std::size_t i = out_.indices16_.size(); i < out_.indices_.size(); ++i)
+    out_.indices16_.push_back(static_cast<std::uint16_t>(out_.indices_[i]));
 }
 
 template <class Real>

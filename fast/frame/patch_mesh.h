@@ -23,7 +23,7 @@ inline constexpr std::uint16_t kRestartIndex16 = 0xffff;
 
 struct PatchOptions {
   IndexForm form = IndexForm::kTriangles;
-  bool narrow = false;       // indices of 16 bits: depths of 7 and less
+  bool narrow = false;       // indices of 16 bits as well: depths of 7 and less
   bool incremental = false;  // patches that are as they were in the frame before keep their places
   /// Faces stay paired as long as neither of them wants another depth, in place of pairs that depend on the
   /// frame alone: fewer patches change from frame to frame, for about 2 per cent more triangles.
@@ -82,7 +82,8 @@ class PatchMesh {
   /// All vertices, those of no draw as well; provenance likewise, or none.
   std::span<const SurfaceVertex<Real>> vertices() const { return vertices_; }
   std::span<const LatticePoint> provenance() const { return provenance_; }
-  /// The patterns: patterns are added from frame to frame and never change. One of the two is empty.
+  /// The patterns, which are added to from frame to frame and never change; and the same as 16 bits, if so
+  /// wanted.
   std::span<const std::uint32_t> indices() const { return indices_; }
   std::span<const std::uint16_t> indices16() const { return indices16_; }
   /// Which vertices the last frame wrote, in order and apart, and from which index on patterns are new.

@@ -71,21 +71,20 @@ void PatchStore::give_back(Kept& kept) {
 
 // Of the patches that are not shown those stay that were shown last, of at most so many vertices.
 void PatchStore::evict(std::int64_t most) {
-  auto& hidden = hidden_;
-  hidden.clear();
+  hidden_.clear();
   std::int64_t size = 0;
   for (std::size_t f = 0; f < kept_.size(); ++f) {
     if (kept_[f].first < 0 || kept_[f].shown == frame_) continue;
-    hidden.emplace_back(frame_ - kept_[f].shown, f);
+    hidden_.emplace_back(frame_ - kept_[f].shown, f);
     size += kept_[f].size;
   }
   if (size <= most) return;
-  std::sort(hidden.begin(), hidden.end());
+  std::sort(hidden_.begin(), hidden_.end());
   while (size > most) {
-    Kept& kept = kept_[hidden.back().second];
+    Kept& kept = kept_[hidden_.back().second];
     size -= kept.size;
     give_back(kept);
-    hidden.pop_back();
+    hidden_.pop_back();
   }
 }
 

@@ -211,6 +211,24 @@ TEST(PatchMesh, BeginsAnewForAnotherEngine) {
   EXPECT_FALSE(patches.changed().empty());
 }
 
+// Cleared patches forget the pairs of the last frame as well, which sticky ones would keep.
+TEST(PatchMesh, ForgetsPairsWhenCleared) {
+  const auto mesh = shaken(grid_torus(4, 5), .2, 2);
+  StreamTessellator engine(mesh);
+  PatchOptions with;
+  with.incremental = with.sticky = true;
+  PatchMesh<float> patches(with), fresh(with);
+  data::SplitMix64 random(3);
+  engine.frame(random_depths(mesh.faces.size(), 1, 2, random), patches);
+  const auto depth = random_depths(mesh.faces.size(), 1, 2, random);
+  engine.frame(depth, fresh);
+  patches.clear();
+  EXPECT_TRUE(patches.draws().empty() && patches.indices().empty() && patches.vertices().empty());
+  engine.frame(depth, patches);
+  EXPECT_EQ(patches.draws().size(), fresh.draws().size());
+  EXPECT_EQ(soup_of(patches), soup_of(fresh));
+}
+
 // After points have moved every output is that of a new engine; a refusal changes nothing.
 TEST(PatchMesh, FollowsPointsThatMove) {
   for (const Model& model : models()) {

@@ -37,7 +37,7 @@ void QuadStreamState::points_moved() {
 }
 
 void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
-  stores = stores_for(sizeof(Vertex) * out.vertices.size());
+  stores = stores_of(out);
   run(
       first, last, [&](std::size_t i) { return draw_writer(first, i, out); }, none);
 }

@@ -59,7 +59,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   }
 
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
-    stores = stores_for(sizeof(Vertex) * out.vertices.size());
+    stores = stores_of(out);
     const std::size_t count = last - first;
     run(std::span<const Grid>(pairing.grids).subspan(first, count),
         std::span<const Patch>(patches).subspan(first, count), [&](std::size_t i, StreamWorker& worker) {

@@ -54,7 +54,7 @@ inline Soup soup_of(const PatchMesh<float>& mesh, std::span<const SurfaceVertex<
   Soup soup;
   const bool narrow = mesh.options().narrow;
   const auto index = [&](std::uint32_t i) {
-    if (!narrow) return mesh.indices()[i];
+    if (!narrow) return mesh.indices()[i];  // else what a graphics library is given
     return mesh.indices16()[i] == kRestartIndex16 ? kRestartIndex : mesh.indices16()[i];
   };
   for (const PatchDraw& draw : mesh.draws()) {

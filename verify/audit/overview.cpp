@@ -154,9 +154,8 @@ std::string summary(const Report& report) {
 std::string legend(bool plan) {
   return fmt::format(
       "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; -: not looked at, the subject does not "
-      "do "
-      "it.\nirregular: at a vertex of another valence than 6 (Loop) or 4 (Catmull-Clark), or no quad; "
-      "diagonal: "
+      "do it.\n"
+      "irregular: at a vertex of another valence than 6 (Loop) or 4 (Catmull-Clark), or no quad; diagonal: "
       "of the mesh's bounding box.\n",
       plan ? "cases (a mesh at its depths)" : "meshes");
 }

@@ -324,9 +324,9 @@ std::string to_table(const Report& report, bool colour, bool all) {
   out += waiver_lines(report);
   if (!findings.empty())
     out +=
-        "\nFindings, each at its worst. (Expected values are those of the control mesh rounded to the "
-        "subject's "
-        "precision.)\n";
+        "\n"
+        "Findings, each at its worst. (Expected values are those of the control mesh rounded to the "
+        "subject's precision.)\n";
   for (std::size_t k = 0; k < findings.size(); ++k)
     add_finding(out, report, static_cast<int>(k) + 1, findings[k]);
 

@@ -332,8 +332,7 @@ void add_audit(CLI::App& app, int& exit_code) {
           ->add_option(
               "--depths", a->depths,
               "How the depths of the faces are chosen: uniform; random[:SEED[:visible]], from -1 (culled) "
-              "or, "
-              "with visible, 0 to --depth; view, by size on the screen, back faces culled; face0-culled; "
+              "or, with visible, 0 to --depth; view, by size on the screen, back faces culled; face0-culled; "
               "all-culled; or file:FILE, one depth for each face, -1 is culled")
           ->capture_default_str();
   CLI::Option* sample =
@@ -373,9 +372,8 @@ void add_audit(CLI::App& app, int& exit_code) {
   add_files_options(*command, *files);
   command->footer(
       "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or nothing that was asked for or required "
-      "is "
-      "supported. Ctrl-C ends the audit with a report of the results so far, marked as incomplete, and exit "
-      "code 130 (SIGTERM 143, SIGHUP 129); a second Ctrl-C ends it at once.");
+      "is supported. Ctrl-C ends the audit with a report of the results so far, marked as incomplete, and "
+      "exit code 130 (SIGTERM 143, SIGHUP 129); a second Ctrl-C ends it at once.");
   command->callback([=, &exit_code] {
     check_json(a->json);
     a->plan = depth->count() + depths->count() + sample->count() == 0;

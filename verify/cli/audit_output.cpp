@@ -42,8 +42,7 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
   command
       .add_option("--require", a.required,
                   "Checks, separated by commas, that must have judged something of each subject; otherwise "
-                  "nothing is "
-                  "confirmed (exit code 2)")
+                  "nothing is confirmed (exit code 2)")
       ->delimiter(',')
       ->check(CLI::IsMember(checks))
       ->transform([](const std::string& check) { return std::string(verify::current_name(check)); })

@@ -172,11 +172,9 @@ void add_claims(CLI::App& app, int& exit_code) {
       ->type_name("FOLDER");
   command->footer(
       "Two columns: our verdict on the paper's sentence, with figures, and whether the tests behind it pass. "
-      "A "
-      "claim whose tests are not built is reported as not run, never as passed.\n"
+      "A claim whose tests are not built is reported as not run, never as passed.\n"
       "Exit codes: 0 all tests pass, 1 a test fails or was not run, 2 bad usage; ended by SIGINT 130, "
-      "SIGTERM "
-      "143, SIGHUP 129.");
+      "SIGTERM 143, SIGHUP 129.");
   command->callback([a, &exit_code] { exit_code = claims(*a); });
 }
 

@@ -183,10 +183,9 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->footer(
       "Catmull-Clark: on a quad (U, V) is (0, 0) at corner 0, (1, 0) at corner 1, (1, 1) and (0, 1) at "
-      "corners 2 and "
-      "3. Any other face has a quad at each corner: there (0, 0) is the corner, (1, 0) the middle of the "
-      "edge to the "
-      "next corner, (1, 1) the middle of the face. Derivatives are by these parameters: d1 by U, d2 by V.");
+      "corners 2 and 3. Any other face has a quad at each corner: there (0, 0) is the corner, (1, 0) the "
+      "middle of the edge to the next corner, (1, 1) the middle of the face. Derivatives are by these "
+      "parameters: d1 by U, d2 by V.");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

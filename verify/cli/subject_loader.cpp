@@ -103,8 +103,7 @@ void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std:
   if (file && !is_file(subject))
     throw data::ArgumentError(
         fmt::format("there is no file {}. `limitcheck audit MESH` audits all subjects on a mesh, `limitcheck "
-                    "audit SUBJECT "
-                    "MESH` one; `limitcheck generate pawn -o {}` writes a mesh",
+                    "audit SUBJECT MESH` one; `limitcheck generate pawn -o {}` writes a mesh",
                     subject, subject));
   fmt::print(stderr, "limitcheck: {} is a mesh: all built-in subjects are audited on it\n", subject);
   meshes.insert(meshes.begin(), subject);
@@ -125,8 +124,7 @@ void refuse_unknown_options(const lc_subject& subject, const std::string& option
     if (help.find(key + "=") == std::string_view::npos)
       throw data::ArgumentError(
           fmt::format("{} takes any option without a word, so nothing says that it knows '{}': let it refuse "
-                      "what it does "
-                      "not know, or name it in its options text",
+                      "what it does not know, or name it in its options text",
                       subject.name, key));
     begin = end + 1;
   }

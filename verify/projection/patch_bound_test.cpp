@@ -6,20 +6,10 @@
 
 #include "data/generators/named_mesh.h"
 #include "verify/projection/surface_lattice.h"
+#include "verify/projection/test_pieces.h"
 
 namespace limitcheck::verify {
 namespace {
-
-double measured(const Piece& piece, const LimitSurface& surface, int n) {
-  double worst = 0;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; i + j <= n; ++j) {
-      const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-      const std::array<double, 3> weight{1 - a - b, a, b};
-      worst = std::max(worst, norm(surface.position(piece.parameter(weight)) - piece.flat(weight)));
-    }
-  return worst;
-}
 
 TEST(PatchBound, IsNowhereExceededOnTheStockShapesAndTheirSplitPieces) {
   std::vector<std::string> shapes = data::stock_shapes();

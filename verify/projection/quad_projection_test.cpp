@@ -8,6 +8,7 @@
 #include "data/splitmix64.h"
 #include "reference/surface/surface.h"
 #include "verify/projection/closest_point.h"
+#include "verify/projection/test_pieces.h"
 #include "verify/projection/test_quad_meshes.h"
 
 namespace limitcheck::verify {
@@ -149,9 +150,7 @@ TEST(QuadProjection, NoSampleOfTheSurfaceIsNearerAndNoneIsBelowTheProvedBound) {
       Vector p = closest.at(random_point(random, closest.domain().face_count()), {}).position;
       const double reach = closest.diagonal() * std::ldexp(1.0, -static_cast<int>(random.next() % 10));
       for (double& x : p) x += reach * (random.unit() - .5);
-      double brute = std::numeric_limits<double>::infinity();
-      for (std::size_t t = 0; t < finer.size(); ++t)
-        for (const Vector& s : finer.corners(t)) brute = std::min(brute, norm(p - s));
+      const double brute = distance_to_corners(finer, p);
       const Foot foot = closest.closest(p);
       EXPECT_LE(foot.distance, brute + 1e-12 * closest.diagonal()) << m.name << " point " << n;
       EXPECT_GE(brute, foot.at_least) << m.name << " point " << n;

@@ -8,6 +8,7 @@
 
 #include "data/splitmix64.h"
 #include "verify/projection/closest_point.h"
+#include "verify/projection/test_pieces.h"
 #include "verify/projection/test_sharp_meshes.h"
 
 namespace limitcheck::verify {
@@ -31,17 +32,6 @@ FacePoint random_point(data::SplitMix64& random, const Domain& domain) {
       break;
   }
   return at;
-}
-
-double measured(const Piece& piece, const LimitSurface& surface, int n) {
-  double worst = 0;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; i + j <= n; ++j) {
-      const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-      const std::array<double, 3> weight{1 - a - b, a, b};
-      worst = std::max(worst, norm(surface.position(piece.parameter(weight)) - piece.flat(weight)));
-    }
-  return worst;
 }
 
 TEST(SharpBound, IsNowhereExceededAndIsNotMuchTooLarge) {
@@ -106,9 +96,7 @@ TEST(SharpProjection, NoSampleOfTheSurfaceIsNearerAndNoneIsBelowTheProvedBound) 
       Vector p = closest.at(random_point(random, closest.domain()), {}).position;
       const double reach = closest.diagonal() * std::ldexp(1.0, -static_cast<int>(random.next() % 10));
       for (double& x : p) x += reach * (random.unit() - .5);
-      double brute = std::numeric_limits<double>::infinity();
-      for (std::size_t t = 0; t < finer.size(); ++t)
-        for (const Vector& s : finer.corners(t)) brute = std::min(brute, norm(p - s));
+      const double brute = distance_to_corners(finer, p);
       const Foot foot = closest.closest(p);
       EXPECT_LE(foot.distance, brute + 1e-12 * closest.diagonal()) << m.name << " point " << n;
       EXPECT_GE(brute, foot.at_least) << m.name << " point " << n;

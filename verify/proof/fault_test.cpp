@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "verify/proof/prove_map_impl.h"
+#include "verify/proof/test_faults.h"
 
 namespace limitcheck::verify {
 namespace {
 
+using test::same;
 using Number = Stencil<Residue>;
 using Frame = fast::LimitFrame<Number>;
 using Points = std::vector<fast::Vec3<Number>>;
@@ -34,15 +36,6 @@ void run_stream(const data::ControlMesh& mesh, const Points& points, Visit&& vis
   RowStream(mesh, points).pair(kDepth, visit);
 }
 
-bool same(const Number& a, const Number& b) {
-  return a.constant() == b.constant() &&
-         std::ranges::equal(a.entries(), b.entries(), [](const auto& x, const auto& y) {
-           return x.point == y.point && x.weight == y.weight;
-         });
-}
-bool same(const fast::Vec3<Number>& a, const fast::Vec3<Number>& b) {
-  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
-}
 bool same(const Frame& a, const Frame& b) {
   return same(a.position, b.position) && same(a.du, b.du) && same(a.dv, b.dv);
 }
@@ -61,15 +54,9 @@ void expect_caught(const char* kernel, const Neighbourhood& pair, Run&& run) {
   run(pair.mesh, points, [&](const fast::LatticePoint&, const Frame& f) { clean.push_back(f); });
   int planted = 0, visible = 0;
   using Kind = StencilFault::Kind;
-  for (const Kind kind :
-       {Kind::kFactor, Kind::kDropped, Kind::kDoubled, Kind::kNeighbour, Kind::kCoordinate}) {
-    constexpr std::int64_t kFar = std::int64_t{1} << 40;
-    std::int64_t operations = 0;
-    {
-      const StencilFault counter(kind, kFar);
-      run(pair.mesh, points, [](const fast::LatticePoint&, const Frame&) {});
-      operations = kFar - counter.left();
-    }
+  for (const Kind kind : test::kFaultKinds) {
+    const std::int64_t operations = test::operations_of(
+        kind, [&] { run(pair.mesh, points, [](const fast::LatticePoint&, const Frame&) {}); });
     ASSERT_GT(operations, 100);
     constexpr std::int64_t kFaults =
         48;  // the rings of the vertices around the pair take most operations: in vain

@@ -136,8 +136,7 @@ std::string ProofReport::table(bool each) const {
   if (set_.scheme == data::Scheme::kCatmullClark)
     text +=
         "Exact and modulo p and q: all positions, and all tangents but those of control vertices that are "
-        "not "
-        "regular, which need roots and are compared in the lines with digits.\n";
+        "not regular, which need roots and are compared in the lines with digits.\n";
   if (held())
     text +=
         "The weights of x are equal one by one. y and z, of random numbers, agree with the weights of x; a "
@@ -149,8 +148,7 @@ std::string ProofReport::table(bool each) const {
     text += fmt::format(
         "For every control mesh of these topologies in the unit box, at the depths beside the bound, float x "
         "coordinates are right to {:.2e}; the worst error found is {:.2e}. Where y and z have the values of "
-        "x "
-        "they get the bits of x.\n",
+        "x they get the bits of x.\n",
         overall.bound->position_bound, overall.bound->position_worst);
   for (const char* kernel : {"sliding-window", "row-stream"}) {
     const CertifiedLine* worst = nullptr;

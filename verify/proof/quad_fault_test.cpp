@@ -14,17 +14,18 @@
 #include "verify/proof/prove_map.h"
 #include "verify/proof/prove_quad_map_impl.h"
 #include "verify/proof/quad_neighbourhood.h"
+#include "verify/proof/test_faults.h"
 
 namespace limitcheck::verify {
 namespace {
 
+using test::same;
 using Number = Stencil<Residue>;
 using Frame = fast::LimitFrame<Number>;
 using Points = std::vector<fast::Vec3<Number>>;
 using Window = QuadWindowRuns<Number, LinearSurface<Number>>;
 using RowStream = QuadStreamRuns<Number, detail::StencilLane<Residue>::Lane>;
 using Maps = std::tuple<QuadReferenceMap<Residue, reference::catmull_clark::SubdivisionEvaluator<Residue>>>;
-using Kind = StencilFault::Kind;
 
 constexpr int kDepth = 2;
 const MapOptions kOptions{Arithmetic::kResidues, kDepth, kDepth};
@@ -52,15 +53,6 @@ Neighbourhood quad_for(Kernel kernel) {
   return interior_quad(kernel == Kernel::kPatch ? std::array{4, 4, 4, 4} : std::array{5, 4, 3, 6});
 }
 
-bool same(const Number& a, const Number& b) {
-  return a.constant() == b.constant() &&
-         std::ranges::equal(a.entries(), b.entries(), [](const auto& x, const auto& y) {
-           return x.point == y.point && x.weight == y.weight;
-         });
-}
-bool same(const fast::Vec3<Number>& a, const fast::Vec3<Number>& b) {
-  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
-}
 // Tangents of irregular corners are not compared in residues.
 bool same(const Frame& a, const Frame& b, bool at_corner) {
   return same(a.position, b.position) && (at_corner || (same(a.du, b.du) && same(a.dv, b.dv)));
@@ -76,15 +68,10 @@ TEST(Proof_QuadFaults, OfOneOperationAreCaughtInEveryKernel) {
     std::vector<Frame> clean;
     run(kernel, quad.mesh, points, [&](const fast::LatticePoint&, const Frame& f) { clean.push_back(f); });
     int visible = 0;
-    for (const Kind kind :
-         {Kind::kFactor, Kind::kDropped, Kind::kDoubled, Kind::kNeighbour, Kind::kCoordinate}) {
-      constexpr std::int64_t kFar = std::int64_t{1} << 40, kFaults = 24;
-      std::int64_t operations = 0;
-      {
-        const StencilFault counter(kind, kFar);
-        run(kernel, quad.mesh, points, [](const fast::LatticePoint&, const Frame&) {});
-        operations = kFar - counter.left();
-      }
+    for (const StencilFault::Kind kind : test::kFaultKinds) {
+      constexpr std::int64_t kFaults = 24;
+      const std::int64_t operations = test::operations_of(
+          kind, [&] { run(kernel, quad.mesh, points, [](const fast::LatticePoint&, const Frame&) {}); });
       ASSERT_GT(operations, 100);
       for (std::int64_t k = 0; k < kFaults; ++k) {
         const std::int64_t at = (2 * k + 1) * operations / (2 * kFaults);

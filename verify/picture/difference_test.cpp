@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "data/error.h"
@@ -64,6 +65,35 @@ TEST(Difference, ContourIsTheDistanceFromWhatIsDrawnAlsoAcrossCorners) {
   EXPECT_DOUBLE_EQ(d.contour, 5) << "the pixel (11, 7) from (8, 3): a right triangle of 3, 4 and 5";
 }
 
+TEST(Difference, ContourLooksOnAfterTheFirstPixelFound) {
+  // (10, 5) is missing; of what is drawn the corner (7, 2) is found first, 3 away either way, (6, 5) is nearer.
+  Picture truth = rectangle(7, 2, 8, 3), seen = truth;
+  truth.shade[5 * kWidth + 6] = seen.shade[5 * kWidth + 6] = 100;
+  truth.shade[5 * kWidth + 10] = 100;
+  EXPECT_EQ(difference(truth, seen).contour, 4);
+  for (const int x : {1, 7})
+    for (const int y : {1, 7})
+      EXPECT_DOUBLE_EQ(difference(rectangle(4, 4, 5, 5), rectangle(x, y, x + 1, y + 1)).contour,
+                       std::hypot(3, 3));
+  EXPECT_DOUBLE_EQ(difference(rectangle(0, 0, 1, 1), rectangle(19, 9, 20, 10)).contour, std::hypot(19, 9));
+  EXPECT_DOUBLE_EQ(difference(rectangle(0, 0, 1, 1), rectangle(0, 0, 0, 0)).contour, std::hypot(20, 10))
+      << "nothing is drawn";
+}
+
+TEST(Difference, TheLargestGapIsConnectedAlongSidesInEveryDirection) {
+  const char* const shape[] = {"..#.....#...........",  //
+                               "..#..####.......####",  // the right end of a row is not beside
+                               "..#..#..#.......#..#",  // the left one of the next
+                               "######.##.......#.##",  //
+                               "...............##..."};
+  const Picture truth = rectangle(0, 0, kWidth, kHeight);
+  Picture seen = truth;
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      if (shape[y][x] == '#') seen.shade[y * kWidth + x] = Picture::kNothing;
+  EXPECT_EQ(difference(truth, seen).largest_gap, 18);
+}
+
 TEST(Difference, CountsShadesThatDifferByMoreThanFour) {
   const Picture truth = rectangle(2, 2, 12, 8);
   EXPECT_EQ(difference(truth, rectangle(2, 2, 12, 8, 104)).share, 0);
@@ -71,6 +101,14 @@ TEST(Difference, CountsShadesThatDifferByMoreThanFour) {
   EXPECT_EQ(d.share, 1);
   EXPECT_EQ(d.mean, 5);
   EXPECT_EQ(d.median, 5);
+}
+
+TEST(Difference, TheMedianOfThreeIsTheMiddleOne) {
+  const Picture truth = rectangle(0, 0, 3, 1);
+  Picture seen = truth;
+  seen.shade[0] -= 7, seen.shade[1] += 2, seen.shade[2] += 3;
+  EXPECT_EQ(difference(truth, seen).median, 3);
+  EXPECT_EQ(difference(truth, seen).mean, 4);
 }
 
 TEST(Difference, TakesPairsTogether) {

@@ -50,6 +50,8 @@ RESULTS = {
     "proofs": {"rows": [{"group": "g", "kernel": "k", "map": "equal", "topology": "3 3 3", "depths": [0, 2], "points": 5,
                          "arithmetic": "exact", "bound": 1e-6, "worst": 1e-7, "digits": None}]},
     "throughput": {"benchmarks": [{"name": "a/real_time", "points/s": 1e6, "real_time": 2.0, "time_unit": "ms", "peak": 2**20}]},
+    "frames": {"benchmarks": [{"name": f"{form}/uniform:3/faces:800/threads:1/real_time", "frames/s": 100.0 * k, "triangles/s": 5e6 * k}
+                              for k, form in ((1, "draw"), (3, "sticky"))]},
 }
 
 
@@ -97,7 +99,7 @@ class Page(unittest.TestCase):
     def test_every_part_has_its_section(self):
         self.draw_all()
         self.assertEqual(self.made().sections,
-                         ["summary", "sentences", "tables", "matched", "pictures", "view", "claims", "audit", "proofs", "throughput"])
+                         ["summary", "sentences", "tables", "frames", "matched", "pictures", "view", "claims", "audit", "proofs", "throughput"])
         self.assertEqual(self.gaps, [])
 
     def test_every_table_and_figure_names_the_command_that_makes_it_alone(self):
@@ -174,6 +176,12 @@ class Page(unittest.TestCase):
         (self.folder / "claims.json").write_text("----- Benchmark")
         self.assertEqual(self.made(("timings",)).sections, ["sentences"])
         self.assertIn("claims.json: Expecting value", self.text)
+
+    def test_frames_are_one_line_for_each_case(self):
+        self.made()
+        row = re.search(r"<tr><td>uniform:3, faces:800(.*)", self.text)
+        self.assertTrue(row, "a row of the case")
+        self.assertEqual([cell for cell in re.split(r"<td>", row.group(1)) if cell], ["50000", "100", "300"])
 
     def test_throughput_has_ratios(self):
         runs = [{"name": f"{route}/steady/bumpy/faces:4000/depth:3/threads:1/real_time", "points/s": rate, "real_time": 1.0, "time_unit": "ms"}

@@ -101,19 +101,26 @@ def proofs(shop):
                  output, (0, 1))
 
 
+def benchmark(shop, program, output, cases, *arguments):
+    """The JSON of a benchmark's cases."""
+    partial = shop.folder / f"{output}.partial"
+    try:
+        shop.run([shop.bench / program, f"--benchmark_filter={cases}", *(["--benchmark_min_time=0.03"] if shop.quick else []),
+                  f"--benchmark_out={partial}", "--benchmark_out_format=json", *arguments])
+        partial.replace(shop.folder / output)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
 def throughput(shop):
     of_loop = "faces:1000/depth:3/threads:1" if shop.quick else "faces:4000/depth:[35]/threads:1|100000/depth:5"
     of_quads = "depth:3/threads:1" if shop.quick else "depth:[35]/threads:1"
-    for name, scheme, cases in (("throughput", "loop", f"{of_loop}|write-only|set-up/bumpy/faces:4000"),
-                                ("throughput-quads", "catmull-clark", f"{of_quads}|write-only")):
-        partial = shop.folder / f"{name}.json.partial"
-        try:
-            shop.run([shop.bench / "throughput_bench", f"--benchmark_filter={cases}",
-                      *(["--benchmark_min_time=0.03"] if shop.quick else []),
-                      f"--benchmark_out={partial}", "--benchmark_out_format=json", f"--scheme={scheme}"])
-            partial.replace(shop.folder / f"{name}.json")
-        finally:
-            partial.unlink(missing_ok=True)
+    benchmark(shop, "throughput_bench", "throughput.json", f"{of_loop}|write-only|set-up/bumpy/faces:4000", "--scheme=loop")
+    benchmark(shop, "throughput_bench", "throughput-quads.json", f"{of_quads}|write-only", "--scheme=catmull-clark")
+
+
+def frames(shop):
+    benchmark(shop, "frame_bench", "frames.json", "^(draw|patches|kept|sticky)/.*/threads:1/")
 
 
 def shown_findings(results):
@@ -193,6 +200,8 @@ def parts():
     yield "timings", Part("what the text says of time", lambda shop: shop.reproduction("timings"), ["timings.json"], ["spheres"])
     for name, title in (("figure-11", "frames per second"), ("figure-12", "triangles and culled faces")):
         yield name, Part(f"{name}: {title}", chart(name, "spheres", "rows"), [f"{name}.svg"], ["spheres"])
+    yield "frames", Part("frames from the camera to triangles, and from one to the next", frames, ["frames.json"])
+    yield "frame-rates", Part("frames per second over triangles", chart("frame-rates", "frames", "benchmarks"), ["frame-rates.svg"], ["frames"])
     yield "error", Part("error against triangles", chart("error", "matched", "curves"), ["error.svg"], ["matched"])
     for number, title in ((3, "normal cone"), (6, "cracks"), (7, "cracks repaired"), (8, "centres of fans"), (10, "bumpy spheres"),
                           (13, "random depths"), (14, "depth by curvature")):

@@ -16,7 +16,7 @@ sys.dont_write_bytecode = True
 from page_test import RESULTS  # noqa: E402
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-# Stands for limitcheck, reproduction and throughput_bench: leaves the results of page_test.
+# Stands for limitcheck, reproduction and the benchmarks: leaves the results of page_test.
 PROGRAM = """#!/usr/bin/python3
 import json, os, pathlib, signal, sys, time
 results = json.loads(pathlib.Path(__file__).with_name("results.json").read_text())
@@ -33,7 +33,7 @@ if "-o" in words:
     (folder / name).write_text(json.dumps(results.get(part, {})))
 elif words[0].startswith("--benchmark"):
     out = next(w for w in words if w.startswith("--benchmark_out=")).partition("=")[2]
-    pathlib.Path(out).write_text(json.dumps(results["throughput"]))
+    pathlib.Path(out).write_text(json.dumps(results[pathlib.Path(out).name.split(".")[0].split("-")[0]]))
 else:
     print(json.dumps(results[{"prove": "proofs"}.get(words[0], words[0])]))
 """
@@ -48,7 +48,7 @@ class Reproduce(unittest.TestCase):
             shutil.copytree(TOP / part, top / "source" / part, ignore=shutil.ignore_patterns("node_modules"))
         self.build, self.out, self.bin = top / "build", top / "out", top / "bin"
         self.bin.mkdir()
-        for name in ("limitcheck", "bench/throughput_bench", "bench/reproduction/reproduction"):
+        for name in ("limitcheck", "bench/frame_bench", "bench/throughput_bench", "bench/reproduction/reproduction"):
             self.program(self.build / name, PROGRAM)
             (self.build / name).with_name("results.json").write_text(json.dumps(RESULTS))
         self.command = self.build / "bench" / "limitcheck-reproduce"
@@ -86,7 +86,7 @@ class Reproduce(unittest.TestCase):
 
     def test_without_node_the_report_lacks_only_what_needs_it_and_says_so(self):
         self.assertEqual(self.run_it(), 1)
-        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
+        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "frames", "matched", "pictures", "claims", "audit", "proofs", "throughput"])
         for part in ("figure-11", "figure-12", "error", "view"):
             self.says(f"({part}): node is not installed (apt-get install nodejs npm)")
         self.assertFalse("<script" in self.page)
@@ -130,7 +130,7 @@ class Reproduce(unittest.TestCase):
             process.communicate(timeout=30)
         self.assertEqual(process.returncode, 1)
         self.page = (self.out / "index.html").read_text()
-        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "matched", "pictures", "claims", "audit"])
+        self.assertEqual(self.sections(), ["summary", "sentences", "tables", "frames", "matched", "pictures", "claims", "audit"])
         self.says("(proofs): interrupted")
         self.says("(throughput): not made: the run was interrupted before it")
         self.assertFalse(list(self.out.glob("*.partial")))

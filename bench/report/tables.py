@@ -169,6 +169,25 @@ def matched(data):
             + details("At the error of uniform depths 2 and 4", table(header, only("uniform-2") + only("uniform-4"))))
 
 
+FORMS = {"draw": "draw list", "patches": "patches", "kept": "patches that stay", "sticky": "pairs stay, too"}
+
+
+def frames(data):
+    """Frames per second of each form of output: one line for each strategy and mesh."""
+    cases = {}
+    for run in data["benchmarks"]:
+        form, case = run["name"].partition("/threads")[0].split("/", 1)
+        cases.setdefault(case, {})[form] = run
+
+    def line(case, runs):
+        first = next(iter(runs.values()))
+        return [text(case.replace("/", ", ")), f"{first['triangles/s'] / first['frames/s']:.0f}",
+                *(rate(runs[form]["frames/s"]) if form in runs else "" for form in FORMS)]
+    return details("As a table", table(["case", "triangles"] + [f"frames per second, {name}" for name in FORMS.values()],
+                                       [line(case, runs) for case, runs in cases.items()],
+                                       "More cases and forms: <code>build/release/bench/frame_bench</code>"))
+
+
 OURS = ("row-stream", "sliding-window", "naive", "reference", "write-only")
 
 

@@ -143,6 +143,16 @@ const std::vector<Entry>& entries() {
        [](Parameters p) {
          return with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
        }},
+      {"creased", "creased:SEED[:FACES]", "sharp:SEED[:FACES] with everything sharp that is so for ever", 1,
+       2,
+       [](Parameters p) {
+         return with_random_creases(random_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
+       }},
+      {"mixed-creased", "mixed-creased:SEED[:FACES]",
+       "mixed-sharp:SEED[:FACES] with everything sharp that is so for ever", 1, 2,
+       [](Parameters p) {
+         return with_random_creases(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
+       }},
       {"smooth-triangles", "smooth-triangles:SEED[:FACES]",
        "mixed-sharp:SEED[:FACES] with OpenSubdiv's smooth rule for triangles", 1, 2,
        [](Parameters p) {
@@ -166,8 +176,8 @@ std::string without_alias(const std::string& name) {
   return name == "cube-quads" ? "quad-cube" : name;
 }
 
-// "dual:NAME...": the one specification that contains another.
-constexpr std::string_view kDual = "dual:";
+// "dual:NAME..." and "stretched:K:NAME...": the specifications that contain another.
+constexpr std::string_view kDual = "dual:", kStretched = "stretched:";
 
 ControlMesh dual_of(const std::string& name) {
   const auto refuse = [&](const std::string& why) {
@@ -183,6 +193,22 @@ ControlMesh dual_of(const std::string& name) {
   if (const auto faults = validate(result); !faults.empty())
     refuse("two faces of " + name + " share more than one edge: " + faults[0].message);
   return result;
+}
+
+// "K:NAME...": x coordinates times 2^K.
+ControlMesh stretched(const std::string& what) {
+  constexpr unsigned kMost = 30;
+  unsigned power = 0;
+  const char* const end = what.data() + what.size();
+  const auto [stop, error] = std::from_chars(what.data(), end, power);
+  if (error != std::errc() || power > kMost || end - stop < 2 || *stop != ':')
+    throw InputError("NAME_BAD_PARAMETER", "", 0,
+                     "stretched:" + what +
+                         ": a number K from 0 to 30 and the name of a mesh are needed "
+                         "(stretched:K:NAME...)");
+  ControlMesh mesh = named_mesh(stop + 1);
+  for (auto& p : mesh.positions) p[0] *= static_cast<double>(1U << power);
+  return mesh;
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -202,6 +228,8 @@ std::vector<std::string> split(const std::string& text) {
 ControlMesh named_mesh(const std::string& specification) {
   if (specification == "dual" || specification.starts_with(kDual))
     return dual_of(specification.substr(std::min(kDual.size(), specification.size())));
+  if (specification == "stretched" || specification.starts_with(kStretched))
+    return stretched(specification.substr(std::min(kStretched.size(), specification.size())));
   std::vector<std::string> parts = split(specification);
   parts[0] = without_alias(parts[0]);
   for (const Entry& entry : entries()) {
@@ -251,6 +279,8 @@ std::vector<NamedMesh> named_meshes() {
   std::vector<NamedMesh> list;
   for (const Entry& entry : entries()) list.push_back({entry.usage, entry.description});
   list.push_back({"dual:NAME...", "the dual of a closed mesh: dual:bumpy:800 has a face around each vertex"});
+  list.push_back(
+      {"stretched:K:NAME...", "a mesh 2^K times as long along x: stretched:10:random:1 has needles"});
   return list;
 }
 

@@ -111,6 +111,14 @@ ControlMesh with_random_sharpness(ControlMesh mesh, std::uint64_t seed) {
   return mesh;
 }
 
+ControlMesh with_random_creases(ControlMesh mesh, std::uint64_t seed) {
+  mesh = with_random_sharpness(std::move(mesh), seed);
+  for (SharpEdge& e : mesh.sharpness.edges) e.sharpness = kInfiniteSharpness;
+  for (SharpVertex& v : mesh.sharpness.vertices) v.sharpness = kInfiniteSharpness;
+  mesh.sharpness.creasing = Creasing::kUniform;
+  return mesh;
+}
+
 ControlMesh with_open_crease(ControlMesh mesh, int edges) {
   using Point = std::array<double, 3>;
   std::map<std::int32_t, std::set<std::int32_t>> neighbours;

@@ -25,5 +25,7 @@ ControlMesh with_open_crease(ControlMesh mesh, int edges);
 /// Any mesh with about a tenth of its edges sharp, half of them infinite and half below 4, a few sharp
 /// vertices, and the way of creasing drawn by chance.
 ControlMesh with_random_sharpness(ControlMesh mesh, std::uint64_t seed);
+/// The same with every sharp edge and vertex sharp for ever.
+ControlMesh with_random_creases(ControlMesh mesh, std::uint64_t seed);
 
 }  // namespace limitcheck::data

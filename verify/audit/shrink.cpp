@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "data/cut_out.h"
@@ -55,12 +56,8 @@ AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
 class Shrinker {
  public:
   Shrinker(const AuditMesh& mesh, int depth, const std::function<bool(const AuditMesh&, int)>& fails,
-           double seconds)
-      : best_{mesh, depth, 0},
-        fails_(fails),
-        end_(std::chrono::steady_clock::now() +
-             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                 std::chrono::duration<double>(seconds))) {
+           const ShrinkLimits& limits)
+      : best_{mesh, depth, 0}, fails_(fails), limits_(limits), start_(std::chrono::steady_clock::now()) {
     best_.mesh.depth = -1;  // the one that is tried
     best_.mesh.depths.clear();
     best_.mesh.asked_scheme = mesh.scheme();
@@ -78,11 +75,16 @@ class Shrinker {
     ball(face);
     while (!late() && (remove_chunks() || collapse_edges() || remove_tags())) {
     }
+    lower_depths();
+    round_coordinates();
     return std::move(best_);
   }
 
  private:
-  bool late() const { return interrupted() != 0 || std::chrono::steady_clock::now() >= end_; }
+  bool late() const {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
+    return interrupted() != 0 || best_.attempts >= limits_.attempts || since.count() >= limits_.seconds;
+  }
 
   bool take(AuditMesh candidate) {
     if (late() || candidate.mesh.faces.empty() ||
@@ -188,30 +190,66 @@ class Shrinker {
     return any;
   }
 
+  // Of faces with depths of their own: all by one as long as that fails, then each to the least that does.
+  void lower_depths() {
+    const auto lowered = [&](auto&& lower) {
+      AuditMesh candidate = best_.mesh;
+      for (std::size_t f = 0; f < candidate.face_depth.size(); ++f) lower(f, candidate.face_depth[f]);
+      return candidate.face_depth != best_.mesh.face_depth && take(std::move(candidate));
+    };
+    while (best_.depth > 0 &&
+           lowered([](std::size_t, std::int32_t& d) { d = std::max(d - 1, std::min(d, 0)); }))
+      best_.depth =
+          std::max(0, *std::max_element(best_.mesh.face_depth.begin(), best_.mesh.face_depth.end()));
+    for (std::size_t f = 0; f < best_.mesh.face_depth.size() && !late(); ++f)
+      for (std::int32_t least = 0; least < best_.mesh.face_depth[f] && !late(); ++least)
+        if (lowered([&](std::size_t g, std::int32_t& d) { d = g == f ? least : d; })) break;
+  }
+
+  // To multiples of 1/2, 1/4, .. of the power of two next to the largest.
+  void round_coordinates() {
+    double largest = 0;
+    for (const auto& p : best_.mesh.mesh.positions)
+      for (const double x : p) largest = std::max(largest, std::abs(x));
+    if (!(largest > 0)) return;
+    for (const int bits : {1, 2, 3, 4, 6, 8, 12}) {
+      const double step = std::ldexp(1, std::ilogb(largest) - bits);
+      AuditMesh candidate = best_.mesh;
+      for (auto& p : candidate.mesh.positions)
+        for (double& x : p) x = std::round(x / step) * step;
+      if (candidate.mesh.positions == best_.mesh.mesh.positions || take(std::move(candidate))) return;
+    }
+  }
+
   Shrunk best_;
   const std::function<bool(const AuditMesh&, int)>& fails_;
-  std::chrono::steady_clock::time_point end_;
+  ShrinkLimits limits_;
+  std::chrono::steady_clock::time_point start_;
 };
 
 }  // namespace
 
 Shrunk shrink(const AuditMesh& mesh, int depth, std::int64_t face,
-              const std::function<bool(const AuditMesh&, int)>& fails, double seconds) {
-  return Shrinker(mesh, depth, fails, seconds).run(face);
+              const std::function<bool(const AuditMesh&, int)>& fails, const ShrinkLimits& limits) {
+  return Shrinker(mesh, depth, fails, limits).run(face);
 }
 
-Shrunk shrink(const AuditSubject& subject, const AuditMesh& mesh, int depth, int threads,
-              const Result& finding, double seconds) {
+ShrunkFinding shrink(const AuditSubject& subject, const AuditMesh& mesh, int threads, const Result& finding,
+                     const ShrinkLimits& limits) {
   const auto& relations = relation_rows();
-  const Level level = std::find(relations.begin(), relations.end(), finding.check) == relations.end()
-                          ? Level::kQuick
-                          : Level::kThorough;
-  const auto fails = [&](const AuditMesh& candidate, int at) {
-    const auto results = Auditor(at, threads, {}, level).run(subject, candidate);
-    return std::any_of(results.begin(), results.end(),
-                       [&](const Result& r) { return r.check == finding.check && is_bad(r); });
+  ShrunkFinding result;
+  result.relation = std::find(relations.begin(), relations.end(), finding.check) != relations.end();
+  const auto found = [&](const AuditMesh& candidate, int at) -> std::optional<Result> {
+    const Level level = result.relation ? Level::kThorough : Level::kQuick;
+    for (Result& r : Auditor(at, threads, {}, level).run(subject, candidate))
+      if (r.check == finding.check && is_bad(r)) return std::move(r);
+    return std::nullopt;
   };
-  return shrink(mesh, depth, finding.witness ? finding.witness->face : -1, fails, seconds);
+  result.small = shrink(
+      mesh, finding.depth, finding.witness ? finding.witness->face : -1,
+      [&](const AuditMesh& candidate, int at) { return found(candidate, at).has_value(); }, limits);
+  result.row = found(result.small.mesh, result.small.depth);
+  return result;
 }
 
 }  // namespace limitcheck::verify

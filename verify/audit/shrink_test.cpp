@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -36,9 +38,10 @@ TEST(Shrink, KeepsLittleMoreThanTheWheelWhereAnInteriorValenceIsAtFault) {
     const AuditMesh mesh{"random", data::named_mesh("random:" + std::to_string(seed) + ":300")};
     if (!has_interior_valence(mesh.mesh, 7)) continue;
     ++found;
-    const Shrunk small = shrink(
-        mesh, 4, 0,
-        [](const AuditMesh& m, int depth) { return depth >= 2 && has_interior_valence(m.mesh, 7); }, 60);
+    const Shrunk small =
+        shrink(mesh, 4, 0,
+               [](const AuditMesh& m, int depth) { return depth >= 2 && has_interior_valence(m.mesh, 7); },
+               {.seconds = 60});
     // Seven at best. What is left may be stuck where every step would make it invalid; worst seen 10.
     EXPECT_LE(small.mesh.mesh.faces.size(), 10U) << seed << ", " << small.attempts << " attempts";
     EXPECT_EQ(small.depth, 2);
@@ -53,7 +56,7 @@ TEST(Shrink, ClosedMeshesStayClosedWhereTheFaultNeedsThat) {
     return std::none_of(topology.edges().begin(), topology.edges().end(),
                         [](const auto& e) { return e.on_boundary(); });
   };
-  const Shrunk small = shrink({"torus", data::named_mesh("bumpy:100")}, 3, 5, closed, 60);
+  const Shrunk small = shrink({"torus", data::named_mesh("bumpy:100")}, 3, 5, closed, {.seconds = 60});
   EXPECT_EQ(small.mesh.mesh.faces.size(), 4U) << "a tetrahedron: nothing smaller is closed and valid";
   EXPECT_EQ(small.depth, 0);
 }
@@ -72,7 +75,7 @@ TEST(Shrink, SharpEdgesAndVerticesThatTheFaultDoesNotNeedGo) {
   for (const char* name : {"sharp:1", "mixed-sharp:2"}) {
     const AuditMesh mesh{name, data::named_mesh(name)};
     ASSERT_TRUE(semi_sharp_inside(mesh, 0)) << name;
-    const Shrunk small = shrink(mesh, 3, -1, semi_sharp_inside, 60);
+    const Shrunk small = shrink(mesh, 3, -1, semi_sharp_inside, {.seconds = 60});
     EXPECT_EQ(small.mesh.mesh.sharpness.edges.size(), 1U) << name;
     EXPECT_TRUE(small.mesh.mesh.sharpness.vertices.empty()) << name;
     EXPECT_EQ(small.mesh.mesh.sharpness.boundary, data::Boundary::kEdge) << name;
@@ -114,9 +117,41 @@ TEST(Shrink, TheDepthsOfTheFacesThatStayAreKept) {
     return m.face_depth.size() == m.mesh.faces.size() &&
            std::count(m.face_depth.begin(), m.face_depth.end(), 3) == 1;
   };
-  const Shrunk small = shrink(mesh, 3, 17, fails, 60);
+  const Shrunk small = shrink(mesh, 3, 17, fails, {.seconds = 60});
   EXPECT_EQ(small.mesh.face_depth, std::vector<std::int32_t>{3});
   EXPECT_EQ(small.depth, 3);
+}
+
+// Only the difference of the depths matters, and no coordinate does.
+TEST(Shrink, DepthsAreLoweredAndCoordinatesRounded) {
+  AuditMesh mesh{"torus", data::named_mesh("torus")};
+  mesh.face_depth.assign(mesh.mesh.faces.size(), 4);
+  mesh.face_depth[30] = 5, mesh.face_depth[31] = 2;
+  const auto fails = [](const AuditMesh& m, int) {
+    const reference::Topology topology(m.mesh.positions.size(), m.mesh.faces);
+    return std::any_of(topology.edges().begin(), topology.edges().end(), [&](const reference::Edge& e) {
+      return !e.on_boundary() && std::abs(m.face_depth[e.left_face] - m.face_depth[e.right_face]) == 3;
+    });
+  };
+  ASSERT_TRUE(fails(mesh, 5));
+  const Shrunk small = shrink(mesh, 5, 30, fails, {});
+  std::vector<std::int32_t> depths = small.mesh.face_depth;
+  std::sort(depths.begin(), depths.end());
+  EXPECT_EQ(depths, (std::vector<std::int32_t>{0, 3}));
+  EXPECT_EQ(small.depth, 3);
+  double largest = 0;
+  for (const auto& p : small.mesh.mesh.positions)
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  for (const auto& p : small.mesh.mesh.positions)
+    for (const double x : p)
+      EXPECT_EQ(std::remainder(x, std::exp2(std::ilogb(largest) - 1)), 0) << x << " of " << largest;
+}
+
+TEST(Shrink, StopsAfterSoManyAttempts) {
+  const AuditMesh mesh{"sheet", data::named_mesh("sheet")};
+  const Shrunk small = shrink(mesh, 0, -1, [](const AuditMesh&, int) { return true; }, {.attempts = 2});
+  EXPECT_EQ(small.attempts, 2);
+  EXPECT_GT(small.mesh.mesh.faces.size(), 10U);
 }
 
 // A weight wrong by 1e-6 at valence 5 only, somewhere in three hundred faces: what is left is a fan about one
@@ -130,7 +165,7 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
   };
   const Result finding = positions(Auditor(2, 1).run(subject, mesh));
   ASSERT_TRUE(is_bad(finding)) << "random:5:300 has a vertex of valence 5";
-  const Shrunk small = shrink(subject, mesh, 2, 1, finding, 60);
+  const Shrunk small = shrink(subject, mesh, 1, finding, {.seconds = 60}).small;
   EXPECT_LE(small.mesh.mesh.faces.size(), 5U) << small.attempts << " attempts";
   RecordProperty("faces", static_cast<int>(small.mesh.mesh.faces.size()));
   const Result again = positions(Auditor(small.depth, 1).run(subject, small.mesh));

@@ -59,11 +59,9 @@ struct Arguments {
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
 // levels of isolation (Bfr's default), and isolated as deep as they are sampled.
 std::vector<verify::AuditSubject> subjects(const Arguments& a, SubjectLoader& loader) {
-  std::string options;
-  for (const std::string& o : a.options) options += (options.empty() ? "" : ",") + o;
   std::vector<verify::AuditSubject> list;
   if (a.subject == "all") {
-    if (!options.empty()) throw data::ArgumentError("--option needs one subject, not all");
+    if (!a.options.empty()) throw data::ArgumentError("--option needs one subject, not all");
     for (const lc_subject* s : verify::built_in_subjects()) {
       const verify::AuditSubject plain = loader.built_in(*s);
       list.push_back(plain);
@@ -79,19 +77,7 @@ std::vector<verify::AuditSubject> subjects(const Arguments& a, SubjectLoader& lo
       fmt::print(stderr, "limitcheck: left out: {}\n", m.why);
     return list;
   }
-  verify::AuditSubject opened = loader.open(a.subject);
-  opened.options += (opened.options.empty() || options.empty() ? "" : ",") + options;
-  const lc_subject* subject = opened.subject;
-  try {
-    (void)verify::capabilities(*subject, opened.options);
-    refuse_unknown_options(*subject, opened.options);
-  } catch (const verify::SubjectDied&) {  // the audit reports it
-  } catch (
-      const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
-    throw data::ArgumentError(fmt::format("{}{}{}", error.what(), subject->options ? "; options: " : "",
-                                          subject->options ? subject->options : ""));
-  }
-  return {opened};
+  return {loader.open(a.subject, a.options)};
 }
 
 // For --help.

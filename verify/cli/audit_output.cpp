@@ -18,7 +18,6 @@
 #include "verify/audit/json.h"
 #include "verify/audit/judged.h"
 #include "verify/audit/junit.h"
-#include "verify/audit/relations.h"
 #include "verify/audit/shrink.h"
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
@@ -188,19 +187,14 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       continue;
     }
     const auto& audited = subjects[subject - report.subjects.begin()];
-    const verify::Shrunk small =
-        verify::shrink(audited, *mesh, finding->depth, threads, *finding, a.shrink_seconds);
-    const auto& relations = verify::relation_rows();
-    const bool related = std::find(relations.begin(), relations.end(), finding->check) != relations.end();
-    for (const verify::Result& r :
-         verify::Auditor(small.depth, threads, {}, related ? verify::Level::kThorough : verify::Level::kQuick)
-             .run(audited, small.mesh)) {
-      if (r.check != finding->check || !verify::is_bad(r)) continue;
-      const auto place = verify::write_witness(folder, report, r, small.mesh, related ? "thorough" : "quick");
-      fmt::print(stderr, "{} / {}: {} faces at depth {} shrunk to {} at depth {} ({} attempts): {}\n",
-                 r.subject, r.check, mesh->mesh.faces.size(), finding->depth, small.mesh.mesh.faces.size(),
-                 small.depth, small.attempts, place.string());
-    }
+    const auto [small, row, relation] =
+        verify::shrink(audited, *mesh, threads, *finding, {.seconds = a.shrink_seconds});
+    if (!row) continue;
+    const auto place =
+        verify::write_witness(folder, report, *row, small.mesh, relation ? "thorough" : "quick");
+    fmt::print(stderr, "{} / {}: {} faces at depth {} shrunk to {} at depth {} ({} attempts): {}\n",
+               row->subject, row->check, mesh->mesh.faces.size(), finding->depth,
+               small.mesh.mesh.faces.size(), small.depth, small.attempts, place.string());
   }
   if (a.shrink_seconds <= 0 && !findings.empty())
     fmt::print(stderr, "{} witnesses in {}\n", findings.size(), folder);

@@ -19,6 +19,8 @@ void add_claims(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_audit(CLI::App& app, int& exit_code);
+void add_hunt(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
 void add_prove(CLI::App& app, int& exit_code);
 void add_mutants(CLI::App& app, int& exit_code);
 void add_repair(CLI::App& app, int& exit_code);

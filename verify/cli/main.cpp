@@ -66,6 +66,8 @@ int run(int argc, char** argv) {
 
   int exit_code = kHeld;
   add_audit(app, exit_code);
+  add_hunt(app, exit_code);
+  add_merge(app, exit_code);
   add_eval(app, exit_code);
   add_claims(app, exit_code);
   add_generate(app, exit_code);

@@ -147,6 +147,22 @@ std::string SubjectLoader::containment() const {
   return "";
 }
 
+verify::AuditSubject SubjectLoader::open(const std::string& text, const std::vector<std::string>& options) {
+  verify::AuditSubject opened = open(text);
+  for (const std::string& o : options) opened.options += (opened.options.empty() ? "" : ",") + o;
+  const lc_subject* subject = opened.subject;
+  try {
+    (void)verify::capabilities(*subject, opened.options);
+    refuse_unknown_options(*subject, opened.options);
+  } catch (const verify::SubjectDied&) {  // the audit reports it
+  } catch (
+      const verify::SubjectError& error) {  // not the subject's fault: nobody has asked it for anything yet
+    throw data::ArgumentError(fmt::format("{}{}{}", error.what(), subject->options ? "; options: " : "",
+                                          subject->options ? subject->options : ""));
+  }
+  return opened;
+}
+
 verify::AuditSubject SubjectLoader::built_in(const lc_subject& subject) {
   if (!arguments_.isolate) return {&subject, ""};
   return {remote(Kind::kBuiltIn, subject.name), "", remote(Kind::kBuiltIn, subject.name, true)};

@@ -44,6 +44,9 @@ class SubjectLoader {
   /// Returns the subject with those options. Throws data::ArgumentError: there is no such subject.
   verify::AuditSubject open(const std::string& text);
 
+  /// The same with more options, which it is asked about. Throws data::ArgumentError: it refuses them, too.
+  verify::AuditSubject open(const std::string& text, const std::vector<std::string>& options);
+
   /// A built-in subject: itself, or in a process of its own with --isolate.
   verify::AuditSubject built_in(const lc_subject& subject);
 

@@ -71,6 +71,9 @@ const std::map<std::string, Meant>& meant() {
       {"welded_components", {"positions"}},
       {"flat_box", {"finite"}},
       {"edge_without_length", {"finite"}},
+      {"adjacent_extraordinary", {"positions"}},
+      {"depth_difference_3", {"positions"}},
+      {"valence_above_40", {"positions"}},
       {"unmoved_vertices", {"refined-positions", "cgal"}},
       {"indices_of_16_bits", {"positions", "row-stream"}},  // the model refines the whole of a large mesh
   };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -284,6 +285,7 @@ const std::vector<PlantedFault<Real>>& planted_faults() {
   };
   static const std::vector<PlantedFault<Real>> all = [] {
     std::vector<PlantedFault<Real>> list = in_what_is_delivered, more = mesh_faults<Real>();
+    std::ranges::copy(rare_faults<Real>(), std::back_inserter(more));
     for (PlantedFault<Real>& fault : more) {
       fault.fault.on_some_meshes = true;
       list.push_back(fault);

@@ -35,6 +35,9 @@ const std::vector<PlantedFault<Real>>& planted_faults();
 /// Those among them that only some control meshes bring out. On all others plant() does nothing.
 template <class Real>
 std::vector<PlantedFault<Real>> mesh_faults();
+/// Likewise: those that show in rare neighbourhoods.
+template <class Real>
+std::vector<PlantedFault<Real>> rare_faults();
 
 /// The control vertex that a vertex lies at, or -1.
 std::int32_t control_vertex(const data::ControlMesh& mesh, const lc_provenance& place);

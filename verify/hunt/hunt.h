@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A search for anything wrong, case by case.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "verify/audit/audit.h"
+#include "verify/hunt/hunt_plan.h"
+#include "verify/hunt/hunt_report.h"
+
+namespace limitcheck::verify {
+
+struct HuntOptions {
+  int threads = 1;
+  int attempts = 2000;              // to shrink a finding; 0: it is not shrunk
+  std::filesystem::path witnesses;  // folder for the small meshes; empty: none is written
+};
+
+/// Audits cases of a plan. Findings with one signature are one: the first counts.
+class Hunt {
+ public:
+  Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options, HuntReport report);
+
+  /// Audits the case; false if it was interrupted, and does not count.
+  bool look(std::uint64_t number);
+  /// Makes small meshes for the findings that are to have them (HuntReport::to_shrink) and have none; ends
+  /// early if it is interrupted.
+  void shrink_findings();
+
+  const HuntReport& report() const { return report_; }
+
+ private:
+  HuntFinding* known(const std::string& signature);
+  std::vector<Result> audit(const HuntCase& at);
+  void shrink_finding(HuntFinding& finding);
+
+  AuditSubject subject_;
+  HuntPlan plan_;
+  HuntOptions options_;
+  HuntReport report_;
+  Auditor quick_, thorough_;
+};
+
+}  // namespace limitcheck::verify

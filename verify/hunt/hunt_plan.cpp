@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "verify/hunt/hunt_plan.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <utility>
+
+#include "data/error.h"
+#include "data/generators/named_mesh.h"
+#include "data/splitmix64.h"
+#include "data/validate.h"
+#include "verify/audit/face_depths.h"
+#include "verify/subject/host.h"
+#include "verify/subject/lent_mesh.h"
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr std::size_t kCandidates = 4;
+constexpr std::size_t kPatience = 16;     // after so many meshes that the subject does not do, a smooth one
+constexpr double kMostTriangles = 40000;  // of a case, so that none takes more than about a second
+
+std::uint64_t below(data::SplitMix64& random, std::uint64_t n) {
+  return random.next() % n;
+}
+
+// A random mesh of a family; sizes from 6 to 200 faces, each doubling as likely.
+std::string random_name(const char* family, data::SplitMix64& random) {
+  const int faces = static_cast<int>(6 * std::exp2(5 * random.unit()));
+  return fmt::format("{}:{}:{}", family, below(random, 1'000'000'000), faces);
+}
+
+// A mesh about one vertex; half of the valences are from 3 to 12, a quarter each to 40 and to 70.
+std::string star_name(data::Scheme scheme, bool sharp, std::uint64_t turn, data::SplitMix64& random) {
+  const std::uint64_t kind = below(random, 4);
+  const int n = static_cast<int>(kind < 2    ? 3 + below(random, 10)
+                                 : kind == 2 ? 13 + below(random, 28)
+                                             : 41 + below(random, 30));
+  const bool loop = scheme == data::Scheme::kLoop;
+  const std::uint64_t seed = below(random, 1'000'000);
+  switch (turn % (sharp ? 5 : 3)) {
+    case 4:
+      return fmt::format("{}:{}", loop ? "dart" : "quad-dart", n);
+    case 3:
+      return fmt::format("{}:{}", loop ? "corner" : "quad-corner", 2 + n / 4);
+    case 0:
+      return loop ? fmt::format("wheel:{}:2", n) : fmt::format("quad-wheel:{}:{}", n, seed);
+    case 1:
+      return loop ? fmt::format("fan:{}:2", n) : fmt::format("quad-fan:{}:{}", n, seed);
+    default:
+      return fmt::format("{}:{}", loop ? "bipyramid" : "prism", n);
+  }
+}
+
+// A family with as much that is sharp as the subject does.
+const char* sharp_family(const Does& does, bool smooth_triangles) {
+  constexpr std::int32_t kAll = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS;
+  const bool loop = does.scheme == data::Scheme::kLoop;
+  if ((does.sharp & kAll) != kAll) return loop ? "creased" : "mixed-creased";
+  if (loop) return "sharp";
+  return smooth_triangles && (does.sharp & LC_SHARP_SMOOTH_TRIANGLES) != 0 ? "smooth-triangles"
+                                                                           : "mixed-sharp";
+}
+
+std::string mesh_name(const Does& does, std::uint64_t turn, bool smooth, data::SplitMix64& random) {
+  const bool sharp = !smooth && (does.sharp & LC_SHARP_CREASES) != 0;
+  std::string name;
+  if (turn % 8 == 0)
+    name = star_name(does.scheme, sharp, turn / 8, random);
+  else if (sharp && turn % 8 < 4)
+    name = random_name(sharp_family(does, turn % 8 == 1), random);
+  else
+    name = random_name(does.scheme == data::Scheme::kLoop ? "random" : "mixed", random);
+  // Needles, in every fourth mesh.
+  return below(random, 4) == 0 ? fmt::format("stretched:{}:{}", 1 + below(random, 14), name) : name;
+}
+
+struct Asked {
+  int depth;
+  std::string depths;
+};
+
+Asked depths_for(std::size_t faces, std::uint64_t turn, data::SplitMix64& random) {
+  int most = 0;
+  while (most < 6 && std::ldexp(static_cast<double>(faces), 2 * (most + 1)) <= kMostTriangles) ++most;
+  const auto depth = [&](int least) {
+    return least >= most
+               ? most
+               : least + static_cast<int>(below(random, static_cast<std::uint64_t>(most - least + 1)));
+  };
+  switch (turn % 8) {
+    case 1:
+    case 4:
+      return {depth(2), fmt::format("random:{}", below(random, 1'000'000))};
+    case 2:
+    case 6:
+      return {depth(2), fmt::format("random:{}:visible", below(random, 1'000'000))};
+    case 5:
+      return {depth(1), "view"};
+    case 7:
+      return {depth(0), "face0-culled"};
+    default:
+      return {depth(0), "uniform"};
+  }
+}
+
+}  // namespace
+
+std::vector<Does> schemes_of(const AuditSubject& subject, const std::vector<data::Scheme>& schemes) {
+  std::vector<Does> all;
+  for (const data::Scheme scheme : schemes) try {
+      const lc_capabilities c = capabilities(*subject.subject, subject.options, scheme);
+      if (does(c, scheme)) all.push_back({scheme, c.sharp});
+    } catch (const std::exception&) {
+      all.push_back({scheme, 0});
+    }
+  return all;
+}
+
+std::set<std::uint64_t> kinds_of_edges(const AuditMesh& audited) {
+  const data::ControlMesh& mesh = audited.mesh;
+  struct Edge {
+    int faces = 0;
+    std::array<std::size_t, 2> corners{};
+    std::array<int, 2> depth{};
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Edge> edges;
+  std::vector<std::uint64_t> faces_at(mesh.positions.size());
+  std::vector<bool> border(mesh.positions.size()), tagged(mesh.positions.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto corners = mesh.faces[f];
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      ++faces_at[corners[k]];
+      Edge& e = edges[std::minmax(std::int32_t{corners[k]}, std::int32_t{corners[(k + 1) % corners.size()]})];
+      if (e.faces < 2) {
+        e.corners[e.faces] = corners.size();
+        e.depth[e.faces] = audited.face_depth.empty() ? 0 : audited.face_depth[f];
+      }
+      ++e.faces;
+    }
+  }
+  for (const auto& [ends, e] : edges)
+    if (e.faces < 2) border[ends.first] = border[ends.second] = true;
+  std::set<std::pair<std::int32_t, std::int32_t>> sharp;
+  for (const data::SharpEdge& e : mesh.sharpness.edges) sharp.insert(std::minmax(e.a, e.b));
+  for (const data::SharpVertex& v : mesh.sharpness.vertices) tagged[v.vertex] = true;
+
+  std::set<std::uint64_t> kinds;
+  const auto end = [&](std::int32_t v) {
+    return std::min<std::uint64_t>(faces_at[v], 63) << 2 | (border[v] ? 1U : 0U) | (tagged[v] ? 2U : 0U);
+  };
+  for (const auto& [ends, e] : edges) {
+    const auto [low, high] = std::minmax({end(ends.first), end(ends.second)});
+    const auto [few, many] = std::minmax(e.corners[0], e.corners[1]);
+    std::uint64_t kind = low << 8 | high;
+    kind = kind << 8 | std::min<std::size_t>(few, 15) << 4 | std::min<std::size_t>(many, 15);
+    kind = kind << 4 | static_cast<std::uint64_t>(e.faces < 2 ? 0 : std::abs(e.depth[0] - e.depth[1]));
+    kinds.insert(kind << 1 | (sharp.contains(ends) ? 1U : 0U));
+  }
+  return kinds;
+}
+
+HuntPlan::HuntPlan(std::uint64_t seed, std::vector<Does> does) : seed_(seed), does_(std::move(does)) {
+  if (does_.empty())
+    throw data::ArgumentError("there is nothing to hunt: the subject does not do this scheme");
+}
+
+HuntCase HuntPlan::at(std::uint64_t number) {
+  if (number < number_ || number / kBlock != number_ / kBlock || number_ % kBlock == 0) {
+    number_ = number / kBlock * kBlock;
+    seen_.clear();
+  }
+  while (number_ < number) (void)next();
+  return next();
+}
+
+HuntCase HuntPlan::next() {
+  const Does& does = does_[number_ % does_.size()];
+  const std::uint64_t turn = number_ / does_.size();
+  HuntCase best;
+  std::set<std::uint64_t> best_kinds;
+  std::size_t best_new = 0;
+  for (std::size_t k = 0; k < kCandidates || best.mesh.name.empty(); ++k) {
+    data::SplitMix64 random(data::SplitMix64(seed_ + 0x632be59bd9b4e019U * number_).next() + k);
+    AuditMesh m{mesh_name(does, turn, k >= kPatience, random), {}};
+    m.mesh = data::named_mesh(m.name);
+    m.asked_scheme = does.scheme;
+    if ((sharp_kinds(m.mesh, does.scheme) & ~does.sharp) != 0 || !data::validate(m.mesh, does.scheme).empty())
+      continue;
+    const Asked asked = depths_for(m.mesh.faces.size(), turn / 8 + turn, random);
+    m.depth = asked.depth, m.depths = asked.depths;
+    m.face_depth = face_depths(parse_depths(asked.depths), m.mesh, m.depth);
+    m.relations = turn % 4 == 3;
+    std::set<std::uint64_t> kinds = kinds_of_edges(m);
+    std::size_t is_new = 1;
+    for (const std::uint64_t kind : kinds) is_new += seen_.contains(kind) ? 0 : 1;
+    if (is_new <= best_new) continue;
+    best_new = is_new, best_kinds = std::move(kinds);
+    best = {number_, std::move(m)};
+  }
+  seen_.insert(best_kinds.begin(), best_kinds.end());
+  ++number_;
+  return best;
+}
+
+}  // namespace limitcheck::verify

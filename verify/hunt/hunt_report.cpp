@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "verify/hunt/hunt_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "data/error.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite(const std::optional<double>& x) {
+  return x && std::isfinite(*x) ? Json(*x) : Json(nullptr);
+}
+std::optional<double> number_or_none(const Json& json) {
+  return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
+}
+
+Json to_json(const HuntFinding& f) {
+  return {{"signature", f.signature},
+          {"check", f.check},
+          {"status", f.status},
+          {"scheme", f.scheme},
+          {"severity", f.severity()},
+          {"cases", f.cases},
+          {"first", f.first},
+          {"found_on", f.found_on},
+          {"faces_before", f.faces_before},
+          {"depth_before", f.depth_before},
+          {"worst", finite(f.worst)},
+          {"bound", finite(f.bound)},
+          {"unit", f.unit},
+          {"message", f.message},
+          {"faces", f.faces},
+          {"depth", f.depth},
+          {"witness", f.witness},
+          {"command", f.command}};
+}
+
+HuntFinding finding_of(const Json& json) {
+  HuntFinding f;
+  const auto get = [&](const char* key, auto& to) { json.at(key).get_to(to); };
+  get("signature", f.signature), get("check", f.check), get("status", f.status), get("scheme", f.scheme);
+  get("cases", f.cases), get("first", f.first), get("found_on", f.found_on);
+  get("faces_before", f.faces_before), get("depth_before", f.depth_before);
+  f.worst = number_or_none(json.at("worst")), f.bound = number_or_none(json.at("bound"));
+  get("unit", f.unit), get("message", f.message);
+  get("faces", f.faces), get("depth", f.depth), get("witness", f.witness), get("command", f.command);
+  return f;
+}
+
+// Of a finding in several shards the first case counts.
+void take(std::vector<HuntFinding>& all, const HuntFinding& more) {
+  for (HuntFinding& f : all) {
+    if (f.signature != more.signature) continue;
+    const std::int64_t cases = f.cases + more.cases;
+    if (more.first < f.first) f = more;
+    f.cases = cases;
+    return;
+  }
+  all.push_back(more);
+}
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  const auto refuse = [&] {
+    throw data::ArgumentError(fmt::format("--shard {}: K/N with 1 <= K <= N, for example 3/8", text));
+  };
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  std::uint64_t k = 0;
+  auto [at, error] = std::from_chars(text.data(), end, k);
+  if (error != std::errc() || at == end || *at != '/') refuse();
+  const auto count = std::from_chars(at + 1, end, shard.count);
+  if (count.ec != std::errc() || count.ptr != end || k < 1 || k > shard.count || shard.count > 1'000'000)
+    refuse();
+  shard.index = k - 1;
+  return shard;
+}
+
+std::string HuntFinding::severity() const {
+  const double ratio = status != "finding" ? HUGE_VAL : worst && bound && *bound > 0 ? *worst / *bound : 1;
+  return ratio >= 1000 ? "high" : ratio >= 10 ? "medium" : "low";
+}
+
+void HuntReport::sort() {
+  const auto rank = [](const std::string& severity) {
+    return severity == "high" ? 0 : severity == "medium" ? 1 : 2;
+  };
+  std::sort(findings.begin(), findings.end(), [&](const HuntFinding& a, const HuntFinding& b) {
+    const int x = rank(a.severity()), y = rank(b.severity());
+    return std::tie(x, a.signature) < std::tie(y, b.signature);
+  });
+}
+
+std::vector<HuntFinding*> HuntReport::to_shrink() {
+  std::vector<HuntFinding*> all, chosen;
+  for (HuntFinding& f : findings) all.push_back(&f);
+  std::sort(all.begin(), all.end(), [](const HuntFinding* a, const HuntFinding* b) {
+    return std::tie(a->first, a->signature) < std::tie(b->first, b->signature);
+  });
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> count;
+  for (HuntFinding* f : all)
+    if (++count[{f->scheme, f->check, f->status}] <= kShrunk) chosen.push_back(f);
+  return chosen;
+}
+
+std::string to_json(const HuntReport& r, bool list_of_kinds) {
+  Json findings = Json::array();
+  for (const HuntFinding& f : r.findings) findings.push_back(to_json(f));
+  const Json json{{"program", "limitcheck hunt"},
+                  {"version", r.version},
+                  {"subject", r.subject},
+                  {"seed", r.seed},
+                  {"asked", r.asked},
+                  {"schemes", r.schemes},
+                  {"shard", {{"index", r.shard.index}, {"count", r.shard.count}}},
+                  {"cases", r.cases},
+                  {"next", r.next},
+                  {"judged", r.judged},
+                  {"edge_kinds", list_of_kinds || r.shard.count > 1 ? Json(r.kinds) : Json(r.kinds.size())},
+                  {"findings", findings},
+                  {"seconds", r.seconds},
+                  {"incomplete", r.incomplete}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+HuntReport read_hunt_report(const std::string& text) try {
+  const Json json = Json::parse(text);
+  if (json.at("program") != "limitcheck hunt") throw data::ArgumentError("this is no report of a hunt");
+  HuntReport r;
+  json.at("version").get_to(r.version), json.at("subject").get_to(r.subject);
+  json.at("seed").get_to(r.seed), json.at("asked").get_to(r.asked), json.at("schemes").get_to(r.schemes);
+  json.at("shard").at("index").get_to(r.shard.index), json.at("shard").at("count").get_to(r.shard.count);
+  json.at("cases").get_to(r.cases), json.at("next").get_to(r.next), json.at("judged").get_to(r.judged);
+  if (json.at("edge_kinds").is_array()) json.at("edge_kinds").get_to(r.kinds);
+  for (const Json& f : json.at("findings")) r.findings.push_back(finding_of(f));
+  json.at("seconds").get_to(r.seconds), json.at("incomplete").get_to(r.incomplete);
+  return r;
+} catch (const Json::exception& error) {
+  throw data::ArgumentError(fmt::format("this is no report of a hunt: {}", error.what()));
+}
+
+HuntReport combined(const std::vector<HuntReport>& parts) {
+  HuntReport whole = parts.at(0);
+  whole.shard = {}, whole.cases = 0, whole.judged = 0, whole.seconds = 0;
+  whole.next = 0, whole.findings.clear();
+  for (const HuntReport& p : parts) {
+    whole.cases += p.cases, whole.judged += p.judged, whole.seconds += p.seconds;
+    whole.next = std::max(whole.next, p.next);
+    whole.kinds.insert(p.kinds.begin(), p.kinds.end());
+    if (whole.incomplete.empty()) whole.incomplete = p.incomplete;
+    for (const HuntFinding& f : p.findings) take(whole.findings, f);
+  }
+  const std::vector<HuntFinding*> small = whole.to_shrink();
+  for (HuntFinding& f : whole.findings)  // as if one process had found them all
+    if (std::find(small.begin(), small.end(), &f) == small.end())
+      f.faces = 0, f.depth = 0, f.witness.clear(), f.command.clear();
+  whole.sort();
+  return whole;
+}
+
+HuntReport merged(const std::vector<HuntReport>& parts) {
+  if (parts.empty()) throw data::ArgumentError("there is nothing to merge");
+  const HuntReport& first = parts.front();
+  std::set<std::uint64_t> there;
+  for (const HuntReport& p : parts) {
+    const auto hunt = [](const HuntReport& r) {
+      return std::tie(r.version, r.subject, r.seed, r.asked, r.schemes, r.shard.count);
+    };
+    const auto refuse = [&](const std::string& why) {
+      throw data::ArgumentError(fmt::format("shard {} {}", p.shard.text(), why));
+    };
+    if (hunt(p) != hunt(first)) refuse("is of another hunt than shard " + first.shard.text());
+    if (!p.incomplete.empty()) refuse("is incomplete: " + p.incomplete);
+    if (!there.insert(p.shard.index).second) refuse("is there twice");
+  }
+  for (std::uint64_t k = 0; k < first.shard.count; ++k)
+    if (!there.contains(k))
+      throw data::ArgumentError(fmt::format("shard {} is missing", Shard{k, first.shard.count}.text()));
+  return combined(parts);
+}
+
+}  // namespace limitcheck::verify

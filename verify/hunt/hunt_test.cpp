@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "verify/hunt/hunt.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "data/error.h"
+#include "data/generators/named_mesh.h"
+#include "data/io/read.h"
+#include "verify/hunt/neighbourhood.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+namespace {
+
+const std::vector<data::Scheme> kLoop{data::Scheme::kLoop};
+
+HuntReport hunt(const std::string& options, std::uint64_t cases, const Shard& shard = {}, int attempts = 0,
+                const std::string& folder = "") {
+  const AuditSubject subject{find_subject("faulty"), options};
+  HuntReport report;
+  report.subject = subject.label(), report.shard = shard, report.asked = cases;
+  Hunt hunt(subject, HuntPlan(1, schemes_of(subject, kLoop)), {1, attempts, folder}, report);
+  for (std::uint64_t n = 0; n < cases; ++n) {
+    if (shard.has(n / HuntPlan::kBlock)) {
+      EXPECT_TRUE(hunt.look(n));
+    }
+  }
+  hunt.shrink_findings();
+  HuntReport result = hunt.report();
+  result.sort();
+  return result;
+}
+
+// The finding of a check with the smallest mesh.
+const HuntFinding* smallest(const HuntReport& report, const std::string& check) {
+  const HuntFinding* best = nullptr;
+  for (const HuntFinding& f : report.findings)
+    if (f.check == check && f.faces > 0 && (best == nullptr || f.faces < best->faces)) best = &f;
+  return best;
+}
+
+TEST(Hunt, FindsFaultsThatNeedARareNeighbourhoodAndShrinksThem) {
+  struct {
+    const char* fault;
+    std::uint64_t cases;
+    std::int64_t faces;  // that its smallest mesh has at most
+  } const all[]{
+      {"adjacent_extraordinary", 32, 8}, {"depth_difference_3", 48, 3}, {"valence_above_40", 96, 60}};
+  for (const auto& [fault, cases, faces] : all) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / fault;
+    const HuntReport report =
+        hunt(std::string("of=sliding-window,fault=") + fault, cases, {}, 200, folder.string());
+    const HuntFinding* f = smallest(report, "positions");
+    ASSERT_NE(f, nullptr) << fault;
+    EXPECT_LE(f->faces, faces) << fault << ": " << f->command;
+    EXPECT_EQ(static_cast<std::int64_t>(
+                  data::read_mesh(std::filesystem::path(f->witness) / "control.obj").faces.size()),
+              f->faces);
+    std::filesystem::remove_all(folder);
+  }
+}
+
+TEST(Hunt, FindsNothingWhereNothingIsWrong) {
+  const HuntReport report = hunt("of=sliding-window,precision=double,fault=none", 48);
+  EXPECT_EQ(report.cases, 48U);
+  EXPECT_EQ(report.judged, 48);
+  EXPECT_GT(report.kinds.size(), 300U);
+  for (const HuntFinding& f : report.findings) ADD_FAILURE() << f.signature << ": " << f.command;
+}
+
+TEST(Hunt, ShardsGiveWhatTheWholeGives) {
+  const std::string options = "of=sliding-window,fault=adjacent_extraordinary";
+  const HuntReport whole = hunt(options, 64, {}, 20);
+  std::vector<HuntReport> parts;
+  for (const std::uint64_t k : {2U, 0U, 1U})
+    parts.push_back(read_hunt_report(to_json(hunt(options, 64, {k, 3}, 20))));
+  EXPECT_EQ(to_json(merged(parts)), to_json(whole));
+
+  std::vector<HuntReport> wrong = parts;
+  wrong.pop_back();
+  EXPECT_THROW(merged(wrong), data::ArgumentError) << "one is missing";
+  wrong.push_back(parts[0]);
+  EXPECT_THROW(merged(wrong), data::ArgumentError) << "one is there twice";
+  wrong.back() = parts[2], wrong.back().seed = 5;
+  EXPECT_THROW(merged(wrong), data::ArgumentError) << "one is of another hunt";
+  wrong.back() = parts[2], wrong.back().incomplete = "interrupted by SIGINT";
+  EXPECT_THROW(merged(wrong), data::ArgumentError);
+  EXPECT_THROW(merged({}), data::ArgumentError);
+}
+
+TEST(Hunt, ReportsAreReadAsTheyWereWritten) {
+  const HuntReport report = hunt("of=sliding-window,fault=nan_position", 16, {1, 2});
+  EXPECT_EQ(to_json(read_hunt_report(to_json(report))), to_json(report));
+  for (const char* text :
+       {"", "{}", "[]", "{\"program\": \"limitcheck audit\"}", "{\"program\": \"limitcheck hunt\"}"})
+    EXPECT_THROW(read_hunt_report(text), data::ArgumentError) << text;
+}
+
+TEST(Hunt, ShardsAreNamedFromOneOn) {
+  EXPECT_EQ(parse_shard("3/8").index, 2U);
+  EXPECT_EQ(parse_shard("3/8").text(), "3/8");
+  for (const char* text :
+       {"", "0/3", "4/3", "3", "a/b", "1/", "/2", "1/2/3", "-1/2", "1/0", "1/99999999999999999999"})
+    EXPECT_THROW(parse_shard(text), data::ArgumentError) << text;
+}
+
+TEST(Neighbourhood, IsWhatProgramsCanTellApart) {
+  const auto words = [](const char* name, std::int64_t face, std::vector<std::int32_t> depth = {}) {
+    AuditMesh m{name, data::named_mesh(name)};
+    m.face_depth = std::move(depth);
+    Result r;
+    r.scheme = m.scheme();
+    if (face >= 0) r.witness = Witness{face};
+    return neighbourhood(r, m);
+  };
+  EXPECT_EQ(words("octahedron", -1), "");
+  EXPECT_EQ(words("torus", 5), "regular face");
+  EXPECT_EQ(words("octahedron", 0), "vertices of 4 faces, extraordinary ones side by side");
+  EXPECT_EQ(words("bipyramid:50", 0), "vertices of 41 and more faces, extraordinary ones side by side");
+  EXPECT_EQ(words("triangle", 0), "boundary");
+  EXPECT_EQ(words("quad-torus", 3), "regular face");
+  EXPECT_EQ(words("prism:5", 0), words("prism:5", 1));
+  EXPECT_EQ(words("triangle-pair", 0, {3, 0}), "boundary; depths differ by 3");
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

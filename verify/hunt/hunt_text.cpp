@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "verify/audit/junit.h"
+#include "verify/hunt/hunt_report.h"
+
+namespace limitcheck::verify {
+namespace {
+
+std::string size_of(const HuntFinding& f) {
+  if (!f.worst) return f.message;
+  return fmt::format("{:.2g}{}{}{}", *f.worst, f.unit.empty() ? "" : " ", f.unit,
+                     f.bound ? fmt::format(" (bound {:.2g})", *f.bound) : "");
+}
+
+std::string mesh_of(const HuntFinding& f) {
+  const std::string before =
+      fmt::format("{} faces at depth {} of case {}", f.faces_before, f.depth_before, f.first);
+  if (f.faces == 0) return before;
+  return fmt::format("{} face{} at depth {}, shrunk from {}", f.faces, f.faces == 1 ? "" : "s", f.depth,
+                     before);
+}
+
+const std::string& command_of(const HuntFinding& f) {
+  return f.command.empty() ? f.found_on : f.command;
+}
+
+}  // namespace
+
+std::string to_text(const HuntReport& r, const std::set<std::string>* known) {
+  std::string schemes;
+  for (const std::string& s : r.schemes) schemes += (schemes.empty() ? "" : ", ") + s;
+  std::string text =
+      fmt::format("hunt of {}: {} cases (seed {}; {}{}), {} kinds of edges", r.subject, r.cases, r.seed,
+                  schemes, r.shard.count > 1 ? "; shard " + r.shard.text() : "", r.kinds.size());
+  if (r.seconds > 0)
+    text += fmt::format(", {:.1f} cases per second and process", static_cast<double>(r.cases) / r.seconds);
+  text += "\n";
+  std::int64_t old = 0;
+  for (const HuntFinding& f : r.findings) {
+    const bool is_new = known == nullptr || !known->contains(f.signature);
+    old += is_new ? 0 : 1;
+    if (!is_new) continue;
+    text += fmt::format("\n{}  {}\n  {}; in {} case{}\n  {}\n  {}\n", f.severity(), f.signature, size_of(f),
+                        f.cases, f.cases == 1 ? "" : "s", mesh_of(f), command_of(f));
+  }
+  const std::size_t fresh = r.findings.size() - static_cast<std::size_t>(old);
+  text += fmt::format("\n{} finding{}{}\n", fresh, fresh == 1 ? "" : "s",
+                      known == nullptr ? "" : fmt::format(" that the baseline has not, {} that it has", old));
+  if (!r.incomplete.empty()) text += fmt::format("INCOMPLETE: {}\n", r.incomplete);
+  return text;
+}
+
+std::string to_junit(const HuntReport& r) {
+  std::string cases;
+  for (const HuntFinding& f : r.findings)
+    cases += fmt::format(
+        "<testcase classname=\"hunt {}\" name=\"{}\"><failure message=\"{}\">{}</failure></testcase>\n",
+        xml_text(r.subject), xml_text(f.signature), xml_text(size_of(f)), xml_text(command_of(f)));
+  if (r.findings.empty())
+    cases = fmt::format("<testcase classname=\"hunt {}\" name=\"{} cases\" time=\"{:.3f}\"/>\n",
+                        xml_text(r.subject), r.cases, r.seconds);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"hunt\" tests=\"{}\" "
+      "failures=\"{}\" time=\"{:.3f}\">\n{}</testsuite>\n</testsuites>\n",
+      std::max<std::size_t>(1, r.findings.size()), r.findings.size(), r.seconds, cases);
+}
+
+}  // namespace limitcheck::verify

@@ -43,7 +43,9 @@ void add_repair(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "repair", "Turn a mesh into one that can be audited: limitcheck repair scan.obj -o cage.obj");
   command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
-  command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")->required();
+  command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")
+      ->required()
+      ->type_name("FILE");
   command->add_flag("--weld", a->options.weld,
                     "Merge vertices at exactly the same place, which closes seams");
   add_mesh_options(*command, a->mesh);

@@ -51,7 +51,9 @@ void add_repair(CLI::App& app, int& exit_code) {
   add_mesh_options(*command, a->mesh);
   command->footer(
       "Drops faces with a repeated corner, faces given twice and vertices that no face names; orients "
-      "neighbouring faces alike; cuts the mesh apart where it is no manifold. No vertex is moved, no hole "
+      "neighbouring faces alike; cuts the mesh apart where it is no manifold; makes one face of two around "
+      "an "
+      "interior vertex. No vertex is moved, no hole "
       "filled, and faces of more than three corners stay so unless --triangulate is given.\n"
       "Exit codes: 0 the result can be audited, 1 faults are left (they are listed), 2 bad usage, or a file "
       "that cannot be read or written.");

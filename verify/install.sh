@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian 12 packages that are missing; silent and quick when none is. Needs root or sudo only then.
+# Installs the Debian 12 packages that are missing; silent and quick when none is. Needs root or sudo only then. On a terminal
+# apt-get shows what it does, elsewhere only if it fails.
 #   verify/install.sh          what building and testing need
 #   verify/install.sh --docs   also what the API reference needs
 #   verify/install.sh --dev    also clang, the formatters and linters, the fuzzer's runtime
@@ -41,12 +42,16 @@ if [[ $(id -u) -ne 0 ]]; then
   }
   root=(sudo)
 fi
-echo "Installing Debian packages: ${missing[*]}" >&2
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-if ! { "${root[@]}" apt-get update -q &&
-       "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
-         apt-get install -q -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
-  cat "$log" >&2
-  exit 2
+get() {
+  "${root[@]}" apt-get update -q &&
+    "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+echo "Installing Debian packages: ${missing[*]} ..." >&2
+if [[ -t 2 ]]; then
+  get >&2 || exit 2
+else
+  log=$(mktemp)
+  trap 'rm -f "$log"' EXIT
+  get >"$log" 2>&1 || { cat "$log" >&2; exit 2; }
 fi
+echo "Installed, in $SECONDS s." >&2

@@ -60,7 +60,29 @@ class PolygonChecker {
   std::int64_t first_;
 };
 
+// A mesh has no tags of unused vertices but sharp vertices.
+void leave_out(ControlMesh& mesh, const std::vector<SoupFault>& unused) {
+  std::vector<std::int32_t> to(mesh.positions.size(), 0);
+  for (const SoupFault& f : unused) to[f.vertex] = -1;
+  std::int32_t kept = 0;
+  for (std::size_t v = 0; v < to.size(); ++v) {
+    if (to[v] < 0) continue;
+    mesh.positions[kept] = mesh.positions[v];
+    to[v] = kept++;
+  }
+  mesh.positions.resize(kept);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::int32_t& v : mesh.faces[f]) v = to[v];
+  for (SharpEdge& e : mesh.sharpness.edges) e.a = to[e.a], e.b = to[e.b];
+  for (SharpVertex& v : mesh.sharpness.vertices) v.vertex = to[v.vertex];
+  std::erase_if(mesh.sharpness.vertices, [](const SharpVertex& v) { return v.vertex < 0; });
+}
+
 }  // namespace
+
+bool is_unused(const SoupFault& fault) {
+  return fault.code == code(MeshFault::kIsolatedVertex);
+}
 
 Sharpness sharpness_of(const PolygonSoup& soup) {
   const auto index = [](std::int64_t v) {
@@ -168,6 +190,14 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
 
 Examination require_valid(const PolygonSoup& soup, const std::string& name, const ReadOptions& options) {
   Examination found = examine(soup, options);
+  if (options.leave_out_unused) {
+    const auto unused = std::stable_partition(found.faults.begin(), found.faults.end(),
+                                              [](const SoupFault& f) { return !is_unused(f); });
+    const std::vector<SoupFault> left_out(unused, found.faults.end());
+    found.faults.erase(unused, found.faults.end());
+    if (found.faults.empty() && !left_out.empty()) leave_out(found.mesh, left_out);
+    found.left_out = static_cast<std::int64_t>(left_out.size());
+  }
   if (found.faults.empty()) return found;
   const SoupFault& first = found.faults[0];
   const std::string more =

@@ -65,12 +65,16 @@ struct SoupFault {
 
 /// The mesh of a file, and everything that is wrong with it.
 struct Examination {
-  ControlMesh mesh;      // without the polygons that are at fault by themselves
-  std::int64_t cut = 0;  // so many polygons became triangles
+  ControlMesh mesh;           // without the polygons that are at fault by themselves
+  std::int64_t cut = 0;       // so many polygons became triangles
+  std::int64_t left_out = 0;  // so many vertices that no face names, if the options say so
   // What the mesh was validated for: as asked; else as data/scheme.h chooses, by all polygons of the file.
   Scheme scheme = Scheme::kLoop;
   std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
 };
+
+/// A vertex that no face names: it shapes nothing, and can be left out.
+bool is_unused(const SoupFault& fault);
 
 /// Its tags as a mesh has them; -1 for a vertex that 32 bits do not name.
 Sharpness sharpness_of(const PolygonSoup& soup);
@@ -79,7 +83,8 @@ Sharpness sharpness_of(const PolygonSoup& soup);
 /// is no fault of its own.
 Examination examine(const PolygonSoup& soup, const ReadOptions& options);
 
-/// The same for a mesh without faults. Throws InputError: the first fault that `examine` finds.
+/// The same for a mesh without faults; unused vertices are left out if the options say so.
+/// Throws InputError: the first fault that `examine` finds.
 Examination require_valid(const PolygonSoup& soup, const std::string& name, const ReadOptions& options);
 
 }  // namespace limitcheck::data::io

@@ -29,6 +29,8 @@ struct ReadOptions {
   /// The scheme that the mesh is validated for, after triangulation; by default the one that it is meant for,
   /// natural_scheme().
   std::optional<Scheme> scheme{};
+  /// Vertices that no face names are left out, and refuse no file.
+  bool leave_out_unused = false;
 };
 
 /// The format of a file.

@@ -239,7 +239,11 @@ class Sorting {
     if (r.check == "tessellates")
       return {of_library, CauseKind::kRefuses, Region::kNone, without_numbers(r.message)};
     if (r.check == "written") return {name, CauseKind::kUnwritten, Region::kNone, ""};
-    if (is_of_surface(r) && !is_without_length(r)) return {name, CauseKind::kSurface, region_.at(k), ""};
+    if (is_of_surface(r) && !is_without_length(r)) {
+      // The rule at the ends of sharp edges is one of the library, whatever evaluates between them.
+      const Region region = region_.at(k);
+      return {region == Region::kDart ? of_library : name, CauseKind::kSurface, region, ""};
+    }
     if (is_of_surface(r) || is_one_of(r.check, {"finite", "degenerate-geometry", "file-finite"}) ||
         says_not_finite(r) ||
         (r.check == "normal-length" && (c.find({"finite"}) != nullptr || is_out_of_scale(report_, r))))

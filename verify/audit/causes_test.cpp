@@ -104,6 +104,21 @@ TEST(Causes, DifferentPlacesAreDifferentCauses) {
   EXPECT_EQ(all.size(), 2U);
 }
 
+// The rule at the end of a sharp edge is one of its own; what is wrong along the edge is wrong at its end, too.
+TEST(Causes, OfDartsAreTheirOwnUnlessTheWholeEdgeIsWrong) {
+  Result dart = red("s", "a", "positions", 3), edge = red("s", "b", "positions", 2);
+  dart.places = {{PlaceKind::kSharpEdge, 0, 0, 5}, {PlaceKind::kDart, 0, 1, 1}};
+  edge.places = {{PlaceKind::kSharpEdge, 0, 2, 5}, {PlaceKind::kDart, 0, 1, 1}};
+  const Report report = report_of({dart, edge});
+  const std::vector<Cause> all = causes(report);
+  expect_partition(report, all);
+  ASSERT_EQ(all.size(), 2U);
+  for (const Cause& c : all) {
+    const bool along = c.title.find("on sharp edges") != std::string::npos;
+    EXPECT_EQ(report.results[c.rows[0]].mesh, along ? "b" : "a") << c.title;
+  }
+}
+
 TEST(Causes, CoverEveryRedRowOfRealSubjects) {
   std::vector<AuditSubject> subjects;
   for (const char* name : {"opensubdiv-far", "opensubdiv-bfr", "openmesh", "cgal"})

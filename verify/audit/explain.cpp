@@ -104,7 +104,9 @@ const std::vector<Explanation>& explanations() {
        kNone, "the surface has no normal there, a renderer needs one all the same"},
       {"rejected-inputs",
        "An edge with three faces, faces of opposite orientation, fans that meet in a vertex, faces without "
-       "vertices, a vertex that does not exist, a coordinate that is no number: refused with a message.",
+       "vertices, a vertex that does not exist, a coordinate that is no number: refused with a message. A "
+       "subject "
+       "that says that it does not validate is not asked.",
        "None accepted.", "the scheme is defined on oriented manifolds only"},
 
       // Of finished tessellations (--tessellation).

@@ -36,8 +36,9 @@ std::vector<NeverJudged> never_judged(const Report& report, const std::vector<st
 }
 
 std::vector<NeverJudged> never_judged(const Report& report) {
-  std::vector<NeverJudged> missing = never_judged(report, {"positions", "normals"});
+  std::vector<NeverJudged> missing = never_judged(report, {"positions", "normals", "rejected-inputs"});
   std::erase_if(missing, [&](const NeverJudged& none) {
+    if (none.check == "rejected-inputs") return !none.reason.starts_with("not asked");
     const auto any = [&](const auto& of) {
       return std::any_of(report.results.begin(), report.results.end(),
                          [&](const Result& r) { return r.subject == none.subject && of(r); });

@@ -21,7 +21,8 @@ struct NeverJudged {
 std::vector<NeverJudged> never_judged(const Report& report, const std::vector<std::string>& checks);
 
 /// The same for positions (of the limit surface or of the refined mesh) and normals, of subjects that have
-/// rows of these names; rows of tessellation files have other names.
+/// rows of these names, and for broken meshes, of subjects that are not asked because they do not validate;
+/// rows of tessellation files have other names.
 std::vector<NeverJudged> never_judged(const Report& report);
 
 }  // namespace limitcheck::verify

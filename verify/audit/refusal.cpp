@@ -53,6 +53,8 @@ Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& me
     return {Status::kFinding, "accepted"};
   } catch (const SubjectDied& error) {
     return {status_of(error), error.what()};
+  } catch (const NotAsked& why) {
+    return {Status::kNotSupported, fmt::format("not asked: {}", why.what())};
   } catch (const SubjectError&) {
     return {};
   } catch (const std::exception& error) {

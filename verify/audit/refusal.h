@@ -21,7 +21,8 @@ struct BrokenMesh {
 const std::vector<BrokenMesh>& broken_meshes();
 
 /// Held: the subject refused the mesh, with any message, or delivered nothing for a mesh without faces.
-/// Finding: it accepted the mesh. Crash, timeout: its process broke down.
+/// Finding: it accepted the mesh. Crash, timeout: its process broke down. Not supported: it was not asked,
+/// because it does not validate, or does not do the scheme.
 struct Refusal {
   Status status = Status::kHeld;
   std::string message;

@@ -18,6 +18,8 @@ Region region_of(PlaceKind kind) {
     case PlaceKind::kExtraordinaryVertex:
     case PlaceKind::kPolygonVertex:
       return Region::kExtraordinary;
+    case PlaceKind::kDart:
+      return Region::kDart;
     default:
       return Region::kSharp;
   }
@@ -35,6 +37,7 @@ std::set<Region> regions(const Result& row) {
     found.erase(Region::kBoundary);
     found.erase(Region::kExtraordinary);
   }
+  if (found.contains(Region::kSharp)) found.erase(Region::kDart);
   return found;
 }
 
@@ -44,7 +47,8 @@ std::vector<PlaceCount> counts_in(const std::vector<PlaceCount>& counts, Region 
   for (const PlaceCount& c : counts) {
     const Region own = region_of(c.kind);
     if (own == region ||
-        (region == Region::kIrregular && (own == Region::kBoundary || own == Region::kExtraordinary)))
+        (region == Region::kIrregular && (own == Region::kBoundary || own == Region::kExtraordinary)) ||
+        (region == Region::kSharp && own == Region::kDart))
       inside.push_back(c);
   }
   return inside;

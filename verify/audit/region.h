@@ -16,6 +16,7 @@ enum class Region : std::uint8_t {
   kEverywhere,
   kIrregular,     // in faces at extraordinary vertices or at the boundary
   kSharp,         // at sharp edges and vertices
+  kDart,          // at the ends of sharp edges only
   kBoundary,      // at boundary vertices only
   kExtraordinary  // at extraordinary vertices, and those of faces that are no quads, only
 };

@@ -141,6 +141,10 @@ class Relations {
 
   Result rejected_inputs(std::vector<Refusal>& refusals) const {
     RelationRow row = begin("rejected-inputs", "meshes", 0);
+    if (e_.capabilities.does_not_validate != 0) {
+      row.note(Status::kNotSupported, "not asked: does not validate");
+      return row.take();
+    }
     if (refusals.empty()) refusals = ask_for_refusals(subject_, e_.lattice.scheme(), threads_);
     for (std::size_t k = 0; k < refusals.size(); ++k) {
       const Refusal& refusal = refusals[k];

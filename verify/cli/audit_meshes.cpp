@@ -7,6 +7,7 @@
 #include <charconv>
 #include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "verify/audit/refusal.h"
 #include "verify/cli/audit_depths.h"
 #include "verify/subject/coordinate_range.h"
+#include "verify/subject/host.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -42,6 +44,32 @@ std::vector<std::string> default_names(const MeshRequest& a,
   return names;
 }
 
+// "\nleft out: 15 of the plan's meshes: row-stream: does not do semi-sharp edges and vertices", for each reason
+// one such line; nothing if all meshes of the plan are looked at.
+std::string left_out(const std::vector<verify::AuditMesh>& plan, const std::vector<verify::AuditMesh>& kept,
+                     const verify::AuditSubject& subject) {
+  std::set<std::string> names;
+  for (const verify::AuditMesh& m : kept) names.insert(m.name);
+  std::map<std::pair<data::Scheme, std::int32_t>, std::string> reason;  // by scheme and sharp edges
+  std::map<std::string, std::set<std::string>> meshes;                  // by reason
+  for (const verify::AuditMesh& m : plan) {
+    if (names.contains(m.name)) continue;
+    const auto [why, is_new] = reason.try_emplace({m.scheme(), verify::sharp_kinds(m.mesh, m.scheme())});
+    if (is_new) try {
+        const verify::Session asked(*subject.subject, m.mesh, subject.options, verify::Session::Input::kValid,
+                                    m.scheme());
+      } catch (const verify::NotAsked& refusal) {
+        why->second = refusal.what();
+      } catch (const verify::SubjectError&) {  // the audit will say why
+      }
+    if (!why->second.empty()) meshes[why->second].insert(m.name);
+  }
+  std::string lines;
+  for (const auto& [why, of] : meshes)
+    lines += fmt::format("\nleft out: {} of the plan's meshes: {}", of.size(), why);
+  return lines;
+}
+
 }  // namespace
 
 std::optional<Sampling> parse_sample(const std::string& text) {
@@ -59,7 +87,8 @@ std::optional<Sampling> parse_sample(const std::string& text) {
 AuditedMeshes planned_meshes(const MeshOptions& options, verify::Level level,
                              const std::vector<verify::AuditSubject>& audited) {
   const std::optional<data::Scheme> asked = read_options(options).scheme;
-  AuditedMeshes result{asked ? verify::default_plan(level) : verify::default_plan(level, audited), {}};
+  const std::vector<verify::AuditMesh> plan = verify::default_plan(level);
+  AuditedMeshes result{asked ? plan : verify::default_plan(level, audited), {}};
   if (asked == data::Scheme::kLoop)
     std::erase_if(result.list, [](const auto& m) { return !m.mesh.faces.are_triangles(); });
   std::map<std::string, MeshScheme> by_name;  // the plan has a mesh at several depths
@@ -70,6 +99,7 @@ AuditedMeshes planned_meshes(const MeshOptions& options, verify::Level level,
   std::vector<MeshScheme> chosen;
   for (const auto& [name, scheme] : by_name) chosen.push_back(scheme);
   result.scheme_line = scheme_line(chosen, options);
+  if (audited.size() == 1 && !asked) result.scheme_line += left_out(plan, result.list, audited.front());
   return result;
 }
 

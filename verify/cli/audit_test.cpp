@@ -40,6 +40,14 @@ TEST_F(AuditCommand, ExitsWithTwoOnBadUsageAndBadInput) {
   }
 }
 
+TEST_F(AuditCommand, OfOneSubjectSaysWhichMeshesOfThePlanItLeavesOut) {
+  const Outcome o = run("audit row-stream --level quick");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_NE(o.out.find(" of the plan's meshes: row-stream: does not do semi-sharp edges and vertices\n"),
+            std::string::npos)
+      << o.out.substr(0, 500);
+}
+
 TEST_F(AuditCommand, JsonOnStandardOutputIsOneDocumentAndNothingElse) {
   const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 2 --json -");
   EXPECT_EQ(o.code, 1) << o.err;

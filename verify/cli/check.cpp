@@ -87,6 +87,26 @@ std::int64_t triangles(const data::Faces& faces) {
   return static_cast<std::int64_t>(faces.corners().size()) - 2 * static_cast<std::int64_t>(faces.size());
 }
 
+// Faults, and vertices that no face names, which are none.
+struct Found {
+  std::vector<data::io::SoupFault> faults, unused;
+};
+
+Found sorted(const std::vector<data::io::SoupFault>& all) {
+  Found found;
+  for (const auto& f : all) (data::io::is_unused(f) ? found.unused : found.faults).push_back(f);
+  return found;
+}
+
+nlohmann::ordered_json list(const std::vector<data::io::SoupFault>& faults) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const auto& f : faults)
+    all.push_back({{"code", f.code},
+                   {"line", f.line > 0 ? nlohmann::ordered_json(f.line) : nlohmann::ordered_json()},
+                   {"message", f.message}});
+  return all;
+}
+
 nlohmann::ordered_json to_json(const std::string& file, const MeshScheme& chosen,
                                const data::io::PolygonSoup& soup, const data::io::Examination& found,
                                const data::MeshSummary& s) {
@@ -95,19 +115,16 @@ nlohmann::ordered_json to_json(const std::string& file, const MeshScheme& chosen
     for (const auto& [key, count] : of) object[std::to_string(key)] = count;
     return object;
   };
-  nlohmann::ordered_json faults = nlohmann::ordered_json::array();
-  for (const auto& f : found.faults)
-    faults.push_back({{"code", f.code},
-                      {"line", f.line > 0 ? nlohmann::ordered_json(f.line) : nlohmann::ordered_json()},
-                      {"message", f.message}});
+  const Found all = sorted(found.faults);
   return {{"program", "limitcheck"},
           {"version", LIMITCHECK_VERSION},
           {"file", file},
           {"scheme", name_of(chosen.scheme)},
           {"faces_cut", chosen.cut},
-          {"valid", found.faults.empty()},
+          {"valid", all.faults.empty()},
           {"numbers_from", soup.first},
-          {"faults", std::move(faults)},
+          {"faults", list(all.faults)},
+          {"warnings", list(all.unused)},
           {"vertices", soup.positions.size()},
           {"faces", soup.polygon_end.size()},
           {"face_sizes", counts(face_sizes(soup))},
@@ -141,21 +158,25 @@ int check(const Arguments& a) {
     print_summary(soup, summary);
     print_faults(a.file, soup, found.faults);
   }
-  return found.faults.empty() ? kHeld : kFindings;
+  return sorted(found.faults).faults.empty() ? kHeld : kFindings;
 }
 
 }  // namespace
 
 void print_faults(const std::string& file, const data::io::PolygonSoup& soup,
                   const std::vector<data::io::SoupFault>& faults) {
-  if (faults.empty()) {
+  const Found found = sorted(faults);
+  const auto print = [&](const char* what, const char* why, const std::vector<data::io::SoupFault>& some) {
+    line(what, fmt::format("{}{}, vertices and faces counted from {}, as the file does:", some.size(), why,
+                           soup.first));
+    for (const auto& f : some)
+      fmt::print("  {}{}: {}: {}\n", file, f.line > 0 ? fmt::format(":{}", f.line) : "", f.code, f.message);
+  };
+  if (!found.unused.empty()) print("unused vertices", ", which an audit leaves out", found.unused);
+  if (found.faults.empty())
     line("faults", "none");
-    return;
-  }
-  line("faults",
-       fmt::format("{}, vertices and faces counted from {}, as the file does:", faults.size(), soup.first));
-  for (const auto& f : faults)
-    fmt::print("  {}{}: {}: {}\n", file, f.line > 0 ? fmt::format(":{}", f.line) : "", f.code, f.message);
+  else
+    print("faults", "", found.faults);
 }
 
 void add_check(CLI::App& app, int& exit_code) {
@@ -167,6 +188,7 @@ void add_check(CLI::App& app, int& exit_code) {
   command->add_flag("--json", a->json, "One JSON document on standard output in place of the text");
   command->footer(
       "What is a fault depends on the scheme: a face of four corners is one for Loop's only (MESH_POLYGON).\n"
+      "Vertices that no face names are none: they are left out.\n"
       "Exit codes: 0 nothing is wrong, 1 the mesh has faults, 2 bad usage, or a file that cannot be read.\n"
       "An audit refuses a mesh with faults; limitcheck repair mends most of them.");
   command->callback([a, &exit_code] { exit_code = check(*a); });

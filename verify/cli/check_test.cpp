@@ -32,9 +32,43 @@ TEST_F(CheckCommand, ListsEveryFaultWithItsLineAndCountsAsTheFileDoes) {
   EXPECT_NE(o.out.find("counted from 1"), std::string::npos) << o.out;
 
   const auto json = nlohmann::json::parse(run("check broken.obj --json").out);
-  EXPECT_EQ(json["faults"].size(), 3U);
+  EXPECT_EQ(json["faults"].size(), 2U);
+  EXPECT_EQ(json["warnings"].size(), 1U);
   EXPECT_FALSE(json["valid"].get<bool>());
   EXPECT_EQ(json["numbers_from"], 1);
+}
+
+// The first of the tetrahedron's five, and the last.
+TEST_F(CheckCommand, UnusedVerticesAreLeftOutAndNoFault) {
+  write("used.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  write("unused.obj",
+        "v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 9 9 9\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4\n");
+  write("unused.ply",
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "7 7 7\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n9 9 9\n3 1 3 2\n3 1 2 4\n3 2 3 4\n3 1 4 3\n");
+  const auto rows = [&](const std::string& mesh) {
+    const Outcome o = run("audit sliding-window " + mesh + " --depth 2 --json -");
+    EXPECT_EQ(o.code, 0) << o.err;
+    auto report = nlohmann::json::parse(o.out, nullptr, false);
+    EXPECT_EQ(report["meshes"][0]["vertices"], 4) << mesh;
+    std::string text;
+    for (const auto& row : report["results"]) text += row["check"].dump() + row["worst"].dump() + "\n";
+    return text;
+  };
+  const std::string without = rows("used.obj");
+  for (const std::string mesh : {"unused.obj", "unused.ply"}) {
+    EXPECT_EQ(rows(mesh), without) << mesh;
+    EXPECT_EQ(run("audit sliding-window " + mesh + " --depth 1 --level quick").err,
+              "limitcheck: warning: " + mesh + ": 2 vertices that no face names are left out\n");
+    const Outcome check = run("check " + mesh);
+    EXPECT_EQ(check.code, 0) << check.out;
+    EXPECT_NE(check.out.find("unused vertices     2, which an audit leaves out"), std::string::npos)
+        << check.out;
+    ASSERT_EQ(run("tessellate " + mesh + " -o fine.ply --depth 2").code, 0);
+    EXPECT_EQ(run("audit --control " + mesh + " --tessellation fine.ply").code, 0);
+    EXPECT_EQ(run("eval " + mesh + " 0 1/3 1/3 --json").out, run("eval used.obj 0 1/3 1/3 --json").out);
+  }
 }
 
 TEST_F(CheckCommand, SummarisesAMeshWithoutFaults) {

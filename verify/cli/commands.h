@@ -26,6 +26,7 @@ void add_mutants(CLI::App& app, int& exit_code);
 void add_repair(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 void add_external(CLI::App& app, int& exit_code);
+void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes the manual page of
 void add_worker(CLI::App& app, int& exit_code);  // hidden: the process that isolated subjects run in
 
 }  // namespace limitcheck::cli

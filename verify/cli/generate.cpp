@@ -58,7 +58,7 @@ void add_generate(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   command->add_option("NAME", options->name,
                       "The mesh, with parameters behind colons: wheel:7, bumpy:800, quad-cube (see --list)");
-  command->add_option("-o,--output", options->file, "The file: .obj, .off or .ply");
+  command->add_option("-o,--output", options->file, "The file: .obj, .off or .ply")->type_name("FILE");
   command->add_option("--seed", options->seed, "Seed of a random mesh, as a last parameter of NAME would be");
   add_mesh_options(*command, options->mesh);
   command->add_flag("--ascii", options->ascii, "PLY as text");

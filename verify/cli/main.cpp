@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
   add_mutants(app, exit_code);
   add_tessellate(app, exit_code);
   add_external(app, exit_code);
+  add_manual(app, exit_code);
   add_worker(app, exit_code);
 
   // `limitcheck help COMMAND` is `limitcheck COMMAND --help`.

@@ -70,7 +70,14 @@ MeshScheme scheme_of(const data::ControlMesh& mesh, std::int64_t cut, const Mesh
 }
 
 OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options) {
-  return taken(file_or_name, data::open_mesh(file_or_name, without_scheme(options)), options);
+  data::ReadOptions how = without_scheme(options);
+  how.leave_out_unused = true;
+  data::OpenedMesh opened = data::open_mesh(file_or_name, how);
+  if (opened.left_out > 0)
+    fmt::print(stderr, "limitcheck: warning: {}: {} no face names {} left out\n", file_or_name,
+               opened.left_out == 1 ? "a vertex that" : fmt::format("{} vertices that", opened.left_out),
+               opened.left_out == 1 ? "is" : "are");
+  return taken(file_or_name, std::move(opened), options);
 }
 
 OpenedMesh open_named_mesh(const std::string& specification, const MeshOptions& options) {

@@ -37,7 +37,7 @@ struct OpenedMesh {
 /// The scheme asked for, else the mesh's own.
 MeshScheme scheme_of(const data::ControlMesh& mesh, std::int64_t cut, const MeshOptions& options);
 
-/// A file or a generator's name.
+/// A file or a generator's name. Vertices that no face names are left out, with a warning on standard error.
 ///   throws   data::InputError as data::open_mesh; data::ArgumentError: Loop's scheme was asked for, and the
 ///            mesh has polygons that nobody allowed to be cut
 OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options);

@@ -43,13 +43,17 @@ void add_repair(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "repair", "Turn a mesh into one that can be audited: limitcheck repair scan.obj -o cage.obj");
   command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
-  command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")->required();
+  command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")
+      ->required()
+      ->type_name("FILE");
   command->add_flag("--weld", a->options.weld,
                     "Merge vertices at exactly the same place, which closes seams");
   add_mesh_options(*command, a->mesh);
   command->footer(
       "Drops faces with a repeated corner, faces given twice and vertices that no face names; orients "
-      "neighbouring faces alike; cuts the mesh apart where it is no manifold. No vertex is moved, no hole "
+      "neighbouring faces alike; cuts the mesh apart where it is no manifold; makes one face of two around "
+      "an "
+      "interior vertex. No vertex is moved, no hole "
       "filled, and faces of more than three corners stay so unless --triangulate is given.\n"
       "Exit codes: 0 the result can be audited, 1 faults are left (they are listed), 2 bad usage, or a file "
       "that cannot be read or written.");

@@ -264,8 +264,9 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->add_option("MESH", a->mesh, "A file (OBJ, OFF, PLY, STL) or a name (see limitcheck generate --list)")
       ->required();
   add_mesh_options(*command, a->scheme);
-  command->add_option("-o,--output", a->output,
-                      "The file: .ply, .obj or .glb; without it, only the statistics");
+  command
+      ->add_option("-o,--output", a->output, "The file: .ply, .obj or .glb; without it, only the statistics")
+      ->type_name("FILE");
   command->add_option("--depth", a->depth, "Subdivision depth; the largest one of random")
       ->check(CLI::Range(0, fast::kDeepest))
       ->capture_default_str();

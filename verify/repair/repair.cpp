@@ -97,7 +97,37 @@ class Repair {
          "where the mesh was cut apart: at edges of three faces or more, and where fans touch in a vertex");
   }
 
-  void drop_unused() {
+  /// Two faces around an interior vertex are one face with a vertex too many.
+  void merge_at_valence_2() {
+    std::int64_t removed = 0;
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<std::vector<std::size_t>> around(points_.size());
+      for (std::size_t f = 0; f < polygons_.size(); ++f)
+        for (const std::size_t v : polygons_[f]) around[v].push_back(f);
+      std::vector<bool> changed(polygons_.size(), false);
+      for (std::size_t v = 0; v < points_.size(); ++v) {
+        if (around[v].size() != 2) continue;
+        const std::size_t f = around[v][0], g = around[v][1];
+        Polygon one = beginning_at(v, polygons_[f]), other = beginning_at(v, polygons_[g]);
+        if (one[1] != other.back() || one.back() != other[1]) continue;  // a boundary vertex
+        again = again || changed[f] || changed[g];
+        if (changed[f] || changed[g]) continue;
+        Polygon merged(one.begin() + 1, one.end());
+        merged.insert(merged.end(), other.begin() + 2, other.end() - 1);
+        if (has_repeated_corners(merged) || merged.size() < 3) continue;
+        polygons_[f] = std::move(merged);
+        polygons_[g].clear();
+        changed[f] = changed[g] = true;
+        ++removed;
+      }
+      std::erase_if(polygons_, [](const Polygon& p) { return p.empty(); });
+      again = again || std::find(changed.begin(), changed.end(), true) != changed.end();
+    }
+    note("removed", removed, "vertex", "inside with two faces only, which became one");
+  }
+
+  void drop_unused(bool say = true) {
     std::vector<bool> used(points_.size(), false);
     for (const Polygon& p : polygons_)
       for (const std::size_t v : p) used[v] = true;
@@ -107,7 +137,9 @@ class Repair {
       to[v] = kept.size();
       if (used[v]) kept.push_back(points_[v]);
     }
-    note("dropped", static_cast<std::int64_t>(points_.size() - kept.size()), "vertex", "that no face names");
+    if (say)
+      note("dropped", static_cast<std::int64_t>(points_.size() - kept.size()), "vertex",
+           "that no face names");
     points_ = std::move(kept);
     for (Polygon& p : polygons_)
       for (std::size_t& v : p) v = to[v];
@@ -153,6 +185,14 @@ class Repair {
  private:
   using Tag = data::io::PolygonSoup::SharpTag;
 
+  static bool has_repeated_corners(Polygon p) {
+    std::sort(p.begin(), p.end());
+    return std::adjacent_find(p.begin(), p.end()) != p.end();
+  }
+  static Polygon beginning_at(std::size_t v, Polygon p) {
+    std::rotate(p.begin(), std::find(p.begin(), p.end(), v), p.end());
+    return p;
+  }
   static std::pair<std::int64_t, std::int64_t> ends(const Tag& t) { return std::minmax(t.a, t.b); }
   template <class To>
   void move_tags(To to) {
@@ -189,12 +229,7 @@ class Repair {
     note("dropped", static_cast<std::int64_t>(std::erase_if(polygons_, bad)), "face", which);
   }
 
-  void drop_repeated_corners(std::string_view which) {
-    drop(which, [](Polygon p) {
-      std::sort(p.begin(), p.end());
-      return std::adjacent_find(p.begin(), p.end()) != p.end();
-    });
-  }
+  void drop_repeated_corners(std::string_view which) { drop(which, has_repeated_corners); }
 
   std::vector<Point> points_;
   std::vector<Polygon> polygons_;
@@ -211,6 +246,8 @@ Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options)
   work.drop_duplicates();
   work.orient();
   work.drop_unused();
+  work.merge_at_valence_2();
+  work.drop_unused(false);
   work.drop_tags();
   return work.take();
 }

@@ -24,8 +24,8 @@ struct Repaired {
 /// or a vertex that is not finite; welds, if asked to; drops all but the first of faces with the same
 /// corners; gives faces that share an edge the same orientation, and cuts the mesh apart where that cannot
 /// be, along edges of three faces or more and at vertices where fans touch (CGAL, Polygon_mesh_processing);
-/// drops vertices that no face names. It moves no vertex, adds no face and fills no hole, and does not turn a
-/// whole component inside out. What it cannot mend stays: interior vertices of valence 2.
+/// drops vertices that no face names; removes interior vertices of two faces, which become one face. It moves
+/// no vertex and fills no hole, and does not turn a whole component inside out.
 Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options = {});
 
 }  // namespace limitcheck::verify

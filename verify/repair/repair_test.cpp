@@ -135,6 +135,23 @@ TEST(Repair, CutsTheMeshApartWhereItIsNoManifold) {
   EXPECT_EQ(three.soup.polygon_end.size(), 3U);
 }
 
+// A cube, one of whose quads, 0 3 2 1, is two around vertex 8.
+TEST(Repair, MakesOneFaceOfTwoAroundAnInteriorVertex) {
+  const Faces cube{{4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  Faces doublet = cube;
+  doublet.insert(doublet.end(), {{0, 3, 2, 8}, {2, 1, 0, 8}});
+  ASSERT_FALSE(is_valid(soup(9, doublet)));
+  const Repaired r = repair(soup(9, doublet));
+  EXPECT_TRUE(is_valid(r.soup));
+  EXPECT_EQ(r.soup.positions.size(), 8U);
+  Faces whole = faces_of(r.soup);
+  ASSERT_EQ(whole.size(), 6U);
+  EXPECT_EQ(whole.back(), (std::vector<std::int64_t>{0, 3, 2, 1}));
+  whole.pop_back();
+  EXPECT_EQ(whole, cube);
+  EXPECT_EQ(r.changes[0], "removed 1 vertex inside with two faces only, which became one");
+}
+
 TEST(Repair, ClosesSeamsOnlyWhenAsked) {
   PolygonSoup cut = soup(6, {{0, 1, 2}, {3, 4, 5}});
   cut.positions[3] = cut.positions[0];

@@ -39,7 +39,8 @@ std::string impossible(const lc_capabilities& c) {
                                {"points", number(c.points)},
                                {"normals", c.normals},
                                {"per_face_depth", c.per_face_depth},
-                               {"exact_lattice", c.exact_lattice}})
+                               {"exact_lattice", c.exact_lattice},
+                               {"does_not_validate", c.does_not_validate}})
     if (choice.value != 0 && choice.value != 1)
       return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
@@ -109,6 +110,8 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
     throw NotAsked(fmt::format("{}: does not subdivide by {}", subject.name, data::name_of(scheme)));
   if (const std::int32_t beyond = sharp_kinds(mesh, scheme) & ~capabilities_.sharp; beyond != 0)
     throw NotAsked(fmt::format("{}: does not do {}", subject.name, name_of_kinds(beyond)));
+  if (input == Input::kAsItIs && capabilities_.does_not_validate != 0)
+    throw NotAsked(fmt::format("{}: does not validate", subject.name));
   const bool single = capabilities_.precision == LC_FLOAT32;
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)

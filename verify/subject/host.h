@@ -158,7 +158,8 @@ class Session {
 
   /// Rounds the positions to the subject's precision and calls create().
   /// Throws SubjectError: the subject refuses; of valid input, a coordinate is not finite, or
-  /// coordinate_range.h refuses (NotAsked); NotAsked if the subject does not do the scheme.
+  /// coordinate_range.h refuses (NotAsked); NotAsked if the subject does not do the scheme, or is to see a
+  /// mesh as it is and does not validate.
   ///   scheme  by default the one that the mesh is meant for
   Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {},
           Input input = Input::kValid, std::optional<data::Scheme> scheme = {});

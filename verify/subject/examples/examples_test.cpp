@@ -129,6 +129,29 @@ TEST_F(Examples, InPythonOverTheCInterfacePassesTheAudit) {
                   12U * 3U);
 }
 
+// It does not validate, says so, and would crash.
+TEST_F(Examples, OfMatricesPassesTheAuditAndIsNotHandedBrokenMeshes) {
+  install();
+  const std::string audit = "/libmatrices.so octahedron holes fan:5 wheel:13:2 --depth 2 --json -";
+  build(kExamples / "matrices", "matrices");
+  const Outcome o = shell("prefix/bin/limitcheck audit matrices" + audit);
+  expect_refined_points_held(o, 4U);
+  EXPECT_NE(o.out.find("not asked: does not validate"), std::string::npos) << o.out;
+
+  fs::create_directories(folder_ / "silent");
+  for (const char* file : {"CMakeLists.txt", "loop.h"})
+    fs::copy(kExamples / "matrices" / file, folder_ / "silent");
+  std::ifstream in(kExamples / "matrices/subject.cpp");
+  std::string code{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t place = code.find("does_not_validate = 1");
+  ASSERT_NE(place, std::string::npos);
+  write("silent/subject.cpp", code.replace(place, 21, "does_not_validate = 0"));
+  build(folder_ / "silent", "silent/build");
+  const Outcome crash = shell("prefix/bin/limitcheck audit silent/build" + audit);
+  EXPECT_EQ(crash.code, 1) << crash.err;
+  EXPECT_NE(crash.out.find("\"status\": \"crash\""), std::string::npos) << crash.out;
+}
+
 TEST_F(Examples, InJavaScriptPassesTheAudit) {
   if (std::system("node --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "node is not installed";
   expect_refined_points_held(run("audit --program \"node '" + (kExamples / "node/geometry.mjs").string() +

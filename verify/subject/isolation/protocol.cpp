@@ -230,6 +230,7 @@ Capabilities read_capabilities(Source& source) {
   c.exact_lattice = header.flag("exact_lattice");
   c.schemes = version == 1 ? std::int32_t{LC_DOES_LOOP} : schemes_of(header);
   c.sharp = version == 1 ? 0 : sharp_of(header);
+  if (header.has("does_not_validate")) c.does_not_validate = header.flag("does_not_validate");
   if (header.has("options")) result.options = header.text("options");
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;

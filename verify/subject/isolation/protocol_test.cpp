@@ -101,6 +101,8 @@ TEST(Protocol, ReadsWhatASubjectSaysAboutItself) {
   EXPECT_EQ(c.values.normals, 1);
   EXPECT_EQ(c.values.per_face_depth, 0);
   EXPECT_EQ(c.payload, Payload::kText);
+  EXPECT_EQ(c.values.does_not_validate, 0);
+  EXPECT_EQ(capabilities_of("{" + kHello + ", \"does_not_validate\": true}\n").values.does_not_validate, 1);
 }
 
 TEST(Protocol, RefusesAnswersThatAreNone) {
@@ -115,7 +117,8 @@ TEST(Protocol, RefusesAnswersThatAreNone) {
         with("float32", "float16"), with("\"max_depth\": 5", "\"max_depth\": -1"),
         with("\"max_depth\": 5", "\"max_depth\": 5.5"),
         with("\"max_depth\": 5", "\"max_depth\": 18446744073709551615"),
-        with("\"normals\": true", "\"normals\": 1"), with("\"ok\"", "\"fine\""),
+        with("\"normals\": true", "\"normals\": 1"),
+        with("\"normals\": true", "\"normals\": true, \"does_not_validate\": 1"), with("\"ok\"", "\"fine\""),
         with("\"status\": \"ok\", ", ""), std::string(70000, '[') + "\n"}) {
     EXPECT_THROW(capabilities_of(answer), Error) << answer.substr(0, 300);
   }

@@ -112,5 +112,52 @@ INSTANTIATE_TEST_SUITE_P(
              "an edge with three faces: ", "--timeout 1"}),
     [](const auto& of) { return std::string(of.param.name); });
 
+// They would die of the first broken mesh, and are not handed any if they say so.
+class DoesNotValidate : public RelationBreakdown {
+ protected:
+  void expect_not_asked(const std::string& subject) const {
+    const Outcome o = run("audit " + subject + " octahedron --depth 1 --junit report.xml --json report.json");
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+    EXPECT_NE(o.out.find("rejected-inputs of "), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find(" were never judged: not asked: does not validate\n"), std::string::npos) << o.out;
+    const json report = json::parse(read("report.json"), nullptr, false);
+    EXPECT_EQ(statuses(report, "octahedron")["rejected-inputs"], "not-supported");
+    EXPECT_EQ(message(report, "rejected-inputs"), "not asked: does not validate");
+    EXPECT_EQ(report["never_judged"][0]["reason"], "not asked: does not validate") << report["never_judged"];
+    const std::string junit = read("report.xml");
+    const std::size_t row = junit.find("name=\"rejected-inputs\"");
+    ASSERT_NE(row, std::string::npos);
+    EXPECT_NE(junit.substr(row, 200).find("<skipped message=\"not-supported: "), std::string::npos);
+    EXPECT_NE(junit.substr(row, 200).find("not asked: does not validate"), std::string::npos);
+
+    write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n");
+    const Outcome refuse = run("audit " + subject + " broken.obj --must-refuse --details");
+    EXPECT_EQ(refuse.code, 2) << "nothing was looked at\n" << refuse.out << refuse.err;
+    EXPECT_NE(refuse.out.find("does not validate"), std::string::npos) << refuse.out;
+  }
+};
+
+TEST_F(DoesNotValidate, ALibraryIsNotHandedBrokenMeshes) {
+  const std::string hostile = "'" LIMITCHECK_TEST_SUBJECTS "/hostile.so' --options do=segfault,on=broken";
+  expect_not_asked(hostile + ",validates=no");
+  EXPECT_EQ(run("audit " + hostile + " octahedron --depth 1").code, 1) << "one that validates is";
+}
+
+TEST_F(DoesNotValidate, AProgramIsNotHandedBrokenMeshes) {
+  std::ifstream in(LIMITCHECK_SOURCE_DIR "/verify/subject/examples/python/loop.py");
+  std::string code{std::istreambuf_iterator<char>(in), {}};
+  const auto change = [&](const std::string& from, const std::string& to) {
+    const std::size_t place = code.find(from);
+    ASSERT_NE(place, std::string::npos) << from;
+    code.replace(place, from.size(), to);
+  };
+  change("write({\"status\": \"invalid-input\", \"message\": str(refusal)})", "__import__('os').abort()");
+  write("dies.py", code);
+  change("\"exact_lattice\": True", "\"exact_lattice\": True, \"does_not_validate\": True");
+  write("says_so.py", code);
+  expect_not_asked("--program 'python3 says_so.py'");
+  EXPECT_EQ(run("audit --program 'python3 dies.py' octahedron --depth 1").code, 1) << "one that validates is";
+}
+
 }  // namespace
 }  // namespace limitcheck::cli

@@ -122,6 +122,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"normals", c.normals != 0},
           {"per_face_depth", c.per_face_depth != 0},
           {"exact_lattice", c.exact_lattice != 0},
+          {"does_not_validate", c.does_not_validate != 0},
           {"options", subject.options != nullptr ? subject.options : ""}};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A library that behaves as the C example does, except on meshes of six vertices (the octahedron): there it
-// does what its option says, do=THING, or only when on=CASE. Everything here is wrong on purpose.
+// does what its option says, do=THING, or only when on=CASE; validates=no says that it does not. Everything here is wrong on purpose.
 #include <limitcheck/subject.h>
 #include <unistd.h>
 
@@ -116,10 +116,11 @@ lc_mesh lent;
 extern "C" const lc_subject* lc_subject_get(std::uint32_t) {
   static lc_subject subject = good();
   subject.name = "hostile";
-  subject.options = "do=THING, on=CASE";
+  subject.options = "do=THING, on=CASE, validates=no";
   subject.capabilities = [](const char* options, lc_capabilities* out, const char** message) {
     const lc_status status = good().capabilities(nullptr, out, message);
     const int nine = 9;
+    if (option(options, "validates") == "no") out->does_not_validate = 1;
     if (option(options, "do") == "weights") std::memcpy(&out->weights, &nine, sizeof nine);
     return status;
   };

@@ -175,6 +175,12 @@ std::set<std::string> signatures_in(const std::string& file) try {
 }
 
 int hunt(Arguments a) {
+  std::vector<std::string> meshes;
+  take_program(a.from, a.subject, meshes);
+  if (!meshes.empty())
+    throw data::ArgumentError(fmt::format("--program takes the place of SUBJECT {}", meshes[0]));
+  if (a.subject.empty() || a.subject == "all")
+    throw data::ArgumentError("a hunt needs one subject: limitcheck hunt SUBJECT");
   refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.junit}, {"--baseline", a.baseline}});
   if (a.resume && (a.json.empty() || a.json == "-"))
     throw data::ArgumentError("--resume needs --json FILE: what was done is beside it, in FILE.part1 ..");
@@ -248,10 +254,8 @@ void add_hunt(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("hunt", "Search for anything wrong with a tessellator on meshes without end");
-  command
-      ->add_option("SUBJECT", a->subject,
-                   "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND")
-      ->required();
+  command->add_option("SUBJECT", a->subject,
+                      "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND");
   CLI::Option* cases = command->add_option("--cases", a->cases, "How many cases")
                            ->check(CLI::Range(1, 1'000'000'000))
                            ->capture_default_str();

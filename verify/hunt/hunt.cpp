@@ -13,6 +13,10 @@
 
 namespace limitcheck::verify {
 
+namespace {
+constexpr int kOfHangs = 20;
+}  // namespace
+
 Hunt::Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options, HuntReport report)
     : subject_(std::move(subject)),
       plan_(std::move(plan)),
@@ -71,8 +75,11 @@ void Hunt::shrink_finding(HuntFinding& f) {
   const HuntCase at = plan_.at(f.first);
   for (const Result& row : audit(at)) {
     if (!is_bad(row) || signature(row, at.mesh) != f.signature) continue;
+    // Each attempt with a subject that hangs takes as long as it is given.
+    const int attempts =
+        row.status == Status::kTimeout ? std::min(options_.attempts, kOfHangs) : options_.attempts;
     const auto [small, again, relation] =
-        shrink(subject_, at.mesh, options_.threads, row, {.attempts = options_.attempts});
+        shrink(subject_, at.mesh, options_.threads, row, {.attempts = attempts});
     if (!again) return;
     f.faces = static_cast<std::int64_t>(small.mesh.mesh.faces.size());
     f.depth = again->depth;

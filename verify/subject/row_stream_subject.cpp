@@ -14,7 +14,6 @@
 
 #include "data/error.h"
 #include "data/splitmix64.h"
-#include "fast/mesh/triangle_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
@@ -57,13 +56,12 @@ class RowStreamSubject {
     lc_capabilities result{
         LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, rs::kMaxDepth, 1, 1, 1};
     result.sharp = LC_SHARP_CREASES | LC_SHARP_CORNERS;
-    if (scheme == LC_SCHEME_CATMULL_CLARK) result.sharp |= LC_SHARP_SMOOTH_TRIANGLES;
+    result.sharp |= scheme == LC_SCHEME_CATMULL_CLARK ? LC_SHARP_SMOOTH_TRIANGLES : LC_SHARP_NO_DARTS;
     return result;
   }
 
   RowStreamSubject(const lc_mesh& mesh, Options& options) : settings_(options), mesh_(control_mesh(mesh)) {
     settings_.tessellator.scheme = scheme_of(mesh.scheme);
-    refuse_darts();
     use_threads(1);
   }
 
@@ -79,13 +77,6 @@ class RowStreamSubject {
   }
 
  private:
-  // The capabilities have no word for them.
-  void refuse_darts() const {
-    if (settings_.tessellator.scheme != data::Scheme::kLoop || mesh_.sharpness.empty()) return;
-    if (fast::TriangleMesh(mesh_).has_darts())
-      throw SubjectError(LC_NOT_SUPPORTED,
-                         "no sharp edges that end inside a surface of Loop's scheme; the sliding window has them");
-  }
   // Frames with the depth of every fourth face changed by one, or with faces gone, at random.
   void walk(std::span<const std::int32_t> depth) {
     data::SplitMix64 random(static_cast<std::uint64_t>(settings_.frames));

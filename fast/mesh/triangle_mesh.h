@@ -37,7 +37,8 @@ class TriangleMesh {
   std::int32_t uncut(std::int32_t v) const { return with_copies_ ? uncut_[v] : v; }
   /// The face on the other side of a cut or an ordinary edge; -1 at the boundary of the control mesh.
   std::int32_t across(std::int32_t h) const {
-    const std::int32_t twin = adjacency_.twin(h) >= 0 || cut_twin_.empty() ? adjacency_.twin(h) : cut_twin_[h];
+    const std::int32_t twin =
+        adjacency_.twin(h) >= 0 || cut_twin_.empty() ? adjacency_.twin(h) : cut_twin_[h];
     return twin < 0 ? -1 : Adjacency::face(twin);
   }
 

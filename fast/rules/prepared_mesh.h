@@ -80,8 +80,8 @@ class PreparedMesh {
     const VertexLimit<Wide> wide = limit_of_kind(v, ring, open, kind, weights, darts_);
     if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
       bool degenerate = false;
-      const Vec3<Wide> normal = vertex_normal<Wide>(
-          wide, v, ring, open, degenerate, std::numeric_limits<double>::infinity(), kind);
+      const Vec3<Wide> normal =
+          vertex_normal<Wide>(wide, v, ring, open, degenerate, std::numeric_limits<double>::infinity(), kind);
       if (degenerate) ++zero_normals_;
       return {narrow<N>(wide.position), narrow<N>(normal) + Vec3<N>{N(0), N(0), N(0)}};
     } else {  // linear numbers have no sizes, and no rounding either

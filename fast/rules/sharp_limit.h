@@ -52,7 +52,8 @@ DartWeights<S> dart_weights(int n) {
   std::vector<S> members(size);
   for (int i = 0; i < n; ++i) ++members[entry(i)];
   S towards(0);
-  for (int i = 0; i < n; ++i) towards += tangent[entry(i)] / members[entry(i)] * std::cos(angle * static_cast<S>(i));
+  for (int i = 0; i < n; ++i)
+    towards += tangent[entry(i)] / members[entry(i)] * std::cos(angle * static_cast<S>(i));
   DartWeights<S> w;
   for (int i = 0; i < n; ++i) {
     w.position.push_back(limit[entry(i)] / members[entry(i)]);
@@ -62,8 +63,8 @@ DartWeights<S> dart_weights(int n) {
   return w;
 }
 
-/// The limit of a vertex that is held. At an open ring its tangents go to the ends, which is the tangent plane
-/// of up to two faces; at a closed one there is no plane, and they are the smooth tangents.
+/// The limit of a vertex that is held. At an open ring its tangents go to the ends, which is the tangent
+/// plane of up to two faces; at a closed one there is no plane, and they are the smooth tangents.
 template <class W, class S>
 VertexLimit<W> held_limit(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open,
                           const RingWeights<S>& weights) {

@@ -18,9 +18,8 @@ struct Known {
 };
 
 TEST(DartWeights, AreTheRationalOnes) {
-  const std::vector<Known> all{{3, 37, {9, 6, 6}},
-                               {4, 6385, {1085, 744, 868, 744}},
-                               {6, 426, {42, 29, 35, 36, 35, 29}}};
+  const std::vector<Known> all{
+      {3, 37, {9, 6, 6}}, {4, 6385, {1085, 744, 868, 744}}, {6, 426, {42, 29, 35, 36, 35, 29}}};
   for (const Known& known : all) {
     const auto weights = dart_weights<double>(known.faces);
     for (std::size_t i = 0; i < known.parts.size(); ++i)

@@ -50,8 +50,9 @@ BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, Ve
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
     if (adjacency.outgoing(v) < 0) continue;
     if (kinds[v] == VertexKind::kDart)
-      throw data::ArgumentError("row streaming: in Loop's scheme no sharp edge that ends inside the surface, as at vertex " +
-                                std::to_string(v) + "; the sliding window has them");
+      throw data::ArgumentError(
+          "row streaming: in Loop's scheme no sharp edge that ends inside the surface, as at vertex " +
+          std::to_string(v) + "; the sliding window has them");
     make_vertex(adjacency, v, kinds[v] == VertexKind::kHeld, scratch);
   }
 }
@@ -114,8 +115,8 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, bool
   const Vec3<Wide> centre = position(v);
   if (open) continue_ring(centre, held, around, ring, scratch);
   const auto& weights = weights_.of(n, open);
-  const auto limit = held ? held_limit(centre, around, open, weights)
-                          : vertex_limit(centre, around, open, weights);
+  const auto limit =
+      held ? held_limit(centre, around, open, weights) : vertex_limit(centre, around, open, weights);
   Vec3<Wide> normal;
   if constexpr (N::kLinear) {
     normal = {N::tangent(limit.du.x, limit.dv.x), N::tangent(limit.du.y, limit.dv.y),

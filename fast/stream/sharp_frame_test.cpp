@@ -71,7 +71,8 @@ std::vector<Shape> shapes() {
       if (all.mesh.faces[f][k] < all.mesh.faces[f][(k + 1) % 3])
         sharpen(all.mesh, all.mesh.faces[f][k], all.mesh.faces[f][(k + 1) % 3]);
   out.push_back(all);
-  // The rim of a double cone and, of its 12 meridians, every twelfth, sixth, .. second: sectors of many faces.
+  // The rim of a double cone and, of its 12 meridians, every twelfth, sixth, .. second: sectors of many
+  // faces.
   for (const std::int32_t meridians : {0, 1, 2, 3, 4, 6}) {
     Shape cone{std::to_string(meridians) + " meridians", data::bipyramid(12), true};
     for (std::int32_t i = 0; i < 12; ++i) {
@@ -144,8 +145,8 @@ void expect_on_the_limit(Limits& limits, const std::vector<SurfaceVertex<Real>>&
 constexpr int kDepth = 4;
 
 template <class Real, class Engine>
-void expect_the_surface(Engine&& engine, const Shape& shape, Limits& limits, double bound,
-                        int& judged, const std::string& what) {
+void expect_the_surface(Engine&& engine, const Shape& shape, Limits& limits, double bound, int& judged,
+                        const std::string& what) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const auto depth = random_depths(shape.mesh, kDepth, seed);
     DrawList<Real> list;

@@ -73,8 +73,8 @@ std::vector<Vec3<Real>> place(std::span<const std::array<double, 3>> points, Pla
 template <class Real>
 struct Tessellator<Real>::State final : EngineState<Real> {
   using EngineState<Real>::adjacency, EngineState<Real>::arena, EngineState<Real>::max_depth,
-      EngineState<Real>::options, EngineState<Real>::patches,
-      EngineState<Real>::placement, EngineState<Real>::plan, EngineState<Real>::triangles;
+      EngineState<Real>::options, EngineState<Real>::patches, EngineState<Real>::placement,
+      EngineState<Real>::plan, EngineState<Real>::triangles;
 
   State(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
       : EngineState<Real>(given, with, by) {

@@ -19,8 +19,8 @@ inline constexpr std::array<std::array<std::int32_t, 2>, 4> kCorners{{{0, 0}, {1
 template <class N>
 RingedQuad<Vec3<N>> ringed(const QuadMesh<N>& mesh, std::size_t quad) {
   return gather<Vec3<N>>(
-      mesh.topology, quad,
-      [&](std::int32_t v) { return mesh.positions[static_cast<std::size_t>(v)]; }, mesh.states);
+      mesh.topology, quad, [&](std::int32_t v) { return mesh.positions[static_cast<std::size_t>(v)]; },
+      mesh.states);
 }
 
 /// procedure subdiv(face, depth) of section 4; the quad's corner (0, 0) is lattice point (i, j).
@@ -114,7 +114,8 @@ void NaiveSubdivider<N>::tessellate(std::size_t face, std::size_t corner, int de
   } else if (depth == 0) {  // a quad among other faces: its corners' limits, which the step did not change
     LeafQuad<N> leaf;
     for (std::size_t k = 0; k < 4; ++k)
-      run(mesh_->given.first_corner(face) + k, 0, 0, 0, [&](const LeafQuad<N>& child) { leaf[k] = child[k]; });
+      run(mesh_->given.first_corner(face) + k, 0, 0, 0,
+          [&](const LeafQuad<N>& child) { leaf[k] = child[k]; });
     emit(leaf);
   } else {
     const std::int32_t half = 1 << (depth - 1);

@@ -82,8 +82,8 @@ std::string origin_of_points(const Evidence& e) {
   double least = std::numeric_limits<double>::infinity();
   for (const Guess& guess : guesses) {
     if (loop && guess.scheme == Scheme::kCatmullClark && steps == 0) continue;  // the control mesh again
-    const Apart a =
-        apart(e, placed_scheme_points(guess.tags ? e.mesh : smooth, guess.scheme, steps, guess.limit, e.lattice.scheme()));
+    const Apart a = apart(e, placed_scheme_points(guess.tags ? e.mesh : smooth, guess.scheme, steps,
+                                                  guess.limit, e.lattice.scheme()));
     if (a.points < kFewest || !(kTimesNearer * a.from_guess < a.from_truth) || !(a.from_guess < least))
       continue;
     least = a.from_guess;

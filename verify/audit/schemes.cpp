@@ -49,7 +49,7 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
 SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit,
                                   data::Scheme lattice) {
   reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh),
-                                                         mesh.sharpness);
+                                                        mesh.sharpness);
   for (int step = 0; step < steps; ++step) refined.refine();
   SchemePoints result = points_of(refined, limit);
   const int n = 1 << steps;

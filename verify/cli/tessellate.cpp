@@ -111,9 +111,9 @@ bool has_semi_sharp(const data::Sharpness& sharpness) {
 std::string engine_of(const Arguments& a, const OpenedMesh& opened) {
   if (!a.engine.empty()) return a.engine;
   const data::ControlMesh& mesh = opened.mesh;
-  const bool beyond_streaming = has_semi_sharp(mesh.sharpness) ||
-                                (opened.chosen.scheme == data::Scheme::kLoop && !mesh.sharpness.empty() &&
-                                 fast::TriangleMesh(mesh).has_darts());
+  const bool beyond_streaming =
+      has_semi_sharp(mesh.sharpness) || (opened.chosen.scheme == data::Scheme::kLoop &&
+                                         !mesh.sharpness.empty() && fast::TriangleMesh(mesh).has_darts());
   return beyond_streaming ? "sliding-window" : "row-stream";
 }
 
@@ -283,7 +283,8 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->add_option(
           "--engine", a->engine,
           "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
-          "row-stream, or sliding-window for what row-stream does not do: semi-sharp edges and vertices, and in "
+          "row-stream, or sliding-window for what row-stream does not do: semi-sharp edges and vertices, and "
+          "in "
           "Loop's scheme sharp edges that end inside the surface")
       ->check(CLI::IsMember({"row-stream", "sliding-window"}));
   auto* eye =

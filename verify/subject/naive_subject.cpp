@@ -155,8 +155,8 @@ class Sides {
 class NaiveSubject {
  public:
   static lc_capabilities capabilities(Options& options, lc_scheme) {
-    lc_capabilities result{
-        LC_FLOAT64, weights_option(options), LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 1};
+    lc_capabilities result{LC_FLOAT64, weights_option(options), LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1,
+                           1};
     result.sharp =
         LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
     return result;

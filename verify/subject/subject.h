@@ -70,7 +70,7 @@ enum {
   LC_SHARP_CHAIKIN = 4,           /* Chaikin's way of letting sharpness fall */
   LC_SHARP_CORNERS = 8,           /* sharp vertices, and boundary vertices of one face that are held */
   LC_SHARP_SMOOTH_TRIANGLES = 16, /* the smooth rule for Catmull-Clark's triangles */
-  LC_SHARP_NO_DARTS = 32 /* a limit of LC_SHARP_CREASES: no edge that stays sharp may end inside the surface */
+  LC_SHARP_NO_DARTS = 32          /* a limit: no edge that stays sharp may end inside the surface */
 };
 
 /* An edge between two vertices of the control mesh, 0 < sharpness. */

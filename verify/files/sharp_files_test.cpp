@@ -93,6 +93,38 @@ TEST(SharpFiles, ASurfaceOfOtherTagsIsFound) {
 }
 
 // The limit of a dart's vertex is not where the mask of a smooth one puts it.
+// What a file looks like is said with the tags of the control mesh, and without them.
+TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
+  for (const char* name : {"cube 10", "cube 2", "dart 4 of triangles"}) {
+    const SharpMesh m = named(name);
+    data::ControlMesh smooth = m.mesh;
+    smooth.sharpness = {};
+    const FilesAudit ignored = audit_sharp(m, sharp_file(smooth, m.scheme, 2));
+    EXPECT_NE(row(ignored, "file-distance").message.find("limit points of"), std::string::npos)
+        << name << ": " << row(ignored, "file-distance").message;
+    EXPECT_NE(row(ignored, "file-distance").message.find("not taken as sharp"), std::string::npos)
+        << name << ": " << row(ignored, "file-distance").message;
+
+    FileTessellation refined = sharp_file(m.mesh, m.scheme, 2);
+    const auto put = [&](const auto& points) {
+      for (std::size_t v = 0; v < points.size(); ++v) refined.positions[v] = vector_of(points[v]);
+    };
+    if (m.scheme == data::Scheme::kLoop) {
+      put(reference::refine<double>(m.mesh, 2).positions());
+    } else {
+      reference::catmull_clark::RefinedMesh<double> mesh(
+          m.mesh.faces, reference::positions_of<double>(m.mesh), m.mesh.sharpness);
+      mesh.refine();
+      mesh.refine();
+      put(mesh.positions());
+    }
+    const FilesAudit unmoved = audit_sharp(m, refined);
+    EXPECT_NE(row(unmoved, "file-distance").message.find("what is missing is the last step"),
+              std::string::npos)
+        << name << ": " << row(unmoved, "file-distance").message;
+  }
+}
+
 TEST(SharpFiles, ADartAtTheLimitOfASmoothVertexIsFound) {
   for (const int n : {3, 4, 5, 7}) {
     const SharpMesh m = named("dart " + std::to_string(n));

@@ -109,7 +109,7 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
     throw NotAsked(fmt::format("{}: does not subdivide by {}", subject.name, data::name_of(scheme)));
   if (const std::int32_t beyond = sharp_kinds(mesh, scheme) & ~capabilities_.sharp; beyond != 0)
     throw NotAsked(fmt::format("{}: does not do {}", subject.name, name_of_kinds(beyond)));
-  if ((capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
+  if (input == Input::kValid && (capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
     throw NotAsked(fmt::format("{}: does not do sharp edges that end inside the surface", subject.name));
   const bool single = capabilities_.precision == LC_FLOAT32;
   if (input == Input::kValid) {

@@ -48,6 +48,7 @@ inline std::int32_t sharp_kinds(const data::ControlMesh& mesh, data::Scheme sche
 }
 
 /// Whether an edge that stays sharp ends inside the surface: at a vertex with no other, which is not held.
+/// The mesh is valid.
 inline bool has_darts(const data::ControlMesh& mesh) {
   std::vector<std::int32_t> sharp_edges(mesh.positions.size());
   for (const data::SharpEdge& e : mesh.sharpness.edges)

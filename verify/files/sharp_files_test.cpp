@@ -95,7 +95,6 @@ TEST(SharpFiles, ASurfaceOfOtherTagsIsFound) {
   EXPECT_TRUE(uniform.starts_with("file-distance")) << "the other way of creasing";
 }
 
-// The limit of a dart's vertex is not where the mask of a smooth one puts it.
 // Where the surface's tangents are nearly parallel, or vanish, rounding of positions turns normals, on edges
 // that stay sharp too.
 TEST(SharpFiles, RoundedToFloatRandomOnesHaveNoFindingEither) {
@@ -143,6 +142,7 @@ TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
   }
 }
 
+// The limit of a dart's vertex is not where the mask of a smooth one puts it.
 TEST(SharpFiles, ADartAtTheLimitOfASmoothVertexIsFound) {
   for (const int n : {3, 4, 5, 7}) {
     const SharpMesh m = named("dart " + std::to_string(n));

@@ -136,9 +136,9 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   int in_vain = 0;
   const auto least_angle = [&](const Foot& foot, const Vector& direction, const Vector& at, double so_far) {
     if (!(so_far > *r.bound) || in_vain >= kMostInVain) return so_far;
-    const double angle = least_angle_nearby(e.surface, foot, direction, rounding(e, at), *r.bound);
-    in_vain += angle > *r.bound;
-    return angle;
+    const double least = least_angle_nearby(e.surface, foot, direction, rounding(e, at), *r.bound);
+    in_vain += least > *r.bound;
+    return least;
   };
   const auto sides = faces_of_cut_normals(e);
   for (std::size_t k = 0; k < normals.size(); ++k) {

@@ -182,9 +182,10 @@ std::vector<std::string> diagnose(const FileEvidence& e) {
   const double size = e.surface.diagonal();
   const auto [guesses, refined] = guess(e, sampled);
   const Scheme own = own_scheme(e);
-  const auto best = std::min_element(guesses.begin(), guesses.end(), [](const Guess& a, const Guess& b) {
-    return a.apart.rms < b.apart.rms;
-  });
+  // Of schemes that make the same points, as where all edges are still sharp, the file's own.
+  const auto off = [&](const Guess& g) { return g.apart.rms + (g.scheme == own ? 0 : 1e-12 * size); };
+  const auto best = std::min_element(guesses.begin(), guesses.end(),
+                                     [&](const Guess& a, const Guess& b) { return off(a) < off(b); });
   if (best != guesses.end() && best->apart.rms < sampled.rms / 10)
     return {fmt::format(
         "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off {}'s limit "

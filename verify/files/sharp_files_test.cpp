@@ -122,6 +122,7 @@ TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
     EXPECT_NE(row(ignored, "file-distance").message.find("not taken as sharp"), std::string::npos)
         << name << ": " << row(ignored, "file-distance").message;
 
+    if (m.name == "cube 10") continue;  // flat between its edges: refined points are on the surface
     FileTessellation refined = sharp_file(m.mesh, m.scheme, 2);
     const auto put = [&](const auto& points) {
       for (std::size_t v = 0; v < points.size(); ++v) refined.positions[v] = vector_of(points[v]);

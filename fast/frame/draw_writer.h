@@ -38,7 +38,7 @@ inline std::int64_t limit_points_of(const Patch& patch, const CrackPlan& plan) {
   const std::int64_t k = std::int64_t{1} << patch.depth;
   std::int64_t points = 0;
   if (patch.half[1].face < 0)
-    points = k * (k + 2);  // both rows of every strip
+    points = patch.half[0].uses_window() ? k * (k + 2) : 0;  // both rows of every strip
   else if (patch.half[0].uses_window() || patch.half[1].uses_window())
     points = (k + 1) * (k + 1);
   for (const Half& half : patch.half) {

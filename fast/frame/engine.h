@@ -31,7 +31,7 @@ template <class Real>
 class Engine {
  public:
   int face_count() const;
-  /// Of Loop's scheme.
+  /// Of Loop's scheme: of the mesh with its sharp edges cut.
   ///   throws   data::ArgumentError: the scheme is Catmull-Clark's
   const Adjacency& adjacency() const;
 

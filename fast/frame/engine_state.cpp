@@ -19,7 +19,7 @@ FrameStats EngineState<Real>::plan_frame(std::span<const std::int32_t> depth, st
   stats.seconds_pairing = seconds_since(start);
 
   start = Clock::now();
-  plan = plan_cracks(adjacency, pairing.depth, options.cracks, rules);
+  plan = plan_cracks(triangles, pairing.depth, options.cracks, rules);
   patches.clear();
   max_depth = 0;
   for (const Grid& grid : pairing.grids) {

@@ -14,6 +14,7 @@
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/index_writer.h"
 #include "fast/frame/patch_writer.h"
+#include "fast/mesh/triangle_mesh.h"
 #include "fast/plan/printed_rules.h"
 
 namespace limitcheck::fast {
@@ -21,22 +22,22 @@ namespace limitcheck::fast {
 /// Of pairs of triangles. An engine overrides how points are evaluated; Engine calls it.
 template <class Real>
 struct EngineState : FrameEngine<Real> {
-  /// throws   data::ArgumentError: what FrameState and Adjacency refuse, and sharp edges and vertices
+  /// throws   data::ArgumentError: what FrameState and TriangleMesh refuse
   EngineState(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
-      : FrameEngine<Real>(given, with), rules(by), adjacency(mesh) {
-    if (!mesh.sharpness.empty())
-      throw data::ArgumentError("tessellator: no sharp edges or vertices in Loop's scheme");
-  }
+      : FrameEngine<Real>(given, with), rules(by), triangles(mesh) {}
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
       FrameEngine<Real>::plan, FrameEngine<Real>::stores;
 
   int face_count() const final { return adjacency.face_count(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
-    if (!heuristics) heuristics.emplace(mesh, adjacency, options.max_depth);
+    if (!heuristics) heuristics.emplace(triangles.points(), adjacency, options.max_depth, triangles.kinds());
     return heuristics->depths(strategy, camera);
   }
-  void points_moved() override { heuristics.reset(); }
+  void points_moved() override {
+    triangles.points_moved();
+    heuristics.reset();
+  }
   FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) final;
   std::size_t patch_count() const final { return patches.size(); }
   DrawSize patch_size(std::size_t i) const final { return draw_size(patches[i], plan); }
@@ -63,7 +64,7 @@ struct EngineState : FrameEngine<Real> {
 
   /// Evaluates all patches into an indexed mesh that has room for them, through index_writer().
   virtual void index(const IndexLayout& layout, IndexedMesh<Real>& out) = 0;
-  /// The limit point of a control vertex, in the caller's coordinates.
+  /// The limit point of a vertex of the adjacency, in the caller's coordinates.
   virtual SurfaceVertex<Real> limit(std::int32_t v) const = 0;
 
   /// Writes patch i to its place in a draw list that begins with patch `first`.
@@ -85,7 +86,8 @@ struct EngineState : FrameEngine<Real> {
   }
 
   PrintedRules rules;
-  Adjacency adjacency;
+  TriangleMesh triangles;
+  const Adjacency& adjacency = triangles.adjacency();
   std::optional<DepthHeuristics> heuristics;
   std::vector<Patch> patches;
 

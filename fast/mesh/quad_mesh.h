@@ -10,18 +10,9 @@
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/sharp_polygons.h"
+#include "fast/mesh/vertex_kind.h"
 
 namespace limitcheck::fast {
-
-/// How a vertex is subdivided. Its ring is that of QuadAdjacency: e_0 .. e_{n-1} the neighbours along edges,
-/// f_i the corner opposite in the face between e_i and e_{i+1}.
-enum class VertexKind : std::uint8_t {
-  kPlain,  // inside: the smooth rule; on a boundary or cut: the curve rule, from its first and last neighbour
-  kHeld,   // it stays where it is
-  kDart    // a cut ends here: on the boundary, n faces, first and last neighbour the same point. The vertex
-           // follows the smooth rule of valence n, e_0 counted once; e_0 itself is the end of a curve. Limit
-           // and tangents are not those of a smooth vertex.
-};
 
 /// The mesh of quads that is the control mesh (steps = 0) or, if that has a face that is no quad, the control
 /// mesh after one step (steps = 1), of which quad q lies at corner q of all corners of the control faces: its

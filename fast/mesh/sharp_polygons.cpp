@@ -112,8 +112,8 @@ double softened(double sharpness, double sum, int count, data::Creasing creasing
   return std::max(0., sharpness - 1);
 }
 
-SharpPolygons SharpPolygons::of(const data::ControlMesh& mesh) {
-  for (const auto& finding : data::validate(mesh, data::Scheme::kCatmullClark))
+SharpPolygons SharpPolygons::of(const data::ControlMesh& mesh, data::Scheme scheme) {
+  for (const auto& finding : data::validate(mesh, scheme))
     if (finding.fault != data::MeshFault::kIsolatedVertex)
       throw data::ArgumentError("control mesh: " + finding.message);
   const auto sharpness = [](float s) {

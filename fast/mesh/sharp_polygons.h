@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/scheme.h"
 
 namespace limitcheck::fast {
 
@@ -29,8 +30,8 @@ struct SharpPolygons {
   data::Creasing creasing = data::Creasing::kUniform;
   data::TriangleRule triangles = data::TriangleRule::kCatmark;
 
-  /// Throws data::ArgumentError: a mesh that data::validate refuses for Catmull-Clark's scheme; what it says.
-  static SharpPolygons of(const data::ControlMesh& mesh);
+  /// Throws data::ArgumentError: a mesh that data::validate refuses for the scheme; what it says.
+  static SharpPolygons of(const data::ControlMesh& mesh, data::Scheme scheme = data::Scheme::kCatmullClark);
 
   /// One step, in double: quad c lies at corner c of all corners, as (V, E, F, E'): the vertex, the middle of
   /// the side from it, the middle of the face, the middle of the side to it. Vertices: the old ones, then

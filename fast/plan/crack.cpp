@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "data/error.h"
+#include "fast/mesh/triangle_mesh.h"
 #include "fast/plan/printed_rules.h"
 #include "fast/plan/quad_faces.h"
 
@@ -58,6 +59,13 @@ CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> 
         return twin < 0 ? -1 : Adjacency::face(twin);
       },
       depth, options, rules);
+}
+
+CrackPlan plan_cracks(const TriangleMesh& mesh, std::span<const std::int32_t> depth,
+                      const CrackOptions& options, const PrintedRules& rules) {
+  return plan_over(
+      static_cast<std::size_t>(mesh.adjacency().face_count()), [](std::size_t f) { return 3 * f; },
+      [&](std::size_t side) { return mesh.across(static_cast<std::int32_t>(side)); }, depth, options, rules);
 }
 
 CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,

@@ -66,7 +66,7 @@ void for_each_index(std::size_t count, const Body& body) {
 }  // namespace
 
 void TriangleSurface::gather(Ring& ring, std::int32_t v) const {
-  ring.gather(mesh, adjacency, v);
+  ring.gather(mesh, adjacency, v, kinds[v]);
 }
 
 std::string_view name(Strategy strategy) {

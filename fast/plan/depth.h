@@ -13,6 +13,7 @@
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/point3.h"
+#include "fast/mesh/vertex_kind.h"
 #include "fast/plan/camera.h"
 
 namespace limitcheck::fast {
@@ -126,6 +127,7 @@ struct TriangleSurface {
 
   const data::ControlMesh& mesh;
   const Adjacency& adjacency;
+  VertexKinds kinds = {};
 
   std::size_t face_count() const { return mesh.faces.size(); }
   std::size_t vertex_count() const { return mesh.positions.size(); }
@@ -148,11 +150,13 @@ struct TriangleSurface {
   }
 };
 
-/// Of Loop's scheme. Keeps references to mesh and adjacency, which must outlive it.
+/// Of Loop's scheme. Keeps references to mesh, adjacency and kinds, which must outlive it. The mesh has a
+/// position for each vertex of the adjacency.
 class DepthHeuristics : public BasicDepthHeuristics<TriangleSurface> {
  public:
-  DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth = 5)
-      : BasicDepthHeuristics(TriangleSurface{mesh, adjacency}, max_depth) {}
+  DepthHeuristics(const data::ControlMesh& mesh, const Adjacency& adjacency, int max_depth = 5,
+                  VertexKinds kinds = {})
+      : BasicDepthHeuristics(TriangleSurface{mesh, adjacency, kinds}, max_depth) {}
   DepthHeuristics(data::ControlMesh&&, const Adjacency&, int = 5) = delete;
   DepthHeuristics(const data::ControlMesh&, Adjacency&&, int = 5) = delete;
 };

@@ -12,6 +12,7 @@
 namespace limitcheck::fast {
 
 struct QuadFaces;
+class TriangleMesh;
 
 /// How faces move between the priority sets of the pairing, step 3. [C39]
 enum class PairingRule : std::uint8_t {
@@ -38,7 +39,10 @@ PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_
                          const PrintedRules& rules, std::span<const Grid> keep = {});
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules);
-/// Of the control faces of a mesh of quads: a cut is an edge like others, so that its sides meet.
+/// Here a cut is an edge like others, so that its sides meet.
+CrackPlan plan_cracks(const TriangleMesh& mesh, std::span<const std::int32_t> depth,
+                      const CrackOptions& options, const PrintedRules& rules);
+/// Likewise, of the control faces of a mesh of quads.
 CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules);
 

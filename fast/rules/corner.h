@@ -16,6 +16,7 @@ namespace limitcheck::fast {
 ///   ring     of n neighbours
 ///   gap      no face lies between ring[gap] and ring[gap + 1] (indices modulo n);
 ///            -1 at an interior vertex
+///   kind     of a dart the slots after the gap and before it hold the same point
 ///   start    control vertices: the slot that sums begin with, the same neighbour from every face;
 ///            -1: a point on a control edge, of valence 6 with the edge along slots 2 and 5, or on a
 ///            boundary with four neighbours
@@ -25,6 +26,7 @@ struct CornerRing {
   int n = 0;
   int gap = -1;
   int start = -1;
+  VertexKind kind = VertexKind::kPlain;
   VertexWeights<N> weights;
   const Vertex* limit = nullptr;  // control vertices: the prepared limit point
 
@@ -44,6 +46,7 @@ CornerRing<N, typename Surface::Vertex> gather_corner(const PreparedMesh<N, Surf
   CornerRing<N, typename Surface::Vertex> corner;
   corner.ring = storage;
   corner.n = adjacency.valence(v);
+  corner.kind = mesh.kind(v);
   corner.weights = mesh.weights(v);
   corner.limit = &mesh.limit(v);
   int slot = from_last_slot ? corner.n - 1 : 0;
@@ -91,6 +94,12 @@ AxisRing<N> edge_axis(const CornerRing<N, Vertex>& c) {
 /// Vertex rule at a corner of any kind.
 template <class N, class Vertex>
 Vec3<N> subdivide_corner(const Vec3<N>& v, const CornerRing<N, Vertex>& c) {
+  if (c.kind == VertexKind::kHeld) return v;
+  if (c.kind == VertexKind::kDart) {
+    WideVec3<N> sum = widen<N>(c.at(c.gap + 1));
+    for (int i = 2; i < c.n; ++i) sum = sum + widen<N>(c.at(c.gap + i));
+    return narrow<N>(c.weights.centre * widen<N>(v) + c.weights.ring * sum);
+  }
   if (c.gap >= 0) return curve_vertex(v, c.at(c.gap + 1), c.ring[c.gap]);
   if (c.start < 0) return regular_vertex(v, edge_axis(c));
   WideVec3<N> sum = widen<N>(c.ring[c.start]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/rules/limit.h"
 #include "fast/rules/masks.h"
+#include "fast/rules/sharp_limit.h"
 #include "fast/rules/vertex_limit.h"
 #include "fast/rules/vertex_normal.h"
 
@@ -35,9 +37,9 @@ class PreparedMesh {
   using Vertex = typename Surface::Vertex;
   using Wide = typename NumberTraits<N>::Wide;
 
-  /// One position per vertex of the adjacency.
-  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions)
-      : adjacency_(&adjacency), positions_(std::move(positions)) {
+  /// One position per vertex of the adjacency. Keeps a reference to the kinds, too.
+  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {})
+      : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
     std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(adjacency.max_valence()) + 1);
     std::vector<bool> known(by_valence.size());
     RingWeightTable<typename NumberTraits<Wide>::Scalar> table(adjacency.max_valence());
@@ -50,18 +52,22 @@ class PreparedMesh {
       ring.clear();
       adjacency.for_each_neighbour(v, [&](std::int32_t w) { ring.push_back(widen<N>(position(w))); });
       const std::size_t n = ring.size();
-      if (!open) {
-        if (!known[n]) by_valence[n] = vertex_weights<N>(static_cast<int>(n)), known[n] = true;
-        weights_[v] = by_valence[n];
+      const bool dart = kind(v) == VertexKind::kDart;
+      if (!open || dart) {
+        const std::size_t neighbours = dart ? n - 1 : n;
+        if (!known[neighbours])
+          by_valence[neighbours] = vertex_weights<N>(static_cast<int>(neighbours)), known[neighbours] = true;
+        weights_[v] = by_valence[neighbours];
       }
       table.make(n, open);
-      limits_[v] = limit_of(widen<N>(position(v)), ring, open, table.of(n, open));
+      limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
     }
   }
 
-  PreparedMesh(Adjacency&&, std::vector<Vec3<N>>) = delete;
+  PreparedMesh(Adjacency&&, std::vector<Vec3<N>>, VertexKinds = {}) = delete;
 
   const Adjacency& adjacency() const { return *adjacency_; }
+  VertexKind kind(std::int32_t v) const { return kinds_[v]; }
   const Vec3<N>& position(std::int32_t v) const { return positions_[v]; }
   const VertexWeights<N>& weights(std::int32_t v) const { return weights_[v]; }
   const Vertex& limit(std::int32_t v) const { return limits_[v]; }
@@ -69,11 +75,13 @@ class PreparedMesh {
 
  private:
   template <class Weights>
-  Vertex limit_of(const Vec3<Wide>& v, std::span<const Vec3<Wide>> ring, bool open, const Weights& weights) {
-    const VertexLimit<Wide> wide = vertex_limit(v, ring, open, weights);
+  Vertex limit_of(const Vec3<Wide>& v, std::span<const Vec3<Wide>> ring, bool open, VertexKind kind,
+                  const Weights& weights) {
+    const VertexLimit<Wide> wide = limit_of_kind(v, ring, open, kind, weights, darts_);
     if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
       bool degenerate = false;
-      const Vec3<Wide> normal = vertex_normal<Wide>(wide, v, ring, open, degenerate);
+      const Vec3<Wide> normal =
+          vertex_normal<Wide>(wide, v, ring, open, degenerate, std::numeric_limits<double>::infinity(), kind);
       if (degenerate) ++zero_normals_;
       return {narrow<N>(wide.position), narrow<N>(normal) + Vec3<N>{N(0), N(0), N(0)}};
     } else {  // linear numbers have no sizes, and no rounding either
@@ -85,6 +93,8 @@ class PreparedMesh {
 
   const Adjacency* adjacency_;
   std::vector<Vec3<N>> positions_;
+  VertexKinds kinds_;
+  DartWeightTable<typename NumberTraits<Wide>::Scalar> darts_;
   std::vector<VertexWeights<N>> weights_;
   std::vector<Vertex> limits_;
   std::int64_t zero_normals_ = 0;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/rules/left_eigenvectors.h"
 #include "fast/rules/quad_limit.h"
 
 namespace limitcheck::fast::detail {
@@ -101,21 +102,6 @@ StarWeights<S> held_weights(int n) {
   return w;
 }
 
-template <class S>
-using Row = std::vector<S>;
-template <class S>
-using Matrix = std::vector<Row<S>>;
-
-template <class S>
-Matrix<S> product(const Matrix<S>& a, const Matrix<S>& b) {
-  Matrix<S> c(a.size(), Row<S>(a.size()));
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < a.size(); ++k)
-      if (a[i][k] != 0)
-        for (std::size_t j = 0; j < a.size(); ++j) c[i][j] += a[i][k] * b[k][j];
-  return c;
-}
-
 /// A dart's star as it is seen by what is symmetric to its sharp edge e_0: entry 0 is the centre, then come
 /// e_j and e_{n-j}, then f_j and f_{n-1-j}, which have equal weights and make one entry.
 template <class S>
@@ -145,36 +131,12 @@ class DartMatrix {
     }
   }
 
-  /// The left eigenvector of eigenvalue 1, which sums to 1.
-  Row<S> limit() const {
-    Row<S> x(step_.size(), S(1) / S(static_cast<int>(step_.size())));
-    for (int i = 0; i < 300; ++i) x = times(x, step_);
-    S sum(0);
-    for (const S& w : x) sum += w;
-    for (S& w : x) w /= sum;
-    return x;
-  }
-
-  /// The left eigenvector of the largest other eigenvalue, by squaring what is left without the first.
+  Row<S> limit() const { return limit_eigenvector(step_); }
+  /// Towards e_0 it is positive.
   Row<S> tangent() const {
-    const Row<S> first = limit();
-    Matrix<S> power = step_;
-    for (Row<S>& row : power)
-      for (std::size_t j = 0; j < row.size(); ++j) row[j] -= first[j];
-    for (int i = 0; i < 20; ++i) {
-      power = product<S>(power, power);
-      S largest(0);
-      for (const Row<S>& row : power)
-        for (const S& x : row) largest = std::max(largest, x < S(0) ? S(-x) : x);
-      for (Row<S>& row : power)
-        for (S& x : row) x /= largest;
-    }
-    const Row<S>& row = *std::max_element(power.begin(), power.end(),
-                                          [](const Row<S>& a, const Row<S>& b) { return size(a) < size(b); });
-    // Towards e_0 it is positive.
+    Row<S> out = tangent_eigenvector(step_);
     S towards(0);
-    for (int i = 0; i < edges_; ++i) towards += row[edge(i)] * S(std::cos(2 * pi * i / n_));
-    Row<S> out = row;
+    for (int i = 0; i < edges_; ++i) towards += out[edge(i)] * S(std::cos(2 * pi * i / n_));
     for (S& x : out) x /= towards;
     return out;
   }
@@ -191,17 +153,6 @@ class DartMatrix {
   }
 
  private:
-  static S size(const Row<S>& row) {
-    S sum(0);
-    for (const S& x : row) sum += x * x;
-    return sum;
-  }
-  static Row<S> times(const Row<S>& x, const Matrix<S>& m) {
-    Row<S> out(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      for (std::size_t j = 0; j < x.size(); ++j) out[j] += x[i] * m[i][j];
-    return out;
-  }
   std::size_t edge(int i) const {
     i = (i + n_) % n_;
     return static_cast<std::size_t>(1 + std::min(i, n_ - i));

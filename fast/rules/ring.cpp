@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fast/rules/vertex_normal.h"
@@ -18,7 +19,9 @@ Point3 unit_or_zero(const Point3& a) {
 
 }  // namespace
 
-void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std::int32_t v) {
+void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std::int32_t v,
+                  VertexKind kind) {
+  kind_ = kind;
   centre_ = to_point(mesh.positions[v]);
   points_.clear();
   open_ = adjacency.on_boundary(v);
@@ -27,6 +30,7 @@ void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std
 }
 
 void Ring::assign(const Point3& centre, std::vector<Point3> points, bool open) {
+  kind_ = VertexKind::kPlain;
   centre_ = centre;
   points_ = std::move(points);
   open_ = open;
@@ -34,11 +38,11 @@ void Ring::assign(const Point3& centre, std::vector<Point3> points, bool open) {
 }
 
 void Ring::subdivide() {
-  if (!points_.empty()) subdivide_in_place<double>(centre_, points_, open_);
+  if (!points_.empty()) subdivide_in_place<double>(centre_, points_, open_, kind_);
 }
 
 VertexLimit<double> Ring::limit() const {
-  return vertex_limit<double>(centre_, points_, open_, weights_.of(points_.size(), open_));
+  return limit_of_kind<double>(centre_, points_, open_, kind_, weights_.of(points_.size(), open_), darts_);
 }
 
 Point3 Ring::limit_position() const {
@@ -49,7 +53,8 @@ Point3 Ring::limit_normal(bool* degenerate) const {
   bool without_tangents = true;
   const Point3 normal = points_.empty()
                             ? Point3{0, 0, 1}
-                            : vertex_normal<double>(limit(), centre_, points_, open_, without_tangents);
+                            : vertex_normal<double>(limit(), centre_, points_, open_, without_tangents,
+                                                    std::numeric_limits<double>::infinity(), kind_);
   if (degenerate != nullptr) *degenerate = without_tangents;
   return normal;
 }

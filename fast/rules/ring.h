@@ -9,6 +9,7 @@
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/point3.h"
+#include "fast/rules/sharp_limit.h"
 #include "fast/rules/vertex_limit.h"
 
 namespace limitcheck::fast {
@@ -31,7 +32,8 @@ class Ring {
  public:
   /// Copies the neighbourhood of vertex v, starting from its canonical half-edge. A vertex without faces
   /// gives an empty ring.
-  void gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std::int32_t v);
+  void gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std::int32_t v,
+              VertexKind kind = VertexKind::kPlain);
   /// The same from points given by the caller: n >= 3 for a closed ring, n >= 2 for an open one.
   void assign(const Point3& centre, std::vector<Point3> points, bool open);
 
@@ -62,7 +64,9 @@ class Ring {
   Point3 centre_;
   std::vector<Point3> points_;
   bool open_ = false;
+  VertexKind kind_ = VertexKind::kPlain;
   RingWeightTable<double> weights_;
+  mutable DartWeightTable<double> darts_;
 };
 
 }  // namespace limitcheck::fast

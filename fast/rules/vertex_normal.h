@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "fast/mesh/vertex_kind.h"
 #include "fast/rules/masks.h"
 #include "fast/rules/surface_vertex.h"
 
@@ -22,21 +23,32 @@ inline constexpr double kParallel = sizeof(N) == 4 ? 1e-6 : 1e-12;
 /// A tangent counts as zero if it is at most this times sum |r_i - v|: what is left of it may be rounding.
 inline constexpr double kVanishing = 1e-14;
 
+/// The smooth vertex rule, summed over the ring from its first point on.
+template <class W>
+Vec3<W> smooth_vertex(const Vec3<W>& v, std::span<const Vec3<W>> ring) {
+  const auto weights = vertex_weights<W>(static_cast<int>(ring.size()));
+  Vec3<W> sum{};
+  for (const Vec3<W>& p : ring) sum = sum + p;
+  return weights.centre * v + weights.ring * sum;
+}
+
 /// One subdivision step of a vertex and its ring in place. A half turn of a ring of six keeps the bits. [C29]
 template <class W>
-void subdivide_in_place(Vec3<W>& v, std::span<Vec3<W>> ring, bool open) {
+void subdivide_in_place(Vec3<W>& v, std::span<Vec3<W>> ring, bool open,
+                        VertexKind kind = VertexKind::kPlain) {
   const std::size_t n = ring.size();
   const Vec3<W> old = v, first = ring[0];
   Vec3<W> before = ring[n - 1];
-  if (open) {
+  if (kind == VertexKind::kDart) {
+    v = smooth_vertex<W>(old, ring.first(n - 1));
+  } else if (kind == VertexKind::kHeld) {
+    v = old;
+  } else if (open) {
     v = curve_vertex(old, first, before);
   } else if (n == 6) {
     v = regular_vertex(old, AxisRing<W>{ring[0], ring[1], ring[2], ring[3], ring[4], ring[5]});
   } else {
-    const auto weights = vertex_weights<W>(static_cast<int>(n));
-    Vec3<W> sum{};
-    for (const Vec3<W>& p : ring) sum = sum + p;
-    v = weights.centre * old + weights.ring * sum;
+    v = smooth_vertex<W>(old, ring);
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3<W> here = ring[i];
@@ -70,10 +82,11 @@ Vec3<W> area_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, 
 /// to three steps in place, else before them, else (0, 0, 1). [D12]
 ///   ring   is overwritten
 template <class W>
-Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double tolerance) {
+Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double tolerance,
+                          VertexKind kind = VertexKind::kPlain) {
   const Vec3<W> control = area_normal<W>(v, ring, open, tolerance);
   for (int step = 0; step < 3; ++step) {
-    subdivide_in_place<W>(v, ring, open);
+    subdivide_in_place<W>(v, ring, open, kind);
     const Vec3<W> normal = area_normal<W>(v, ring, open, tolerance);
     if (normal != Vec3<W>{}) return normal;
   }
@@ -82,9 +95,9 @@ Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double 
 
 /// The same for a control vertex, whose ring is kept.
 template <class W>
-Vec3<W> substitute_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open) {
+Vec3<W> substitute_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, VertexKind kind) {
   std::vector<Vec3<W>> copy(ring.begin(), ring.end());
-  return substitute_normal<W>(v, copy, open, kParallel<double>);
+  return substitute_normal<W>(v, copy, open, kParallel<double>, kind);
 }
 
 /// The unit normal of a control vertex: du x dv, unless one of them vanishes (kVanishing) or they are
@@ -94,7 +107,8 @@ Vec3<W> substitute_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool 
 template <class W>
 inline Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring,
                              bool open, bool& degenerate,
-                             double farthest = std::numeric_limits<double>::infinity()) {
+                             double farthest = std::numeric_limits<double>::infinity(),
+                             VertexKind kind = VertexKind::kPlain) {
   using std::sqrt;
   const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
   const Vec3<W> normal = cross(limit.du, limit.dv);
@@ -105,7 +119,7 @@ inline Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::
     for (const Vec3<W>& r : ring) reach = reach + length(r - v);
     degenerate = degenerate || !(std::min(a, b) > W(kVanishing) * reach);
   }
-  return degenerate ? substitute_normal(v, ring, open) : W(1) / size * normal;
+  return degenerate ? substitute_normal(v, ring, open, kind) : W(1) / size * normal;
 }
 
 }  // namespace limitcheck::fast

@@ -11,6 +11,7 @@
 
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
+#include "fast/mesh/vertex_kind.h"
 #include "fast/rules/vertex_limit.h"
 #include "fast/stream/layout.h"
 #include "fast/stream/number.h"
@@ -53,17 +54,19 @@ PlacedPoints<T> place(const data::ControlMesh& mesh);
 /// Boundary: the open ring r_0 .. r_K goes on at both ends so that the interior rules, applied to it, give
 /// the B-spline boundary curve: r_{-k} = q_k - r_k with q = 2 r_0, v + r_0, v + r_K, 2 r_K, v + r_K, v + r_0
 /// (period 6), and likewise from r_K. r_{-1} = v + r_0 - r_1 is the ghost of claim D10; the others follow
-/// from its being invariant at every level.
+/// from its being invariant at every level. At a vertex that is held
+/// q = 2 v + 2 cos(k pi / 3) (r_0 - v): 2 r_0, v + r_0, 3 v - r_0, 4 v - 2 r_0, 3 v - r_0, v + r_0.
 template <class N>
 class BasicRings {
  public:
   using T = typename N::Scalar;
   using Wide = typename NumberTraits<T>::Wide;
 
-  /// One point per vertex of the adjacency. Throws data::ArgumentError otherwise.
-  BasicRings(const Adjacency& adjacency, PlacedPoints<T> points);
-  BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency)
-      : BasicRings(adjacency, place<T>(mesh)) {}
+  /// One point per vertex of the adjacency. Throws data::ArgumentError otherwise, and for darts: what becomes
+  /// of their rings is not what the kernel knows of a corner.
+  BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds = {});
+  BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency, VertexKinds kinds = {})
+      : BasicRings(adjacency, place<T>(mesh), kinds) {}
 
   /// Ring of a vertex as indices into points(). Entry k of an interior ring is at (k mod n) of `first`; a
   /// boundary ring has kReach further entries at either end and does not wrap.
@@ -98,9 +101,10 @@ class BasicRings {
   };
 
   void lay_out(const Adjacency& adjacency);
-  void make_vertex(const Adjacency& adjacency, std::int32_t v, Scratch& scratch);
-  void continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide>> r, Ring ring, Scratch& scratch);
-  void put_corner(std::int32_t v, const Vec3<Wide>& centre, const RingWeights<Weight>& weights,
+  void make_vertex(const Adjacency& adjacency, std::int32_t v, bool held, Scratch& scratch);
+  void continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, Ring ring,
+                     Scratch& scratch);
+  void put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0, const Weight& k1,
                   const VertexLimit<Wide>& limit, const Vec3<Wide>& normal);
 
   std::vector<ControlPoint<T>> points_;  // control vertices, then ghosts

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/error.h"
+#include "fast/rules/sharp_limit.h"
 #include "fast/rules/vertex_normal.h"
 #include "fast/stream/rings.h"
 
@@ -37,7 +38,7 @@ std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
 }
 
 template <class N>
-BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points)
+BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
     : points_(std::move(points.points)), placement_(points.placement), weights_(adjacency.max_valence()) {
   if (points_.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
     throw data::ArgumentError("rings: " + std::to_string(points_.size()) + " points for " +
@@ -47,7 +48,12 @@ BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points)
   const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());
   Scratch scratch{std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(most), {}};
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-    if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, scratch);
+    if (adjacency.outgoing(v) < 0) continue;
+    if (kinds[v] == VertexKind::kDart)
+      throw data::ArgumentError(
+          "row streaming: in Loop's scheme no sharp edge that ends inside the surface, as at vertex " +
+          std::to_string(v) + "; the sliding window has them");
+    make_vertex(adjacency, v, kinds[v] == VertexKind::kHeld, scratch);
   }
 }
 
@@ -75,7 +81,7 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
 }
 
 template <class N>
-void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scratch& scratch) {
+void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, bool held, Scratch& scratch) {
   // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
   const std::span<const std::int32_t> fan = adjacency.fan(v);
   const Ring ring = rings_[v];
@@ -107,9 +113,10 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scra
     slot_[fan[k]] = static_cast<std::int32_t>(k < start ? k + n - start : k - start);
 
   const Vec3<Wide> centre = position(v);
-  if (open) continue_ring(centre, around, ring, scratch);
+  if (open) continue_ring(centre, held, around, ring, scratch);
   const auto& weights = weights_.of(n, open);
-  const auto limit = vertex_limit(centre, around, open, weights);
+  const auto limit =
+      held ? held_limit(centre, around, open, weights) : vertex_limit(centre, around, open, weights);
   Vec3<Wide> normal;
   if constexpr (N::kLinear) {
     normal = {N::tangent(limit.du.x, limit.dv.x), N::tangent(limit.du.y, limit.dv.y),
@@ -117,15 +124,20 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Scra
   } else {
     constexpr double kFarthest = 4;  // in a mesh of size 1, see `place`
     bool degenerate = false;
-    normal = vertex_normal<Wide>(limit, centre, around, open, degenerate, kFarthest);
+    normal = vertex_normal<Wide>(limit, centre, around, open, degenerate, kFarthest,
+                                 held ? VertexKind::kHeld : VertexKind::kPlain);
     if (degenerate) ++degenerate_normals_;
   }
-  put_corner(v, centre, weights, limit, normal);
+  // What is held moves by nothing, and the sum of its differences halves or, at a closed ring, becomes 5/8.
+  if (held)
+    put_corner(v, centre, Weight(0), Weight(open ? 4 : 5), limit, normal);
+  else
+    put_corner(v, centre, weights.k0, weights.k1, limit, normal);
 }
 
 // The open ring continued by kReach entries at either end: index k of the ring is at [k + kReach].
 template <class N>
-void BasicRings<N>::continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide>> r, Ring ring,
+void BasicRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, Ring ring,
                                   Scratch& scratch) {
   const int last = static_cast<int>(r.size()) - 1;
   auto& all = scratch.continued;
@@ -145,9 +157,12 @@ void BasicRings<N>::continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide
         return v + far;
     }
   };
+  // Half a turn about a vertex that is held: the far end is the near one's image.
+  const Vec3<Wide> front = r.front(), back = r.back();
+  const Vec3<Wide> beyond_front = held ? (v + v) - front : back, beyond_back = held ? (v + v) - back : front;
   for (int k = 1; k <= kReach; ++k) {
-    at(-k) = sum(k, r.front(), r.back()) - at(k);
-    at(last + k) = sum(k, r.back(), r.front()) - at(last - k);
+    at(-k) = sum(k, front, beyond_front) - at(k);
+    at(last + k) = sum(k, back, beyond_back) - at(last - k);
   }
   for (int k = -kReach; k <= last + kReach; ++k) {
     if (k >= 0 && k <= last) continue;
@@ -158,15 +173,15 @@ void BasicRings<N>::continue_ring(const Vec3<Wide>& v, std::span<const Vec3<Wide
 }
 
 template <class N>
-void BasicRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const RingWeights<Weight>& weights,
+void BasicRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0, const Weight& k1,
                                const VertexLimit<Wide>& limit, const Vec3<Wide>& normal) {
   auto& head = corners_[v].head;
   const auto put = [&](std::size_t at, const Vec3<Wide>& wide) {
     const Vec3<T> x = narrow<T>(wide);
     head[at] = x.x, head[at + 1] = x.y, head[at + 2] = x.z;
   };
-  head[0] = static_cast<T>(weights.k0);
-  head[1] = static_cast<T>(weights.k1);
+  head[0] = static_cast<T>(k0);
+  head[1] = static_cast<T>(k1);
   put(CornerBlock::kCentre, centre);
   put(CornerBlock::kDifference, limit.difference);
   const Vec3<Wide> origin =

@@ -62,8 +62,9 @@ RowBuffer RowBuffer::in(AlignedFloats& memory, int depth, int lanes, Kept kept) 
           static_cast<int>(kept)};
 }
 
-RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel)
-    : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency) {}
+RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel,
+                     VertexKinds kinds)
+    : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency, kinds) {}
 
 void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspace,
                      void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {

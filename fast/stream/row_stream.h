@@ -87,10 +87,13 @@ struct RowView {
 /// shared points appear once.
 class RowStream {
  public:
-  /// Keeps references to the adjacency and the kernel, which must outlive it.
+  /// Keeps references to the adjacency and the kernel, which must outlive it. The mesh has a position for
+  /// each vertex of the adjacency.
+  ///   throws   data::ArgumentError: what Rings refuse
   RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency,
-            const Kernel& kernel = kernels().front());
-  RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front()) = delete;
+            const Kernel& kernel = kernels().front(), VertexKinds kinds = {});
+  RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front(),
+            VertexKinds kinds = {}) = delete;
 
   const Kernel& kernel() const { return kernel_; }
   const Rings& rings() const { return rings_; }

@@ -32,12 +32,12 @@ const Kernel& narrow_of(const Kernel& kernel) {
 struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   State(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
       : EngineState<float>(given, with, PrintedRules{}),
-        stream(std::in_place, mesh, adjacency, kernel),
+        stream(std::in_place, triangles.points(), adjacency, kernel, triangles.kinds()),
         narrow(narrow_of(kernel)) {}
 
   void points_moved() override {
     EngineState<float>::points_moved();
-    stream.emplace(mesh, adjacency, stream->kernel());
+    stream.emplace(triangles.points(), adjacency, stream->kernel(), triangles.kinds());
     control.reset();
     centres.clear();
   }
@@ -55,7 +55,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
       const auto& p = stream->rings().points()[v];
       positions.push_back({p[0], p[1], p[2]});
     }
-    control.emplace(adjacency, positions);
+    control.emplace(adjacency, positions, triangles.kinds());
   }
 
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {

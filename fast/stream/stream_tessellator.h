@@ -17,9 +17,9 @@ namespace limitcheck::fast::row_stream {
 /// its own depth, which gives the bits that a grid of that depth has there. Results do not depend on the
 /// kernel.
 ///
-/// The options name the scheme: Loop's for meshes of triangles without sharp edges, or Catmull-Clark's for
-/// any polygons with infinitely sharp edges and vertices; the constructor throws data::ArgumentError where
-/// something is semi-sharp. The kernel for quads is the one of that name.
+/// The options name the scheme: Loop's for triangles, or Catmull-Clark's for any polygons, with infinitely
+/// sharp edges and vertices; the constructor throws data::ArgumentError where something is semi-sharp and, of
+/// triangles, where a sharp edge ends inside the surface. The kernel for quads is the one of that name.
 class StreamTessellator : public Engine<float> {
  public:
   explicit StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options = {},

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -39,6 +40,8 @@ inline long double norm(const Point& a) {
 struct RefinedMesh {
   std::vector<Point> points;
   std::vector<std::array<int, 3>> faces;
+  std::set<std::pair<int, int>> sharp;  // edges inside that stay sharp, the lesser end first
+  std::set<int> held;                   // vertices that stay where they are
   /// Vertex at (l1, l2) = (i, j) / 2^depth of each control face.
   std::vector<std::map<std::pair<int, int>, int>> lattice;
 
@@ -55,6 +58,11 @@ struct RefinedMesh {
       out.faces.push_back({t[0], t[1], t[2]});
       out.lattice[f] = {{{0, 0}, t[0]}, {{1, 0}, t[1]}, {{0, 1}, t[2]}};
     }
+    for (const auto& e : mesh.sharpness.edges) out.sharp.insert(std::minmax(e.a, e.b));
+    for (const auto& v : mesh.sharpness.vertices) out.held.insert(v.vertex);
+    if (mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner)
+      for (std::size_t v = 0; v < out.points.size(); ++v)
+        if (out.incident()[v].size() == 1) out.held.insert(static_cast<int>(v));
     for (int d = 0; d < depth; ++d) out.step();
     return out;
   }
@@ -79,6 +87,26 @@ struct RefinedMesh {
     for (auto at = next.find(first); at != next.end() && at->second != first; at = next.find(at->second))
       result.push_back(at->second);
     return {open, result};
+  }
+
+  /// The other ends of the sharp edges at a vertex, the boundary's among them.
+  std::vector<int> sharp_neighbours(int v) const {
+    const auto [open, r] = ring(v);
+    std::vector<int> ends;
+    for (std::size_t k = 0; k < r.size(); ++k)
+      if ((open && (k == 0 || k + 1 == r.size())) || sharp.count(std::minmax(v, r[k])) > 0)
+        ends.push_back(r[k]);
+    return ends;
+  }
+
+  /// The limit position with sharp edges and held vertices; nothing for a dart, whose limit has no closed
+  /// form.
+  std::optional<Point> sharp_limit(int v) const {
+    const std::vector<int> ends = sharp_neighbours(v);
+    if (held.count(v) > 0 || ends.size() > 2) return points[v];
+    if (ends.size() == 1) return std::nullopt;
+    if (ends.empty()) return limit(v).position;
+    return (1.L / 6) * (4.L * points[v] + points[ends[0]] + points[ends[1]]);
   }
 
   /// The limit of a point of a control face, whose denominator is 2^depth.
@@ -137,8 +165,13 @@ struct RefinedMesh {
     std::vector<Point> refined;
     for (std::size_t v = 0; v < points.size(); ++v) {
       const auto [open, r] = ring(static_cast<int>(v));
-      if (open) {
-        refined.push_back(.75L * points[v] + .125L * (at(r.front()) + at(r.back())));
+      const std::vector<int> ends = sharp_neighbours(static_cast<int>(v));
+      if (held.count(static_cast<int>(v)) > 0 || ends.size() > 2) {
+        refined.push_back(points[v]);
+        continue;
+      }
+      if (ends.size() == 2) {
+        refined.push_back(.75L * points[v] + .125L * (at(ends[0]) + at(ends[1])));
         continue;
       }
       const long double n = static_cast<long double>(r.size());
@@ -149,8 +182,14 @@ struct RefinedMesh {
       refined.push_back((1 - a) * points[v] + (a / n) * sum);
     }
     std::map<std::pair<int, int>, int> middle;
+    std::set<std::pair<int, int>> halves;
     for (const auto& [edge, apexes] : opposite) {
       middle[edge] = static_cast<int>(refined.size());
+      if (sharp.count(edge) > 0) {
+        for (const int end : {edge.first, edge.second}) halves.insert({end, middle[edge]});
+        refined.push_back(.5L * (at(edge.first) + at(edge.second)));
+        continue;
+      }
       refined.push_back(apexes.size() == 2 ? .375L * (at(edge.first) + at(edge.second)) +
                                                  .125L * (at(apexes[0]) + at(apexes[1]))
                                            : .5L * (at(edge.first) + at(edge.second)));
@@ -176,6 +215,7 @@ struct RefinedMesh {
     }
     points = std::move(refined);
     faces = std::move(split);
+    sharp = std::move(halves);
     incident_.clear();
   }
 

@@ -47,12 +47,12 @@ void evaluate(const PreparedMesh<Real>& mesh, const Patch& patch, const CrackPla
   using Vertex = SurfaceVertex<Real>;
   const int k = 1 << patch.depth;
   if (patch.half[1].face < 0) {
-    worker.lattice->run(mesh, patch.half[0].face, patch.depth, [&](int row, const Vertex* strip) {
-      writer.half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
-    });
-    return;
-  }
-  if (patch.half[0].uses_window() || patch.half[1].uses_window()) {
+    if (patch.half[0].uses_window()) {
+      worker.lattice->run(mesh, patch.half[0].face, patch.depth, [&](int row, const Vertex* strip) {
+        writer.half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
+      });
+    }
+  } else if (patch.half[0].uses_window() || patch.half[1].uses_window()) {
     const bool full = patch.full();
     const std::int32_t h0 = 3 * patch.half[0].face + patch.half[0].edge;
     worker.window.run(mesh, h0, patch.depth, [&](int row, const Vertex* strip) {

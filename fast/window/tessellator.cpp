@@ -73,12 +73,12 @@ std::vector<Vec3<Real>> place(std::span<const std::array<double, 3>> points, Pla
 template <class Real>
 struct Tessellator<Real>::State final : EngineState<Real> {
   using EngineState<Real>::adjacency, EngineState<Real>::arena, EngineState<Real>::max_depth,
-      EngineState<Real>::mesh, EngineState<Real>::options, EngineState<Real>::patches,
-      EngineState<Real>::placement, EngineState<Real>::plan;
+      EngineState<Real>::options, EngineState<Real>::patches, EngineState<Real>::placement,
+      EngineState<Real>::plan, EngineState<Real>::triangles;
 
   State(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
       : EngineState<Real>(given, with, by) {
-    prepared.emplace(adjacency, place<Real>(mesh.positions, placement));
+    prepare_points();
     for (std::int32_t f = 0; f < adjacency.face_count(); ++f)
       if (adjacency.neighbour(f, 0) < 0 && adjacency.neighbour(f, 1) < 0 && adjacency.neighbour(f, 2) < 0)
         isolated_faces = true;
@@ -86,7 +86,10 @@ struct Tessellator<Real>::State final : EngineState<Real> {
 
   void points_moved() override {
     EngineState<Real>::points_moved();
-    prepared.emplace(adjacency, place<Real>(mesh.positions, placement));
+    prepare_points();
+  }
+  void prepare_points() {
+    prepared.emplace(adjacency, place<Real>(triangles.points().positions, placement), triangles.kinds());
   }
 
   /// Makes workers that are deep enough for the frame.

@@ -11,7 +11,7 @@ namespace limitcheck::fast {
 
 /// Tessellation on the fly by sliding windows; see Engine for what it can do and what it throws. Real is
 /// float or double. Control points that are representable in Real are taken exactly. The options name the
-/// scheme: Loop's for meshes of triangles without sharp edges, or Catmull-Clark's for any polygons and tags.
+/// scheme: Loop's for triangles without semi-sharp tags, or Catmull-Clark's for any polygons and tags.
 /// A depth belongs to a control face, whatever quads that consists of. [C21]
 template <class Real>
 class Tessellator : public Engine<Real> {

@@ -3,6 +3,7 @@
 // E]
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -36,8 +37,10 @@ class TriangleLattice {
     points_[0][1] = mesh.position(v[1]);
     points_[0][2] = mesh.position(v[0]);
     std::vector<Vec3<N>>*from = &points_[0], *to = &points_[1];
+    const std::array held{mesh.kind(v[0]) == VertexKind::kHeld, mesh.kind(v[1]) == VertexKind::kHeld,
+                          mesh.kind(v[2]) == VertexKind::kHeld};
     for (int s = 0; s < depth; ++s) {
-      refine(1 << s, *from, *to);
+      refine(1 << s, held, *from, *to);
       std::swap(from, to);
     }
     const int k = 1 << depth;
@@ -76,18 +79,20 @@ class TriangleLattice {
     return boundary_vertex_limit<N, Surface>(v, e, ne, nw, w, zero_normals_);
   }
 
-  static void refine(int k, const std::vector<Vec3<N>>& p, std::vector<Vec3<N>>& out) {
+  /// `held`: corners that stay where they are.
+  static void refine(int k, const std::array<bool, 3>& held, const std::vector<Vec3<N>>& p,
+                     std::vector<Vec3<N>>& out) {
     const auto at = [&](int r, int c) -> const Vec3<N>& { return p[index(k, r, c)]; };
     const auto put = [&](int r, int c) -> Vec3<N>& { return out[index(2 * k, r, c)]; };
     for (int r = 0; r <= k; ++r) {
       for (int c = 0; c + r <= k; ++c) {
         const Vec3<N>& v = at(r, c);
         if (r == 0 && c == 0) {
-          put(0, 0) = curve_vertex(v, at(1, 0), at(0, 1));
+          put(0, 0) = held[2] ? v : curve_vertex(v, at(1, 0), at(0, 1));
         } else if (r == k) {
-          put(2 * k, 0) = curve_vertex(v, at(k - 1, 1), at(k - 1, 0));
+          put(2 * k, 0) = held[0] ? v : curve_vertex(v, at(k - 1, 1), at(k - 1, 0));
         } else if (c == k) {
-          put(0, 2 * k) = curve_vertex(v, at(0, k - 1), at(1, k - 1));
+          put(0, 2 * k) = held[1] ? v : curve_vertex(v, at(0, k - 1), at(1, k - 1));
         } else if (r == 0) {
           put(0, 2 * c) = curve_vertex(v, at(0, c - 1), at(0, c + 1));
         } else if (c == 0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The recursive subdivider of section 4 with Catmull-Clark's rules: every quad by itself, four sub-quads down
 // to the depth, limit point and normal at the leaves. Most points are computed several times; that is its
-// point. [C18, C21]
+// point. Near semi-sharp tags a quad is refined together with its neighbours, until they are gone. [C18, C21]
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "data/faces.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/number/vec3.h"
 #include "reference/point/surface_point.h"
 
@@ -35,8 +36,8 @@ using LeafQuad = std::array<LeafCorner<N>, 4>;
 template <class N>
 class NaiveSubdivider {
  public:
-  /// Throws data::ArgumentError if the mesh is not manifold (Topology).
-  NaiveSubdivider(data::Faces faces, std::vector<Vec3<N>> positions);
+  /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
+  NaiveSubdivider(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
   ~NaiveSubdivider();
   NaiveSubdivider(NaiveSubdivider&&) noexcept;
   NaiveSubdivider& operator=(NaiveSubdivider&&) noexcept;

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: MIT
 // The recursive subdivider of section 4, as the paper lists it: every face by itself, four sub-faces at each
 // level down to the depth, limit point and normal at the leaves. Faces share nothing, so most points are
-// computed several times.   [C18]
+// computed several times. Near semi-sharp tags a face is refined together with its neighbours, until they are
+// gone.   [C18]
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "reference/loop/weights.h"
+#include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/surface_point.h"
 
 namespace limitcheck::reference {
+
+template <class N>
+struct TriangleMesh;
 
 /// Largest differences in double between NaiveSubdivider and StamEvaluator at depths 0 to 4, measured on the
 /// stock shapes, fans and bumpy spheres. Its tests hold these numbers.
@@ -39,12 +45,12 @@ using LeafTriangle = std::array<LeafCorner<N>, 3>;
 template <class N>
 class NaiveSubdivider {
  public:
-  /// Throws data::ArgumentError if the mesh is not manifold (Topology) or has sharp edges.
+  /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
   explicit NaiveSubdivider(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
-                  Weights weights = Weights::kLoop);
+                  Weights weights = Weights::kLoop, const SharpTags& tags = {});
 
-  std::size_t face_count() const { return topology_.faces().size(); }
+  std::size_t face_count() const;
 
   /// Subdivides one face `depth` >= 0 times and hands 4^depth leaves to `emit`, depth first, sub-faces 0, 1,
   /// 2, 3. Any number of threads may do so at once.
@@ -53,8 +59,7 @@ class NaiveSubdivider {
   void tessellate(std::size_t face, int depth, const std::function<void(const LeafTriangle<N>&)>& emit) const;
 
  private:
-  Topology topology_;
-  std::vector<Vec3<N>> positions_;
+  std::shared_ptr<const TriangleMesh<N>> mesh_;
   Weights weights_;
 };
 

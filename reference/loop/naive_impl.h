@@ -2,16 +2,31 @@
 // Definitions behind naive.h, for the .cpp files that instantiate them.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <utility>
+
 #include "data/error.h"
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/ringed_face.h"
+#include "reference/loop/triangle_mesh.h"
 #include "reference/loop/vertex_limit.h"
 
 namespace limitcheck::reference {
 namespace detail {
 
 using LatticePoint = std::array<std::int32_t, 2>;
+
+/// Of sub-face k: three at the corners (c_k, e_k, e_{k-1}), then the middle one.
+inline std::array<LatticePoint, 3> sub_lattice(const std::array<LatticePoint, 3>& lattice, std::size_t k) {
+  std::array<LatticePoint, 3> middle;
+  for (std::size_t e = 0; e < 3; ++e)
+    for (std::size_t m = 0; m < 2; ++m) middle[e][m] = (lattice[e][m] + lattice[(e + 1) % 3][m]) / 2;
+  if (k == 3) return middle;
+  return {lattice[k], middle[k], middle[(k + 2) % 3]};
+}
 
 /// procedure subdiv(face, depth) of section 4. `lattice` holds the corners in units of 2^-depth.
 template <class N>
@@ -21,34 +36,62 @@ void subdivide(const RingedFace<N>& face, int depth, const std::array<LatticePoi
     LeafTriangle<N> leaf;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = face.corner[k];
-      const VertexLimit<N> limit = vertex_limit<N>(c.point, c.span(), c.on_boundary, face.weights);
+      const VertexLimit<N> limit = vertex_limit<N>(c.point, c.span(), c.on_boundary, face.weights, c.state);
       leaf[k] = {limit.position, limit.normal.direction, limit.normal.kind, lattice[k][0], lattice[k][1]};
     }
     emit(leaf);
     return;
   }
   const SubdividedFace<N> next(face);
-  std::array<LatticePoint, 3> middle;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t m = 0; m < 2; ++m) middle[k][m] = (lattice[k][m] + lattice[(k + 1) % 3][m]) / 2;
-  for (std::size_t k = 0; k < 3; ++k)
-    subdivide<N>(next.subface(static_cast<int>(k)), depth - 1, {lattice[k], middle[k], middle[(k + 2) % 3]},
-                 emit);
-  subdivide<N>(next.subface(3), depth - 1, middle, emit);
+  for (std::size_t k = 0; k < 4; ++k)
+    subdivide<N>(next.subface(static_cast<int>(k)), depth - 1, sub_lattice(lattice, k), emit);
+}
+
+/// The same of face 0 of a few faces with semi-sharp tags.
+template <class N>
+void subdivide_tagged(TaggedMesh<N> near, int depth, const std::array<LatticePoint, 3>& lattice,
+                      Weights weights, const std::function<void(const LeafTriangle<N>&)>& emit) {
+  const auto settled = [](const TaggedMesh<N>& mesh) {
+    return !mesh.sharpness.needs_a_step(mesh.topology)[0];
+  };
+  const auto ringed = [&](TaggedMesh<N> mesh) {
+    const TriangleMesh<N> cut(std::move(mesh));
+    return RingedFace<N>::gather(cut.topology, cut.positions, 0, weights, cut.states);
+  };
+  if (settled(near)) return subdivide<N>(ringed(std::move(near)), depth, lattice, emit);
+  if (depth > 0) {
+    const TaggedMesh<N> next = refine_once(near, weights);
+    for (std::size_t k = 0; k < 4; ++k)
+      subdivide_tagged<N>(next.around(k), depth - 1, sub_lattice(lattice, k), weights, emit);
+    return;
+  }
+  LeafTriangle<N> leaf;
+  for (std::size_t k = 0; k < 3; ++k) {
+    TaggedMesh<N> at_corner = near;  // the corner is number k at first, and number 0 of the sub-face there
+    std::size_t at = k;
+    for (; !settled(at_corner); at = 0) at_corner = refine_once(at_corner, weights).around(at);
+    subdivide<N>(ringed(std::move(at_corner)), 0, {}, [&](const LeafTriangle<N>& l) { leaf[k] = l[at]; });
+    leaf[k].i = lattice[k][0], leaf[k].j = lattice[k][1];
+  }
+  emit(leaf);
 }
 
 }  // namespace detail
 
 template <class N>
 NaiveSubdivider<N>::NaiveSubdivider(const data::ControlMesh& mesh, Weights weights)
-    : NaiveSubdivider(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights) {
-  if (!mesh.sharpness.empty()) throw data::ArgumentError("sharp edges are not for the naive subdivider");
-}
+    : NaiveSubdivider(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights, mesh.sharpness) {}
 
 template <class N>
 NaiveSubdivider<N>::NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
-                                    Weights weights)
-    : topology_(positions.size(), triangles), positions_(std::move(positions)), weights_(weights) {}
+                                    Weights weights, const SharpTags& tags)
+    : mesh_(std::make_shared<const TriangleMesh<N>>(std::move(positions), triangles, tags)),
+      weights_(weights) {}
+
+template <class N>
+std::size_t NaiveSubdivider<N>::face_count() const {
+  return mesh_->topology.faces().size();
+}
 
 template <class N>
 void NaiveSubdivider<N>::tessellate(std::size_t face, int depth,
@@ -56,8 +99,12 @@ void NaiveSubdivider<N>::tessellate(std::size_t face, int depth,
   if (face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
   if (depth < 0 || depth > 30) throw data::ArgumentError("depth must be 0..30");
   const std::int32_t size = 1 << depth;
-  detail::subdivide<N>(RingedFace<N>::gather(topology_, positions_, face, weights_), depth,
-                       {{{0, 0}, {size, 0}, {0, size}}}, emit);
+  const std::array<detail::LatticePoint, 3> lattice{{{0, 0}, {size, 0}, {0, size}}};
+  if (!mesh_->is_settled(face))
+    return detail::subdivide_tagged<N>(mesh_->tagged->around(face), depth, lattice, weights_, emit);
+  detail::subdivide<N>(
+      RingedFace<N>::gather(mesh_->topology, mesh_->positions, face, weights_, mesh_->states), depth, lattice,
+      emit);
 }
 
 }  // namespace limitcheck::reference

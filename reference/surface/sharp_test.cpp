@@ -15,9 +15,11 @@
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
+#include "reference/catmull_clark/naive.h"
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/subdivision_evaluator.h"
@@ -214,6 +216,52 @@ TEST(SharpEdges, TheEvaluatorsOfLoopAgreeOnAnything) {
     worst = std::max(worst, worst_difference(by(steps), by(powers), mesh, "seed " + std::to_string(seed)));
   }
   std::printf("largest difference of 50 digits: %.1e\n", worst);
+}
+
+// The recursion face by face has the surface's points, near semi-sharp tags too.
+TEST(SharpEdges, TheNaiveRecursionHasTheSurfacesPoints) {
+  using N = Decimal50;
+  std::size_t looked_at = 0, normals = 0;
+  const auto expect_same = [&](const auto& leaf, const SurfacePoint<N>& want, const std::string& what) {
+    ++looked_at;
+    EXPECT_LE(magnitude(leaf.position - want.position), N("1e-45")) << what;
+    EXPECT_EQ(leaf.normal_kind, want.normal_kind) << what;
+    if (leaf.normal_kind != NormalKind::kRegular || want.normal_kind != NormalKind::kRegular) return;
+    ++normals;
+    EXPECT_LE(magnitude(leaf.normal - want.normal), N("1e-35")) << what;
+  };
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    for (const int depth : {0, 1, 3}) {
+      const std::string what = "seed " + std::to_string(seed) + " depth " + std::to_string(depth) + " face ";
+      const ControlMesh mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 40}), seed);
+      const NaiveSubdivider<N> naive(mesh);
+      const StamEvaluator<N> surface(mesh);
+      for (std::size_t f = 0; f < mesh.faces.size(); f += 3)
+        naive.tessellate(f, depth, [&](const LeafTriangle<N>& leaf) {
+          for (const auto& c : leaf)
+            expect_same(c,
+                        surface.evaluate(static_cast<int>(f), Parameter::fraction(c.i, 1 << depth),
+                                         Parameter::fraction(c.j, 1 << depth), Order::kFirst),
+                        what + std::to_string(f));
+        });
+      const ControlMesh mixed = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 40}), seed);
+      const cc::NaiveSubdivider<N> quads(mixed.faces, positions<N>(mixed), mixed.sharpness);
+      const cc::StamEvaluator<N> quad_surface(mixed.faces, positions<N>(mixed), mixed.sharpness);
+      for (std::size_t f = 0; f < mixed.faces.size(); f += 3) {
+        const bool is_quad = mixed.faces[f].size() == 4;
+        if (!is_quad && depth == 0) continue;
+        const int side = 1 << (is_quad ? depth : depth - 1), corner = is_quad ? 0 : 2;
+        quads.tessellate(f, static_cast<std::size_t>(corner), depth, [&](const cc::LeafQuad<N>& leaf) {
+          for (const auto& c : leaf)
+            expect_same(c,
+                        quad_surface.evaluate(static_cast<int>(f), corner, Parameter::fraction(c.i, side),
+                                              Parameter::fraction(c.j, side), Order::kFirst),
+                        what + std::to_string(f));
+        });
+      }
+    }
+  EXPECT_GT(looked_at, 5000U);
+  EXPECT_GT(normals, looked_at / 2);
 }
 
 // The limits of a refined mesh's vertices are the points of the surface there.

@@ -56,6 +56,7 @@ std::string origin_of_points(const Evidence& e) {
     Scheme scheme;
     bool limit;
     const char* remark;
+    bool tags = true;  // with the sharp edges and vertices of the control mesh
   };
   const bool loop = e.lattice.scheme() == data::Scheme::kLoop;
   const char* no_loop = "; this is not Loop subdivision at all";
@@ -72,12 +73,17 @@ std::string origin_of_points(const Evidence& e) {
     guesses = {{Scheme::kCatmullClark, false,
                 wants_limit ? "; what is missing is the last step, the limit mask" : ""},
                {Scheme::kCatmullClark, true, wants_limit ? "" : "; the capabilities should name them so"}};
+  if (!e.mesh.sharpness.empty())
+    for (const bool limit : {false, true})
+      guesses.push_back({loop ? Scheme::kLoop : Scheme::kCatmullClark, limit,
+                         "; its sharp edges and vertices were not taken as sharp", false});
+  const data::ControlMesh smooth = without_tags(e.mesh);
   std::string text;
   double least = std::numeric_limits<double>::infinity();
   for (const Guess& guess : guesses) {
     if (loop && guess.scheme == Scheme::kCatmullClark && steps == 0) continue;  // the control mesh again
-    const Apart a =
-        apart(e, placed_scheme_points(e.mesh, guess.scheme, steps, guess.limit, e.lattice.scheme()));
+    const Apart a = apart(e, placed_scheme_points(guess.tags ? e.mesh : smooth, guess.scheme, steps,
+                                                  guess.limit, e.lattice.scheme()));
     if (a.points < kFewest || !(kTimesNearer * a.from_guess < a.from_truth) || !(a.from_guess < least))
       continue;
     least = a.from_guess;

@@ -48,7 +48,8 @@ SchemePoints triangle_points(const data::ControlMesh& mesh, Scheme scheme, int s
 // are among them, but for a few of no interest.
 SchemePoints catmull_clark_points(const data::ControlMesh& mesh, int steps, bool limit,
                                   data::Scheme lattice) {
-  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh));
+  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh),
+                                                        mesh.sharpness);
   for (int step = 0; step < steps; ++step) refined.refine();
   SchemePoints result = points_of(refined, limit);
   const int n = 1 << steps;
@@ -81,6 +82,10 @@ SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, 
                                   data::Scheme lattice) {
   if (scheme != Scheme::kCatmullClark) return triangle_points(mesh, scheme, steps, limit);
   return catmull_clark_points(mesh, steps, limit, lattice);
+}
+
+data::ControlMesh without_tags(const data::ControlMesh& mesh) {
+  return {mesh.positions, mesh.faces, {}, mesh.holes};
 }
 
 std::string describe(Scheme scheme, int steps, bool limit) {

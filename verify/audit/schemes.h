@@ -21,7 +21,8 @@ enum class Scheme {
 
 /// Vertices after `steps` steps, `limit`: moved to the limit surface of that scheme, but for Catmull-Clark
 /// after zero steps. Boundaries by the cubic B-spline (Linear: midpoints). The mesh is valid
-/// (data/validate.h); all but Catmull-Clark need triangles. Computed by the reference.
+/// (data/validate.h); all but Catmull-Clark need triangles. Sharp edges and vertices are as the mesh has
+/// them. Computed by the reference.
 std::vector<Vector> scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit);
 
 /// The same points with their places on the control mesh: the lattice of depth `steps` has them. A vertex
@@ -33,6 +34,9 @@ struct SchemePoints {
 ///   lattice  of which scheme the places are
 SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, int steps, bool limit,
                                   data::Scheme lattice = data::Scheme::kLoop);
+
+/// The mesh as somebody has it who knows nothing of sharp edges and vertices.
+data::ControlMesh without_tags(const data::ControlMesh& mesh);
 
 /// "the limit points of Loop's rule with Warren's simplified weights (1 step)"
 std::string describe(Scheme scheme, int steps, bool limit);

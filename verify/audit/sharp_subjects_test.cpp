@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "reference/mesh/topology.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/test_rows.h"
+#include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/test_sharp_shapes.h"
 
@@ -28,19 +27,6 @@ bool corners_held(const data::ControlMesh& mesh) {
   return mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
 }
 
-// Whether one edge that stays sharp ends inside.
-bool has_dart(const data::ControlMesh& mesh) {
-  const reference::Topology topology(mesh.positions.size(), mesh.faces);
-  std::map<std::int32_t, int> lasting;
-  for (const data::SharpEdge& e : mesh.sharpness.edges)
-    if (e.sharpness >= test::kInfinite) ++lasting[e.a], ++lasting[e.b];
-  for (const data::SharpVertex& v : mesh.sharpness.vertices)
-    if (v.sharpness >= test::kInfinite) lasting[v.vertex] = 0;
-  return std::any_of(lasting.begin(), lasting.end(), [&](const auto& vertex) {
-    return vertex.second == 1 && !topology.on_boundary(vertex.first);
-  });
-}
-
 // Whether all edges are of one whole sharpness that falls, and vertices of whole ones.
 bool falls_in_whole_steps(const data::ControlMesh& mesh) {
   std::set<float> of_edges, whole;
@@ -49,6 +35,36 @@ bool falls_in_whole_steps(const data::ControlMesh& mesh) {
   for (const data::SharpVertex& v : mesh.sharpness.vertices) whole.insert(v.sharpness);
   return of_edges.size() <= 1 && !of_edges.contains(test::kInfinite) &&
          std::all_of(whole.begin(), whole.end(), [](float s) { return s == std::floor(s); });
+}
+
+// Row streaming does no darts, and neither engine of ours semi-sharp triangles: they say so, and are not
+// asked.
+TEST(SharpSubjects, OurEnginesHaveNoFindingOnTriangles) {
+  int asked = 0;
+  for (const AuditSubject& subject : {AuditSubject{find_subject("sliding-window"), "precision=double"},
+                                      AuditSubject{find_subject("sliding-window"), "output=indexed"},
+                                      AuditSubject{find_subject("row-stream"), ""}})
+    for (const test::Named& shape : test::sharp_triangles()) {
+      const bool semi_sharp = (sharp_kinds(shape.second, data::Scheme::kLoop) & LC_SHARP_SEMI) != 0;
+      const bool stream = subject.subject == find_subject("row-stream");
+      const bool does = !semi_sharp && !(stream && has_darts(shape.second));
+      const std::vector<Result> results = audited(subject, shape);
+      EXPECT_EQ(row(results, "tessellates").status, does ? Status::kHeld : Status::kNotSupported)
+          << subject.subject->name << " on " << shape.first << ": " << row(results, "tessellates").message;
+      for (const Result& r : results)
+        EXPECT_NE(r.status, Status::kFinding)
+            << subject.subject->name << " on " << shape.first << ", " << r.check << ": " << r.message;
+      asked += does;
+    }
+  EXPECT_GT(asked, 150);
+}
+
+TEST(SharpSubjects, NaiveHasNoFinding) {
+  for (const auto& shapes : {test::sharp_polygons(), test::sharp_triangles()})
+    for (const test::Named& shape : shapes)
+      for (const Result& r : audited({find_subject("naive"), ""}, shape))
+        EXPECT_NE(r.status, Status::kFinding)
+            << shape.first << ", " << r.check << ", worst " << r.worst.value_or(-1) << ": " << r.message;
 }
 
 TEST(SharpSubjects, QuadModelHasNoFinding) {
@@ -69,7 +85,7 @@ TEST(SharpSubjects, OpenSubdivsPatchesAreRightButAtDarts) {
           AuditSubject{find_subject("opensubdiv-far-patches"), "precision=double,level=5,inf-sharp=on"}}) {
       const auto results = audited(subject, shape);
       const Result& positions = row(results, "positions");
-      const bool dart = has_dart(shape.second);  // bfr-dart-position
+      const bool dart = has_darts(shape.second);  // bfr-dart-position
       EXPECT_EQ(positions.status, dart ? Status::kFinding : Status::kHeld)
           << subject.label() << " on " << shape.first << ", worst " << positions.worst.value_or(-1);
       ++(dart ? darts : held);

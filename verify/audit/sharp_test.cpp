@@ -88,6 +88,22 @@ TEST(SharpAudit, ASubjectIsAskedForWhatItDeclaresAndForNothingElse) {
     }
 }
 
+TEST(SharpAudit, ASubjectThatDoesNoDartsIsAskedForOtherCreases) {
+  const auto status = [](const char* mesh, std::int32_t says) {
+    declared = says;
+    const lc_subject subject = modest();
+    return row(Auditor(1, 1, {}, Level::kQuick).run({&subject, ""}, named(mesh)), "tessellates").status;
+  };
+  const std::int32_t creases = LC_SHARP_CREASES | LC_SHARP_CORNERS, no_darts = creases | LC_SHARP_NO_DARTS;
+  for (const char* dart : {"quad-dart:3", "quad-dart:7", "quad-corner:3", "open-crease"}) {
+    EXPECT_EQ(status(dart, creases), Status::kHeld) << dart;
+    EXPECT_EQ(status(dart, no_darts), Status::kNotSupported) << dart;
+    EXPECT_EQ(asked, 0);
+  }
+  for (const char* other : {"quad-cube", "creased-cube", "crease-ring", "quad-fan:3"})
+    EXPECT_EQ(status(other, no_darts), Status::kHeld) << other;
+}
+
 TEST(SharpAudit, WhoDeclaresSemiSharpEdgesAndKeepsThemForEverIsFoundAndOnlyThere) {
   const auto positions = [](const char* mesh) {
     return row(Auditor(2, 1, {}, Level::kQuick)

@@ -67,7 +67,7 @@ TEST_F(HuntCommand, OneThatWasKilledGoesOnWhereItWas) {
   EXPECT_EQ(run(std::string(kHunt) + "--json whole.json --jobs 2").code, 1);
   write("kill.sh",
         std::string("'" LIMITCHECK_PROGRAM "' ") + kHunt +
-            "--cases 640 --json r.json --jobs 2 > out 2>&1 &\nfor k in {1..400}; do [ -e r.json.part1 ] && break; sleep "
+            "--json r.json --jobs 2 > out 2>&1 &\nfor k in {1..400}; do [ -e r.json.part1 ] && break; sleep "
             "0.05; done\nkill -KILL $!\nwait $!\nsleep 1\n");
   (void)std::system(("cd '" + folder_.string() + "' && bash kill.sh 2> /dev/null").c_str());
   const Outcome o = run(std::string(kHunt) + "--json r.json --jobs 2 --resume");

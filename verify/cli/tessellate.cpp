@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "data/error.h"
+#include "fast/mesh/triangle_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "verify/cli/commands.h"
@@ -107,9 +108,13 @@ bool has_semi_sharp(const data::Sharpness& sharpness) {
 }
 
 /// The one asked for, else row streaming, unless it does not do the mesh.
-std::string engine_of(const Arguments& a, const data::ControlMesh& mesh) {
+std::string engine_of(const Arguments& a, const OpenedMesh& opened) {
   if (!a.engine.empty()) return a.engine;
-  return has_semi_sharp(mesh.sharpness) ? "sliding-window" : "row-stream";
+  const data::ControlMesh& mesh = opened.mesh;
+  const bool beyond_streaming =
+      has_semi_sharp(mesh.sharpness) || (opened.chosen.scheme == data::Scheme::kLoop &&
+                                         !mesh.sharpness.empty() && fast::TriangleMesh(mesh).has_darts());
+  return beyond_streaming ? "sliding-window" : "row-stream";
 }
 
 struct Timings {
@@ -200,7 +205,7 @@ Outcome run(const Arguments& a, const OpenedMesh& opened, const fast::DepthOptio
   engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
   engine.threads = std::min(a.threads, tbb::info::default_concurrency());
   engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
-  if (engine_of(a, mesh) == "sliding-window")
+  if (engine_of(a, opened) == "sliding-window")
     return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
   fast::row_stream::StreamTessellator stream(mesh, engine);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
@@ -246,7 +251,7 @@ int tessellate(const Arguments& a) {
                stats.faces);
   }
   if (a.json) {
-    fmt::print("{}\n", report(a, engine_of(a, mesh), opened.chosen, stats, options, timings).dump(2));
+    fmt::print("{}\n", report(a, engine_of(a, opened), opened.chosen, stats, options, timings).dump(2));
   } else {
     fmt::print("{}\n{}", scheme_line({opened.chosen}, a.scheme), summary(a, stats, timings));
   }
@@ -279,7 +284,9 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->add_option(
           "--engine", a->engine,
           "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
-          "row-stream, or sliding-window for semi-sharp edges and vertices, which row-stream does not do")
+          "row-stream, or sliding-window for what row-stream does not do: semi-sharp edges and vertices, and "
+          "in "
+          "Loop's scheme sharp edges that end inside the surface")
       ->check(CLI::IsMember({"row-stream", "sliding-window"}));
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");

@@ -85,7 +85,7 @@ std::map<std::int32_t, std::set<std::int32_t>> faces_of_cut_normals(const FileEv
 // What a normal on an edge that stays sharp is held against.
 struct SideNormal {
   enum Kind { kJudged, kUndefined, kShared } kind;
-  Vector expected{};
+  Foot foot{};  // kJudged
 };
 
 // The normal of the side on which its triangles lie; if they tell nothing, that of the nearest. One that
@@ -102,7 +102,7 @@ SideNormal side_normal(const FileEvidence& e, std::int32_t point, const Vector& 
     normals.push_back(foot.normal);
     const double angle = angle_degrees(direction, foot.normal);
     if (side.kind == SideNormal::kJudged && !(angle < nearest)) continue;
-    side = {SideNormal::kJudged, foot.normal};
+    side = {SideNormal::kJudged, foot};
     nearest = angle;
   }
   if (!faces.empty() && apart > bound) return {SideNormal::kShared, {}};
@@ -131,6 +131,15 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   std::vector<double> angle(normals.size(), -1);
   std::vector<Vector> expected(normals.size());
   std::int64_t undefined = 0, shared = 0;
+  // What rounding may excuse; a file with many normals that it does not is not searched to the end.
+  constexpr int kMostInVain = 1000;
+  int in_vain = 0;
+  const auto least_angle = [&](const Foot& foot, const Vector& direction, const Vector& at, double so_far) {
+    if (!(so_far > *r.bound) || in_vain >= kMostInVain) return so_far;
+    const double least = least_angle_nearby(e.surface, foot, direction, rounding(e, at), *r.bound);
+    in_vain += least > *r.bound;
+    return least;
+  };
   const auto sides = faces_of_cut_normals(e);
   for (std::size_t k = 0; k < normals.size(); ++k) {
     const std::int32_t vertex = normals[k].vertex, point = e.point_of(vertex);
@@ -140,8 +149,10 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
       undefined += side.kind == SideNormal::kUndefined;
       shared += side.kind == SideNormal::kShared;
       if (side.kind != SideNormal::kJudged) continue;
-      expected[k] = side.expected;
-      angle[k] = angle_degrees(normals[k].direction, side.expected);
+      expected[k] = side.foot.normal;
+      angle[k] = angle_degrees(normals[k].direction, side.foot.normal);
+      // Nearby, too, the surface is that of the side.
+      angle[k] = least_angle(side.foot, normals[k].direction, e.position(point), angle[k]);
       continue;
     }
     const bool told = !e.claimed.empty() && e.claimed[vertex].face >= 0;
@@ -164,8 +175,7 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
       angle[k] = there;
       expected[k] = place.normal;
     }
-    if (angle[k] > *r.bound)
-      angle[k] = least_angle_nearby(e.surface, foot, normals[k].direction, rounding(e, at), *r.bound);
+    angle[k] = least_angle(foot, normals[k].direction, at, angle[k]);
   }
   const Statistics s = summarise(angle, *r.bound);
   take(r, s);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "data/triangulate.h"
 #include "data/validate.h"
@@ -47,7 +48,9 @@ struct Cages {
   const data::ControlMesh& whole;
 
   explicit Cages(const data::ControlMesh& control)
-      : cut{control.positions, data::triangulate(control, data::Triangulation::kFan).faces}, whole(control) {}
+      : cut{control.positions, data::triangulate(control, data::Triangulation::kFan).faces,
+            control.sharpness},
+        whole(control) {}
   bool has(Scheme scheme) const {
     return scheme == Scheme::kCatmullClark || whole.faces.are_triangles() ||
            data::validate(cut, data::Scheme::kLoop).empty();
@@ -104,7 +107,7 @@ Sampled sample(const FileEvidence& e) {
 struct Guess {
   Scheme scheme;
   int steps;
-  bool limit;
+  bool limit, tags;  // tags: with the sharp edges and vertices of the control mesh
   Apart apart;
 };
 
@@ -131,6 +134,8 @@ double worst_of(const ClosestPoint& surface, const std::vector<Vector>& cloud) {
 Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   Guesses guesses;
   const Cages cages(e.control);
+  const data::ControlMesh smooth = without_tags(e.control);
+  const Cages smooth_cages(smooth);
   const Scheme own = own_scheme(e);
   const auto have = static_cast<double>(sampled.placed);
   const auto unlike = [&](int steps) { return std::abs(std::log(cages.vertices_after(own, steps) / have)); };
@@ -139,11 +144,13 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
     for (int steps = 0; steps <= 7; ++steps) {
       const double count = cages.vertices_after(scheme, steps);
       if (count > 3 * have + 100 || count < have / 8 || count > 2e6) continue;
-      for (const bool limit : {false, true}) {
-        if (limit && (scheme == own || scheme == Scheme::kLinear || steps == 0)) continue;
-        const auto cloud = scheme_points(cages.of(scheme), scheme, steps, limit);
-        guesses.all.push_back({scheme, steps, limit, apart(sampled.points, cloud)});
-        if (scheme == own && (guesses.own.worst < 0 || unlike(steps) < unlike(guesses.own.steps)))
+      for (const auto& [limit, tags] :
+           {std::pair{false, true}, std::pair{true, true}, std::pair{false, false}, std::pair{true, false}}) {
+        if (limit && ((scheme == own && tags) || scheme == Scheme::kLinear || steps == 0)) continue;
+        if (!tags && (e.control.sharpness.empty() || scheme == Scheme::kLinear)) continue;
+        const auto cloud = scheme_points((tags ? cages : smooth_cages).of(scheme), scheme, steps, limit);
+        guesses.all.push_back({scheme, steps, limit, tags, apart(sampled.points, cloud)});
+        if (scheme == own && tags && (guesses.own.worst < 0 || unlike(steps) < unlike(guesses.own.steps)))
           guesses.own = {worst_of(e.surface, cloud), steps};
       }
     }
@@ -151,7 +158,8 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   return guesses;
 }
 
-const char* remark(Scheme scheme, Scheme own) {
+const char* remark(Scheme scheme, bool tags, Scheme own) {
+  if (!tags) return "; its sharp edges and vertices were not taken as sharp";
   if (scheme == own) return "; what is missing is the last step, the limit mask";
   switch (scheme) {
     case Scheme::kLoop:
@@ -174,15 +182,16 @@ std::vector<std::string> diagnose(const FileEvidence& e) {
   const double size = e.surface.diagonal();
   const auto [guesses, refined] = guess(e, sampled);
   const Scheme own = own_scheme(e);
-  const auto best = std::min_element(guesses.begin(), guesses.end(), [](const Guess& a, const Guess& b) {
-    return a.apart.rms < b.apart.rms;
-  });
+  // Of schemes that make the same points, as where all edges are still sharp, the file's own.
+  const auto off = [&](const Guess& g) { return g.apart.rms + (g.scheme == own ? 0 : 1e-12 * size); };
+  const auto best = std::min_element(guesses.begin(), guesses.end(),
+                                     [&](const Guess& a, const Guess& b) { return off(a) < off(b); });
   if (best != guesses.end() && best->apart.rms < sampled.rms / 10)
     return {fmt::format(
         "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off {}'s limit "
         "surface{}",
         describe(best->scheme, best->steps, best->limit), best->apart.worst / size, sampled.worst / size,
-        owner(own), remark(best->scheme, own))};
+        owner(own), remark(best->scheme, best->tags, own))};
   std::vector<std::string> told;
   const auto& t = e.tessellation;
   if (own == Scheme::kLoop && 2 * t.quads > t.polygons)

@@ -35,8 +35,9 @@ struct Axes {
 double least_angle_nearby(const ClosestPoint& surface, const Foot& foot, const Vector& direction,
                           double radius, double enough) {
   constexpr int kDirections = 8, kSteps = 64;
-  constexpr int kSeen = 4;           // steps after which it is seen
-  constexpr double kWorthIt = 1e-3;  // of what is missing, gained by then
+  constexpr int kSeen = 12;          // steps after which it is seen: where tangents are nearly parallel the
+                                     // surface bends away long before the end of a slow one
+  constexpr double kWorthIt = 1e-3;  // of what is missing, gained by a step, or by all of these
   const double first = angle_degrees(direction, foot.normal);
   double angle = first, scale = .5;
   FacePoint best = foot.at;
@@ -55,7 +56,7 @@ double least_angle_nearby(const ClosestPoint& surface, const Foot& foot, const V
       if (its < least) least = its, there = at;
     }
     if (i == kSeen && first - least < kWorthIt * (first - enough)) return least;
-    scale = least < angle ? std::min(1., 2 * scale) : scale / 2;
+    scale = angle - least > kWorthIt * (angle - enough) ? std::min(1., 2 * scale) : scale / 2;
     angle = least, best = there;
   }
   return angle;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <string>
 
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/random_mesh.h"
+#include "data/generators/sharp_meshes.h"
 #include "verify/files/test_files.h"
 #include "verify/files/test_sharp_files.h"
 #include "verify/projection/test_sharp_meshes.h"
@@ -90,6 +93,54 @@ TEST(SharpFiles, ASurfaceOfOtherTagsIsFound) {
   EXPECT_EQ(with(chaikin, [](data::Sharpness&) {}), "");
   const auto uniform = with(chaikin, [](data::Sharpness& s) { s.creasing = data::Creasing::kUniform; });
   EXPECT_TRUE(uniform.starts_with("file-distance")) << "the other way of creasing";
+}
+
+// Where the surface's tangents are nearly parallel, or vanish, rounding of positions turns normals, on edges
+// that stay sharp too.
+TEST(SharpFiles, RoundedToFloatRandomOnesHaveNoFindingEither) {
+  for (const bool mixed : {false, true}) {
+    const data::ControlMesh plain =
+        mixed ? data::mixed_mesh(34, {.faces = 100}) : data::random_mesh(34, {.faces = 100});
+    const SharpMesh m{"34", data::with_random_sharpness(plain, 34), data::natural_scheme(plain)};
+    FileTessellation t = sharp_file(m.mesh, m.scheme, 3);
+    for (Vector& p : t.positions)
+      for (int c = 0; c < 3; ++c) p[c] = static_cast<float>(p[c]);
+    const FilesAudit a = audit_sharp(m, std::move(t));
+    EXPECT_EQ(findings(a), "") << (mixed ? "mixed" : "triangles") << ": " << said(a);
+  }
+}
+
+// What a file looks like is said with the tags of the control mesh, and without them.
+TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
+  for (const char* name : {"cube 10", "cube 2", "dart 4 of triangles"}) {
+    const SharpMesh m = named(name);
+    data::ControlMesh smooth = m.mesh;
+    smooth.sharpness = {};
+    const FilesAudit ignored = audit_sharp(m, sharp_file(smooth, m.scheme, 2));
+    EXPECT_NE(row(ignored, "file-distance").message.find("limit points of"), std::string::npos)
+        << name << ": " << row(ignored, "file-distance").message;
+    EXPECT_NE(row(ignored, "file-distance").message.find("not taken as sharp"), std::string::npos)
+        << name << ": " << row(ignored, "file-distance").message;
+
+    if (m.name == "cube 10") continue;  // flat between its edges: refined points are on the surface
+    FileTessellation refined = sharp_file(m.mesh, m.scheme, 2);
+    const auto put = [&](const auto& points) {
+      for (std::size_t v = 0; v < points.size(); ++v) refined.positions[v] = vector_of(points[v]);
+    };
+    if (m.scheme == data::Scheme::kLoop) {
+      put(reference::refine<double>(m.mesh, 2).positions());
+    } else {
+      reference::catmull_clark::RefinedMesh<double> mesh(
+          m.mesh.faces, reference::positions_of<double>(m.mesh), m.mesh.sharpness);
+      mesh.refine();
+      mesh.refine();
+      put(mesh.positions());
+    }
+    const FilesAudit unmoved = audit_sharp(m, refined);
+    EXPECT_NE(row(unmoved, "file-distance").message.find("what is missing is the last step"),
+              std::string::npos)
+        << name << ": " << row(unmoved, "file-distance").message;
+  }
 }
 
 // The limit of a dart's vertex is not where the mask of a smooth one puts it.

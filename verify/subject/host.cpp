@@ -45,7 +45,7 @@ std::string impossible(const lc_capabilities& c) {
       return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
     return fmt::format("schemes is {}", c.schemes);
-  if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_SMOOTH_TRIANGLES) return fmt::format("sharp is {}", c.sharp);
+  if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_NO_DARTS) return fmt::format("sharp is {}", c.sharp);
   if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
   return {};
 }
@@ -112,6 +112,8 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
     throw NotAsked(fmt::format("{}: does not do {}", subject.name, name_of_kinds(beyond)));
   if (input == Input::kAsItIs && capabilities_.does_not_validate != 0)
     throw NotAsked(fmt::format("{}: does not validate", subject.name));
+  if (input == Input::kValid && (capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
+    throw NotAsked(fmt::format("{}: does not do sharp edges that end inside the surface", subject.name));
   const bool single = capabilities_.precision == LC_FLOAT32;
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -44,6 +45,29 @@ inline std::int32_t sharp_kinds(const data::ControlMesh& mesh, data::Scheme sche
   if (sharp.triangles == data::TriangleRule::kSmooth && scheme == data::Scheme::kCatmullClark)
     kinds |= LC_SHARP_SMOOTH_TRIANGLES;
   return kinds;
+}
+
+/// Whether an edge that stays sharp ends inside the surface: at a vertex with no other, which is not held.
+/// The mesh is valid.
+inline bool has_darts(const data::ControlMesh& mesh) {
+  std::vector<std::int32_t> sharp_edges(mesh.positions.size());
+  for (const data::SharpEdge& e : mesh.sharpness.edges)
+    if (e.sharpness >= data::kInfiniteSharpness) ++sharp_edges[e.a], ++sharp_edges[e.b];
+  for (const data::SharpVertex& v : mesh.sharpness.vertices)
+    if (v.sharpness >= data::kInfiniteSharpness) sharp_edges[v.vertex] = 0;
+  // Inside each neighbour of a vertex comes once before it and once after it in a face.
+  std::vector<std::map<std::int32_t, int>> around(mesh.positions.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t k = 0, n = mesh.faces[f].size(); k < n; ++k) {
+      const std::int32_t a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % n];
+      if (sharp_edges[a] == 1) ++around[a][b];
+      if (sharp_edges[b] == 1) --around[b][a];
+    }
+  for (std::size_t v = 0; v < around.size(); ++v)
+    if (sharp_edges[v] == 1 &&
+        std::all_of(around[v].begin(), around[v].end(), [](const auto& entry) { return entry.second == 0; }))
+      return true;
+  return false;
 }
 
 /// A copy, which a subject may write to without spoiling anybody else's.

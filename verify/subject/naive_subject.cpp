@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "reference/catmull_clark/naive.h"
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
+#include "reference/mesh/sharpness.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/face_domain.h"
@@ -53,9 +55,8 @@ bool before(const Vec3& a, const Vec3& b) {
 }
 
 // Puts the lesser of both, by their bits, in place of the first.
-void agree(Corner& a, const Corner& b) {
-  if (before(b.position, a.position)) a.position = b.position;
-  if (before(b.normal, a.normal)) a.normal = b.normal;
+void agree(Vec3& a, const Vec3& b) {
+  if (before(b, a)) a = b;
 }
 
 // The vertices, one for each lattice point, and the triangles of one face.
@@ -99,7 +100,8 @@ class Face {
       at = static_cast<std::uint32_t>(vertices.size());
       vertices.push_back(corner);
     }
-    agree(vertices[at], corner);
+    agree(vertices[at].position, corner.position);
+    agree(vertices[at].normal, corner.normal);
     return at;
   }
 
@@ -112,29 +114,59 @@ class Face {
 // control vertex is both ends of its edge.
 using BorderPoint = std::array<std::int64_t, 3>;
 
-// Sets `point` and returns true, or returns false for a point inside the face.
-bool on_border(std::span<const std::int32_t> face, FaceDomain domain, const Corner& corner, int depth,
-               BorderPoint& point) {
+// Sets `point` and returns the side of the face on which it lies, or -1 for a point inside.
+int on_border(std::span<const std::int32_t> face, FaceDomain domain, const Corner& corner, int depth,
+              BorderPoint& point) {
   const std::int64_t n = std::int64_t{1} << depth, unit = std::int64_t{1} << (31 - depth);
   const auto place = domain.side_of(corner.at, n);
-  if (!place) return false;
+  if (!place) return -1;
   std::int64_t a = face[place->side], b = face[domain.next(place->side)], way = place->along;
   if (way == 0) b = a;
   if (a > b) std::swap(a, b), way = n - way;
   point = {a, b, way * unit};
-  return true;
+  return place->side;
 }
+
+// Which faces have a common normal at a point of a control edge: on an edge that stays sharp there is one for
+// each side, at its ends one for each sector between such edges.
+class Sides {
+ public:
+  explicit Sides(const data::ControlMesh& mesh) {
+    if (mesh.sharpness.empty()) return;
+    const reference::Topology topology(mesh.positions.size(), mesh.faces);
+    cut_ = reference::Sharpness(topology, mesh.sharpness).cut(topology).faces;
+    for (const data::SharpEdge& e : mesh.sharpness.edges)
+      if (e.sharpness >= data::kInfiniteSharpness) edges_.insert(std::minmax(e.a, e.b));
+  }
+  // The same number in all faces that do.
+  //   corner   of the face, where the point is a corner
+  std::int64_t number(const BorderPoint& point, std::size_t face, int corner) const {
+    const std::int64_t a = point[0], b = point[1];
+    if (cut_.size() > 0 && a == b) return cut_[face][static_cast<std::size_t>(corner)];
+    const bool sharp = edges_.count({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)}) > 0;
+    return sharp ? static_cast<std::int64_t>(face) : -1;
+  }
+
+ private:
+  data::Faces cut_;  // the faces with a copy of each vertex for each of its sectors
+  std::set<std::pair<std::int32_t, std::int32_t>> edges_;
+};
 
 class NaiveSubject {
  public:
   static lc_capabilities capabilities(Options& options, lc_scheme) {
-    return {LC_FLOAT64, weights_option(options), LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 1};
+    lc_capabilities result{LC_FLOAT64, weights_option(options), LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1,
+                           1};
+    result.sharp =
+        LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+    return result;
   }
 
   NaiveSubject(const lc_mesh& mesh, Options& options)
       : mesh_(control_mesh(mesh)),
         scheme_(scheme_of(mesh.scheme)),
-        subdivider_(make_subdivider(mesh_, scheme_, family(weights_option(options)))) {}
+        subdivider_(make_subdivider(mesh_, scheme_, family(weights_option(options)))),
+        sides_(mesh_) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const auto count = static_cast<std::int64_t>(mesh_.faces.size());
@@ -193,7 +225,7 @@ class NaiveSubject {
   static Subdivider make_subdivider(const data::ControlMesh& mesh, data::Scheme scheme,
                                     reference::Weights weights) {
     if (scheme == data::Scheme::kLoop) return Loop(mesh, weights);
-    return CatmullClark(mesh.faces, reference::positions_of<double>(mesh));
+    return CatmullClark(mesh.faces, reference::positions_of<double>(mesh), mesh.sharpness);
   }
   FaceDomain domain(std::size_t face) const { return {scheme_, static_cast<int>(mesh_.faces[face].size())}; }
 
@@ -205,21 +237,25 @@ class NaiveSubject {
       for (std::size_t f = 0; f < faces.size(); ++f)
         if (faces[f] != nullptr)
           for (Corner& corner : faces[f]->vertices)
-            if (on_border(mesh_.faces[f], domain(f), corner, depth[f], point)) body(point, corner);
+            if (const int side = on_border(mesh_.faces[f], domain(f), corner, depth[f], point); side >= 0)
+              body(point, sides_.number(point, f, side), corner);
     };
-    std::map<BorderPoint, Corner> chosen;
-    each([&](const BorderPoint& point, const Corner& corner) {
-      agree(chosen.try_emplace(point, corner).first->second, corner);
+    std::map<BorderPoint, Vec3> position;
+    std::map<std::pair<BorderPoint, std::int64_t>, Vec3> normal;
+    each([&](const BorderPoint& point, std::int64_t side, const Corner& corner) {
+      agree(position.try_emplace(point, corner.position).first->second, corner.position);
+      agree(normal.try_emplace({point, side}, corner.normal).first->second, corner.normal);
     });
-    each([&](const BorderPoint& point, Corner& corner) {
-      corner.position = chosen.at(point).position;
-      corner.normal = chosen.at(point).normal;
+    each([&](const BorderPoint& point, std::int64_t side, Corner& corner) {
+      corner.position = position.at(point);
+      corner.normal = normal.at({point, side});
     });
   }
 
   const data::ControlMesh mesh_;
   const data::Scheme scheme_;
   const Subdivider subdivider_;
+  const Sides sides_;
 };
 
 }  // namespace

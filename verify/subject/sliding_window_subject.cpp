@@ -53,9 +53,9 @@ class SlidingWindowSubject {
                            1,
                            1,
                            settings.tessellator.cracks.centre == fast::FanCentre::kLimit ? 1 : 0};
+    result.sharp = LC_SHARP_CREASES | LC_SHARP_CORNERS;
     if (scheme == LC_SCHEME_CATMULL_CLARK)
-      result.sharp =
-          LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+      result.sharp |= LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_SMOOTH_TRIANGLES;
     return result;
   }
 

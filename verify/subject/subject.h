@@ -65,11 +65,12 @@ enum { LC_DOES_LOOP = 1, LC_DOES_CATMULL_CLARK = 2 };
 
 /* What of sharp edges and vertices there is to do, to be or-ed. */
 enum {
-  LC_SHARP_CREASES = 1,          /* edges that stay sharp: a sharpness of 10 and more */
-  LC_SHARP_SEMI = 2,             /* edges and vertices of a sharpness between 0 and 10 */
-  LC_SHARP_CHAIKIN = 4,          /* Chaikin's way of letting sharpness fall */
-  LC_SHARP_CORNERS = 8,          /* sharp vertices, and boundary vertices of one face that are held */
-  LC_SHARP_SMOOTH_TRIANGLES = 16 /* the smooth rule for Catmull-Clark's triangles */
+  LC_SHARP_CREASES = 1,           /* edges that stay sharp: a sharpness of 10 and more */
+  LC_SHARP_SEMI = 2,              /* edges and vertices of a sharpness between 0 and 10 */
+  LC_SHARP_CHAIKIN = 4,           /* Chaikin's way of letting sharpness fall */
+  LC_SHARP_CORNERS = 8,           /* sharp vertices, and boundary vertices of one face that are held */
+  LC_SHARP_SMOOTH_TRIANGLES = 16, /* the smooth rule for Catmull-Clark's triangles */
+  LC_SHARP_NO_DARTS = 32          /* a limit: no edge that stays sharp may end inside the surface */
 };
 
 /* An edge between two vertices of the control mesh, 0 < sharpness. */

@@ -86,12 +86,13 @@ Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& m
 std::string_view name_of(lc_scheme scheme);
 
 /// The bits of lc_capabilities.sharp, by the names that answers give them.
-inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 5> kSharpKinds{
+inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kSharpKinds{
     {{"creases", LC_SHARP_CREASES},
      {"semi-sharp", LC_SHARP_SEMI},
      {"chaikin", LC_SHARP_CHAIKIN},
      {"corners", LC_SHARP_CORNERS},
-     {"smooth-triangles", LC_SHARP_SMOOTH_TRIANGLES}}};
+     {"smooth-triangles", LC_SHARP_SMOOTH_TRIANGLES},
+     {"no-darts", LC_SHARP_NO_DARTS}}};
 
 /// A text for a message: at most `longest` bytes, nothing a terminal would act on.
 std::string printable(std::string_view text, std::size_t longest);

@@ -151,6 +151,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   };
   const auto shared = std::make_shared<Shared>();
   bool no_memory = false, left = false;
+  const bool begun = interrupted() == 0;
   try {
     if (interrupted() == 0 && !leaves_) {
       judge(audited, mesh, shared->rows);
@@ -183,7 +184,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   if (mesh.sample)
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
-  if (interrupted() != 0 || no_memory) add_missing(audited, mesh, no_memory, results);
+  if (interrupted() != 0 || no_memory) add_missing(audited, mesh, begun, no_memory, results);
   for (Result& r : results) {
     r.depth = depth_of(mesh);
     r.depths = mesh.depths;
@@ -194,12 +195,13 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   return results;
 }
 
-void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool no_memory,
+void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool begun, bool no_memory,
                           std::vector<Result>& results) {
   std::vector<std::string_view> missing{"tessellates"};
-  for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
+  if (begun)
+    for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
   const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
-  if (related(mesh, judged))
+  if (begun && related(mesh, judged))
     for (const std::string_view row : relation_rows_of(judged, mesh.scheme())) missing.push_back(row);
   std::erase_if(missing, [&](std::string_view check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });

@@ -68,8 +68,9 @@ class Auditor {
   // Adds rows to `results` as they come, so that an interrupt keeps those that are there.
   void judge(const AuditSubject& subject, const AuditMesh& mesh, std::vector<Result>& results);
   void run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference);
-  // Adds each row that is still missing, and why: out of memory, or interrupted.
-  void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool no_memory,
+  // Adds each row that is still missing, and why: out of memory, or interrupted. If nothing was begun it is one
+  // row: at a signal there may be thousands of such pairs, and a second to write a report.
+  void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool begun, bool no_memory,
                    std::vector<Result>& results);
   // Whether the relations belong to the audit of a mesh, of which this is judged.
   bool related(const AuditMesh& mesh, const data::ControlMesh& judged) const;

@@ -291,7 +291,7 @@ class Measurer {
     if (forwards) {
       const Vector p = mix(corners_[bound.triangle], bound.weight);
       if (cannot_raise(p, bracket)) return;
-      const Foot foot = e_.surface.closest(p);
+      const Foot foot = e_.surface.closest(p, no_more(bracket));
       d = foot.distance;
       where = foot.at;
     } else {
@@ -303,6 +303,9 @@ class Measurer {
   }
 
   // Where a point of the surface is near enough the nearest need not be known.
+  static double no_more(const Bracket& bracket) {
+    return bracket.where.face >= 0 ? bracket.at_least * (1 - 1e-12) : 0;
+  }
   bool cannot_raise(const Vector& p, const Bracket& bracket) const {
     return bracket.where.face >= 0 && e_.surface.at_most(p) <= bracket.at_least * (1 + 1e-12);
   }
@@ -312,7 +315,7 @@ class Measurer {
     for (const Barycentric& weight : kMiddles) {
       const Vector p = mix(t, weight);
       if (cannot_raise(p, bracket)) continue;
-      const Foot foot = e_.surface.closest(p);
+      const Foot foot = e_.surface.closest(p, no_more(bracket));
       if (foot.distance <= bracket.at_least && bracket.where.face >= 0) continue;
       bracket.at_least = foot.distance;
       bracket.where = foot.at;

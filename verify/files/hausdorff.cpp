@@ -128,9 +128,8 @@ class Measurer {
         }
         tick_();
         const Piece piece = lattice.piece(k);
-        bracket.at_most =
-            std::max(bracket.at_most, refine(piece, near(piece, over_[piece.face]), forwards, tightness,
-                                             bracket.at_most, bracket, 0));
+        bracket.at_most = std::max(bracket.at_most, refine(piece, near(piece, over_[piece.face]), forwards,
+                                                           tightness, bracket.at_most, bracket, 0));
       }
       if (forwards)
         for (const std::int32_t t : loose_) {

@@ -129,9 +129,7 @@ Foot ClosestPoint::closest(const Vector& p, double enough) const {
   });
   Foot foot = at(best.at, p);
   const bool ended_early = enough > 0 && best.distance <= enough;
-  foot.at_least = ended_early || foot.distance <= rounding
-                      ? 0
-                      : std::clamp(at_least, 0.0, foot.distance);
+  foot.at_least = ended_early || foot.distance <= rounding ? 0 : std::clamp(at_least, 0.0, foot.distance);
   const bool at_corner = domain().chart().corner_at(best.at.l) >= 0;
   foot.stationary = best.stationary || foot.distance <= rounding ||
                     (at_corner && norm(cross(p - foot.position, foot.normal)) <= 1e-12 * diagonal_);

@@ -2,16 +2,19 @@
 # SPDX-License-Identifier: MIT
 # The tests under a sanitizer, with g++ or with clang, and under valgrind:
 #   verify/sanitize.sh asan-ubsan[-clang] [ctest arguments]   addresses, leaks and undefined behaviour: all tests
+#   verify/sanitize.sh program [ctest arguments]              the same of the libraries, and of the program where hostile
+#                                                             meshes, files, libraries and programs are handed to it
 #   verify/sanitize.sh tsan[-clang] [ctest arguments]         data races: the tests of the folders that use threads
 #   verify/sanitize.sh valgrind [--gtest_filter=...]          memcheck: the tests of the libraries, and quick audits
 # Left out, and why: under asan and tsan the subject that writes where it must not, on purpose, and with it into the
-# sanitizer's own memory. Under tsan data/ and reference/, which use no threads, the tests that sample the running
+# sanitizer's own memory; in a program of its own (`program`) all libraries that break memory on purpose, which the
+# sanitizer would tell first. Under tsan data/ and reference/, which use no threads, the tests that sample the running
 # program by a timer's signals, which tsan holds back, and ten million points, which take it some ten minutes. Under
 # valgrind AVX-512, which 3.19 lacks. Under tsan and valgrind the test that counts allocations by an operator new of
 # its own, where they have theirs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-kind=${1:?asan-ubsan, asan-ubsan-clang, tsan, tsan-clang or valgrind}
+kind=${1:?asan-ubsan, asan-ubsan-clang, program, tsan, tsan-clang or valgrind}
 shift
 bash verify/install.sh --dev
 
@@ -55,6 +58,15 @@ case $kind in
     export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
     tests_of "build/$kind" 'Hostile.*/wild_write' "$@"
     ;;
+  program)
+    folders=(data reference fast verify/cli verify/files verify/subject/isolation)
+    cmake --preset asan-ubsan -DLIMITCHECK_VERIFY=ON -DBUILD_TESTING=ON >/dev/null
+    cmake --build --preset asan-ubsan --target limitcheck "${folders[@]/%//all}" >&2
+    export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
+    for folder in "${folders[@]}"; do
+      tests_of "build/asan-ubsan/$folder" 'Hostile|Behaviours.OfLibraries' "$@"
+    done
+    ;;
   tsan | tsan-clang)
     bash verify/build.sh "$kind"
     compiler=g++
@@ -78,7 +90,7 @@ case $kind in
     done
     ;;
   *)
-    echo "verify/sanitize.sh: asan-ubsan, asan-ubsan-clang, tsan, tsan-clang or valgrind, not '$kind'" >&2
+    echo "verify/sanitize.sh: asan-ubsan, asan-ubsan-clang, program, tsan, tsan-clang or valgrind, not '$kind'" >&2
     exit 2
     ;;
 esac

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/rules/large_dart.h"
 #include "fast/rules/left_eigenvectors.h"
 #include "fast/rules/quad_limit.h"
 
@@ -168,10 +169,14 @@ class DartMatrix {
 
 template <class S>
 StarWeights<S> dart_weights(int n) {
-  const DartMatrix<S> dart(n);
   StarWeights<S> w;
-  w.position = dart.of_ring(dart.limit());
-  w.du = dart.of_ring(dart.tangent());
+  if constexpr (std::is_same_v<S, double>)
+    if (n >= kLargeDart) w = large_dart_weights(n);
+  if (w.position.empty()) {
+    const DartMatrix<S> dart(n);
+    w.position = dart.of_ring(dart.limit());
+    w.du = dart.of_ring(dart.tangent());
+  }
   w.dv = closed_weights<S>(n).dv;  // antisymmetric: it does not know of e_0
   w.dv.push_back(S(0));
   return w;

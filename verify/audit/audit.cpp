@@ -125,7 +125,8 @@ void Auditor::step(const std::string& subject, const std::string& mesh, std::str
   if (on_step_) on_step_({subject, mesh, std::string(check), done_, total_});
 }
 
-bool Auditor::related(const AuditMesh& mesh, std::size_t faces) const {
+bool Auditor::related(const AuditMesh& mesh, const data::ControlMesh& judged) const {
+  const std::size_t faces = std::max(judged.faces.size(), judged.faces.corners().size() / 4);
   return mesh.relations &&
          (level_ == Level::kThorough || (level_ == Level::kStandard && faces <= kRelationFaces));
 }
@@ -150,6 +151,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   };
   const auto shared = std::make_shared<Shared>();
   bool no_memory = false, left = false;
+  const bool begun = interrupted() == 0;
   try {
     if (interrupted() == 0 && !leaves_) {
       judge(audited, mesh, shared->rows);
@@ -182,7 +184,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   if (mesh.sample)
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
-  if (interrupted() != 0 || no_memory) add_missing(audited, mesh, no_memory, results);
+  if (interrupted() != 0 || no_memory) add_missing(audited, mesh, begun, no_memory, results);
   for (Result& r : results) {
     r.depth = depth_of(mesh);
     r.depths = mesh.depths;
@@ -193,12 +195,13 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   return results;
 }
 
-void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool no_memory,
+void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool begun, bool no_memory,
                           std::vector<Result>& results) {
   std::vector<std::string_view> missing{"tessellates"};
-  for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
+  if (begun)
+    for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
   const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
-  if (related(mesh, judged.faces.size()))
+  if (begun && related(mesh, judged))
     for (const std::string_view row : relation_rows_of(judged, mesh.scheme())) missing.push_back(row);
   std::erase_if(missing, [&](std::string_view check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
@@ -236,7 +239,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     rows.add_failure(error, contradicts_capabilities(error, audited, mesh, asked));
     for (const Check& check : checks()) rows.add(check, Status::kNotRun, "there is no tessellation");
     const data::ControlMesh& whole_or_part = sample ? sample->part() : mesh.mesh;
-    if (related(mesh, whole_or_part.faces.size()))
+    if (related(mesh, whole_or_part))
       for (const std::string_view r : relation_rows_of(whole_or_part, mesh.scheme()))
         rows.add(r, Status::kNotRun, "there is no tessellation");
     return;
@@ -268,7 +271,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   run_checks(evidence, rows, no_reference);
   if (keep_rows_) keep_rows_();
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
-  if (interrupted() == 0 && related(mesh, judged.faces.size())) {
+  if (interrupted() == 0 && related(mesh, judged)) {
     const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
     for (Result& r :
          check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))

@@ -27,7 +27,7 @@ struct AuditStep {
 /// How much is looked at.
 enum class Level {
   kQuick,     // one tessellation of each mesh
-  kStandard,  // also the relations (relations.h), on meshes of at most kRelationFaces faces
+  kStandard,  // also the relations (relations.h), on meshes of at most kRelationFaces faces of four corners
   kThorough   // the relations on every mesh
 };
 inline constexpr std::size_t kRelationFaces = 200;
@@ -68,11 +68,12 @@ class Auditor {
   // Adds rows to `results` as they come, so that an interrupt keeps those that are there.
   void judge(const AuditSubject& subject, const AuditMesh& mesh, std::vector<Result>& results);
   void run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference);
-  // Adds each row that is still missing, and why: out of memory, or interrupted.
-  void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool no_memory,
+  // Adds each row that is still missing, and why: out of memory, or interrupted. If nothing was begun it is one
+  // row: at a signal there may be thousands of such pairs, and a second to write a report.
+  void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool begun, bool no_memory,
                    std::vector<Result>& results);
-  // Whether the relations belong to an audit of so many faces.
-  bool related(const AuditMesh& mesh, std::size_t faces) const;
+  // Whether the relations belong to the audit of a mesh, of which this is judged.
+  bool related(const AuditMesh& mesh, const data::ControlMesh& judged) const;
   int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
   ReferenceSurface& reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
                               const lc_capabilities& capabilities);

@@ -291,7 +291,10 @@ TEST(Interrupt, KeepsWhatWasDoneAndSaysWhatWasNot) {
   EXPECT_EQ(count["tetrahedron"][Status::kNotRun], 0);
   EXPECT_GT(count["icosahedron"][Status::kNotRun], 3);
   EXPECT_EQ(count["cube"][Status::kHeld], 0);
-  EXPECT_EQ(count["cube"][Status::kNotRun], static_cast<int>(results.size()) / 3) << "a row for each check";
+  const auto each =
+      std::count_if(results.begin(), results.end(), [](const Result& r) { return r.mesh == "icosahedron"; });
+  EXPECT_GT(each, 10) << "a row for each check of the mesh that was begun";
+  EXPECT_EQ(count["cube"][Status::kNotRun], 1) << "one row for all of what was not begun";
 }
 
 }  // namespace

@@ -118,8 +118,8 @@ void judge_points(std::span<const Corners> triangles, FaceDomain domain, std::in
 
 // Neither the face nor a neighbour is deeper, nor the faces beyond a neighbour, which may be displayed as
 // deep as they are.
-bool is_plain(const Evidence& e, std::int32_t face) {
-  const auto finer = [&](std::int32_t f) { return f >= 0 && deepest_near(e, f) > e.face_depth[face]; };
+bool is_plain(const Evidence& e, std::span<const std::int32_t> deepest, std::int32_t face) {
+  const auto finer = [&](std::int32_t f) { return f >= 0 && deepest[f] > e.face_depth[face]; };
   if (finer(face)) return false;
   for (int k = 0; k < e.lattice.domain(face).corners(); ++k)
     if (finer(e.lattice.across(face, k))) return false;
@@ -160,6 +160,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
   const Tessellation& t = e.tessellation;
   const auto faces = static_cast<std::int32_t>(e.mesh.faces.size());
   const OfFaces triangles(e);
+  const std::vector<std::int32_t> deepest = deepest_near(e);
 
   std::vector<Verdict> verdicts(faces);
   tbb::parallel_for(std::int32_t{0}, faces, [&](std::int32_t f) {
@@ -167,7 +168,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
     Verdict& v = verdicts[f];
     if (e.face_depth[f] >= 0) {
       judge_tiling(own, e.lattice.domain(f), e.lattice.scale(), v);
-      judge_points(own, e.lattice.domain(f), e.lattice.scale(), e.face_depth[f], is_plain(e, f), v);
+      judge_points(own, e.lattice.domain(f), e.lattice.scale(), e.face_depth[f], is_plain(e, deepest, f), v);
     } else if (!own.empty()) {
       v.note(v.shown, own[0][0]);
     }

@@ -159,10 +159,8 @@ std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>
       }
   std::vector<AuditMesh> plan = default_plan(level);
   std::erase_if(plan, [&](const AuditMesh& m) {
-    const std::int32_t kinds = sharp_kinds(m.mesh, m.scheme());
     return std::none_of(all.begin(), all.end(), [&](const Does& d) {
-      return d.scheme == m.scheme() && (kinds & ~d.sharp) == 0 &&
-             ((d.sharp & LC_SHARP_NO_DARTS) == 0 || !has_darts(m.mesh));
+      return d.scheme == m.scheme() && does_sharp(d.sharp, m.mesh, m.scheme());
     });
   });
   return plan;

@@ -70,11 +70,14 @@ bool Evidence::place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>&
   return true;
 }
 
-std::int32_t deepest_near(const Evidence& e, std::int32_t face) {
-  std::int32_t depth = e.face_depth[face];
-  if (depth < 0) return depth;
-  for (int k = 0; k < e.lattice.domain(face).corners(); ++k)
-    if (const std::int32_t g = e.lattice.across(face, k); g >= 0) depth = std::max(depth, e.face_depth[g]);
+std::vector<std::int32_t> deepest_near(const Evidence& e) {
+  std::vector<std::int32_t> depth(e.face_depth.begin(), e.face_depth.end());
+  for (const Lattice::Edge& edge : e.lattice.edges()) {
+    if (edge.on_boundary()) continue;
+    for (int s = 0; s < 2; ++s)
+      if (std::int32_t& its = depth[edge.face[s]]; its >= 0)
+        its = std::max(its, e.face_depth[edge.face[1 - s]]);
+  }
   return depth;
 }
 

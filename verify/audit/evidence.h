@@ -52,8 +52,9 @@ struct Evidence {
   bool place(std::int64_t triangle, std::array<Lattice::Coordinates, 3>& corners) const;
 };
 
-/// How deep a face may be displayed: the largest depth asked for it and, unless it is culled, its neighbours.
-std::int32_t deepest_near(const Evidence& e, std::int32_t face);
+/// How deep each face may be displayed: the largest depth asked for it and, unless it is culled, its
+/// neighbours.
+std::vector<std::int32_t> deepest_near(const Evidence& e);
 
 /// Position and, if there is one, normal of a vertex are neither NaN nor infinite.
 bool is_finite(const Tessellation& tessellation, std::int64_t vertex);

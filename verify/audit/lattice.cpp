@@ -5,10 +5,16 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "data/error.h"
 
 namespace limitcheck::verify {
+namespace {
+
+constexpr int kManyCorners = 16;  // of a face: then its corners are searched for, not gone through
+
+}  // namespace
 
 Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth)
     : mesh_(mesh),
@@ -51,6 +57,7 @@ Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth)
   for (std::int32_t f = 0; f < face_count(); ++f) {
     const bool bare = n_ % domain(f).centre_denominator() != 0;
     first_inner_.push_back(first_inner_.back() + domain(f).inner_count(n_) + bare);
+    if (domain(f).corners() > kManyCorners && vertex_corners_.empty()) list_corners_of_vertices();
   }
 }
 
@@ -75,9 +82,27 @@ Lattice::Id Lattice::id(std::int32_t face, FaceDomain::Point p, std::int64_t ste
 }
 
 std::optional<int> Lattice::corner_of(std::int32_t face, Id id) const {
-  for (int k = 0; k < domain(face).corners(); ++k)
+  const int corners = domain(face).corners();
+  if (corners > kManyCorners) {
+    const auto begin = vertex_corners_.begin() + first_at_vertex_[id],
+               end = vertex_corners_.begin() + first_at_vertex_[id + 1];
+    const std::int32_t first = corner_number(face, 0);
+    const auto found = std::lower_bound(begin, end, first);
+    return found != end && *found < first + corners ? std::optional(*found - first) : std::nullopt;
+  }
+  for (int k = 0; k < corners; ++k)
     if (vertex(face, k) == id) return k;
   return std::nullopt;
+}
+
+void Lattice::list_corners_of_vertices() {
+  const std::span<const std::int32_t> corners = mesh_.faces.corners();
+  first_at_vertex_.assign(mesh_.positions.size() + 1, 0);
+  for (const std::int32_t v : corners) ++first_at_vertex_[v + 1];
+  std::partial_sum(first_at_vertex_.begin(), first_at_vertex_.end(), first_at_vertex_.begin());
+  vertex_corners_.resize(corners.size());
+  std::vector<std::int32_t> next(first_at_vertex_.begin(), first_at_vertex_.end() - 1);
+  for (std::int32_t c = 0; c < corner_count(); ++c) vertex_corners_[next[corners[c]]++] = c;
 }
 
 std::int32_t Lattice::face_of_inner(Id id) const {
@@ -101,11 +126,12 @@ std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) c
     return k ? std::optional(on_side(*k, 0)) : std::nullopt;
   }
   if (is_shared(id)) {
-    const auto edge = static_cast<std::int32_t>(edge_of(id));
-    const std::int64_t from_smaller = id - first_on_edge(edge) + 1;
-    for (int k = 0; k < its.corners(); ++k)
-      if (corner_edge_[corner_number(face, k)] == edge)
-        return on_side(k, vertex(face, k) == edges_[edge].a ? from_smaller : n_ - from_smaller);
+    const Edge& edge = edges_[edge_of(id)];
+    const std::int64_t from_smaller = id - first_on_edge(edge_of(id)) + 1;
+    for (std::size_t s = 0; s < 2; ++s)
+      if (edge.face[s] == face)
+        return on_side(edge.corner[s],
+                       vertex(face, edge.corner[s]) == edge.a ? from_smaller : n_ - from_smaller);
     return std::nullopt;
   }
   if (id < first_inner_[face] || id >= first_inner_[face + 1]) return std::nullopt;

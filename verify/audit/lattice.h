@@ -92,6 +92,7 @@ class Lattice {
 
  private:
   std::int32_t face_of_inner(Id id) const;
+  void list_corners_of_vertices();
 
   const data::ControlMesh& mesh_;
   data::Scheme scheme_;
@@ -102,6 +103,8 @@ class Lattice {
   std::vector<Edge> edges_;
   std::vector<std::int32_t> corner_edge_;  // the edge along the side that begins at each corner
   std::vector<std::int32_t> vertex_face_;  // one face at each vertex
+  // If a face has many corners, the numbers of the corners at each vertex, ascending, from first_at_vertex_ on.
+  std::vector<std::int32_t> first_at_vertex_, vertex_corners_;
 };
 
 /// "3/8", "0", "1".

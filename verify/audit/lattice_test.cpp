@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
+#include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 
 namespace limitcheck::verify {
@@ -48,6 +50,35 @@ TEST(Lattice, ProvenanceRoundTrips) {
   const data::ControlMesh mesh = data::bipyramid(7);
   const Lattice lattice(mesh, 3);
   for (Lattice::Id id = 0; id < lattice.size(); ++id) EXPECT_EQ(lattice.id(lattice.place(id)), id);
+}
+
+// Of faces with many corners these are searched for; the answers are those of going through them.
+TEST(Lattice, KnowsTheCornersAndSidesOfPolygonsOfAnySize) {
+  for (const int n : {5, 16, 17, 100}) {
+    const data::ControlMesh mesh = data::polygon_prism(n);
+    const Lattice lattice(mesh, 2);
+    for (std::int32_t f = 0; f < lattice.face_count(); ++f) {
+      const auto corners = mesh.faces[f];
+      for (std::int32_t v = 0; v < 2 * n; ++v) {
+        const auto found = std::find(corners.begin(), corners.end(), v);
+        const auto at = lattice.corner_of(f, v);
+        ASSERT_EQ(at.has_value(), found != corners.end()) << n << " " << f << " " << v;
+        if (at) {
+          EXPECT_EQ(*at, found - corners.begin()) << n << " " << f << " " << v;
+        }
+      }
+    }
+    for (Lattice::Id id = 0; id < lattice.size(); ++id) {
+      EXPECT_EQ(lattice.id(lattice.place(id)), id);
+      int touched = 0;
+      for (std::int32_t f = 0; f < lattice.face_count(); ++f)
+        if (const auto at = lattice.in_face(id, f)) {
+          ++touched;
+          EXPECT_EQ(lattice.id(lattice.place(f, *at)), id) << n << " " << f;
+        }
+      EXPECT_EQ(touched, lattice.is_vertex(id) ? 3 : lattice.is_shared(id) ? 2 : 1) << n << " " << id;
+    }
+  }
 }
 
 TEST(Lattice, KnowsTheCentreAndNoOtherThirds) {

@@ -9,6 +9,7 @@
 namespace limitcheck::verify {
 
 Outline::Outline(const Evidence& e) : lattice_(e.lattice) {
+  const std::vector<std::int32_t> deepest = deepest_near(e);
   for (const Lattice::Edge& edge : lattice_.edges()) {
     int visible = 0, which = 0;
     for (int s = 0; s < 2; ++s)
@@ -17,7 +18,7 @@ Outline::Outline(const Evidence& e) : lattice_(e.lattice) {
     const std::int32_t face = edge.face[which];
     const auto side = static_cast<std::int32_t>(sides_.size());
     const int k = edge.corner[which];
-    sides_.push_back({face, k, e.face_depth[face], deepest_near(e, face)});
+    sides_.push_back({face, k, e.face_depth[face], deepest[face]});
     for (int depth = sides_.back().least; depth <= sides_.back().most; ++depth) {
       const std::int64_t n = std::int64_t{1} << depth;
       const auto at = [&](std::int64_t along) {

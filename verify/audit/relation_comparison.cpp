@@ -7,6 +7,7 @@
 #include <bit>
 #include <limits>
 
+#include "data/splitmix64.h"
 #include "verify/audit/bounds.h"
 
 namespace limitcheck::verify {
@@ -35,6 +36,17 @@ bool same_bits(const Vector& a, const Vector& b) {
   });
 }
 
+// Of a position and a normal, or of a position alone.
+std::uint64_t digest(const Vector& position, const Vector* normal) {
+  std::uint64_t bits = 0;
+  const auto add = [&](const Vector& v) {
+    for (const double x : v) bits = data::SplitMix64(bits ^ std::bit_cast<std::uint64_t>(x)).next();
+  };
+  add(position);
+  if (normal != nullptr) add(*normal);
+  return bits;
+}
+
 }  // namespace
 
 Compared::Compared(const Evidence& e)
@@ -45,10 +57,20 @@ Compared::Compared(const Evidence& e)
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
     const Placed at = place(e, same, e.tessellation, v);
     if (at.id == Lattice::kNone) continue;
-    by_face_.emplace(*at.face_and_point, v);
+    const auto [known, is_new] = by_face_.try_emplace(*at.face_and_point, Delivered{v, v});
+    if (!is_new) {
+      Delivered& its = known->second;
+      if (its.first == its.last) several_.push_back({*at.face_and_point, 0, its.first});
+      several_.push_back({*at.face_and_point, 0, its.last = v});
+    }
     by_point_.emplace(at.id, v);
     if (!is_finite(e.tessellation, v)) not_finite_.insert(at.id);
   }
+  for (Digest& d : several_) {
+    const Vector normal = e.tessellation.has_normals() ? e.tessellation.normal(d.vertex) : Vector{};
+    d.bits = digest(e.tessellation.position(d.vertex), e.tessellation.has_normals() ? &normal : nullptr);
+  }
+  std::sort(several_.begin(), several_.end());
 }
 
 Comparison Compared::with(const Tessellation& t, const Variant& v, double slack) const {
@@ -81,9 +103,9 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     if (!is_finite(t, k)) not_finite.insert(at.id);
     if (!is_finite(t, k) || not_finite_.contains(at.id)) continue;
     ++c.of;
-    std::int64_t mine = exact != by_face_.end() ? exact->second : any->second;
-    for (auto [k2, last] = by_face_.equal_range(*at.face_and_point); k2 != last; ++k2)
-      if (same(t, k, v, k2->second)) mine = k2->second;
+    std::int64_t mine = exact != by_face_.end() ? exact->second.last : any->second;
+    if (exact != by_face_.end() && exact->second.first != exact->second.last)
+      mine = with_same_bits(t, k, v, *at.face_and_point).value_or(mine);
     const Vector p = v.position(t.position(k)), q = e_.tessellation.position(mine);
     const double off = norm(p - q) / e_.diagonal;
     c.position = std::max(c.position, off);
@@ -120,6 +142,20 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
       c.message = "a point of the original is missing";
     }
   return c;
+}
+
+std::optional<std::int64_t> Compared::with_same_bits(const Tessellation& t, std::int64_t k, const Variant& v,
+                                                     Key key) const {
+  Digest least{key, 0, 0};
+  const bool same_arrays = t.has_normals() == e_.tessellation.has_normals();
+  if (same_arrays) {
+    const Vector normal = t.has_normals() ? v.normal(t.normal(k)) : Vector{};
+    least.bits = digest(v.position(t.position(k)), t.has_normals() ? &normal : nullptr);
+  }
+  for (auto d = std::lower_bound(several_.begin(), several_.end(), least);
+       d != several_.end() && d->key == key && (!same_arrays || d->bits == least.bits); ++d)
+    if (same(t, k, v, d->vertex)) return d->vertex;
+  return std::nullopt;
 }
 
 bool Compared::same(const Tessellation& t, std::int64_t k, const Variant& v, std::int64_t mine) const {

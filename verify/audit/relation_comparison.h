@@ -7,6 +7,7 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "verify/audit/relation_variants.h"
 
@@ -31,11 +32,27 @@ class Compared {
   Comparison with(const Tessellation& t, const Variant& v, double slack) const;
 
  private:
+  using Key = std::int64_t;  // of a point and a face
+  // The vertices by which a face delivers a point. There may be as many as a polygon has corners.
+  struct Delivered {
+    std::int64_t first, last;
+  };
+  struct Digest {
+    Key key;
+    std::uint64_t bits;
+    std::int64_t vertex;
+    auto operator<=>(const Digest&) const = default;
+  };
+
   bool same(const Tessellation& t, std::int64_t k, const Variant& v, std::int64_t mine) const;
+  // The first vertex of several that has the same bits.
+  std::optional<std::int64_t> with_same_bits(const Tessellation& t, std::int64_t k, const Variant& v,
+                                             Key key) const;
 
   const Evidence& e_;
   const bool uniform_;
-  std::unordered_multimap<std::int64_t, std::int64_t> by_face_;  // a face may deliver a point more than once
+  std::unordered_map<Key, Delivered> by_face_;
+  std::vector<Digest> several_;  // all vertices where a face delivers a point more than once, sorted
   std::unordered_map<Lattice::Id, std::int64_t> by_point_;
   std::unordered_set<Lattice::Id> not_finite_;  // points
 };

@@ -53,11 +53,16 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
       ->check(CLI::PositiveNumber)
       ->check(kFinite)
       ->capture_default_str();
-  option(audit.add_option("--max-deviation", files.hausdorff,
-                          "Of the triangles from the surface and back, in diagonals (default: what one "
-                          "triangle, or polygon, per control face would have)"))
-      ->check(CLI::PositiveNumber)
-      ->check(kFinite);
+  CLI::Option* deviation =
+      option(audit.add_option("--max-deviation", files.hausdorff,
+                              "Of the triangles from the surface and back, in diagonals (default: what one "
+                              "triangle, or polygon, per control face would have)"))
+          ->check(CLI::PositiveNumber)
+          ->check(kFinite);
+  option(audit.add_flag("--no-hausdorff", files.no_hausdorff,
+                        "Leave out how far the triangles are from the surface and back, which takes longest: "
+                        "the row file-hausdorff is not run"))
+      ->excludes(deviation);
   option(audit.add_option("--per-vertex", files.per_vertex,
                           "Write distance, normal angle and parameter of every vertex to this CSV file"));
 }
@@ -81,6 +86,7 @@ int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std:
   options.scheme = opened.chosen.scheme;
   options.tolerance = files.tolerance;
   if (files.hausdorff > 0) options.hausdorff = files.hausdorff;
+  options.measures_hausdorff = !files.no_hausdorff;
   options.needs_normals = files.normals;
   options.fit = files.fit.empty()      ? verify::Fit::kNone
                 : files.fit == "scale" ? verify::Fit::kScale

@@ -13,7 +13,7 @@ namespace limitcheck::cli {
 struct FilesArguments {
   std::string control, tessellation, provenance, per_vertex, fit;
   double tolerance = 1e-6, hausdorff = 0;
-  bool normals = false;
+  bool normals = false, no_hausdorff = false;
 
   bool given() const { return !tessellation.empty(); }
 };

@@ -29,6 +29,18 @@ TEST_F(AuditFilesCommand, HoldsTheEnginesOwnFilesWithinTheRoundingOfFloat) {
   }
 }
 
+TEST_F(AuditFilesCommand, LeavesTheHausdorffDistanceOutIfAsked) {
+  ASSERT_EQ(run("generate icosahedron -o cage.obj").code, 0);
+  ASSERT_EQ(run("tessellate cage.obj --depth 1 -o out.ply").code, 0);
+  const Outcome o = run("audit --control cage.obj --tessellation out.ply --no-hausdorff --json");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const auto rows = nlohmann::json::parse(o.out)["results"];
+  EXPECT_EQ(rows.size(), 10U);
+  for (const auto& row : rows)
+    EXPECT_EQ(row["status"], row["check"] == "file-hausdorff" ? "not-run" : "held") << row;
+  EXPECT_EQ(run("audit --control cage.obj --tessellation out.ply --no-hausdorff --max-deviation 1").code, 2);
+}
+
 TEST_F(AuditFilesCommand, TellsTheControlMeshItselfFromATessellation) {
   ASSERT_EQ(run("generate icosahedron -o cage.obj").code, 0);
   const Outcome o = run("audit --control cage.obj --tessellation cage.obj");

@@ -267,7 +267,7 @@ TEST_F(Misfortune, ASignalLeavesAPartialReportAndNoProcess) {
     const auto report = nlohmann::json::parse(read("r.json"));
     EXPECT_EQ(report["incomplete"], "interrupted by SIG" + std::string(signal));
     EXPECT_EQ(report["held"], false);
-    EXPECT_GT(report["results"].size(), 20U) << "a row for each check of both meshes";
+    EXPECT_GT(report["results"].size(), 10U) << "a row for each check of the mesh that was begun";
     for (const auto& row : report["results"]) EXPECT_EQ(row["status"], "not-run") << row;
   }
 }

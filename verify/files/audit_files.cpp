@@ -115,9 +115,16 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
     normals.status = Status::kFinding;
     normals.bad = normals.of = static_cast<std::int64_t>(tessellation.positions.size());
   }
-  append(audit.results,
-         check_file_hausdorff(e, options.hausdorff.value_or(-1), [&] { step("Hausdorff distance", 0, 1); }));
-  if (!tessellation.triangles.empty()) audit.notes.push_back(row(audit, "file-hausdorff").message);
+  if (options.measures_hausdorff) {
+    append(audit.results, check_file_hausdorff(e, options.hausdorff.value_or(-1),
+                                               [&] { step("Hausdorff distance", 0, 1); }));
+    if (!tessellation.triangles.empty()) audit.notes.push_back(row(audit, "file-hausdorff").message);
+  } else {
+    Result left_out = e.result("file-hausdorff");
+    left_out.status = Status::kNotRun;
+    left_out.message = "left out, as asked";
+    audit.results.push_back(left_out);
+  }
 
   Result& distance = row(audit, distance_row(provenance));
   const auto say = [&](const std::string& sentence) {

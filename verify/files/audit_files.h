@@ -18,6 +18,7 @@ struct FilesOptions {
   double tolerance = 1e-6;               // of positions, in diagonals of the control mesh's bounding box
   std::optional<double> hausdorff;       // likewise, of the two-sided distance; without: what one polygon per
                                          // face has, and the tolerance
+  bool measures_hausdorff = true;        // otherwise the row is not run
   bool needs_normals = false;            // a file without normals is a finding
   std::optional<data::Scheme> scheme{};  // of the control mesh; without: the one that it is meant for
   Fit fit = Fit::kNone;

@@ -141,6 +141,42 @@ std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const
   return feet;
 }
 
+namespace {
+
+void sort_once(std::vector<std::int32_t>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+// All faces that a point lies in, ascending.
+std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at) {
+  const Chart chart = domain.chart();
+  std::vector<std::int32_t> faces{at.face};
+  for (int k = 0; k < chart.corners(); ++k)
+    if (chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0)
+      faces.push_back(domain.across(at.face, k));
+  if (const int k = chart.corner_at(at.l); k >= 0)
+    for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) faces.push_back(f);
+  sort_once(faces);
+  return faces;
+}
+
+// How many they are, or 2 where the point is no corner.
+std::size_t count_faces(const Domain& domain, const FacePoint& at) {
+  const int k = domain.chart().corner_at(at.l);
+  return k < 0 ? 2 : domain.faces_at(domain.vertex(at.face, k)).size();
+}
+
+void add_neighbours(const Domain& domain, std::vector<std::int32_t>& faces) {
+  const std::size_t known = faces.size();
+  for (std::size_t f = 0; f < known; ++f)
+    for (int k = 0; k < domain.chart().corners(); ++k)
+      if (const std::int32_t next = domain.across(faces[f], k); next >= 0) faces.push_back(next);
+  sort_once(faces);
+}
+
+}  // namespace
+
 PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points) {
   PlacedTriangle placed;
   for (const std::int32_t p : points)
@@ -148,27 +184,26 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
   const Domain& domain = e.surface.domain();
   const Chart chart = domain.chart();
 
-  // Candidates: the faces of all three corners, and those next to them that corners on an edge share.
-  std::vector<std::int32_t> candidates;
-  for (const std::int32_t p : points) {
-    const FacePoint& at = e.place[p];
-    candidates.push_back(at.face);
-    for (int k = 0; k < chart.corners(); ++k)
-      if (chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0)
-        candidates.push_back(domain.across(at.face, k));
-    if (const int k = chart.corner_at(at.l); k >= 0)
-      for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) candidates.push_back(f);
-  }
+  // Candidates are the faces of the corner that lies in the fewest: a face that all three lie in is among them.
+  // Beyond an edge, they are those and their neighbours, as far as one of the corners lies in them.
+  const auto faces_of = [&](std::int32_t p) { return count_faces(domain, e.place[p]); };
+  const std::int32_t with_fewest =
+      *std::min_element(points.begin(), points.end(),
+                        [&](std::int32_t p, std::int32_t q) { return faces_of(p) < faces_of(q); });
+  std::vector<std::int32_t> candidates = faces_with(domain, e.place[with_fewest]);
   // Three points of one edge, or of its ends, lie in both of its faces, and in the wrong one have no area.
   const auto area_of = [](const auto& l) {
     return l[0][0] * (l[1][1] * l[2][2] - l[1][2] * l[2][1]) -
            l[0][1] * (l[1][0] * l[2][2] - l[1][2] * l[2][0]) +
            l[0][2] * (l[1][0] * l[2][1] - l[1][1] * l[2][0]);
   };
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   for (const bool unfold : {false, true}) {
+    if (unfold) add_neighbours(domain, candidates);
     for (const std::int32_t face : candidates) {
+      FacePoint ignored;
+      if (unfold && std::none_of(points.begin(), points.end(),
+                                 [&](std::int32_t p) { return domain.express(e.place[p], face, ignored); }))
+        continue;
       std::array<Chart::Affine, 3> l{};
       bool all = true;
       for (int c = 0; c < 3 && all; ++c) {

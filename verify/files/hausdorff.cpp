@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "verify/files/overlap.h"
@@ -20,6 +21,33 @@ constexpr Barycentric kMiddles[] = {{1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .
 constexpr int kLooseSplits = 3;
 constexpr double kNoArea = 1e-14;    // of a face, in its parameters
 constexpr std::size_t kExact = 400;  // places at which the distance is computed
+
+// Triangles that lie together. Few are gone through, many are found by their boxes.
+class Polygon {
+ public:
+  explicit Polygon(std::vector<std::array<Vector, 3>> triangles) : triangles_(std::move(triangles)) {
+    if (triangles_.size() <= kFew) return;
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(triangles_.size());
+    for (const auto& t : triangles_) boxes.push_back(BoxTree::around({t[0], t[1], t[2]}));
+    tree_.emplace(boxes);
+  }
+
+  double distance(const Vector& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    const auto look = [&](std::size_t k) {
+      return least = std::min(least, closest_on_triangle(p, triangles_[k]).distance);
+    };
+    if (tree_) tree_->near(p, look);
+    for (std::size_t k = 0; k < triangles_.size() && !tree_; ++k) look(k);
+    return least;
+  }
+
+ private:
+  static constexpr std::size_t kFew = 16;
+  std::vector<std::array<Vector, 3>> triangles_;
+  std::optional<BoxTree> tree_;
+};
 
 class Measurer {
  public:
@@ -49,8 +77,11 @@ class Measurer {
     const std::size_t per_face = lattice.size() / over_.size();
     bounds_.assign(lattice.size(), {});
     std::vector<double> apart(over_.size(), 0);
+    std::vector<std::optional<Polygon>> polygons(e_.control.faces.size());
+    tbb::parallel_for(std::size_t{0}, polygons.size(),
+                      [&](std::size_t f) { polygons[f].emplace(one_polygon(static_cast<std::int32_t>(f))); });
     tbb::parallel_for(std::size_t{0}, over_.size(), [&](std::size_t f) {
-      const auto polygon = one_polygon(f);
+      const Polygon& polygon = *polygons[e_.surface.surface().control_face(static_cast<std::int32_t>(f))];
       const bool hole = is_hole(static_cast<std::int32_t>(f));
       for (std::size_t k = 0; k < per_face; ++k) {
         const std::size_t index = f * per_face + k;
@@ -58,7 +89,7 @@ class Measurer {
         bounds_[index] = look(piece, near(piece, over_[f]));
         if (hole) continue;
         for (const Vector& c : piece.corner)
-          apart[f] = std::max(apart[f], distance_to(polygon, c) + piece.deviation);
+          apart[f] = std::max(apart[f], polygon.distance(c) + piece.deviation);
       }
     });
     result.one_polygon_each = *std::max_element(apart.begin(), apart.end());
@@ -97,8 +128,8 @@ class Measurer {
         }
         tick_();
         const Piece piece = lattice.piece(k);
-        const double most = refine(piece, near(piece, over_[piece.face]), forwards, tightness, bracket, 0);
-        bracket.at_most = std::max(bracket.at_most, most);
+        bracket.at_most = std::max(bracket.at_most, refine(piece, near(piece, over_[piece.face]), forwards,
+                                                           tightness, bracket.at_most, bracket, 0));
       }
       if (forwards)
         for (const std::int32_t t : loose_) {
@@ -124,23 +155,15 @@ class Measurer {
     bool bare = false;                   // some of the piece has no triangle over it
   };
 
-  // The control face in which a face of the domain lies as one flat polygon of the limits of its corners, cut
-  // as files are: a fan from the first.
-  std::vector<std::array<Vector, 3>> one_polygon(std::size_t f) const {
+  // A control face as one flat polygon of the limits of its corners, cut as files are: a fan from the first.
+  std::vector<std::array<Vector, 3>> one_polygon(std::int32_t face) const {
     const LimitSurface& surface = e_.surface.surface();
-    const std::int32_t face = surface.control_face(static_cast<std::int32_t>(f));
     std::vector<Vector> corner;
     for (std::size_t k = 0; k < e_.control.faces[face].size(); ++k)
       corner.push_back(e_.surface.at(surface.control_corner(face, static_cast<int>(k)), {}).position);
     std::vector<std::array<Vector, 3>> fan;
     for (std::size_t k = 1; k + 1 < corner.size(); ++k) fan.push_back({corner[0], corner[k], corner[k + 1]});
     return fan;
-  }
-
-  static double distance_to(const std::vector<std::array<Vector, 3>>& triangles, const Vector& p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& t : triangles) least = std::min(least, closest_on_triangle(p, t).distance);
-    return least;
   }
 
   // Over its face, and over the faces beyond the edges it crosses.
@@ -227,17 +250,21 @@ class Measurer {
     return bracket.at_least * (1 + tightness) + 1e-15 * e_.surface.diagonal();
   }
 
-  // Where no triangle is, the distance at the middle is as good as any: it raises the lower end, too.
+  // Where no triangle is, the distance at the middle is as good as any: it raises the lower end, too. A bound
+  // of at most `known` is not refined, because the distance may be as large elsewhere.
   double refine(const Piece& piece, const std::vector<Over>& over, bool forwards, double tightness,
-                Bracket& bracket, int level) const {
+                double known, Bracket& bracket, int level) const {
     const Bound bound = look(piece, over);
-    if (!forwards && bound.bare) raise(bracket, bound.at_surface);
+    const bool bare = !forwards && bound.bare;
+    if (bare) raise(bracket, bound.at_surface);
     const double value = forwards ? bound.from_triangles : bound.from_surface;
-    if (value <= enough_for(bracket, tightness) || level >= (piece.irregular >= 0 ? kCornerSplits : kSplits))
+    if (value <= enough_for(bracket, tightness) || (value <= known && !bare) ||
+        level >= (piece.irregular >= 0 ? kCornerSplits : kSplits))
       return value;
     double most = 0;
     for (const Piece& child : e_.surface.lattice().split(piece, e_.surface.surface()))
-      most = std::max(most, refine(child, near(child, over), forwards, tightness, bracket, level + 1));
+      most = std::max(most, refine(child, near(child, over), forwards, tightness, std::max(known, most),
+                                   bracket, level + 1));
     return std::min(value, most);
   }
 
@@ -263,7 +290,7 @@ class Measurer {
     if (forwards) {
       const Vector p = mix(corners_[bound.triangle], bound.weight);
       if (cannot_raise(p, bracket)) return;
-      const Foot foot = e_.surface.closest(p);
+      const Foot foot = e_.surface.closest(p, no_more(bracket));
       d = foot.distance;
       where = foot.at;
     } else {
@@ -275,6 +302,9 @@ class Measurer {
   }
 
   // Where a point of the surface is near enough the nearest need not be known.
+  static double no_more(const Bracket& bracket) {
+    return bracket.where.face >= 0 ? bracket.at_least * (1 - 1e-12) : 0;
+  }
   bool cannot_raise(const Vector& p, const Bracket& bracket) const {
     return bracket.where.face >= 0 && e_.surface.at_most(p) <= bracket.at_least * (1 + 1e-12);
   }
@@ -284,7 +314,7 @@ class Measurer {
     for (const Barycentric& weight : kMiddles) {
       const Vector p = mix(t, weight);
       if (cannot_raise(p, bracket)) continue;
-      const Foot foot = e_.surface.closest(p);
+      const Foot foot = e_.surface.closest(p, no_more(bracket));
       if (foot.distance <= bracket.at_least && bracket.where.face >= 0) continue;
       bracket.at_least = foot.distance;
       bracket.where = foot.at;

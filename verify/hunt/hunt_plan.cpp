@@ -190,7 +190,7 @@ HuntCase HuntPlan::next() {
     AuditMesh m{mesh_name(does, turn, k >= kPatience, random), {}};
     m.mesh = data::named_mesh(m.name);
     m.asked_scheme = does.scheme;
-    if ((sharp_kinds(m.mesh, does.scheme) & ~does.sharp) != 0 || !data::validate(m.mesh, does.scheme).empty())
+    if (!data::validate(m.mesh, does.scheme).empty() || !does_sharp(does.sharp, m.mesh, does.scheme))
       continue;
     const Asked asked = depths_for(m.mesh.faces.size(), turn / 8 + turn, random);
     m.depth = asked.depth, m.depths = asked.depths;

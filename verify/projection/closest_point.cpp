@@ -92,7 +92,7 @@ std::optional<Foot> ClosestPoint::on_surface(const Vector& p, double within) con
   return at(found.at, p);
 }
 
-Foot ClosestPoint::closest(const Vector& p) const {
+Foot ClosestPoint::closest(const Vector& p, double enough) const {
   // A nearer point that could only be nearer by rounding is not worth looking for.
   const double rounding = 1e-16 * diagonal_;
   Minimum best;
@@ -114,7 +114,7 @@ Foot ClosestPoint::closest(const Vector& p) const {
       FacePoint corner{piece.face, piece.at[k]};
       best = {corner, corners[k], d, false};
     }
-    if (best.distance <= rounding) return 0.0;
+    if (best.distance <= std::max(rounding, enough)) return 0.0;
     int cuts = best.stationary ? kCuts : 0;
     if (!may_be_nearer(lattice_, surface_, piece, p, best.distance - rounding, cuts))
       return best.distance - rounding;
@@ -125,10 +125,11 @@ Foot ClosestPoint::closest(const Vector& p) const {
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
         best = found;
     }
-    return best.distance - rounding;
+    return best.distance <= enough ? 0.0 : best.distance - rounding;
   });
   Foot foot = at(best.at, p);
-  foot.at_least = foot.distance <= rounding ? 0 : std::clamp(at_least, 0.0, foot.distance);
+  const bool ended_early = enough > 0 && best.distance <= enough;
+  foot.at_least = ended_early || foot.distance <= rounding ? 0 : std::clamp(at_least, 0.0, foot.distance);
   const bool at_corner = domain().chart().corner_at(best.at.l) >= 0;
   foot.stationary = best.stationary || foot.distance <= rounding ||
                     (at_corner && norm(cross(p - foot.position, foot.normal)) <= 1e-12 * diagonal_);

@@ -44,7 +44,8 @@ class ClosestPoint {
   ///   error    foot and distance as the evaluator's, that is about 2e-16 of the mesh, for points nearer than
   ///            the smallest radius of curvature; the test has measurements
   /// Where several points are nearest, it is one of them.
-  Foot closest(const Vector& p) const;
+  ///   enough   a point no farther than this will do, whether or not it is the closest; at_least is 0 then
+  Foot closest(const Vector& p, double enough = 0) const;
 
   /// A point of the surface no farther from p than `within`, found by one descent from the nearest of the flat
   /// triangles: as good as `closest` where p lies on the surface but for rounding and the surface does not

@@ -193,7 +193,9 @@ class FaceDomain {
       for (std::int64_t k = 0; k < pieces; ++k) visit(at(k), at(k + 1));
       return;
     }
-    for (int side = 0; side < corners(); ++side) {
+    const auto at = side_of(p, n);  // a corner lies on the side before, too
+    const int own = at ? at->side : 0, other = at && at->along == 0 ? previous(own) : own;
+    for (const int side : {own < other ? own : other, own < other ? other : own}) {
       const Point middle{n / 2, 0, side};
       if (n % 2 != 0 || !on_line(p, side, n) || !on_line(q, side, n)) continue;
       for_each_step(p, middle, n, unit, visit);

@@ -70,6 +70,11 @@ inline bool has_darts(const data::ControlMesh& mesh) {
   return false;
 }
 
+/// Whether capabilities `sharp`, LC_SHARP_..., are enough for all that is sharp in this mesh. It is valid.
+inline bool does_sharp(std::int32_t sharp, const data::ControlMesh& mesh, data::Scheme scheme) {
+  return (sharp_kinds(mesh, scheme) & ~sharp) == 0 && ((sharp & LC_SHARP_NO_DARTS) == 0 || !has_darts(mesh));
+}
+
 /// A copy, which a subject may write to without spoiling anybody else's.
 struct LentMesh {
   std::vector<double> positions;

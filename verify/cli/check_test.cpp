@@ -67,7 +67,10 @@ TEST_F(CheckCommand, UnusedVerticesAreLeftOutAndNoFault) {
         << check.out;
     ASSERT_EQ(run("tessellate " + mesh + " -o fine.ply --depth 2").code, 0);
     EXPECT_EQ(run("audit --control " + mesh + " --tessellation fine.ply").code, 0);
-    EXPECT_EQ(run("eval " + mesh + " 0 1/3 1/3 --json").out, run("eval used.obj 0 1/3 1/3 --json").out);
+    const auto position = [&](const std::string& of) {
+      return nlohmann::json::parse(run("eval " + of + " 0 1/3 1/3 --json").out)["position"];
+    };
+    EXPECT_EQ(position(mesh), position("used.obj"));
   }
 }
 

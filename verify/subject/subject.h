@@ -128,8 +128,9 @@ typedef struct lc_capabilities {
   lc_scheme scheme; /* what is asked about: the answer may differ by the scheme */
   int32_t schemes;  /* which there are, LC_DOES_LOOP | LC_DOES_CATMULL_CLARK; 0: Loop's alone */
   int32_t sharp;    /* what it does of sharp edges, LC_SHARP_CREASES | ..; 0: nothing */
-  int32_t does_not_validate; /* 1: relies on its callers to hand over oriented manifolds with vertices that
-                                exist and finite coordinates, and is handed nothing else; 0: refuses others */
+  /* 1: relies on its callers to hand over oriented manifolds with vertices that exist and finite coordinates,
+   * and is handed nothing else; 0: refuses others */
+  int32_t does_not_validate;
 } lc_capabilities;
 
 /* A control mesh: an oriented 2-manifold, boundaries allowed, or what a subject that validates has to refuse.

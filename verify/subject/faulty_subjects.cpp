@@ -72,9 +72,10 @@ class FaultySubject {
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) {
-    const Tessellation good = session_.tessellate(
-        std::span(request.face_depth, static_cast<std::size_t>(lent_.triangle_count)), request.threads);
+    const std::span depth(request.face_depth, static_cast<std::size_t>(lent_.triangle_count));
+    const Tessellation good = session_.tessellate(depth, request.threads);
     Copy<Real> copy{copy_of<Real>(good)};
+    copy.face_depth.assign(depth.begin(), depth.end());
     planted_faults<Real>()[fault_].plant(session_.mesh(), copy);
     deliver(copy, request, out);
   }

@@ -15,6 +15,7 @@ namespace limitcheck::verify {
 /// What a subject delivered, so that vertices and triangles can be added and removed.
 template <class Real>
 struct Copy : DeliveredCopy<Real> {
+  std::vector<std::int32_t> face_depth = {};  // that was asked for
   // Faults of the memory: planted when it is handed over.
   std::optional<std::int64_t> announced_vertices = std::nullopt;
   bool foreign_normals = false, overlap = false, overrun = false, underrun = false, modify_mesh = false;

@@ -67,11 +67,7 @@ std::vector<PlantedFault<Real>> rare_faults() {
       {{"depth_difference_3",
         "in faces beside one whose depth differs by 3, points are 1e-5 of the mesh off along x"},
        [](Mesh mesh, Out out) {
-         std::vector<int> depth(mesh.faces.size(), -1);  // 4^depth triangles each
-         std::vector<std::size_t> count(mesh.faces.size(), 0);
-         for (const std::int32_t f : out.triangle_face) ++count[f];
-         for (std::size_t f = 0; f < count.size(); ++f)
-           for (std::size_t left = count[f]; left > 0; left /= 4) ++depth[f];
+         const auto& depth = out.face_depth;
          std::vector<bool> spoilt(mesh.faces.size(), false);
          for (const auto& [ends, f] : faces_of_edges(mesh))
            if (f[1] >= 0 && depth[f[0]] >= 0 && depth[f[1]] >= 0 && std::abs(depth[f[0]] - depth[f[1]]) == 3)

@@ -4,7 +4,7 @@
 #   bench/cluster/submit.sh SHARDS FOLDER SUBJECT [arguments of limitcheck hunt, for example --cases 1000000 --seed 7]
 set -euo pipefail
 shards=$1 folder=$2
-shift
+shift 2
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$folder"
 array=$(sbatch --parsable --array="1-$shards" --output="$folder/shard-%a.log" "$here/hunt.sbatch" "$folder" "$@")

@@ -64,9 +64,11 @@ CONF
 mkdir -p "$d/state" "$d/spool-n1" "$d/spool-n2"
 slurmctld -D >"$d/ctl.out" 2>&1 &
 daemons[ctl]=$!
+disown
 for node in n1 n2; do
   slurmd -D -N "$node" >"$d/$node.out" 2>&1 &
   daemons[$node]=$!
+  disown
 done
 for _ in {1..100}; do [[ $(sinfo -h -t idle -o %D 2>/dev/null) == 2 ]] && break; sleep 0.2; done
 [[ $(sinfo -h -t idle -o %D) == 2 ]] || { echo "the cluster does not come up"; tail -n 5 "$d"/*.log >&2; exit 1; }

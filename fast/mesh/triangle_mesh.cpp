@@ -34,8 +34,4 @@ void TriangleMesh::points_moved() {
   for (std::size_t v = 0; v < uncut_.size(); ++v) with_copies_->positions[v] = mesh_->positions[uncut_[v]];
 }
 
-bool TriangleMesh::has_darts() const {
-  return std::find(kinds_.begin(), kinds_.end(), VertexKind::kDart) != kinds_.end();
-}
-
 }  // namespace limitcheck::fast

@@ -31,8 +31,8 @@ class TriangleMesh {
 
   const Adjacency& adjacency() const { return adjacency_; }
   VertexKinds kinds() const { return std::span(kinds_); }
-  /// Whether a sharp edge ends somewhere inside the surface.
-  bool has_darts() const;
+  /// Whether there are sharp edges inside the surface, along which it is cut.
+  bool is_cut() const { return with_copies_.has_value(); }
   /// The vertex that this one is a copy of, or itself.
   std::int32_t uncut(std::int32_t v) const { return with_copies_ ? uncut_[v] : v; }
   /// The face on the other side of a cut or an ordinary edge; -1 at the boundary of the control mesh.

@@ -19,7 +19,7 @@ namespace limitcheck::fast::row_stream {
 ///
 /// The options name the scheme: Loop's for triangles, or Catmull-Clark's for any polygons, with infinitely
 /// sharp edges and vertices; the constructor throws data::ArgumentError where something is semi-sharp and, of
-/// triangles, where a sharp edge ends inside the surface. The kernel for quads is the one of that name.
+/// triangles, where an edge inside the surface is sharp. The kernel for quads is the one of that name.
 class StreamTessellator : public Engine<float> {
  public:
   explicit StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options = {},

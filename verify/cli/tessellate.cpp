@@ -113,7 +113,7 @@ std::string engine_of(const Arguments& a, const OpenedMesh& opened) {
   const data::ControlMesh& mesh = opened.mesh;
   const bool beyond_streaming =
       has_semi_sharp(mesh.sharpness) || (opened.chosen.scheme == data::Scheme::kLoop &&
-                                         !mesh.sharpness.empty() && fast::TriangleMesh(mesh).has_darts());
+                                         !mesh.sharpness.empty() && fast::TriangleMesh(mesh).is_cut());
   return beyond_streaming ? "sliding-window" : "row-stream";
 }
 
@@ -285,8 +285,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
           "--engine", a->engine,
           "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
           "row-stream, or sliding-window for what row-stream does not do: semi-sharp edges and vertices, and "
-          "in "
-          "Loop's scheme sharp edges that end inside the surface")
+          "in Loop's scheme sharp edges inside the surface")
       ->check(CLI::IsMember({"row-stream", "sliding-window"}));
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");

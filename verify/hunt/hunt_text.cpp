@@ -38,14 +38,23 @@ std::string to_text(const HuntReport& r, const std::set<std::string>* known) {
   if (r.seconds > 0)
     text += fmt::format(", {:.1f} cases per second and process", static_cast<double>(r.cases) / r.seconds);
   text += "\n";
-  std::int64_t old = 0;
+  HuntReport copy = r;
+  std::set<std::string> shown;  // the same check in many neighbourhoods would hide the others
+  for (const HuntFinding* f : copy.to_shrink()) shown.insert(f->signature);
+  std::int64_t old = 0, more = 0;
   for (const HuntFinding& f : r.findings) {
     const bool is_new = known == nullptr || !known->contains(f.signature);
     old += is_new ? 0 : 1;
     if (!is_new) continue;
+    if (known == nullptr && !shown.contains(f.signature)) {
+      ++more;
+      continue;
+    }
     text += fmt::format("\n{}  {}\n  {}; in {} case{}\n  {}\n  {}\n", f.severity(), f.signature, size_of(f),
                         f.cases, f.cases == 1 ? "" : "s", mesh_of(f), command_of(f));
   }
+  if (more > 0)
+    text += fmt::format("\n... and the same checks in {} more neighbourhoods, which --json names\n", more);
   const std::size_t fresh = r.findings.size() - static_cast<std::size_t>(old);
   text += fmt::format("\n{} finding{}{}\n", fresh, fresh == 1 ? "" : "s",
                       known == nullptr ? "" : fmt::format(" that the baseline has not, {} that it has", old));

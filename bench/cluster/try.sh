@@ -12,7 +12,7 @@ for tool in munged slurmctld slurmd sbatch; do
 done
 [[ $EUID == 0 ]] || { echo "skipped: slurmd needs root"; exit 77; }
 
-d=$(mktemp -d /tmp/limitcheck-slurm.XXXXXX)
+d=$(mktemp -d -t limitcheck-slurm.XXXXXX)
 export SLURM_CONF=$d/slurm.conf PATH=$(dirname "$program"):$PATH
 declare -A daemons
 stop() {

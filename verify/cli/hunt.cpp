@@ -203,6 +203,7 @@ int hunt(Arguments a) {
   const auto end =
       start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   const PartFiles files(a, shard, a.jobs);
+  if (!a.resume) files.remove();  // those of a hunt that was killed
   Progress progress;
   const int code = run_jobs(
       a.jobs,
@@ -298,11 +299,11 @@ void add_hunt(CLI::App& app, int& exit_code) {
                     "Run a built-in subject in the processes of the hunt: faster, and a crash ends the hunt");
   add_subject_options(*command, a->from);
   command->footer(
-      "A finding is what was seen at one check in one kind of neighbourhood: the first is shrunk to few "
-      "faces, "
-      "the others are counted. Exit codes: 0 nothing new was found, 1 findings, 2 bad usage or input, or "
-      "nothing "
-      "was judged; 130 and the like after a signal, with a report of the cases so far.");
+      "A finding is what was seen at one check in one kind of neighbourhood, however often; the first four "
+      "of a "
+      "check are shrunk to few faces. Exit codes: 0 nothing new was found, 1 findings, 2 bad usage or input, "
+      "or "
+      "nothing was judged; 130 and the like after a signal, with a report of the cases so far.");
   command->callback([a, &exit_code] { exit_code = hunt(*a); });
 }
 

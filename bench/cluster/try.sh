@@ -20,7 +20,9 @@ stop() {
   kill -KILL "${daemons[@]}" 2>/dev/null || true
   pkill -KILL -f "slurmstepd.*$d|limitcheck hunt .*$d" || true
   kill "$(cat "$d/munge.pid")" 2>/dev/null || true
-  rm -rf "$d"
+  # What was killed may still be writing its last file.
+  for _ in {1..100}; do rm -rf "$d" 2>/dev/null && return; sleep 0.1; done
+  echo "left behind: $d" >&2
 }
 trap stop EXIT
 # A port that nobody listens to, and the two after it.

@@ -85,16 +85,21 @@ TEST(Canvas, ShowsTheNearerSurfaceInAnyOrder) {
 TEST(Canvas, ShowsTheNearerOfTwoSurfacesThatCross) {
   const auto distance = [](double x) { return 2 / (1 + (x - 6) / 8); };  // of the slope from the viewer
   const auto slope = [&](double x, double y) { return at(x, y, 1 - distance(x)); };
-  for (const bool first : {true, false}) {
+  const Vertex slope_corner[3]{slope(2, 2), slope(2, 14), slope(14, 5)};
+  for (const int turned : {0, 1, 2, 3, 4, 5}) {
+    const bool first = turned < 3;
     Canvas canvas(small_camera());
-    const auto sloping = [&] { canvas.triangle(slope(2, 2), slope(2, 14), slope(14, 5)); };
+    const auto sloping = [&] {
+      canvas.triangle(slope_corner[turned % 3], slope_corner[(turned + 1) % 3],
+                      slope_corner[(turned + 2) % 3]);
+    };
     Vertex flat[3]{at(2, 2, -1), at(2, 14, -1), at(14, 5, -1)};
     for (Vertex& v : flat) v.normal = {1, 0, 0};
     if (first) sloping();
     canvas.triangle(flat[0], flat[1], flat[2]);
     if (!first) sloping();
-    EXPECT_NEAR(canvas.picture().at(4, 6), shade_of(1, 0, 0), 1e-4) << first;
-    EXPECT_NEAR(canvas.picture().at(7, 6), shade_of(0, 0, 1), 1e-4) << first;
+    EXPECT_NEAR(canvas.picture().at(4, 6), shade_of(1, 0, 0), 1e-4) << turned;
+    EXPECT_NEAR(canvas.picture().at(7, 6), shade_of(0, 0, 1), 1e-4) << turned;
   }
 }
 

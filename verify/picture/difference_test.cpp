@@ -111,6 +111,33 @@ TEST(Difference, TheMedianOfThreeIsTheMiddleOne) {
   EXPECT_EQ(difference(truth, seen).mean, 4);
 }
 
+TEST(Difference, QuantilesAreThoseOfTheSortedErrors) {
+  Picture truth{101, 1, std::vector<float>(101, 100)};
+  Picture seen = truth;
+  for (int x = 0; x < 101; ++x) seen.shade[x] += static_cast<float>((x * 37) % 101);  // 0 .. 100 in disorder
+  EXPECT_EQ(difference(truth, seen).median, 50);
+  EXPECT_EQ(difference(truth, seen).percentile_99, 99);
+}
+
+TEST(Difference, OnlyMissingPixelsMakeAGap) {
+  const Difference d = difference(rectangle(0, 0, 4, 4), rectangle(2, 0, 9, 4));
+  EXPECT_EQ(d.extra, 20);
+  EXPECT_EQ(d.missing, 8);
+  EXPECT_EQ(d.largest_gap, 8);
+}
+
+TEST(Difference, TheWorstCountsNotTheLast) {
+  const Picture one = rectangle(0, 0, 1, 1);
+  Picture two = one;
+  two.shade[9] = two.shade[2 * kWidth] = 100;  // (9, 0), found first, lies farther away than (0, 2)
+  EXPECT_EQ(difference(two, one).contour, 9);
+  DifferenceMeter meter;
+  meter.add(rectangle(0, 0, 8, 8), rectangle(0, 0, 5, 5));
+  meter.add(rectangle(0, 0, 8, 8), rectangle(0, 0, 8, 7));
+  EXPECT_EQ(meter.result().largest_gap, 64 - 25);
+  EXPECT_DOUBLE_EQ(meter.result().contour, std::hypot(3, 3));
+}
+
 TEST(Difference, TakesPairsTogether) {
   DifferenceMeter meter;
   meter.add(rectangle(0, 0, 10, 10), rectangle(0, 0, 10, 10));

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "data/generators/bumpy_sphere.h"
+#include "fast/window/tessellator.h"
+#include "verify/picture/canvas.h"
 #include "verify/picture/judge.h"
 
 namespace limitcheck::verify {
@@ -14,6 +18,41 @@ TEST(Judge, SeesNoDifferenceToTheSameDepth) {
   EXPECT_EQ(seen.difference.mean, 0);
   EXPECT_EQ(seen.triangles, 60 * 64);
   EXPECT_GT(seen.difference.pixels, 50'000);
+}
+
+TEST(Judge, TheViewerGoesRoundTheObject) {
+  const auto expect = [](const fast::Camera& camera, double x, double z) {
+    EXPECT_NEAR(camera.eye.x, x, 1e-12);
+    EXPECT_EQ(camera.eye.y, 1);
+    EXPECT_NEAR(camera.eye.z, z, 1e-12);
+  };
+  expect(viewer(0), 0, 4);
+  expect(viewer(.25), 4, 0);
+  expect(viewer(.5), 0, -4);
+}
+
+TEST(Judge, AFinerSphereAlsoMeansFinerAngles) {
+  const fast::DepthOptions options = adaptive(fast::Strategy::kCombined, 60);
+  EXPECT_EQ(options.strategy, fast::Strategy::kCombined);
+  EXPECT_EQ(options.target_pixels, 60);
+  EXPECT_EQ(options.angle_front, 30);
+  EXPECT_EQ(options.angle_silhouette, 30);
+  EXPECT_EQ(adaptive(fast::Strategy::kProjectSphere, 1000).angle_front, 180) << "no angle is larger";
+  EXPECT_EQ(adaptive(fast::Strategy::kProjectSphere, 7.5).target_pixels, 7.5);
+  EXPECT_EQ(adaptive(fast::Strategy::kProjectSphere, 7.5).strategy, fast::Strategy::kProjectSphere);
+}
+
+TEST(Judge, LooksFromBothSides) {
+  const data::ControlMesh mesh = data::bumpy_sphere(60, 1);
+  fast::Tessellator<float> engine(mesh);
+  std::int64_t pixels = 0;
+  for (const double turn : {0., .5}) {
+    Canvas canvas(viewer(turn));
+    engine.frame(uniform(3), viewer(turn), canvas);
+    const Picture& p = canvas.picture();
+    pixels += std::count_if(p.shade.begin(), p.shade.end(), [](float s) { return s != Picture::kNothing; });
+  }
+  EXPECT_EQ(Judge(mesh, 3).see(uniform(3)).difference.pixels, pixels);
 }
 
 // A facet's normals deviate from the surface's by the square of its size: a quarter for each level.

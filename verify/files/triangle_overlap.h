@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For hausdorff.cpp: triangles of a tessellation over those of a face's domain.
+// For overlay.h: triangles of a tessellation over those of a face's domain.
 #pragma once
 
 #include <array>

@@ -5,49 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/triangles.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/projection/cut_mesh.h"
 #include "verify/projection/quad_bound.h"
+#include "verify/projection/quad_cell.h"
+#include "verify/projection/sharp_pieces.h"
 
 namespace limitcheck::verify {
-namespace {
-
-Chart::Affine middle(const Chart::Affine& a, const Chart::Affine& b) {
-  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-}
-
-// A quad of a face's lattice, its corners from the one at which its diagonal begins.
-struct Cell {
-  std::array<std::array<int, 2>, 4> corner;
-};
-Cell cell(int i, int j, int n) {
-  constexpr std::array<std::array<int, 2>, 4> kCorner{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  const bool right = 2 * i >= n, up = 2 * j >= n;
-  const int nearest = up ? (right ? 2 : 3) : (right ? 1 : 0);
-  Cell c;
-  for (int k = 0; k < 4; ++k) {
-    const auto& [x, y] = kCorner[(nearest + k) % 4];
-    c.corner[k] = {i + x, j + y};
-  }
-  return c;
-}
-
-constexpr std::array<std::array<int, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
-
-}  // namespace
-
-FacePoint Piece::parameter(const std::array<double, 3>& weight) const {
-  FacePoint p{face, {}};
-  for (int k = 0; k < 3; ++k) p.l[k] = weight[0] * at[0][k] + weight[1] * at[1][k] + weight[2] * at[2][k];
-  p.l = chart.clamp(p.l);
-  return p;
-}
 
 int SurfaceLattice::depth_for(const data::ControlMesh& mesh, std::size_t pieces,
                               const reference::SharpTags& tags) {
@@ -73,82 +41,6 @@ SurfaceLattice::SurfaceLattice(const data::ControlMesh& mesh, int depth, const r
     subdivide_triangles(mesh, tags);
 }
 
-namespace {
-
-using reference::Sharpness;
-using reference::Topology;
-using reference::VertexState;
-using Points = std::vector<reference::Vec3<double>>;
-
-// What the sharp edges and vertices of a refined mesh mean for its pieces.
-struct SharpPieces {
-  const Topology& topology;
-  const Points& positions;
-  const Sharpness& sharpness;
-  CutMesh cut;
-  std::vector<bool> rough;  // of each face
-
-  SharpPieces(const Topology& whole, const Points& points, const Sharpness& sharp)
-      : topology(whole),
-        positions(points),
-        sharpness(sharp),
-        cut(whole, points, sharp),
-        rough(sharp.needs_a_step(whole)) {}
-
-  // Whether bounds are wanted for the vertex: in one of its sectors it is extraordinary, and no semi-sharp
-  // tags are near.
-  //   inside, boundary   the faces of an ordinary sector
-  bool is_irregular(std::int32_t v, std::size_t inside, std::size_t boundary) const {
-    const auto& sector = topology.sector(v).faces;
-    for (const std::int32_t f : sector)
-      for (const std::int32_t near : topology.faces()[f])
-        if (near != v || sector.size() < 3)
-          for (const std::int32_t other : topology.sector(near).faces)
-            if (rough[other]) return false;
-    if (cut.states[v] != VertexState::kOrdinary) return true;
-    return std::any_of(sector.begin(), sector.end(), [&](std::int32_t f) {
-      const auto corners = cut.topology.faces()[f];
-      const std::int32_t copy =
-          *std::find_if(corners.begin(), corners.end(), [&](std::int32_t c) { return cut.origin[c] == v; });
-      const reference::Sector its = cut.topology.sector(copy);
-      return its.faces.size() != (its.closed ? inside : boundary);
-    });
-  }
-  SharpVertexOf at(std::int32_t v) const { return {&sharpness, cut.states[v] == VertexState::kHeld}; }
-
-  // Of a face without an extraordinary vertex: as a polynomial, or, near semi-sharp tags, by its hull.
-  struct Bound {
-    double size;
-    bool rough;
-  };
-  template <class Regular>
-  Bound bound(std::size_t face, Regular regular) const {
-    if (!rough[face])
-      if (const std::optional<double> size = regular(cut)) return {*size, false};
-    return {hull(static_cast<std::int32_t>(face)), true};
-  }
-  // The size of what the surface over a face depends on, a bound for all pieces of it.
-  double hull(std::int32_t face) const {
-    const auto corners = topology.faces()[face];
-    double radius = 0;
-    for (const std::int32_t corner : corners)
-      for (const std::int32_t f : topology.sector(corner).faces)
-        for (const std::int32_t v : topology.faces()[f]) {
-          const auto to = positions[v] - positions[corners[0]];
-          radius = std::max(radius, std::sqrt(dot(to, to)));
-        }
-    return 2 * radius;
-  }
-};
-
-std::optional<SharpPieces> sharp_pieces(const Topology& topology, const Points& positions,
-                                        const std::optional<Sharpness>& sharpness) {
-  if (!sharpness) return std::nullopt;
-  return SharpPieces(topology, positions, *sharpness);
-}
-
-}  // namespace
-
 void SurfaceLattice::subdivide_triangles(const data::ControlMesh& mesh, const reference::SharpTags& tags) {
   reference::RefinedMesh<double> refined(reference::positions_of<double>(mesh),
                                          data::triangles_of(mesh).to_vector(), reference::Weights::kLoop,
@@ -157,7 +49,7 @@ void SurfaceLattice::subdivide_triangles(const data::ControlMesh& mesh, const re
   triangles_ = refined.triangles();
   for (const auto& p : refined.limits().positions) limits_.push_back(vector_of(p));
 
-  const Topology& topology = refined.topology();
+  const reference::Topology& topology = refined.topology();
   const auto sharp = sharp_pieces(topology, refined.positions(), sharpness);
   const auto vertices = mesh.positions.size();
   bounds_.resize(vertices);
@@ -217,7 +109,7 @@ void SurfaceLattice::subdivide_quads(const data::ControlMesh& mesh, const refere
   const auto sharpness = refine_tagged(refined, tags, depth_);
   for (const auto& p : refined.limits().positions) limits_.push_back(vector_of(p));
 
-  const Topology& topology = refined.topology();
+  const reference::Topology& topology = refined.topology();
   const auto sharp = sharp_pieces(topology, refined.positions(), sharpness);
   const auto vertices = mesh.positions.size();
   bounds_.resize(vertices);
@@ -268,92 +160,6 @@ void SurfaceLattice::subdivide_quads(const data::ControlMesh& mesh, const refere
 
 double SurfaceLattice::largest_deviation() const {
   return *std::max_element(deviation_.begin(), deviation_.end());
-}
-
-std::array<Vector, 3> SurfaceLattice::corners(std::size_t index) const {
-  const auto& t = triangles_[index];
-  return {limits_[t[0]], limits_[t[1]], limits_[t[2]]};
-}
-
-Piece SurfaceLattice::piece(std::size_t index) const {
-  const auto n = std::int64_t{1} << depth_;
-  const double s = std::ldexp(1.0, -depth_);
-  Piece p;
-  p.chart = chart_;
-  p.corner = corners(index);
-  p.deviation = deviation_[index];
-  p.irregular = irregular_[index];
-  p.rough = !rough_.empty() && rough_[index] != 0;
-  if (chart_.is_square()) {
-    const auto quad = static_cast<std::int64_t>(index / 2), within_face = quad % (n * n);
-    p.face = static_cast<std::int32_t>(quad / (n * n));
-    const Cell its =
-        cell(static_cast<int>(within_face % n), static_cast<int>(within_face / n), static_cast<int>(n));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto& [i, j] = its.corner[kHalves[index % 2][k]];
-      p.at[k] = Chart::at(i * s, j * s);
-    }
-    return p;
-  }
-  // Of a triangle, first the upright triangles, rows of equal j, then the others.
-  const auto within = static_cast<std::int64_t>(index) % (n * n);
-  const std::int64_t upright = n * (n + 1) / 2;
-  std::int64_t left = within < upright ? within : within - upright, i = 0, j = 0;
-  for (std::int64_t row = within < upright ? n : n - 1; left >= row; --row, ++j) left -= row;
-  i = left;
-  p.face = static_cast<std::int32_t>(static_cast<std::int64_t>(index) / (n * n));
-  const auto at = [&](std::int64_t a, std::int64_t b) {
-    return Chart::Affine{static_cast<double>(n - a - b) * s, static_cast<double>(a) * s,
-                         static_cast<double>(b) * s};
-  };
-  if (within < upright)
-    p.at = {at(i, j), at(i + 1, j), at(i, j + 1)};
-  else
-    p.at = {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-  return p;
-}
-
-std::array<Piece, 4> SurfaceLattice::split(const Piece& piece, const LimitSurface& surface) const {
-  std::array<Chart::Affine, 3> at;  // middles of the edges 01, 12, 20
-  std::array<Vector, 3> point;
-  for (int k = 0; k < 3; ++k) {
-    at[k] = middle(piece.at[k], piece.at[(k + 1) % 3]);
-    point[k] = surface.position({piece.face, at[k]});
-  }
-  std::array<Piece, 4> child;
-  for (int k = 0; k < 3; ++k) {
-    child[k].at[k] = piece.at[k];
-    child[k].corner[k] = piece.corner[k];
-    for (const int other : {k, (k + 2) % 3}) {  // middles of the two edges at corner k
-      const int place = other == k ? (k + 1) % 3 : (k + 2) % 3;
-      child[k].at[place] = at[other];
-      child[k].corner[place] = point[other];
-    }
-  }
-  child[3].at = at;
-  child[3].corner = point;
-  for (Piece& c : child) {
-    c.chart = piece.chart;
-    c.face = piece.face;
-    c.rough = piece.rough;
-    // Regular: second derivatives per edge fall to a quarter.
-    c.deviation = piece.rough ? piece.deviation : piece.deviation / 4;
-  }
-  if (piece.irregular < 0) return child;
-  // Which corner is extraordinary: the one that is a corner of the face.
-  const CornerBounds& bounds = bounds_[piece.irregular];
-  const int step = piece.steps + 1;
-  const bool known = step < static_cast<int>(bounds.corner.size());
-  for (int k = 0; k < 4; ++k) {
-    if (k < 3 && chart_.corner_at(piece.at[k]) >= 0) {
-      child[k].irregular = piece.irregular;
-      child[k].steps = step;
-      child[k].deviation = known ? bounds.corner[step] : piece.deviation;
-    } else {
-      child[k].deviation = known ? bounds.outer[step] : piece.deviation;
-    }
-  }
-  return child;
 }
 
 }  // namespace limitcheck::verify

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "data/bounding_box.h"
+#include "verify/audit/ask_earlier.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/clock.h"
 #include "verify/audit/recognise.h"
@@ -229,6 +230,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   try {
     step(rows.subject, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options, Session::Input::kValid, mesh.scheme());
+    ask_earlier(*session, mesh, asked, depth_of(mesh), threads_);
     tessellation.emplace(session->tessellate(asked, threads_));
     rows.add("tessellates", Status::kHeld, "");
     results.back().of = 1;

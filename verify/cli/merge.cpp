@@ -39,7 +39,7 @@ void add_merge(CLI::App& app, int& exit_code) {
     const verify::HuntReport whole = verify::merged(parts);
     verify::write_text(a->output, verify::to_json(whole));
     fmt::print("{}", verify::to_text(whole));
-    exit_code = whole.findings.empty() ? kHeld : kFindings;
+    exit_code = verify::new_findings(whole, nullptr).empty() ? kHeld : kFindings;
   });
 }
 

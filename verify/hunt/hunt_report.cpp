@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -77,22 +76,6 @@ void take(std::map<std::string, HuntFinding>& all, const HuntFinding& more) {
 }
 
 }  // namespace
-
-Shard parse_shard(const std::string& text) {
-  const auto refuse = [&] {
-    throw data::ArgumentError(fmt::format("--shard {}: K/N with 1 <= K <= N, for example 3/8", text));
-  };
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  std::uint64_t k = 0;
-  auto [at, error] = std::from_chars(text.data(), end, k);
-  if (error != std::errc() || at == end || *at != '/') refuse();
-  const auto count = std::from_chars(at + 1, end, shard.count);
-  if (count.ec != std::errc() || count.ptr != end || k < 1 || k > shard.count || shard.count > 1'000'000)
-    refuse();
-  shard.index = k - 1;
-  return shard;
-}
 
 std::string HuntFinding::severity() const {
   const double ratio = status != "finding" ? HUGE_VAL : worst && bound && *bound > 0 ? *worst / *bound : 1;
@@ -205,10 +188,9 @@ HuntReport combined(const std::vector<HuntReport>& parts) {
 }
 
 HuntReport merged(const std::vector<HuntReport>& parts) {
-  if (parts.empty()) throw data::ArgumentError("there is nothing to merge");
-  const HuntReport& first = parts.front();
-  std::set<std::uint64_t> there;
+  std::vector<Shard> shards;
   for (const HuntReport& p : parts) {
+    const HuntReport& first = parts.front();
     const auto hunt = [](const HuntReport& r) {
       return std::tie(r.version, r.subject, r.seed, r.asked, r.schemes, r.varied, r.shard.count);
     };
@@ -217,11 +199,9 @@ HuntReport merged(const std::vector<HuntReport>& parts) {
     };
     if (hunt(p) != hunt(first)) refuse("is of another hunt than shard " + first.shard.text());
     if (!p.incomplete.empty()) refuse("is incomplete: " + p.incomplete);
-    if (!there.insert(p.shard.index).second) refuse("is there twice");
+    shards.push_back(p.shard);
   }
-  for (std::uint64_t k = 0; k < first.shard.count; ++k)
-    if (!there.contains(k))
-      throw data::ArgumentError(fmt::format("shard {} is missing", Shard{k, first.shard.count}.text()));
+  require_all(shards);
   return combined(parts);
 }
 

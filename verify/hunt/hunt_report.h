@@ -9,26 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "verify/hunt/neighbourhood.h"
+#include "verify/hunt/surroundings.h"
+#include "verify/shard/shard.h"
 
 namespace limitcheck::verify {
 
-/// Every `count`-th block of a plan, from block `index` on.
-struct Shard {
-  std::uint64_t index = 0, count = 1;
-  bool has(std::uint64_t block) const { return block % count == index; }
-  /// "3/8": the third of eight.
-  std::string text() const { return std::to_string(index + 1) + "/" + std::to_string(count); }
-};
-
-/// Throws data::ArgumentError for anything but "K/N" with 1 <= K <= N.
-Shard parse_shard(const std::string& text);
-
-/// Findings of one signature (neighbourhood.h), by the first of them.
+/// Findings of one signature (surroundings.h), by the first of them.
 struct HuntFinding {
   std::string signature, check, status;  // status: "finding", "crash", ...
   std::string scheme;
-  Neighbourhood where;
+  Surroundings where;
   std::int64_t cases = 0;         // in which it was seen
   std::uint64_t first = 0;        // the first of them
   std::string found_on;           // a command that shows it on the mesh where it was found
@@ -51,7 +41,7 @@ struct HuntReport {
   std::string version, subject;
   std::uint64_t seed = 0, asked = 0;  // cases of the whole plan; 0: as many as there was time for
   std::vector<std::string> schemes, varied;  // varied: --vary
-  Shard shard;
+  Shard shard;                        // of blocks of cases
   std::uint64_t cases = 0;            // that were looked at
   std::uint64_t next = 0;             // all cases of the shard before this one were
   std::int64_t judged = 0;            // of them, those of which anything was looked at

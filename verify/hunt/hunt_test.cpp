@@ -99,22 +99,14 @@ TEST(Hunt, ReportsAreReadAsTheyWereWritten) {
     EXPECT_THROW(read_hunt_report(text), data::ArgumentError) << text;
 }
 
-TEST(Hunt, ShardsAreNamedFromOneOn) {
-  EXPECT_EQ(parse_shard("3/8").index, 2U);
-  EXPECT_EQ(parse_shard("3/8").text(), "3/8");
-  for (const char* text :
-       {"", "0/3", "4/3", "3", "a/b", "1/", "/2", "1/2/3", "-1/2", "1/0", "1/99999999999999999999"})
-    EXPECT_THROW(parse_shard(text), data::ArgumentError) << text;
-}
-
-TEST(Neighbourhood, IsWhatProgramsCanTellApart) {
+TEST(Surroundings, IsWhatProgramsCanTellApart) {
   const auto words = [](const char* name, std::int64_t face, std::vector<std::int32_t> depth = {}) {
     AuditMesh m{name, data::named_mesh(name)};
     m.face_depth = std::move(depth);
     Result r;
     r.scheme = m.scheme();
     if (face >= 0) r.witness = Witness{face};
-    return neighbourhood(r, m).words();
+    return surroundings(r, m).words();
   };
   EXPECT_EQ(words("octahedron", -1), "");
   EXPECT_EQ(words("torus", 5), "regular");
@@ -129,30 +121,30 @@ TEST(Neighbourhood, IsWhatProgramsCanTellApart) {
   EXPECT_EQ(words("corner:3", 0), "corner of 6 faces, beside another extraordinary one");
 }
 
-TEST(Neighbourhood, CoversThoseThatHaveAllOfItAndMore) {
-  const Neighbourhood regular{"regular", "", 0, false, 0}, unequal{"regular", "", 0, false, 2};
-  const Neighbourhood five{"inner vertex", "5", 1, false, 0}, seven{"inner vertex", "7", 1, false, 0};
-  const Neighbourhood many{"inner vertex", "more than 40", 3, true, 1}, dart{"dart", "5", 1, false, 0};
+TEST(Surroundings, CoversThoseThatHaveAllOfItAndMore) {
+  const Surroundings regular{"regular", "", 0, false, 0}, unequal{"regular", "", 0, false, 2};
+  const Surroundings five{"inner vertex", "5", 1, false, 0}, seven{"inner vertex", "7", 1, false, 0};
+  const Surroundings many{"inner vertex", "more than 40", 3, true, 1}, dart{"dart", "5", 1, false, 0};
   EXPECT_TRUE(regular.covers(unequal) && regular.covers(five) && regular.covers(dart) && five.covers(many));
   EXPECT_FALSE(unequal.covers(regular) || unequal.covers(five) || five.covers(seven) || seven.covers(five) ||
                five.covers(dart) || many.covers(five) || five.covers(five) || regular.covers({}) ||
-               Neighbourhood{}.covers(regular));
-  const std::vector<Neighbourhood> all{regular, unequal, five, seven, many, dart};
-  for (const Neighbourhood& a : all)
-    for (const Neighbourhood& b : all)
+               Surroundings{}.covers(regular));
+  const std::vector<Surroundings> all{regular, unequal, five, seven, many, dart};
+  for (const Surroundings& a : all)
+    for (const Surroundings& b : all)
       if (a.covers(b)) {
         EXPECT_LT(a.level(), b.level()) << a.words() << " / " << b.words();
       }
 }
 
-TEST(Neighbourhood, IsThatOfTheNearestExtraordinaryCorner) {
+TEST(Surroundings, IsThatOfTheNearestExtraordinaryCorner) {
   const auto near = [](const char* name, std::int64_t face, const char* u, const char* v, int corner = -1) {
     const AuditMesh m{name, data::named_mesh(name)};
     Result r;
     r.scheme = m.scheme();
     r.witness = Witness{face, u, v};
     r.witness->corner = corner;
-    return neighbourhood(r, m).words();
+    return surroundings(r, m).words();
   };
   // bipyramid:9 has apices of 9 faces and an equator of 4.
   std::set<std::string> all;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/hunt/neighbourhood.h"
+#include "verify/hunt/surroundings.h"
 
 #include <fmt/core.h>
 
@@ -98,7 +98,7 @@ int depth_difference(const AuditMesh& audited, std::size_t face, const FacesArou
 
 }  // namespace
 
-std::string Neighbourhood::words() const {
+std::string Surroundings::words() const {
   if (kind.empty()) return "";
   std::string words = kind;
   if (kind != "regular")
@@ -111,13 +111,13 @@ std::string Neighbourhood::words() const {
   return difference > 0 ? words + fmt::format("; depths differ by {}", difference) : words;
 }
 
-bool Neighbourhood::covers(const Neighbourhood& other) const {
+bool Surroundings::covers(const Surroundings& other) const {
   if (*this == other || kind.empty() || other.kind.empty() || difference > other.difference) return false;
   if (kind == "regular") return true;
   return kind == other.kind && (valence == other.valence || rank < other.rank) && beside <= other.beside;
 }
 
-Neighbourhood neighbourhood(const Result& finding, const AuditMesh& audited) {
+Surroundings surroundings(const Result& finding, const AuditMesh& audited) {
   const data::ControlMesh& mesh = audited.mesh;
   if (!finding.witness || finding.witness->face < 0 ||
       finding.witness->face >= static_cast<std::int64_t>(mesh.faces.size()))
@@ -140,7 +140,7 @@ Neighbourhood neighbourhood(const Result& finding, const AuditMesh& audited) {
     const std::tuple here{near[k], at.kind, at.faces};
     if (!cause || here > *cause) cause = here, middle = of_face;
   }
-  Neighbourhood where;
+  Surroundings where;
   where.difference = std::min(4, depth_difference(audited, face, around));
   where.kind = "regular";
   if (!cause) return where;
@@ -152,7 +152,7 @@ Neighbourhood neighbourhood(const Result& finding, const AuditMesh& audited) {
   return where;
 }
 
-std::string signature(const Result& finding, const Neighbourhood& where) {
+std::string signature(const Result& finding, const Surroundings& where) {
   return fmt::format("{}{}{}{}{}", finding.scheme == data::Scheme::kLoop ? "" : "catmull-clark: ",
                      finding.check,
                      finding.status == Status::kFinding ? "" : fmt::format(" ({})", word(finding.status)),

@@ -11,7 +11,7 @@ namespace limitcheck::verify {
 
 /// The likely cause near the place of a finding: of the corners of its face that are not regular, and of its
 /// middle if it is cut into quads, the nearest; or of several equally near the one that most goes with.
-struct Neighbourhood {
+struct Surroundings {
   std::string kind;     // "regular", "inner vertex", "boundary vertex", "crease", "dart", "corner", "face"; or
                         // empty: the finding names no face
   std::string valence;  // class of the number of faces, of a face of corners: "1" to "7", "8 to 40", "more .."
@@ -22,16 +22,16 @@ struct Neighbourhood {
   /// "inner vertex of 7 faces, beside another extraordinary one; depths differ by 3"
   std::string words() const;
   /// A fault there would show in `other`, too, which has all that this has and more.
-  bool covers(const Neighbourhood& other) const;
+  bool covers(const Surroundings& other) const;
   /// Less than that of any other that it covers.
   int level() const { return (kind == "regular" ? 0 : 1 + rank) + (beside ? 1 : 0) + difference; }
 
-  friend bool operator==(const Neighbourhood&, const Neighbourhood&) = default;
+  friend bool operator==(const Surroundings&, const Surroundings&) = default;
 };
 
-Neighbourhood neighbourhood(const Result& finding, const AuditMesh& mesh);
+Surroundings surroundings(const Result& finding, const AuditMesh& mesh);
 
 /// By which findings are one: scheme, check, status, and the neighbourhood. Stable.
-std::string signature(const Result& finding, const Neighbourhood& where);
+std::string signature(const Result& finding, const Surroundings& where);
 
 }  // namespace limitcheck::verify

@@ -304,8 +304,8 @@ std::vector<NamedMesh> named_meshes() {
   list.push_back(
       {"stretched:K:NAME...", "a mesh 2^K times as long along x: stretched:10:random:1 has needles"});
   list.push_back({"handled:K:NAME...", "a mesh with up to K tubes more, each in the place of two faces"});
-  list.push_back({"turned:SEED:NAME...",
-                  "a mesh with some inner edges between other corners of the faces beside them"});
+  list.push_back(
+      {"turned:SEED:NAME...", "a mesh with some inner edges between other corners of the faces beside them"});
   return list;
 }
 

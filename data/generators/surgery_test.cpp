@@ -51,7 +51,8 @@ TEST(TurnedEdges, LeaveAnyMeshValid) {
   int changed = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const int faces = 6 + static_cast<int>(seed * 3 % 150);
-    const ControlMesh triangles = random_mesh(seed, {.faces = faces}), mixed = mixed_mesh(seed, {.faces = faces});
+    const ControlMesh triangles = random_mesh(seed, {.faces = faces}),
+                      mixed = mixed_mesh(seed, {.faces = faces});
     const ControlMesh flipped = with_turned_edges(triangles, seed);
     ASSERT_TRUE(validate(flipped).empty()) << seed << ": " << validate(flipped)[0].message;
     EXPECT_TRUE(flipped.faces.are_triangles());

@@ -89,7 +89,7 @@ TEST(DefaultPlan, QuickLeavesOutTheWorstCases) {
 TEST(Depths, AreReadAsTheyAreWritten) {
   for (const char* text :
        {"uniform", "random:7", "random:7:visible", "view", "face0-culled", "all-culled", "file:a:b.txt",
-                           "after:3:uniform", "after:3:random:7:visible", "after:3:file:a:b.txt"})
+        "after:3:uniform", "after:3:random:7:visible", "after:3:file:a:b.txt"})
     EXPECT_EQ(parse_depths(text).text(), text);
   EXPECT_EQ(parse_depths("random").text(), "random:1");
   for (const char* text : {"", "random:", "random:x", "random:1:", "random:1:seen", "random:-1", "culled",

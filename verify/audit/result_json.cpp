@@ -139,9 +139,10 @@ std::vector<Result> rows_of(const Json& json) {
 Json header_json(const Report& report) {
   Json meshes = Json::array();
   for (const Report::Mesh& m : report.meshes) meshes.push_back(header_json(m));
-  return {{"version", report.version}, {"depth", report.depth},       {"depths", report.depths},
-          {"seed", report.seed ? Json(*report.seed) : Json(nullptr)}, {"sample", report.sample},
-          {"meshes", meshes},          {"subjects", report.subjects}, {"descriptions", report.descriptions}};
+  return {{"version", report.version},   {"depth", report.depth},
+          {"depths", report.depths},     {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
+          {"sample", report.sample},     {"meshes", meshes},
+          {"subjects", report.subjects}, {"descriptions", report.descriptions}};
 }
 
 Report header_of(const Json& json) {

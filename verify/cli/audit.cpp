@@ -135,11 +135,12 @@ struct Job {
 void refuse_with_shards(const Arguments& a) {
   if (a.shard.of().is_whole()) return;
   a.shard.check();
-  for (const auto& [option, given] :
-       {std::pair{"--baseline", !a.output.baseline.empty()}, std::pair{"--waivers", !a.output.waivers.empty()},
-        std::pair{"--require", !a.output.required.empty()}})
+  for (const auto& [option, given] : {std::pair{"--baseline", !a.output.baseline.empty()},
+                                      std::pair{"--waivers", !a.output.waivers.empty()},
+                                      std::pair{"--require", !a.output.required.empty()}})
     if (given)
-      throw data::ArgumentError(fmt::format("{} needs the whole report: it is an option of limitcheck merge", option));
+      throw data::ArgumentError(
+          fmt::format("{} needs the whole report: it is an option of limitcheck merge", option));
   if (a.must_refuse) throw data::ArgumentError("--must-refuse has no shards");
 }
 
@@ -207,7 +208,8 @@ std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSu
     if (shard)
       write_part(a.shard, *journal,
                  {{}, {}, report.seconds, report.containment, report.printed, report.incomplete});
-    else if (!a.shard.json.empty() && a.shard.json != "-") verify::write_text(a.shard.json, verify::to_json(report, a.output.level));
+    else if (!a.shard.json.empty() && a.shard.json != "-")
+      verify::write_text(a.shard.json, verify::to_json(report, a.output.level));
     if (job.whole && !shard) {
       verify::write_text(kReportFile, verify::to_json(report, a.output.level));
       verify::write_text(kTextFile,

@@ -251,8 +251,9 @@ void write_junit(const OutputArguments& a, const verify::Report& report) {
 
 std::string nothing_looked_at(bool polygons) {
   return std::string("nothing was looked at: nothing that was asked for is supported") +
-         (polygons ? "; a subject that does Loop's scheme only needs --triangulate for meshes with larger faces"
-                   : "");
+         (polygons
+              ? "; a subject that does Loop's scheme only needs --triangulate for meshes with larger faces"
+              : "");
 }
 
 int exit_code_of(const verify::Report& report, bool judged) {

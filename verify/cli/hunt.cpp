@@ -238,8 +238,7 @@ int hunt(Arguments a) {
   if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report));
   if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report, before));
   if (report.incomplete.empty()) files.remove();
-  fmt::print("{}",
-             a.json == "-" ? verify::to_json(report) : verify::to_text(report, before));
+  fmt::print("{}", a.json == "-" ? verify::to_json(report) : verify::to_text(report, before));
   if (const int signal = verify::interrupted(); signal != 0) return kSignalled + signal;
   if (!report.incomplete.empty() || report.judged == 0) return kBadInput;
   return verify::new_findings(report, before).empty() ? kHeld : kFindings;
@@ -303,7 +302,8 @@ void add_hunt(CLI::App& app, int& exit_code) {
   command->remove_option(command->get_option("--isolate"));  // that is so unless --in-process is given
   command->footer(
       "A finding is what was seen at one check in one kind of neighbourhood, however often, unless the same "
-      "was seen where there is less; one for each kind of vertex is shrunk to few faces. Exit codes: 0 nothing new was found, 1 findings, 2 bad usage or "
+      "was seen where there is less; one for each kind of vertex is shrunk to few faces. Exit codes: 0 "
+      "nothing new was found, 1 findings, 2 bad usage or "
       "input, or nothing was judged; 130 and the like after a signal, with a report of the cases so far.");
   command->callback([a, &exit_code] { exit_code = hunt(*a); });
 }

@@ -55,8 +55,7 @@ int merge_hunt(const MergeArguments& a) {
 }
 
 int merge(const MergeArguments& a) {
-  refuse_one_file_for_two(
-      {{"-o", a.output}, {"--junit", a.report.junit}, {"--baseline", a.report.baseline}});
+  refuse_one_file_for_two({{"-o", a.output}, {"--junit", a.report.junit}, {"--baseline", a.report.baseline}});
   const std::string program = read_file(a.parts.at(0), program_of);
   if (program == "limitcheck hunt") {
     refuse(a, program, true);
@@ -77,15 +76,16 @@ int merge(const MergeArguments& a) {
 void add_merge(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<MergeArguments>();
   CLI::App* command = app.add_subcommand(
-      "merge", "Join what --shard has made: the parts of an audit, a hunt, a table of mutants, a set of proofs");
-  command
-      ->add_option("PART", a->parts, "The files that --shard K/N --json FILE has written, in any order")
+      "merge",
+      "Join what --shard has made: the parts of an audit, a hunt, a table of mutants, a set of proofs");
+  command->add_option("PART", a->parts, "The files that --shard K/N --json FILE has written, in any order")
       ->required();
   command->add_option("-o,--output", a->output, "The report of the whole, as one process writes it")
       ->required();
   add_report_options(*command, a->report);
   command->footer(
-      "Exit codes: as of the command whose parts they are; 2 if a part is missing, there twice, incomplete or "
+      "Exit codes: as of the command whose parts they are; 2 if a part is missing, there twice, incomplete "
+      "or "
       "of another plan.");
   command->callback([a, &exit_code] { exit_code = merge(*a); });
 }

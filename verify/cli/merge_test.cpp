@@ -32,8 +32,8 @@ class Merge : public CommandTest {
     std::string parts;
     for (int k = count; k > 0; --k) {
       const std::string name = "part" + std::to_string(k) + ".json";
-      const Outcome o = run(command + " --shard " + std::to_string(k) + "/" + std::to_string(count) + " --json " +
-                            name);
+      const Outcome o =
+          run(command + " --shard " + std::to_string(k) + "/" + std::to_string(count) + " --json " + name);
       EXPECT_LE(o.code, 1) << o.err;
       EXPECT_FALSE(std::filesystem::exists(folder_ / (name + "l")));
       parts += name + " ";
@@ -85,8 +85,9 @@ TEST_F(Merge, BaselinesWaiversAndJUnitAreOfTheWhole) {
 TEST_F(Merge, WrongPartsAreRefused) {
   const std::string all = "audit naive octahedron tetrahedron --depth 1 --level quick ";
   EXPECT_EQ(in_parts(all, 2).code, 0);
-  EXPECT_EQ(run("audit naive octahedron tetrahedron --depth 2 --level quick --shard 2/2 --json other.json").code,
-            0);
+  EXPECT_EQ(
+      run("audit naive octahedron tetrahedron --depth 2 --level quick --shard 2/2 --json other.json").code,
+      0);
   EXPECT_EQ(run(all + "--json whole.json").code, 0);
   json part = json::parse(read("part2.json"));
   part["results"].erase(0);
@@ -115,13 +116,14 @@ TEST_F(Merge, WrongPartsAreRefused) {
 
 TEST_F(Merge, AShardThatWasKilledGoesOnWhereItWas) {
   // The second case hangs until there is `go`.
-  write("slow.sh",
-        "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
-        "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
-        "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line || exit 0\n"
-        "n=$(cat n 2> /dev/null || echo 0); n=$((n + 1)); echo $n > n\n"
-        "if [ $n = 2 ] && [ ! -e go ]; then sleep 1000; fi\n"
-        "echo '{\"status\": \"failed\", \"message\": \"no\"}'\n");
+  write(
+      "slow.sh",
+      "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
+      "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
+      "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line || exit 0\n"
+      "n=$(cat n 2> /dev/null || echo 0); n=$((n + 1)); echo $n > n\n"
+      "if [ $n = 2 ] && [ ! -e go ]; then sleep 1000; fi\n"
+      "echo '{\"status\": \"failed\", \"message\": \"no\"}'\n");
   const std::string all =
       "audit --program 'bash slow.sh' tetrahedron wheel:5 octahedron wheel:7 --depth 1 --level quick ";
   write("kill.sh", "'" LIMITCHECK_PROGRAM "' " + all +

@@ -114,7 +114,8 @@ void add_mutants(CLI::App& app, int& exit_code) {
   add_shard_options(*command, *a, "mutants, and of the meshes for right subjects");
   command->footer(
       "Exit codes: 0 every mutant is killed by the check meant for it, every check kills one, and correct "
-      "subjects have no finding (of a shard: it is done, and limitcheck merge will say); 1 otherwise; 130 and "
+      "subjects have no finding (of a shard: it is done, and limitcheck merge will say); 1 otherwise; 130 "
+      "and "
       "the like after a signal.");
   command->callback([a, &exit_code] { exit_code = run(*a); });
 }

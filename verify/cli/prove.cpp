@@ -121,8 +121,8 @@ void certify(const verify::ProofRequest& what, verify::Journal& journal) {
   std::vector<verify::FloatKernel> kernels;
   if (what.sliding_window) kernels.push_back(verify::FloatKernel::kSlidingWindow);
   if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
-  journal.keep(unit, verify::certified_json(verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12,
-                                                                         what.scheme)));
+  journal.keep(unit, verify::certified_json(
+                         verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12, what.scheme)));
 }
 
 // The results as they are in a journal or in parts.
@@ -156,7 +156,11 @@ int run(const Request& request) {
   if (!request.shard.of().is_whole()) {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
     write_part(request.shard, *journal,
-               {{}, {}, since.count(), "", "",
+               {{},
+                {},
+                since.count(),
+                "",
+                "",
                 signal == 0 ? "" : fmt::format("interrupted by {}", verify::signal_name(signal))});
     fmt::print("shard {}: {} of {} units, {}\n", request.shard.shard, journal->results().size(),
                journal->plan().units, report.held() ? "every map is the reference's" : "some proofs FAILED");

@@ -38,9 +38,10 @@ void add_shard_options(CLI::App& command, ShardArguments& a, const std::string& 
                               units))
       ->type_name("K/N")
       ->capture_default_str();
-  command.add_flag("--resume", a.resume,
-                   "Go on where the same command was ended before its report was complete; what is done is in "
-                   "FILE.jsonl beside the report FILE.json");
+  command.add_flag(
+      "--resume", a.resume,
+      "Go on where the same command was ended before its report was complete; what is done is in "
+      "FILE.jsonl beside the report FILE.json");
 }
 
 void add_json_option(CLI::App& command, ShardArguments& a) {

@@ -114,7 +114,8 @@ void Hunt::shrink_finding(HuntFinding& f) {
     f.witness = place.string();
     Result on_file = *again;
     on_file.mesh = (place / "control.obj").string();
-    if (!small.mesh.face_depth.empty()) on_file.depths = after_of(again->depths) + "file:" + (place / "depths.txt").string();
+    if (!small.mesh.face_depth.empty())
+      on_file.depths = after_of(again->depths) + "file:" + (place / "depths.txt").string();
     f.command = difference_command(on_file);
     if (f.command.empty()) f.command = audit_command(on_file, level);
     return;

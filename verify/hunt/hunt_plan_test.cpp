@@ -62,8 +62,9 @@ TEST(HuntPlan, HasEveryFamilyAndEveryWayOfChoosingDepths) {
     families.insert(name.substr(0, name.find(':')));
     const std::string before = after_of(c.mesh.depths);
     earlier = earlier || !before.empty();
-    depths.insert(c.mesh.depths.substr(before.size(), c.mesh.depths.find(':', before.size()) - before.size()) +
-                  (c.mesh.depths.ends_with("visible") ? " visible" : ""));
+    depths.insert(
+        c.mesh.depths.substr(before.size(), c.mesh.depths.find(':', before.size()) - before.size()) +
+        (c.mesh.depths.ends_with("visible") ? " visible" : ""));
     relations = relations || c.mesh.relations;
   }
   for (const char* family :
@@ -95,13 +96,13 @@ TEST(Ways, AreThoseThatTheOptionsTextNames) {
     return all;
   };
   EXPECT_EQ(ways("naive", "", {"weights"}), (std::set<std::string>{"weights=loop", "weights=warren"}));
-  EXPECT_EQ(ways("sliding-window", "repair=stitch", {"precision", "output"}),
-            (std::set<std::string>{"repair=stitch,precision=float", "repair=stitch,precision=double",
-                                   "repair=stitch,output=strips", "repair=stitch,output=indexed",
-                                   "repair=stitch,precision=float,output=strips",
-                                   "repair=stitch,precision=float,output=indexed",
-                                   "repair=stitch,precision=double,output=strips",
-                                   "repair=stitch,precision=double,output=indexed"}));
+  EXPECT_EQ(
+      ways("sliding-window", "repair=stitch", {"precision", "output"}),
+      (std::set<std::string>{
+          "repair=stitch,precision=float", "repair=stitch,precision=double", "repair=stitch,output=strips",
+          "repair=stitch,output=indexed", "repair=stitch,precision=float,output=strips",
+          "repair=stitch,precision=float,output=indexed", "repair=stitch,precision=double,output=strips",
+          "repair=stitch,precision=double,output=indexed"}));
   EXPECT_TRUE(ways("sliding-window", "precision=double", {"precision"}).empty()) << "it is chosen";
   EXPECT_TRUE(ways("naive", "", {}).empty());
   EXPECT_TRUE(ways("row-stream", "", {"target"}).contains("target=scalar"));

@@ -39,13 +39,13 @@ struct HuntFinding {
 
 struct HuntReport {
   std::string version, subject;
-  std::uint64_t seed = 0, asked = 0;  // cases of the whole plan; 0: as many as there was time for
-  std::vector<std::string> schemes, varied;  // varied: --vary
-  Shard shard;                        // of blocks of cases
-  std::uint64_t cases = 0;            // that were looked at
-  std::uint64_t next = 0;             // all cases of the shard before this one were
-  std::int64_t judged = 0;            // of them, those of which anything was looked at
-  std::set<std::uint64_t> kinds;      // of edges (hunt_plan.h)
+  std::uint64_t seed = 0, asked = 0;            // cases of the whole plan; 0: as many as there was time for
+  std::vector<std::string> schemes, varied;     // varied: --vary
+  Shard shard;                                  // of blocks of cases
+  std::uint64_t cases = 0;                      // that were looked at
+  std::uint64_t next = 0;                       // all cases of the shard before this one were
+  std::int64_t judged = 0;                      // of them, those of which anything was looked at
+  std::set<std::uint64_t> kinds;                // of edges (hunt_plan.h)
   std::map<std::string, HuntFinding> findings;  // by signature
   double seconds = 0;
   std::string incomplete;  // "interrupted by SIGINT"; empty: all that was asked for

@@ -40,16 +40,17 @@ std::string to_text(const HuntReport& r, const HuntReport* earlier) {
   text += "\n";
   const std::vector<const HuntFinding*> fresh = new_findings(r, earlier);
   for (const HuntFinding* f : fresh)
-    text += fmt::format("\n{}  {}\n  {}; in {} case{}\n  {}\n  {}\n", f->severity(), f->signature, size_of(*f),
-                        f->cases, f->cases == 1 ? "" : "s", mesh_of(*f), command_of(*f));
+    text += fmt::format("\n{}  {}\n  {}; in {} case{}\n  {}\n  {}\n", f->severity(), f->signature,
+                        size_of(*f), f->cases, f->cases == 1 ? "" : "s", mesh_of(*f), command_of(*f));
   const std::size_t listed = earlier == nullptr ? fresh.size() : r.uncovered().size();
   text += fmt::format("\n{} finding{}", fresh.size(), fresh.size() == 1 ? "" : "s");
   if (earlier != nullptr)
     text += fmt::format(" that the baseline has not, {} that it has", listed - fresh.size());
   if (r.findings.size() > listed)
-    text += fmt::format(" ({} more of the same checks, where there is all that is said here and more, are in "
-                        "--json)",
-                        r.findings.size() - listed);
+    text += fmt::format(
+        " ({} more of the same checks, where there is all that is said here and more, are in "
+        "--json)",
+        r.findings.size() - listed);
   text += "\n";
   if (!r.incomplete.empty()) text += fmt::format("INCOMPLETE: {}\n", r.incomplete);
   return text;

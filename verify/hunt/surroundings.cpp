@@ -46,11 +46,10 @@ Vertex look_at(std::int32_t v, const data::ControlMesh& mesh, const FacesAround&
   }
   const bool border = std::any_of(beside.begin(), beside.end(), [](const auto& n) { return n.second == 1; });
   const auto sharp =
-      std::count_if(mesh.sharpness.edges.begin(), mesh.sharpness.edges.end(),
-                    [&](const data::SharpEdge& e) {
-                      const bool at_v = e.a == v || e.b == v;
-                      return at_v && beside[e.a == v ? e.b : e.a] != 1;  // a border is sharp anyway
-                    });
+      std::count_if(mesh.sharpness.edges.begin(), mesh.sharpness.edges.end(), [&](const data::SharpEdge& e) {
+        const bool at_v = e.a == v || e.b == v;
+        return at_v && beside[e.a == v ? e.b : e.a] != 1;  // a border is sharp anyway
+      });
   const bool tagged = std::any_of(mesh.sharpness.vertices.begin(), mesh.sharpness.vertices.end(),
                                   [&](const data::SharpVertex& s) { return s.vertex == v; });
   Vertex at{Kind::kInner, around.of(v).size()};
@@ -153,8 +152,8 @@ Surroundings surroundings(const Result& finding, const AuditMesh& audited) {
 }
 
 std::string signature(const Result& finding, const Surroundings& where) {
-  return fmt::format("{}{}{}{}{}", finding.scheme == data::Scheme::kLoop ? "" : "catmull-clark: ",
-                     finding.check,
+  return fmt::format("{}{}{}{}{}",
+                     finding.scheme == data::Scheme::kLoop ? "" : "catmull-clark: ", finding.check,
                      finding.status == Status::kFinding ? "" : fmt::format(" ({})", word(finding.status)),
                      where.kind.empty() ? "" : ": ", where.words());
 }

@@ -55,8 +55,8 @@ std::vector<Way> ways_of(const AuditSubject& subject, const std::vector<data::Sc
   std::vector<Key> keys = keys_in(text != nullptr ? text : "");
   for (const std::string& name : asked)
     if (name != "all" && std::none_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == name; }))
-      throw data::ArgumentError(fmt::format("--vary {}: the options of {} are {}", name, subject.subject->name,
-                                            text != nullptr ? text : "none"));
+      throw data::ArgumentError(fmt::format("--vary {}: the options of {} are {}", name,
+                                            subject.subject->name, text != nullptr ? text : "none"));
   const auto given = [&](const std::string& name) {
     return fmt::format(",{}", subject.options).find(fmt::format(",{}=", name)) != std::string::npos;
   };

@@ -188,7 +188,8 @@ void run_mutants(Journal& journal,
       step(s.subject->name, m);
       if (!suits(s.subject->name, m) || (is_model(s.subject->name, s.options) && too_much(m))) continue;
       for (const Result& r : auditor.run(s, m))
-        if (is_bad(r)) red.push_back(fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
+        if (is_bad(r))
+          red.push_back(fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
     }
     keep(unit, std::move(red));
   }

@@ -18,16 +18,11 @@ bool PartReport::is_complete() const {
 std::string to_json(const PartReport& part) {
   Json results = Json::array();
   for (const auto& [unit, result] : part.results) results.push_back({unit, result});
-  const Json json{{"program", part.plan.program},
-                  {"plan", part.plan.what},
-                  {"units", part.plan.units},
-                  {"together", part.plan.together},
-                  {"shard", part.plan.shard.text()},
-                  {"seconds", part.seconds},
-                  {"containment", part.containment},
-                  {"printed", part.printed},
-                  {"incomplete", part.incomplete},
-                  {"results", std::move(results)}};
+  const Json json{{"program", part.plan.program},    {"plan", part.plan.what},
+                  {"units", part.plan.units},        {"together", part.plan.together},
+                  {"shard", part.plan.shard.text()}, {"seconds", part.seconds},
+                  {"containment", part.containment}, {"printed", part.printed},
+                  {"incomplete", part.incomplete},   {"results", std::move(results)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -43,8 +38,7 @@ PartReport read_part(const std::string& text) try {
   json.at("seconds").get_to(part.seconds), json.at("containment").get_to(part.containment);
   json.at("printed").get_to(part.printed), json.at("incomplete").get_to(part.incomplete);
   if (part.plan.together == 0) throw data::ArgumentError("this is no part that --shard has made");
-  for (Json& pair : json.at("results"))
-    part.results[pair.at(0).get<std::size_t>()] = std::move(pair.at(1));
+  for (Json& pair : json.at("results")) part.results[pair.at(0).get<std::size_t>()] = std::move(pair.at(1));
   return part;
 } catch (const Json::exception& error) {
   throw data::ArgumentError(fmt::format("this is no part that --shard has made: {}", error.what()));

@@ -34,7 +34,8 @@ void require_all(const std::vector<Shard>& shards) {
   for (const Shard& s : shards) {
     if (s.count != count)
       throw data::ArgumentError(fmt::format("shard {} is not of {} shards", s.text(), count));
-    if (!there.insert(s.index).second) throw data::ArgumentError(fmt::format("shard {} is there twice", s.text()));
+    if (!there.insert(s.index).second)
+      throw data::ArgumentError(fmt::format("shard {} is there twice", s.text()));
   }
   for (std::uint64_t k = 0; k < count; ++k)
     if (!there.contains(k))

@@ -75,7 +75,7 @@ done
 for _ in {1..100}; do [[ $(sinfo -h -t idle -o %D 2>/dev/null) == 2 ]] && break; sleep 0.2; done
 [[ $(sinfo -h -t idle -o %D) == 2 ]] || { echo "the cluster does not come up"; tail -n 5 "$d"/*.log >&2; exit 1; }
 
-hunt=(faulty --option fault=adjacent_extraordinary,of=sliding-window --scheme loop --cases 960 --attempts 3 --in-process)
+hunt=(hunt faulty --option fault=adjacent_extraordinary,of=sliding-window --scheme loop --cases 960 --attempts 3 --in-process)
 bash "$here/submit.sh" 6 "$d/hunt" "${hunt[@]}"
 for _ in {1..600}; do compgen -G "$d/hunt/part*" >/dev/null && break; sleep 0.1; done
 victim=$(squeue -h -t R -o %N | head -n 1)
@@ -86,7 +86,7 @@ unset "daemons[$victim]"
 for _ in {1..1800}; do [[ -e $d/hunt/whole.json ]] && break; sleep 0.2; done
 [[ -e $d/hunt/whole.json ]] || { echo "no merged report"; squeue; tail -n 20 "$d"/hunt/*.log >&2; exit 1; }
 
-limitcheck hunt "${hunt[@]}" --jobs 1 --json "$d/one.json" --witnesses "$d/one" >"$d/one.txt" || [[ $? == 1 ]]
+limitcheck "${hunt[@]}" --jobs 1 --json "$d/one.json" --witnesses "$d/one" >"$d/one.txt" || [[ $? == 1 ]]
 strip() { sed -E 's/"seconds": .*//; s#"(witness|command)": .*##' "$1"; } # times, and the folder of the witnesses
 diff <(strip "$d/one.json") <(strip "$d/hunt/whole.json")
 echo "held: six shards, one node lost, and the report of a hunt in one piece"

@@ -17,6 +17,7 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/io/polygon_soup.h"
 #include "data/scheme.h"
 #include "data/shapes.h"
@@ -176,8 +177,9 @@ std::string without_alias(const std::string& name) {
   return name == "cube-quads" ? "quad-cube" : name;
 }
 
-// "dual:NAME..." and "stretched:K:NAME...": the specifications that contain another.
-constexpr std::string_view kDual = "dual:", kStretched = "stretched:";
+// "dual:NAME..." and so on: the specifications that contain another.
+constexpr std::string_view kDual = "dual:", kStretched = "stretched:", kHandled = "handled:",
+                           kTurned = "turned:";
 
 ControlMesh dual_of(const std::string& name) {
   const auto refuse = [&](const std::string& why) {
@@ -195,20 +197,40 @@ ControlMesh dual_of(const std::string& name) {
   return result;
 }
 
-// "K:NAME...": x coordinates times 2^K.
-ControlMesh stretched(const std::string& what) {
-  constexpr unsigned kMost = 30;
-  unsigned power = 0;
+struct NumberedName {
+  std::uint64_t number = 0;
+  std::string name;
+};
+
+// "K:NAME..." behind `word`.
+NumberedName numbered(std::string_view word, const std::string& what, std::uint64_t most) {
+  NumberedName result;
   const char* const end = what.data() + what.size();
-  const auto [stop, error] = std::from_chars(what.data(), end, power);
-  if (error != std::errc() || power > kMost || end - stop < 2 || *stop != ':')
+  const auto [stop, error] = std::from_chars(what.data(), end, result.number);
+  if (error != std::errc() || result.number > most || end - stop < 2 || *stop != ':')
     throw InputError("NAME_BAD_PARAMETER", "", 0,
-                     "stretched:" + what +
-                         ": a number K from 0 to 30 and the name of a mesh are needed "
-                         "(stretched:K:NAME...)");
-  ControlMesh mesh = named_mesh(stop + 1);
-  for (auto& p : mesh.positions) p[0] *= static_cast<double>(1U << power);
+                     std::string(word) + what + ": a number K from 0 to " + std::to_string(most) +
+                         " and the name of a mesh are needed (" + std::string(word) + "K:NAME...)");
+  result.name = stop + 1;
+  return result;
+}
+
+// x coordinates times 2^K.
+ControlMesh stretched(const std::string& what) {
+  const NumberedName at = numbered(kStretched, what, 30);
+  ControlMesh mesh = named_mesh(at.name);
+  for (auto& p : mesh.positions) p[0] *= static_cast<double>(1U << at.number);
   return mesh;
+}
+
+ControlMesh handled(const std::string& what) {
+  const NumberedName at = numbered(kHandled, what, 1000);
+  return with_handles(named_mesh(at.name), static_cast<int>(at.number), at.number);
+}
+
+ControlMesh turned(const std::string& what) {
+  const NumberedName at = numbered(kTurned, what, std::numeric_limits<std::uint64_t>::max());
+  return with_turned_edges(named_mesh(at.name), at.number);
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -226,10 +248,10 @@ std::vector<std::string> split(const std::string& text) {
 }  // namespace
 
 ControlMesh named_mesh(const std::string& specification) {
-  if (specification == "dual" || specification.starts_with(kDual))
-    return dual_of(specification.substr(std::min(kDual.size(), specification.size())));
-  if (specification == "stretched" || specification.starts_with(kStretched))
-    return stretched(specification.substr(std::min(kStretched.size(), specification.size())));
+  for (const auto& [word, make] : {std::pair{kDual, &dual_of}, std::pair{kStretched, &stretched},
+                                   std::pair{kHandled, &handled}, std::pair{kTurned, &turned}})
+    if (specification == word.substr(0, word.size() - 1) || specification.starts_with(word))
+      return make(specification.substr(std::min(word.size(), specification.size())));
   std::vector<std::string> parts = split(specification);
   parts[0] = without_alias(parts[0]);
   for (const Entry& entry : entries()) {
@@ -281,6 +303,9 @@ std::vector<NamedMesh> named_meshes() {
   list.push_back({"dual:NAME...", "the dual of a closed mesh: dual:bumpy:800 has a face around each vertex"});
   list.push_back(
       {"stretched:K:NAME...", "a mesh 2^K times as long along x: stretched:10:random:1 has needles"});
+  list.push_back({"handled:K:NAME...", "a mesh with up to K tubes more, each in the place of two faces"});
+  list.push_back(
+      {"turned:SEED:NAME...", "a mesh with some inner edges between other corners of the faces beside them"});
   return list;
 }
 

@@ -9,6 +9,7 @@
 
 #include "data/bounding_box.h"
 #include "data/error.h"
+#include "verify/audit/ask_earlier.h"
 #include "verify/audit/bounds.h"
 #include "verify/audit/evidence.h"
 #include "verify/subject/weights_option.h"
@@ -26,6 +27,7 @@ AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place&
   if (asked.empty()) asked.assign(mesh.mesh.faces.size(), mesh.depth);
   for (const std::int32_t f : mesh.mesh.holes) asked[f] = -1;
   Session session(*subject.subject, mesh.mesh, subject.options, Session::Input::kValid, mesh.scheme());
+  ask_earlier(session, mesh, asked, mesh.depth, threads);
   const Tessellation tessellation = session.tessellate(asked, threads);
   const lc_capabilities& capabilities = session.capabilities();
   ReferenceSurface truth(session.mesh(), mesh.scheme(), mesh.depth, capabilities.points,

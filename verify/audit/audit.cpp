@@ -13,11 +13,13 @@
 #include <utility>
 
 #include "data/bounding_box.h"
+#include "verify/audit/ask_earlier.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/clock.h"
 #include "verify/audit/recognise.h"
 #include "verify/audit/relation_row.h"
 #include "verify/audit/relations.h"
+#include "verify/audit/result_json.h"
 #include "verify/audit/vector.h"
 #include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
@@ -229,6 +231,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   try {
     step(rows.subject, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options, Session::Input::kValid, mesh.scheme());
+    ask_earlier(*session, mesh, asked, depth_of(mesh), threads_);
     tessellation.emplace(session->tessellate(asked, threads_));
     rows.add("tessellates", Status::kHeld, "");
     results.back().of = 1;
@@ -305,15 +308,20 @@ std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
                                  const std::vector<AuditMesh>& meshes, Journal* journal) {
   // Audited mesh by mesh, so that subjects share the reference; returned subject by subject.
   done_ = 0;
-  total_ = subjects.size() * meshes.size();
+  total_ = 0;
+  for (std::size_t unit = 0; unit < subjects.size() * meshes.size(); ++unit)
+    total_ += journal == nullptr || journal->plan().has(unit) ? 1 : 0;
   std::vector<std::vector<Result>> of_subject(subjects.size());
   for (std::size_t m = 0; m < meshes.size(); ++m)
-    for (std::size_t s = 0; s < subjects.size(); ++s, ++done_) {
-      const std::string name = subjects[s].label();
-      auto known = journal != nullptr ? journal->recall(name, m) : std::nullopt;
-      std::vector<Result> results = known ? std::move(*known) : run(subjects[s], meshes[m]);
-      if (journal != nullptr && !known && !gave_up_ && !out_of_memory_) journal->keep(name, m, results);
+    for (std::size_t s = 0; s < subjects.size(); ++s) {
+      const std::size_t unit = m * subjects.size() + s;
+      if (journal != nullptr && !journal->plan().has(unit)) continue;
+      const nlohmann::json* known = journal != nullptr ? journal->recall(unit) : nullptr;
+      std::vector<Result> results = known != nullptr ? rows_of(*known) : run(subjects[s], meshes[m]);
+      if (journal != nullptr && known == nullptr && !gave_up_ && !out_of_memory_)
+        journal->keep(unit, rows_json(results));
       for (Result& r : results) of_subject[s].push_back(std::move(r));
+      ++done_;
     }
   std::vector<Result> all;
   for (auto& results : of_subject)

@@ -11,10 +11,10 @@
 #include "data/control_mesh.h"
 #include "verify/audit/audit_case.h"
 #include "verify/audit/evidence.h"
-#include "verify/audit/journal.h"
 #include "verify/audit/reference_surface.h"
 #include "verify/audit/refusal.h"
 #include "verify/audit/result.h"
+#include "verify/shard/journal.h"
 
 namespace limitcheck::verify {
 
@@ -57,8 +57,9 @@ class Auditor {
   /// Whether a lack of memory, of this program and not of a subject, left something out.
   bool out_of_memory() const { return out_of_memory_; }
 
-  /// Every subject on every mesh; results are ordered by subject, then by mesh. Pairs that the journal knows
-  /// are taken from it; every other pair is audited and, if that was not interrupted, added to it.
+  /// Every subject on every mesh; results are ordered by subject, then by mesh. Unit m * subjects + s of the
+  /// journal's plan is subject s on mesh m: those that its shard has not are left out, those that it knows are
+  /// taken from it, and every other is audited and, if that was not interrupted, added to it.
   std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes,
                           Journal* journal = nullptr);
 

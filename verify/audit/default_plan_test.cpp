@@ -88,11 +88,34 @@ TEST(DefaultPlan, QuickLeavesOutTheWorstCases) {
 
 TEST(Depths, AreReadAsTheyAreWritten) {
   for (const char* text :
-       {"uniform", "random:7", "random:7:visible", "view", "face0-culled", "all-culled", "file:a:b.txt"})
+       {"uniform", "random:7", "random:7:visible", "view", "face0-culled", "all-culled", "file:a:b.txt",
+        "after:3:uniform", "after:3:random:7:visible", "after:3:file:a:b.txt"})
     EXPECT_EQ(parse_depths(text).text(), text);
   EXPECT_EQ(parse_depths("random").text(), "random:1");
-  for (const char* text : {"", "random:", "random:x", "random:1:", "random:1:seen", "random:-1", "culled"})
+  for (const char* text : {"", "random:", "random:x", "random:1:", "random:1:seen", "random:-1", "culled",
+                           "after:", "after:3", "after:3:", "after:x:uniform", "after:3:after:3:uniform"})
     EXPECT_THROW(parse_depths(text), data::ArgumentError) << text;
+}
+
+TEST(Depths, BeforehandAreOtherRequests) {
+  EXPECT_TRUE(earlier_depths("random:3", 10, 4, true).empty());
+  std::set<std::size_t> lists;
+  bool culled = false, unequal = false, all_equal = true;
+  for (int seed = 0; seed < 40; ++seed) {
+    const std::string depths = "after:" + std::to_string(seed) + ":uniform";
+    const auto requests = earlier_depths(depths, 10, 4, true);
+    lists.insert(requests.size());
+    for (const auto& r : requests) {
+      ASSERT_EQ(r.size(), 10U);
+      const auto [least, most] = std::minmax_element(r.begin(), r.end());
+      EXPECT_TRUE(*least >= -1 && *most <= 4);
+      culled = culled || *least < 0, unequal = unequal || *least != *most;
+    }
+    for (const auto& r : earlier_depths(depths, 10, 4, false))
+      all_equal = all_equal && std::count(r.begin(), r.end(), r[0]) == 10 && r[0] >= 0;
+  }
+  EXPECT_EQ(lists, (std::set<std::size_t>{1, 2, 3}));
+  EXPECT_TRUE(culled && unequal && all_equal);
 }
 
 TEST(Depths, OfRandomFacesSomeAreCulledUnlessVisible) {

@@ -90,24 +90,59 @@ std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, 
 }
 
 std::string Depths::text() const {
-  if (kind == "random") return fmt::format("random:{}{}", seed.value_or(1), visible ? ":visible" : "");
-  return kind == "file" ? "file:" + file : kind;
+  const std::string before = after ? fmt::format("after:{}:", *after) : "";
+  if (kind == "random")
+    return fmt::format("{}random:{}{}", before, seed.value_or(1), visible ? ":visible" : "");
+  return before + (kind == "file" ? "file:" + file : kind);
+}
+
+std::string after_of(const std::string& depths) {
+  constexpr std::string_view kAfter = "after:";
+  if (!depths.starts_with(kAfter)) return "";
+  return depths.substr(0, std::min(depths.find(':', kAfter.size()), depths.size() - 1) + 1);
+}
+
+std::vector<FaceDepths> earlier_depths(const std::string& depths, std::size_t faces, int deepest, bool each) {
+  std::vector<FaceDepths> requests;
+  if (after_of(depths).empty()) return requests;
+  data::SplitMix64 random(*parse_depths(depths).after);
+  for (std::uint64_t left = 1 + random.next() % 3; left > 0; --left) {
+    const std::uint64_t kind = random.next() % 3, seed = random.next();
+    const auto one = static_cast<std::int32_t>(seed % (static_cast<std::uint64_t>(deepest) + 1));
+    if (kind == 0 || !each)
+      requests.emplace_back(faces, one);
+    else
+      requests.push_back(random_depths(faces, kind == 1 ? 0 : -1, deepest, seed));
+  }
+  return requests;
 }
 
 Depths parse_depths(const std::string& text) {
+  if (const std::string before = after_of(text); before.size() > 6) {
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(before.data() + 6, before.data() + before.size(), seed);
+    if (error == std::errc() && end + 1 == before.data() + before.size() && *end == ':' &&
+        after_of(text.substr(before.size())).empty()) {
+      Depths depths = parse_depths(text.substr(before.size()));
+      depths.after = seed;
+      return depths;
+    }
+  }
   for (const char* word : {"uniform", "view", "face0-culled", "all-culled"})
-    if (text == word) return {text, {}, false, {}};
-  if (text.starts_with("file:")) return {"file", {}, false, text.substr(5)};
-  if (text == "random") return {text, 1, false, {}};
+    if (text == word) return {text, {}, false, {}, {}};
+  if (text.starts_with("file:")) return {"file", {}, false, text.substr(5), {}};
+  if (text == "random") return {text, 1, false, {}, {}};
   if (text.starts_with("random:")) {
-    Depths depths{"random", 0, text.ends_with(":visible"), {}};
+    Depths depths{"random", 0, text.ends_with(":visible"), {}, {}};
     const std::string_view seed =
         std::string_view(text).substr(7, text.size() - 7 - (depths.visible ? 8 : 0));
     const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), *depths.seed);
     if (error == std::errc() && end == seed.data() + seed.size()) return depths;
   }
   throw data::ArgumentError(fmt::format(
-      "--depths {}: uniform, random[:SEED[:visible]], view, face0-culled, all-culled or file:FILE", text));
+      "--depths {}: uniform, random[:SEED[:visible]], view, face0-culled, all-culled or file:FILE, and "
+      "after:SEED: before one of them",
+      text));
 }
 
 std::vector<std::int32_t> face_depths(const Depths& depths, const data::ControlMesh& mesh, int deepest) {

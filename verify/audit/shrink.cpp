@@ -9,6 +9,7 @@
 #include "data/cut_out.h"
 #include "data/validate.h"
 #include "verify/audit/audit.h"
+#include "verify/audit/face_depths.h"
 #include "verify/audit/relations.h"
 #include "verify/interrupt/interrupt.h"
 
@@ -23,6 +24,7 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   AuditMesh out{whole.name, {cut.of(whole.mesh.positions), {}, cut.of(whole.mesh.sharpness)}};
   out.mesh.faces = std::move(cut.faces);
   out.asked_scheme = whole.asked_scheme;
+  out.depths = whole.depths;
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (std::binary_search(whole.mesh.holes.begin(), whole.mesh.holes.end(), faces[f]))
       out.mesh.holes.push_back(static_cast<std::int32_t>(f));
@@ -59,7 +61,8 @@ class Shrinker {
            const ShrinkLimits& limits)
       : best_{mesh, depth, 0}, fails_(fails), limits_(limits), start_(std::chrono::steady_clock::now()) {
     best_.mesh.depth = -1;  // the one that is tried
-    best_.mesh.depths.clear();
+    best_.mesh.depths = after_of(mesh.depths);
+    if (!best_.mesh.depths.empty()) best_.mesh.depths += "uniform";
     best_.mesh.asked_scheme = mesh.scheme();
   }
 

@@ -10,6 +10,7 @@
 #include "data/io/write.h"
 #include "reference/surface/certified.h"
 #include "verify/audit/case_names.h"
+#include "verify/audit/face_depths.h"
 #include "verify/audit/json.h"
 #include "verify/audit/reproduce.h"
 
@@ -84,7 +85,7 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
     std::string lines;
     for (const std::int32_t depth : mesh.face_depth) lines += std::to_string(depth) + "\n";
     write_text(partial.folder() / "depths.txt", lines);
-    here.depths = "file:" + (place / "depths.txt").string();
+    here.depths = after_of(result.depths) + "file:" + (place / "depths.txt").string();
   }
 
   Json json{{"subject", result.subject},

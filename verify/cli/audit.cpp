@@ -23,10 +23,11 @@
 #include "verify/cli/audit_files.h"
 #include "verify/cli/audit_meshes.h"
 #include "verify/cli/audit_output.h"
-#include "verify/cli/audit_resume.h"
+#include "verify/cli/audit_plan.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/progress.h"
+#include "verify/cli/shard_options.h"
 #include "verify/cli/subject_loader.h"
 #include "verify/cli/subject_output.h"
 #include "verify/interrupt/abandon.h"
@@ -50,8 +51,8 @@ struct Arguments {
   std::string sample;
   bool plan = true;  // what is to be looked at is not said: neither meshes nor depths
   int threads = 0;
-  std::string json;
-  bool each_mesh = false, details = false, must_refuse = false, resume = false;
+  ShardArguments shard;  // with the file of the report
+  bool each_mesh = false, details = false, must_refuse = false;
   OutputArguments output;
   SubjectArguments from;
 };
@@ -130,8 +131,21 @@ struct Job {
   bool whole = false;  // no subject was named: all of them, and the report in kReportFile
 };
 
+// What a shard does not do: what needs all rows, and what has no units.
+void refuse_with_shards(const Arguments& a) {
+  if (a.shard.of().is_whole()) return;
+  a.shard.check();
+  for (const auto& [option, given] : {std::pair{"--baseline", !a.output.baseline.empty()},
+                                      std::pair{"--waivers", !a.output.waivers.empty()},
+                                      std::pair{"--require", !a.output.required.empty()}})
+    if (given)
+      throw data::ArgumentError(
+          fmt::format("{} needs the whole report: it is an option of limitcheck merge", option));
+  if (a.must_refuse) throw data::ArgumentError("--must-refuse has no shards");
+}
+
 Job settle(Arguments a) {
-  refuse_one_file_for_two({{"--json", a.json}, {"--junit", a.output.junit}, {"--html", a.output.html}});
+  refuse_one_file_for_two({{"--json", a.shard.json}, {"--junit", a.output.junit}, {"--html", a.output.html}});
   Job job;
   job.depths = verify::parse_depths(a.depths);
   job.sampling = parse_sample(a.sample);
@@ -139,6 +153,7 @@ Job settle(Arguments a) {
   take_mesh(a.from, a.subject, a.meshes);
   job.whole = a.subject.empty();
   if (job.whole) a.subject = "all";
+  refuse_with_shards(a);
   if (a.must_refuse && (job.whole || a.meshes.empty()))
     throw data::ArgumentError("--must-refuse needs a subject and the files of broken meshes");
   if (a.threads <= 0) a.threads = tbb::info::default_concurrency();
@@ -147,21 +162,15 @@ Job settle(Arguments a) {
   return job;
 }
 
-// Why not all was looked at; empty: all was.
+// Why not all was looked at; empty: all was. Of a shard there may be nothing to look at.
 std::string incomplete(const verify::Auditor& auditor, const std::vector<verify::AuditMesh>& meshes,
-                       const verify::Report& report, int signal) {
+                       const verify::Report& report, int signal, bool whole) {
   if (signal != 0) return fmt::format("interrupted by {}", verify::signal_name(signal));
   if (auditor.out_of_memory()) return "this program ran out of memory";
-  if (!report.looked()) {
-    const bool polygons = std::any_of(meshes.begin(), meshes.end(), [](const verify::AuditMesh& m) {
-      return !m.mesh.faces.are_triangles();
-    });
-    return std::string("nothing was looked at: nothing that was asked for is supported") +
-           (polygons
-                ? "; a subject that does Loop's scheme only needs --triangulate for meshes with larger faces"
-                : "");
-  }
-  return "";
+  if (report.looked() || !whole) return "";
+  return nothing_looked_at(std::any_of(meshes.begin(), meshes.end(), [](const verify::AuditMesh& m) {
+    return !m.mesh.faces.are_triangles();
+  }));
 }
 
 // Below the overview.
@@ -177,7 +186,7 @@ std::string where_the_rest_is(const Job& job) {
 void print(const Job& job, const verify::Report& report, const std::string& scheme_line) {
   const Arguments& a = job.arguments;
   const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
-  if (a.json == "-")
+  if (a.shard.json == "-")
     fmt::print("{}", verify::to_json(report, a.output.level));
   else if (a.details || a.each_mesh)
     fmt::print("{}\n{}", scheme_line, verify::to_table(report, colour, a.each_mesh));
@@ -186,34 +195,32 @@ void print(const Job& job, const verify::Report& report, const std::string& sche
                                          where_the_rest_is(job)));
 }
 
-int exit_code_of(const verify::Auditor& auditor, const verify::Report& report, int signal, bool judged) {
-  if (signal != 0) return kSignalled + signal;
-  if (!report.looked() || auditor.out_of_memory()) return kBadInput;
-  if (!judged && std::none_of(report.results.begin(), report.results.end(), verify::is_bad)) return kBadInput;
-  return report.held() ? kHeld : kFindings;
-}
-
-// Everything that goes into files; `finished` is a journal that the report makes superfluous. They are
+// Everything that goes into files; if all is `done`, the report makes the journal superfluous. They are
 // written before the table, because a reader of the table may close the pipe. The table is printed even if a
 // file cannot be written: the error is returned.
 std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSubject>& audited,
                                const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
-                               verify::Journal* finished) {
+                               verify::Journal* journal, bool done) {
   const Arguments& a = job.arguments;
+  const bool shard = !a.shard.of().is_whole();
   try {
     write_junit(a.output, report);
-    if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report, a.output.level));
-    if (job.whole) {
+    if (shard)
+      write_part(a.shard, *journal,
+                 {{}, {}, report.seconds, report.containment, report.printed, report.incomplete});
+    else if (!a.shard.json.empty() && a.shard.json != "-")
+      verify::write_text(a.shard.json, verify::to_json(report, a.output.level));
+    if (job.whole && !shard) {
       verify::write_text(kReportFile, verify::to_json(report, a.output.level));
       verify::write_text(kTextFile,
                          "Root causes\n\n" +
                              verify::causes_in_full(report, verify::causes(report), a.output.level) +
                              "Tables\n\n" + verify::to_table(report, false));
     }
-    for (const std::string& html : {a.output.html, std::string(job.whole ? kPageFile : "")})
+    for (const std::string& html : {a.output.html, std::string(job.whole && !shard ? kPageFile : "")})
       if (!html.empty()) write_html(html, audited, meshes, report, a.output.level, a.threads);
     write_witnesses(a.output, audited, meshes, report, a.threads);
-    if (finished != nullptr) finished->remove();
+    if (journal != nullptr && done) journal->remove();
   } catch (const std::exception&) {
     return std::current_exception();
   }
@@ -247,9 +254,12 @@ int audit(const Job& job) {
       },
       level(a.output));
   auditor.leave_what_is_interrupted();
-  const auto journal = a.must_refuse ? nullptr
-                                     : open_journal(a.json.empty() && job.whole ? kReportFile : a.json,
-                                                    a.resume, audited, meshes, report, a.output.level);
+  ShardArguments kept = a.shard;
+  if (kept.json.empty() && job.whole) kept.json = kReportFile;
+  kept.check();
+  const bool keeps = !a.must_refuse && !kept.json.empty() && kept.json != "-";
+  const auto journal =
+      keeps ? open_journal(kept, audit_plan(audited, meshes, report, a.output.level), false) : nullptr;
   try {
     report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
                                    : auditor.run(audited, meshes, journal.get());
@@ -265,20 +275,24 @@ int audit(const Job& job) {
     screen.end();
     report.printed = output.take();
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;
-    report.incomplete = incomplete(auditor, meshes, report, signal);
+    const bool whole = a.shard.of().is_whole();
+    report.incomplete = incomplete(auditor, meshes, report, signal, whole);
     const bool judged = judged_as_required(a.output, report);
-    waive(a.output, audited, report);
+    waive(a.output, report);
     compare(a.output, report);
 
     const bool done = signal == 0 && !auditor.out_of_memory();
-    const auto not_written = write_files(job, audited, meshes, report, done ? journal.get() : nullptr);
+    const auto not_written = write_files(job, audited, meshes, report, journal.get(), done);
     print(job, report, asked.scheme_line);
     if (not_written) std::rethrow_exception(not_written);
     const int later = a.output.shrink_seconds > 0 ? verify::interrupted() : signal;
     if (later != signal)
       fmt::print(stderr, "limitcheck: interrupted by {}: not all witnesses are written\n",
                  verify::signal_name(later));
-    return exit_code_of(auditor, report, later, judged);
+    if (later != 0) return kSignalled + later;
+    if (auditor.out_of_memory()) return int{kBadInput};
+    if (!whole && !report.looked()) return int{kHeld};
+    return exit_code_of(report, judged);
   };
   if (!auditor.abandoned()) return finish();
   int code = kBadInput;
@@ -334,16 +348,8 @@ void add_audit(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")
       ->check(CLI::Range(1, 4096));
-  command
-      ->add_option("--json", a->json,
-                   "Write the results as JSON to FILE.json; '-' or nothing: standard output, and no table")
-      ->type_name("FILE")
-      ->expected(0, 1)
-      ->default_str("-");
-  command->add_flag(
-      "--resume", a->resume,
-      "Resume an audit that ended before its report was complete; give the same command again. Its rows "
-      "so far are in FILE.jsonl beside the report FILE.json");
+  add_json_option(*command, a->shard);
+  add_shard_options(*command, a->shard, "meshes");
   command->add_flag("--details", a->details,
                     "Print a table for each subject and each finding at its worst, not only the overview");
   command->add_flag("--each-mesh", a->each_mesh,
@@ -361,10 +367,10 @@ void add_audit(CLI::App& app, int& exit_code) {
       "is supported. Ctrl-C ends the audit with a report of the results so far, marked as incomplete, and "
       "exit code 130 (SIGTERM 143, SIGHUP 129); a second Ctrl-C ends it at once.");
   command->callback([=, &exit_code] {
-    check_json(a->json);
+    check_json(a->shard.json);
     a->plan = depth->count() + depths->count() + sample->count() == 0;
     if (files->given())
-      exit_code = audit_files(*files, a->mesh, a->json, a->threads);
+      exit_code = audit_files(*files, a->mesh, a->shard.json, a->threads);
     else
       exit_code = explained(a->output) ? kHeld : audit(settle(*a));
   });

@@ -21,20 +21,14 @@
 #include "verify/audit/shrink.h"
 #include "verify/audit/waivers.h"
 #include "verify/audit/witness_files.h"
+#include "verify/cli/commands.h"
 #include "verify/cli/finite.h"
 #include "verify/cli/subject_output.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 
-void add_output_options(CLI::App& command, OutputArguments& a) {
-  command
-      .add_option(
-          "--level", a.level,
-          "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in another "
-          "order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes")
-      ->check(CLI::IsMember({"quick", "standard", "thorough"}))
-      ->capture_default_str();
+void add_report_options(CLI::App& command, OutputArguments& a) {
   std::vector<std::string> checks;
   for (const auto& e : verify::explanations())
     if (!e.check.starts_with("file-")) checks.emplace_back(e.check);
@@ -48,12 +42,6 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->type_name("CHECK,...");
   command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
   command
-      .add_option(
-          "--html", a.html,
-          "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
-          "and the meshes in three dimensions with their errors")
-      ->type_name("FILE");
-  command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
@@ -63,6 +51,23 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
           "JSON report of an earlier audit: say what is new, worse and gone since, and exit with 1 only "
           "for what is new or worse")
       ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+}
+
+void add_output_options(CLI::App& command, OutputArguments& a) {
+  command
+      .add_option(
+          "--level", a.level,
+          "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in another "
+          "order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes")
+      ->check(CLI::IsMember({"quick", "standard", "thorough"}))
+      ->capture_default_str();
+  add_report_options(command, a);
+  command
+      .add_option(
+          "--html", a.html,
+          "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
+          "and the meshes in three dimensions with their errors")
       ->type_name("FILE");
   command
       .add_option(
@@ -109,14 +114,12 @@ bool explained(const OutputArguments& a) {
   return true;
 }
 
-void waive(const OutputArguments& a, const std::vector<verify::AuditSubject>& subjects,
-           verify::Report& report) {
+void waive(const OutputArguments& a, verify::Report& report) {
   if (a.waivers.empty()) return;
   const std::string text = data::io::whole_content(a.waivers);
   std::map<std::string, std::string> versions;
-  for (std::size_t s = 0; s < subjects.size() && s < report.subjects.size(); ++s)
-    versions[report.subjects[s]] =
-        verify::version_in(subjects[s].subject->description ? subjects[s].subject->description : "");
+  for (const auto& [subject, description] : report.descriptions)
+    versions[subject] = verify::version_in(description);
   const auto today = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   try {
     verify::apply_waivers(report, verify::parse_waivers(text), versions,
@@ -244,6 +247,19 @@ void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::strin
 
 void write_junit(const OutputArguments& a, const verify::Report& report) {
   if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report));
+}
+
+std::string nothing_looked_at(bool polygons) {
+  return std::string("nothing was looked at: nothing that was asked for is supported") +
+         (polygons
+              ? "; a subject that does Loop's scheme only needs --triangulate for meshes with larger faces"
+              : "");
+}
+
+int exit_code_of(const verify::Report& report, bool judged) {
+  if (!report.looked()) return kBadInput;
+  if (!judged && std::none_of(report.results.begin(), report.results.end(), verify::is_bad)) return kBadInput;
+  return report.held() ? kHeld : kFindings;
 }
 
 }  // namespace limitcheck::cli

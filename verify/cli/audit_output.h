@@ -18,6 +18,9 @@ struct OutputArguments {
   double shrink_seconds = 0;  // 0: no shrinking
 };
 
+/// --require, --junit, --waivers and --baseline: what can be done with a report alone.
+void add_report_options(CLI::App& command, OutputArguments& arguments);
+/// These and the others.
 void add_output_options(CLI::App& command, OutputArguments& arguments);
 verify::Level level(const OutputArguments& arguments);
 
@@ -26,8 +29,7 @@ verify::Level level(const OutputArguments& arguments);
 bool explained(const OutputArguments& arguments);
 
 /// Applies --waivers to the report. Throws data::ArgumentError: the file cannot be read or understood.
-void waive(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,
-           verify::Report& report);
+void waive(const OutputArguments& arguments, verify::Report& report);
 
 /// Compares the report with --baseline. Throws data::ArgumentError: the file cannot be read or understood.
 void compare(const OutputArguments& arguments, verify::Report& report);
@@ -45,6 +47,12 @@ void write_html(const std::string& file, const std::vector<verify::AuditSubject>
 
 /// Whether each subject was judged by all checks that --require names; report.incomplete names the others.
 bool judged_as_required(const OutputArguments& arguments, verify::Report& report);
+
+/// Why a report in which nothing was looked at is incomplete.
+std::string nothing_looked_at(bool polygons);
+
+/// Of an audit that came to its end.
+int exit_code_of(const verify::Report& report, bool judged);
 
 /// Outputs as pairs of option and file name, "-" or "" for none. Throws data::ArgumentError: two of them
 /// are one and the same file.

@@ -71,12 +71,12 @@ TEST_F(Resume, AnotherAuditIsNotResumed) {
     other.replace(other.find(was), std::string(was).size(), is);
     const Outcome o = run(other + "--resume");
     EXPECT_EQ(o.code, 2) << other;
-    EXPECT_NE(o.err.find("--resume: r.jsonl is of another audit"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("--resume: r.jsonl is of another plan"), std::string::npos) << o.err;
   }
   write("m.off", kVertices + "3 0 1 2\n5 3 4 5 6 7\n");  // the same corners in faces of other sizes
   const Outcome o = run(std::string(kArguments) + "--resume");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("--resume: r.jsonl is of another audit"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("--resume: r.jsonl is of another plan"), std::string::npos) << o.err;
   EXPECT_NE(run("audit naive tetrahedron --resume").err.find("--resume needs --json"), std::string::npos);
   EXPECT_NE(run("audit naive tetrahedron --json none.json --resume").err.find("there is no none.jsonl"),
             std::string::npos);

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
@@ -33,7 +32,7 @@ constexpr auto kSaved = std::chrono::seconds(10);  // between two times that a p
 struct Arguments {
   std::string subject, time, scheme, shard = "1/1", json, junit, baseline;
   std::string witnesses = "limitcheck-hunt";
-  std::vector<std::string> options;
+  std::vector<std::string> options, vary;
   std::uint64_t cases = 1000, seed = 1;
   int jobs = 0, attempts = 2000;
   bool in_process = false, resume = false;
@@ -70,7 +69,7 @@ std::optional<verify::HuntReport> begun(const Part& part, const verify::HuntRepo
   if (part.file.empty() || !std::filesystem::exists(part.file)) return std::nullopt;
   verify::HuntReport old = verify::read_hunt_report(data::io::whole_content(part.file));
   if (old.subject != fresh.subject || old.seed != fresh.seed || old.asked != fresh.asked ||
-      old.schemes != fresh.schemes || old.shard.index != fresh.shard.index ||
+      old.schemes != fresh.schemes || old.varied != fresh.varied || old.shard.index != fresh.shard.index ||
       old.shard.count != fresh.shard.count || old.version != fresh.version)
     throw data::ArgumentError(fmt::format("--resume: {} is of another hunt", part.file));
   return old;
@@ -81,10 +80,12 @@ verify::HuntReport hunt_part(const Arguments& a, const Part& part, JobCounters& 
   SubjectLoader loader(a.from);
   const verify::AuditSubject subject = loader.open(a.subject, a.options);
   std::vector<verify::Does> does = verify::schemes_of(subject, schemes_asked(a));
+  std::vector<verify::Way> ways = verify::ways_of(subject, schemes_asked(a), a.vary);
   verify::HuntReport report;
   report.version = LIMITCHECK_VERSION;
   report.subject = subject.label();
   report.seed = a.seed, report.asked = a.time.empty() ? a.cases : 0, report.shard = part.shard;
+  report.varied = a.vary;
   for (const verify::Does& d : does) report.schemes.emplace_back(data::name_of(d.scheme));
   if (a.resume)
     if (auto old = begun(part, report)) report = std::move(*old);
@@ -94,15 +95,14 @@ verify::HuntReport hunt_part(const Arguments& a, const Part& part, JobCounters& 
   const auto start = Clock::now();
   auto saved = start;
   std::uint64_t next = report.next;
-  verify::Hunt hunt(subject, verify::HuntPlan(a.seed, std::move(does)), {1, a.attempts, a.witnesses},
-                    std::move(report));
+  verify::Hunt hunt(subject, verify::HuntPlan(a.seed, std::move(does), std::move(ways)),
+                    {1, a.attempts, a.witnesses}, std::move(report));
   const auto now = [&] {
     verify::HuntReport r = hunt.report();
     r.next = next;
     r.seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
     if (verify::interrupted() != 0)
       r.incomplete = fmt::format("interrupted by {}", verify::signal_name(verify::interrupted()));
-    r.sort();
     return r;
   };
   const auto save = [&] {
@@ -165,11 +165,8 @@ class PartFiles {
   std::filesystem::path folder_;
 };
 
-std::set<std::string> signatures_in(const std::string& file) try {
-  std::set<std::string> known;
-  for (const verify::HuntFinding& f : verify::read_hunt_report(data::io::whole_content(file)).findings)
-    known.insert(f.signature);
-  return known;
+verify::HuntReport baseline(const std::string& file) try {
+  return verify::read_hunt_report(data::io::whole_content(file));
 } catch (const data::ArgumentError& error) {
   throw data::ArgumentError(fmt::format("--baseline {}: {}", file, error.what()));
 }
@@ -186,8 +183,9 @@ int hunt(Arguments a) {
     throw data::ArgumentError("--resume needs --json FILE: what was done is beside it, in FILE.part1 ..");
   const verify::Shard shard = verify::parse_shard(a.shard);
   const double seconds = a.time.empty() ? 0 : seconds_of(a.time);
-  std::optional<std::set<std::string>> known;
-  if (!a.baseline.empty()) known = signatures_in(a.baseline);
+  std::optional<verify::HuntReport> earlier;
+  if (!a.baseline.empty()) earlier = baseline(a.baseline);
+  const verify::HuntReport* const before = earlier ? &*earlier : nullptr;
   if (a.jobs <= 0) a.jobs = tbb::info::default_concurrency();
   a.from.isolate = !a.in_process;
   {  // that all is well with the arguments is found out here, and said once
@@ -196,6 +194,7 @@ int hunt(Arguments a) {
     SubjectLoader loader(copy.from);
     const verify::AuditSubject subject = loader.open(a.subject, a.options);
     verify::HuntPlan(a.seed, verify::schemes_of(subject, schemes_asked(a)));
+    (void)verify::ways_of(subject, schemes_asked(a), a.vary);
   }
 
   const verify::InterruptGuard guard;
@@ -237,16 +236,12 @@ int hunt(Arguments a) {
                             ? fmt::format("a process of the hunt was ended by signal {}", code - kSignalled)
                             : "a process of the hunt failed";
   if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report));
-  if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report));
+  if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report, before));
   if (report.incomplete.empty()) files.remove();
-  fmt::print("{}",
-             a.json == "-" ? verify::to_json(report) : verify::to_text(report, known ? &*known : nullptr));
+  fmt::print("{}", a.json == "-" ? verify::to_json(report) : verify::to_text(report, before));
   if (const int signal = verify::interrupted(); signal != 0) return kSignalled + signal;
   if (!report.incomplete.empty() || report.judged == 0) return kBadInput;
-  const bool fresh =
-      std::any_of(report.findings.begin(), report.findings.end(),
-                  [&](const verify::HuntFinding& f) { return !known || !known->contains(f.signature); });
-  return fresh ? kFindings : kHeld;
+  return verify::new_findings(report, before).empty() ? kHeld : kFindings;
 }
 
 }  // namespace
@@ -278,6 +273,12 @@ void add_hunt(CLI::App& app, int& exit_code) {
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
+  command
+      ->add_option("--vary", a->vary,
+                   "Keys of the subject's options (target,precision, or all): every second case takes other "
+                   "values of one or two of them, which the subject's help text names")
+      ->delimiter(',')
+      ->type_name("KEY,...");
   command->add_option("--witnesses", a->witnesses, "Folder for the small mesh of each finding")
       ->capture_default_str();
   command
@@ -298,12 +299,12 @@ void add_hunt(CLI::App& app, int& exit_code) {
   command->add_flag("--in-process", a->in_process,
                     "Run a built-in subject in the processes of the hunt: faster, and a crash ends the hunt");
   add_subject_options(*command, a->from);
+  command->remove_option(command->get_option("--isolate"));  // that is so unless --in-process is given
   command->footer(
-      "A finding is what was seen at one check in one kind of neighbourhood, however often; the first four "
-      "of a "
-      "check are shrunk to few faces. Exit codes: 0 nothing new was found, 1 findings, 2 bad usage or input, "
-      "or "
-      "nothing was judged; 130 and the like after a signal, with a report of the cases so far.");
+      "A finding is what was seen at one check in one kind of neighbourhood, however often, unless the same "
+      "was seen where there is less; one for each kind of vertex is shrunk to few faces. Exit codes: 0 "
+      "nothing new was found, 1 findings, 2 bad usage or "
+      "input, or nothing was judged; 130 and the like after a signal, with a report of the cases so far.");
   command->callback([a, &exit_code] { exit_code = hunt(*a); });
 }
 

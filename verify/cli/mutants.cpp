@@ -5,11 +5,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "verify/audit/json.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/merge.h"
 #include "verify/cli/progress.h"
+#include "verify/cli/shard_options.h"
+#include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -58,24 +63,61 @@ std::string to_table(const KillTable& table) {
   return out;
 }
 
+int report(const KillTable& table, const std::string& json) {
+  if (!json.empty() && json != "-") verify::write_text(json, to_json(table));
+  fmt::print("{}", json == "-" ? to_json(table) : to_table(table));
+  return table.held() ? kHeld : kFindings;
+}
+
+int run(const ShardArguments& a) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto journal = open_journal(a, verify::mutants_plan(LIMITCHECK_VERSION));
+  const verify::InterruptGuard guard;
+  Progress progress;
+  verify::run_mutants(
+      *journal,
+      [&](const std::string& what, std::size_t done, std::size_t total) { progress.show(done, total, what); },
+      [] { return verify::interrupted() != 0; });
+  progress.clear();
+  const int signal = verify::interrupted();
+  std::string incomplete;
+  if (signal != 0) incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
+  if (!a.of().is_whole()) {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
+    write_part(a, *journal, {{}, {}, since.count(), "", "", incomplete});
+  }
+  if (signal != 0) {
+    fmt::print(stderr, "limitcheck: {}\n", incomplete);
+    return kSignalled + signal;
+  }
+  int code = kHeld;
+  if (a.of().is_whole()) {
+    code = report(verify::kill_table(journal->results()), a.json);
+  } else {
+    fmt::print("shard {}: {} of {} units\n", a.shard, journal->results().size(), journal->plan().units);
+  }
+  journal->remove();
+  return code;
+}
+
 }  // namespace
 
+int merge_mutants(const verify::PartReport& whole, const MergeArguments& a) {
+  return report(verify::kill_table(whole.results), a.output);
+}
+
 void add_mutants(CLI::App& app, int& exit_code) {
-  auto json = std::make_shared<bool>(false);
+  auto a = std::make_shared<ShardArguments>();
   CLI::App* command =
       app.add_subcommand("mutants", "Let the audit loose on faulty tessellators: what each check catches");
-  command->add_flag("--json", *json, "One JSON document instead of the table");
+  add_json_option(*command, *a);
+  add_shard_options(*command, *a, "mutants, and of the meshes for right subjects");
   command->footer(
       "Exit codes: 0 every mutant is killed by the check meant for it, every check kills one, and correct "
-      "subjects have no finding; 1 otherwise.");
-  command->callback([json, &exit_code] {
-    Progress progress;
-    const KillTable table = verify::run_mutants([&](const std::string& what, std::size_t done,
-                                                    std::size_t total) { progress.show(done, total, what); });
-    progress.clear();
-    fmt::print("{}", *json ? to_json(table) : to_table(table));
-    exit_code = table.held() ? kHeld : kFindings;
-  });
+      "subjects have no finding (of a shard: it is done, and limitcheck merge will say); 1 otherwise; 130 "
+      "and "
+      "the like after a signal.");
+  command->callback([a, &exit_code] { exit_code = run(*a); });
 }
 
 }  // namespace limitcheck::cli

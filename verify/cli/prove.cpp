@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ratio>
@@ -13,9 +14,13 @@
 
 #include "data/error.h"
 #include "data/scheme.h"
+#include "verify/audit/json.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/merge.h"
 #include "verify/cli/progress.h"
+#include "verify/cli/shard_options.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/proof/proof_json.h"
 #include "verify/proof/proof_report.h"
 #include "verify/proof/prove.h"
 
@@ -25,7 +30,8 @@ namespace {
 struct Request {
   std::string scheme = "loop", valences, kernel = "all", set = "standard";
   int depth = 6;
-  bool json = false, each = false;
+  bool each = false;
+  ShardArguments shard;
 };
 
 int number(const std::string& text) {
@@ -59,7 +65,7 @@ std::vector<int> valences(const std::string& text) {
   return result;
 }
 
-int run(const Request& request) {
+verify::ProofRequest as_request(const Request& request) {
   verify::ProofRequest what;
   const bool quads = request.scheme == "catmull-clark";
   if (quads) what.scheme = data::Scheme::kCatmullClark;
@@ -68,38 +74,122 @@ int run(const Request& request) {
   what.sliding_window = request.kernel != "row-stream";
   what.row_stream = request.kernel != "sliding-window";
   what.size = request.set == "full" ? verify::ProofSize::kFull : verify::ProofSize::kStandard;
-  const verify::ProofSet set = verify::proof_set(what);
-  const verify::InterruptGuard guard;
+  return what;
+}
+
+// Each task of the set is a unit, and behind them the stock shapes are one.
+verify::Plan plan_of(const Request& request, const verify::ProofSet& set) {
+  nlohmann::json what{{"version", LIMITCHECK_VERSION}, {"scheme", request.scheme},
+                      {"valences", request.valences},  {"depth", request.depth},
+                      {"kernel", request.kernel},      {"set", request.set}};
+  std::map<std::string, int> groups;
+  for (const verify::ProofTask& task : set.tasks) ++groups[task.group];
+  what["groups"] = groups;
+  return {"limitcheck prove", std::move(what), set.tasks.size() + 1};
+}
+
+// The tasks of the journal's shard that it does not know.
+void prove_tasks(const verify::ProofSet& set, verify::Journal& journal) {
+  std::vector<verify::ProofTask> tasks;
+  std::vector<std::size_t> units;
+  for (std::size_t unit = 0; unit < set.tasks.size(); ++unit) {
+    if (!journal.plan().has(unit) || journal.recall(unit) != nullptr) continue;
+    tasks.push_back(set.tasks[unit]);
+    units.push_back(unit);
+  }
   Progress progress;
   const auto start = std::chrono::steady_clock::now();
-  const auto rows = verify::prove(
-      set.tasks,
+  (void)verify::prove(
+      tasks,
       [&](const verify::ProofProgress& done) {
+        if (!done.rows->empty())
+          journal.keep(units[static_cast<std::size_t>(done.latest - tasks.data())],
+                       verify::proof_rows_json(*done.rows));
         const std::chrono::duration<double, std::ratio<60>> passed = std::chrono::steady_clock::now() - start;
         progress.show(static_cast<std::size_t>(100 * done.share), 100,
-                      fmt::format("% ({} of {}), {:.0f} min left: {} {}", done.tasks, set.tasks.size(),
+                      fmt::format("% ({} of {}), {:.0f} min left: {} {}", done.tasks, tasks.size(),
                                   passed.count() * (1 - done.share) / done.share, done.latest->group,
                                   done.latest->neighbourhood.name));
       },
       [] { return verify::interrupted() != 0; });
   progress.clear();
+}
+
+void certify(const verify::ProofRequest& what, verify::Journal& journal) {
+  const std::size_t unit = journal.plan().units - 1;
+  if (!journal.plan().has(unit) || journal.recall(unit) != nullptr || verify::interrupted() != 0) return;
   std::vector<verify::FloatKernel> kernels;
   if (what.sliding_window) kernels.push_back(verify::FloatKernel::kSlidingWindow);
   if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
+  journal.keep(unit, verify::certified_json(
+                         verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12, what.scheme)));
+}
+
+// The results as they are in a journal or in parts.
+struct Results {
+  std::vector<std::vector<verify::ProofRow>> rows;
   std::vector<verify::CertifiedLine> certified;
-  if (verify::interrupted() == 0)
-    certified = verify::certify_stock_shapes(kernels, std::min(what.depth, 4), 12, what.scheme);
-  const verify::ProofReport report(set, rows, std::move(certified));
-  if (request.json) {
-    fmt::print("{}\n", report.json());
-  } else {
-    fmt::print("{}", report.table(request.each));
+};
+Results results_of(const std::map<std::size_t, nlohmann::json>& units, std::size_t tasks) {
+  Results results{std::vector<std::vector<verify::ProofRow>>(tasks), {}};
+  for (const auto& [unit, result] : units) {
+    if (unit < tasks)
+      results.rows[unit] = verify::proof_rows_of(result);
+    else
+      results.certified = verify::certified_of(result);
   }
+  return results;
+}
+
+int run(const Request& request) {
+  const auto start = std::chrono::steady_clock::now();
+  const verify::ProofRequest what = as_request(request);
+  const verify::ProofSet set = verify::proof_set(what);
+  const auto journal = open_journal(request.shard, plan_of(request, set));
+  const verify::InterruptGuard guard;
+  prove_tasks(set, *journal);
+  certify(what, *journal);
+  const Results results = results_of(journal->results(), set.tasks.size());
+  const verify::ProofReport report(set, results.rows, results.certified);
+  const int signal = verify::interrupted();
+  const std::string& json = request.shard.json;
+  if (!request.shard.of().is_whole()) {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
+    write_part(request.shard, *journal,
+               {{},
+                {},
+                since.count(),
+                "",
+                "",
+                signal == 0 ? "" : fmt::format("interrupted by {}", verify::signal_name(signal))});
+    fmt::print("shard {}: {} of {} units, {}\n", request.shard.shard, journal->results().size(),
+               journal->plan().units, report.held() ? "every map is the reference's" : "some proofs FAILED");
+  } else {
+    if (!json.empty() && json != "-") verify::write_text(json, report.json() + "\n");
+    fmt::print("{}", json == "-" ? report.json() + "\n" : report.table(request.each));
+  }
+  if (signal == 0) journal->remove();
   if (!report.held()) return kFindings;
-  return report.complete() ? kHeld : kSignalled + verify::interrupted();
+  return signal == 0 ? kHeld : kSignalled + signal;
 }
 
 }  // namespace
+
+int merge_prove(const verify::PartReport& whole, const MergeArguments& a) {
+  const nlohmann::json& plan = whole.plan.what;
+  Request request;
+  plan.at("scheme").get_to(request.scheme), plan.at("valences").get_to(request.valences);
+  plan.at("depth").get_to(request.depth), plan.at("kernel").get_to(request.kernel);
+  plan.at("set").get_to(request.set);
+  const verify::ProofSet set = verify::proof_set(as_request(request));
+  if (plan_of(request, set).what != plan)
+    throw data::ArgumentError("the parts are of another version of limitcheck");
+  const Results results = results_of(whole.results, set.tasks.size());
+  const verify::ProofReport report(set, results.rows, results.certified);
+  verify::write_text(a.output, report.json() + "\n");
+  fmt::print("{}", report.table(false));
+  return report.held() ? kHeld : kFindings;
+}
 
 void add_prove(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
@@ -123,7 +213,8 @@ void add_prove(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"standard", "full"}))
       ->capture_default_str();
   command->add_flag("--each", request->each, "A line for every topology, not for every group of them");
-  command->add_flag("--json", request->json, "One JSON document with every topology");
+  add_json_option(*command, request->shard);
+  add_shard_options(*command, request->shard, "topologies");
   command->footer(
       "Both sets hold every triple of valences, valences 20, 50 and 100, boundaries, the face alone and the\n"
       "pairs of bumpy spheres, on every kernel. Maps (m) and float bounds (b) to depth, standard | full:\n"

@@ -5,16 +5,32 @@
 #include <set>
 #include <utility>
 
+#include "data/bounding_box.h"
+#include "verify/audit/causes.h"
+#include "verify/audit/face_depths.h"
 #include "verify/audit/reproduce.h"
 #include "verify/audit/shrink.h"
 #include "verify/audit/witness_files.h"
-#include "verify/hunt/neighbourhood.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {
 
 namespace {
 constexpr int kOfHangs = 20;
+
+const char* level_of(const HuntCase& at) {
+  return at.mesh.relations ? "thorough" : "quick";
+}
+
+// Of the rows of a case those that are wrong by themselves: of each cause the first.
+std::vector<const Result*> causes_in(const Report& report) {
+  std::vector<const Result*> rows;
+  for (const Cause& cause : causes(report)) {
+    const std::size_t row = cause.direct.empty() ? cause.example : cause.direct.front();
+    rows.push_back(&report.results[row]);
+  }
+  return rows;
+}
 }  // namespace
 
 Hunt::Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options, HuntReport report)
@@ -25,43 +41,48 @@ Hunt::Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options, HuntReport 
       quick_(-1, options_.threads),
       thorough_(-1, options_.threads, {}, Level::kThorough) {}
 
-HuntFinding* Hunt::known(const std::string& signature) {
-  for (HuntFinding& f : report_.findings)
-    if (f.signature == signature) return &f;
-  return nullptr;
+AuditSubject Hunt::subject(const HuntCase& at) const {
+  AuditSubject subject = subject_;
+  if (!at.options.empty()) subject.options = at.options;
+  return subject;
 }
 
-std::vector<Result> Hunt::audit(const HuntCase& at) {
-  return (at.mesh.relations ? thorough_ : quick_).run(subject_, at.mesh);
+Report Hunt::audit(const HuntCase& at) {
+  const AuditSubject asked = subject(at);
+  Report report;
+  report.subjects = {asked.label()};
+  report.meshes.push_back({at.mesh.name, static_cast<std::int64_t>(at.mesh.mesh.positions.size()),
+                           static_cast<std::int64_t>(at.mesh.mesh.faces.size()), at.mesh.scheme(), "",
+                           data::box_diagonal(at.mesh.mesh)});
+  report.results = (at.mesh.relations ? thorough_ : quick_).run(asked, at.mesh);
+  return report;
 }
 
 bool Hunt::look(std::uint64_t number) {
   const HuntCase at = plan_.at(number);
-  const std::vector<Result> rows = audit(at);
+  const Report report = audit(at);
   if (interrupted() != 0) return false;
   ++report_.cases;
   report_.kinds.merge(kinds_of_edges(at.mesh));
-  bool judged = false;
+  report_.judged += report.looked() ? 1 : 0;
   std::set<std::string> here;
-  for (const Result& row : rows) {
-    judged = judged || (row.status != Status::kNotSupported && row.status != Status::kNotRun);
-    if (!is_bad(row)) continue;
+  for (const Result* row : causes_in(report)) {
     HuntFinding f;
-    f.signature = signature(row, at.mesh);
+    f.where = surroundings(*row, at.mesh);
+    f.signature = signature(*row, f.where);
     if (!here.insert(f.signature).second) continue;
-    if (HuntFinding* before = known(f.signature)) {
-      ++before->cases;
+    if (const auto before = report_.findings.find(f.signature); before != report_.findings.end()) {
+      ++before->second.cases;
       continue;
     }
-    f.check = row.check, f.status = word(row.status), f.scheme = data::name_of(row.scheme);
+    f.check = row->check, f.status = word(row->status), f.scheme = data::name_of(row->scheme);
     f.cases = 1, f.first = number;
-    f.found_on = audit_command(row, at.mesh.relations ? "thorough" : "quick");
+    f.found_on = audit_command(*row, level_of(at));
     f.faces_before = static_cast<std::int64_t>(at.mesh.mesh.faces.size());
-    f.depth_before = row.depth;
-    f.worst = row.worst, f.bound = row.bound, f.unit = row.unit, f.message = row.message;
-    report_.findings.push_back(std::move(f));
+    f.depth_before = row->depth;
+    f.worst = row->worst, f.bound = row->bound, f.unit = row->unit, f.message = row->message;
+    report_.findings.emplace(f.signature, f);
   }
-  report_.judged += judged ? 1 : 0;
   return true;
 }
 
@@ -73,13 +94,15 @@ void Hunt::shrink_findings() {
 
 void Hunt::shrink_finding(HuntFinding& f) {
   const HuntCase at = plan_.at(f.first);
-  for (const Result& row : audit(at)) {
-    if (!is_bad(row) || signature(row, at.mesh) != f.signature) continue;
+  const Report found = audit(at);
+  for (const Result* cause : causes_in(found)) {
+    const Result& row = *cause;
+    if (signature(row, surroundings(row, at.mesh)) != f.signature) continue;
     // Each attempt with a subject that hangs takes as long as it is given.
     const int attempts =
         row.status == Status::kTimeout ? std::min(options_.attempts, kOfHangs) : options_.attempts;
     const auto [small, again, relation] =
-        shrink(subject_, at.mesh, options_.threads, row, {.attempts = attempts});
+        shrink(subject(at), at.mesh, options_.threads, row, {.attempts = attempts});
     if (!again) return;
     f.faces = static_cast<std::int64_t>(small.mesh.mesh.faces.size());
     f.depth = again->depth;
@@ -91,7 +114,8 @@ void Hunt::shrink_finding(HuntFinding& f) {
     f.witness = place.string();
     Result on_file = *again;
     on_file.mesh = (place / "control.obj").string();
-    if (!small.mesh.face_depth.empty()) on_file.depths = "file:" + (place / "depths.txt").string();
+    if (!small.mesh.face_depth.empty())
+      on_file.depths = after_of(again->depths) + "file:" + (place / "depths.txt").string();
     f.command = difference_command(on_file);
     if (f.command.empty()) f.command = audit_command(on_file, level);
     return;

@@ -20,7 +20,8 @@ struct HuntOptions {
   std::filesystem::path witnesses;  // folder for the small meshes; empty: none is written
 };
 
-/// Audits cases of a plan. Findings with one signature are one: the first counts.
+/// Audits cases of a plan. What follows from another row of the case (verify/audit/causes.h) is no finding;
+/// findings with one signature are one: the first counts.
 class Hunt {
  public:
   Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options, HuntReport report);
@@ -34,9 +35,11 @@ class Hunt {
   const HuntReport& report() const { return report_; }
 
  private:
-  HuntFinding* known(const std::string& signature);
-  std::vector<Result> audit(const HuntCase& at);
+  Report audit(const HuntCase& at);
   void shrink_finding(HuntFinding& finding);
+
+  // With the options of the case.
+  AuditSubject subject(const HuntCase& at) const;
 
   AuditSubject subject_;
   HuntPlan plan_;

@@ -76,6 +76,17 @@ std::string mesh_name(const Does& does, std::uint64_t turn, bool smooth, data::S
     name = random_name(sharp_family(does, turn % 8 == 1), random);
   else
     name = random_name(does.scheme == data::Scheme::kLoop ? "random" : "mixed", random);
+  switch (below(random, 8)) {
+    case 0:
+      name = fmt::format("handled:{}:{}", 1 + below(random, 4), name);
+      break;
+    case 1:
+    case 2:
+      name = fmt::format("turned:{}:{}", below(random, 1'000'000), name);
+      break;
+    default:
+      break;
+  }
   // Needles, in every fourth mesh.
   return below(random, 4) == 0 ? fmt::format("stretched:{}:{}", 1 + below(random, 14), name) : name;
 }
@@ -111,11 +122,15 @@ Asked depths_for(std::size_t faces, std::uint64_t turn, data::SplitMix64& random
 
 }  // namespace
 
+std::vector<Does> does_of(const AuditSubject& subject, data::Scheme scheme) {
+  const lc_capabilities c = capabilities(*subject.subject, subject.options, scheme);
+  return does(c, scheme) ? std::vector<Does>{{scheme, c.sharp}} : std::vector<Does>{};
+}
+
 std::vector<Does> schemes_of(const AuditSubject& subject, const std::vector<data::Scheme>& schemes) {
   std::vector<Does> all;
   for (const data::Scheme scheme : schemes) try {
-      const lc_capabilities c = capabilities(*subject.subject, subject.options, scheme);
-      if (does(c, scheme)) all.push_back({scheme, c.sharp});
+      for (const Does& d : does_of(subject, scheme)) all.push_back(d);
     } catch (const std::exception&) {
       all.push_back({scheme, 0});
     }
@@ -165,7 +180,8 @@ std::set<std::uint64_t> kinds_of_edges(const AuditMesh& audited) {
   return kinds;
 }
 
-HuntPlan::HuntPlan(std::uint64_t seed, std::vector<Does> does) : seed_(seed), does_(std::move(does)) {
+HuntPlan::HuntPlan(std::uint64_t seed, std::vector<Does> does, std::vector<Way> ways)
+    : seed_(seed), does_(std::move(does)), ways_(std::move(ways)) {
   if (does_.empty())
     throw data::ArgumentError("there is nothing to hunt: the subject does not do this scheme");
 }
@@ -180,13 +196,21 @@ HuntCase HuntPlan::at(std::uint64_t number) {
 }
 
 HuntCase HuntPlan::next() {
-  const Does& does = does_[number_ % does_.size()];
+  Does does = does_[number_ % does_.size()];
   const std::uint64_t turn = number_ / does_.size();
+  const std::uint64_t of_case = data::SplitMix64(seed_ + 0x632be59bd9b4e019U * number_).next();
   HuntCase best;
+  data::SplitMix64 choice(of_case ^ 0x6f7074696f6e73U);
+  std::string options;
+  if (!ways_.empty() && below(choice, 2) == 0) {
+    const Way& way = ways_[below(choice, ways_.size())];
+    for (const Does& d : way.does)
+      if (d.scheme == does.scheme) does = d, options = way.options;
+  }
   std::set<std::uint64_t> best_kinds;
   std::size_t best_new = 0;
   for (std::size_t k = 0; k < kCandidates || best.mesh.name.empty(); ++k) {
-    data::SplitMix64 random(data::SplitMix64(seed_ + 0x632be59bd9b4e019U * number_).next() + k);
+    data::SplitMix64 random(of_case + k);
     AuditMesh m{mesh_name(does, turn, k >= kPatience, random), {}};
     m.mesh = data::named_mesh(m.name);
     m.asked_scheme = does.scheme;
@@ -195,13 +219,14 @@ HuntCase HuntPlan::next() {
     const Asked asked = depths_for(m.mesh.faces.size(), turn / 8 + turn, random);
     m.depth = asked.depth, m.depths = asked.depths;
     m.face_depth = face_depths(parse_depths(asked.depths), m.mesh, m.depth);
+    if (turn % 4 == 1) m.depths = fmt::format("after:{}:{}", below(random, 1'000'000), m.depths);
     m.relations = turn % 4 == 3;
     std::set<std::uint64_t> kinds = kinds_of_edges(m);
     std::size_t is_new = 1;
     for (const std::uint64_t kind : kinds) is_new += seen_.contains(kind) ? 0 : 1;
     if (is_new <= best_new) continue;
     best_new = is_new, best_kinds = std::move(kinds);
-    best = {number_, std::move(m)};
+    best = {number_, std::move(m), options};
   }
   seen_.insert(best_kinds.begin(), best_kinds.end());
   ++number_;

@@ -10,7 +10,9 @@
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
+#include "verify/audit/face_depths.h"
 #include "verify/subject/lent_mesh.h"
+#include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -36,7 +38,7 @@ TEST(HuntPlan, ACaseDependsOnNothingButItsNumber) {
   HuntPlan forward(3, kBoth), jumping(3, kBoth);
   std::map<std::uint64_t, std::string> names;
   const auto text = [](const HuntCase& c) {
-    return c.mesh.name + " " + c.mesh.depths + " " + std::to_string(c.mesh.depth);
+    return c.mesh.name + " " + c.mesh.depths + " " + std::to_string(c.mesh.depth) + c.options;
   };
   for (std::uint64_t n = 0; n < 80; ++n) names[n] = text(forward.at(n));
   for (const std::uint64_t n : {40U, 41U, 3U, 79U, 78U, 16U, 15U, 0U, 40U})
@@ -47,15 +49,22 @@ TEST(HuntPlan, ACaseDependsOnNothingButItsNumber) {
 
 TEST(HuntPlan, HasEveryFamilyAndEveryWayOfChoosingDepths) {
   HuntPlan plan(1, kBoth);
-  std::set<std::string> families, depths;
-  bool needles = false, relations = false;
+  std::set<std::string> families, depths, wrappers;
+  bool earlier = false, relations = false;
   for (std::uint64_t n = 0; n < 600; ++n) {
     const HuntCase c = plan.at(n);
     std::string name = c.mesh.name;
-    if (name.starts_with("stretched:")) needles = true, name = name.substr(name.find(':', 10) + 1);
+    for (const std::string wrapper : {"stretched:", "handled:", "turned:"}) {
+      if (!name.starts_with(wrapper)) continue;
+      wrappers.insert(wrapper);
+      name = name.substr(name.find(':', wrapper.size()) + 1);
+    }
     families.insert(name.substr(0, name.find(':')));
-    depths.insert(c.mesh.depths.substr(0, c.mesh.depths.find(':')) +
-                  (c.mesh.depths.ends_with("visible") ? " visible" : ""));
+    const std::string before = after_of(c.mesh.depths);
+    earlier = earlier || !before.empty();
+    depths.insert(
+        c.mesh.depths.substr(before.size(), c.mesh.depths.find(':', before.size()) - before.size()) +
+        (c.mesh.depths.ends_with("visible") ? " visible" : ""));
     relations = relations || c.mesh.relations;
   }
   for (const char* family :
@@ -64,7 +73,8 @@ TEST(HuntPlan, HasEveryFamilyAndEveryWayOfChoosingDepths) {
     EXPECT_TRUE(families.contains(family)) << family;
   for (const char* way : {"uniform", "random", "random visible", "view", "face0-culled"})
     EXPECT_TRUE(depths.contains(way)) << way;
-  EXPECT_TRUE(needles && relations);
+  EXPECT_EQ(wrappers.size(), 3U);
+  EXPECT_TRUE(earlier && relations);
 }
 
 TEST(HuntPlan, AsksOnlyForWhatTheSubjectDoes) {
@@ -76,6 +86,35 @@ TEST(HuntPlan, AsksOnlyForWhatTheSubjectDoes) {
     EXPECT_EQ(asked, sharp);
   }
   EXPECT_THROW(HuntPlan(1, {}), data::ArgumentError);
+}
+
+TEST(Ways, AreThoseThatTheOptionsTextNames) {
+  const std::vector<data::Scheme> both{data::Scheme::kLoop, data::Scheme::kCatmullClark};
+  const auto ways = [&](const char* name, const std::string& options, const std::vector<std::string>& keys) {
+    std::set<std::string> all;
+    for (const Way& w : ways_of({find_subject(name), options}, both, keys)) all.insert(w.options);
+    return all;
+  };
+  EXPECT_EQ(ways("naive", "", {"weights"}), (std::set<std::string>{"weights=loop", "weights=warren"}));
+  EXPECT_EQ(
+      ways("sliding-window", "repair=stitch", {"precision", "output"}),
+      (std::set<std::string>{
+          "repair=stitch,precision=float", "repair=stitch,precision=double", "repair=stitch,output=strips",
+          "repair=stitch,output=indexed", "repair=stitch,precision=float,output=strips",
+          "repair=stitch,precision=float,output=indexed", "repair=stitch,precision=double,output=strips",
+          "repair=stitch,precision=double,output=indexed"}));
+  EXPECT_TRUE(ways("sliding-window", "precision=double", {"precision"}).empty()) << "it is chosen";
+  EXPECT_TRUE(ways("naive", "", {}).empty());
+  EXPECT_TRUE(ways("row-stream", "", {"target"}).contains("target=scalar"));
+  EXPECT_TRUE(ways("row-stream", "", {"all"}).contains("output=patches,frames=2"));
+  EXPECT_THROW(ways("naive", "", {"target"}), data::ArgumentError);
+  EXPECT_THROW(ways("embree", "", {"precision"}), data::ArgumentError);
+
+  HuntPlan plan(1, kBoth, ways_of({find_subject("naive"), ""}, both, {"all"}));
+  std::map<std::string, int> options;
+  for (std::uint64_t n = 0; n < 200; ++n) ++options[plan.at(n).options];
+  EXPECT_EQ(options.size(), 3U);
+  EXPECT_GT(options[""], 60);
 }
 
 TEST(HuntPlan, TellsEdgesApartByWhatLiesAboutThem) {

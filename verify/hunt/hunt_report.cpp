@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -30,6 +29,12 @@ Json to_json(const HuntFinding& f) {
           {"status", f.status},
           {"scheme", f.scheme},
           {"severity", f.severity()},
+          {"where",
+           {{"kind", f.where.kind},
+            {"valence", f.where.valence},
+            {"rank", f.where.rank},
+            {"beside", f.where.beside},
+            {"depth_difference", f.where.difference}}},
           {"cases", f.cases},
           {"first", f.first},
           {"found_on", f.found_on},
@@ -49,6 +54,10 @@ HuntFinding finding_of(const Json& json) {
   HuntFinding f;
   const auto get = [&](const char* key, auto& to) { json.at(key).get_to(to); };
   get("signature", f.signature), get("check", f.check), get("status", f.status), get("scheme", f.scheme);
+  const Json& where = json.at("where");
+  where.at("kind").get_to(f.where.kind), where.at("valence").get_to(f.where.valence);
+  where.at("rank").get_to(f.where.rank), where.at("beside").get_to(f.where.beside);
+  where.at("depth_difference").get_to(f.where.difference);
   get("cases", f.cases), get("first", f.first), get("found_on", f.found_on);
   get("faces_before", f.faces_before), get("depth_before", f.depth_before);
   f.worst = number_or_none(json.at("worst")), f.bound = number_or_none(json.at("bound"));
@@ -58,71 +67,80 @@ HuntFinding finding_of(const Json& json) {
 }
 
 // Of a finding in several shards the first case counts.
-void take(std::vector<HuntFinding>& all, const HuntFinding& more) {
-  for (HuntFinding& f : all) {
-    if (f.signature != more.signature) continue;
-    const std::int64_t cases = f.cases + more.cases;
-    if (more.first < f.first) f = more;
-    f.cases = cases;
-    return;
-  }
-  all.push_back(more);
+void take(std::map<std::string, HuntFinding>& all, const HuntFinding& more) {
+  const auto [at, is_new] = all.try_emplace(more.signature, more);
+  if (is_new) return;
+  const std::int64_t cases = at->second.cases + more.cases;
+  if (more.first < at->second.first) at->second = more;
+  at->second.cases = cases;
 }
 
 }  // namespace
-
-Shard parse_shard(const std::string& text) {
-  const auto refuse = [&] {
-    throw data::ArgumentError(fmt::format("--shard {}: K/N with 1 <= K <= N, for example 3/8", text));
-  };
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  std::uint64_t k = 0;
-  auto [at, error] = std::from_chars(text.data(), end, k);
-  if (error != std::errc() || at == end || *at != '/') refuse();
-  const auto count = std::from_chars(at + 1, end, shard.count);
-  if (count.ec != std::errc() || count.ptr != end || k < 1 || k > shard.count || shard.count > 1'000'000)
-    refuse();
-  shard.index = k - 1;
-  return shard;
-}
 
 std::string HuntFinding::severity() const {
   const double ratio = status != "finding" ? HUGE_VAL : worst && bound && *bound > 0 ? *worst / *bound : 1;
   return ratio >= 1000 ? "high" : ratio >= 10 ? "medium" : "low";
 }
 
-void HuntReport::sort() {
-  const auto rank = [](const std::string& severity) {
+bool HuntFinding::covers(const HuntFinding& other) const {
+  return scheme == other.scheme && check == other.check && status == other.status &&
+         where.covers(other.where);
+}
+
+std::vector<const HuntFinding*> HuntReport::by_severity() const {
+  const auto rank = [](const HuntFinding* f) {
+    const std::string severity = f->severity();
     return severity == "high" ? 0 : severity == "medium" ? 1 : 2;
   };
-  std::sort(findings.begin(), findings.end(), [&](const HuntFinding& a, const HuntFinding& b) {
-    const int x = rank(a.severity()), y = rank(b.severity());
-    return std::tie(x, a.signature) < std::tie(y, b.signature);
+  std::vector<const HuntFinding*> all;
+  for (const auto& [signature, f] : findings) all.push_back(&f);
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const HuntFinding* a, const HuntFinding* b) { return rank(a) < rank(b); });
+  return all;
+}
+
+std::vector<const HuntFinding*> HuntReport::uncovered() const {
+  std::vector<const HuntFinding*> all = by_severity();
+  std::erase_if(all, [&](const HuntFinding* f) {
+    return std::any_of(findings.begin(), findings.end(), [&](const auto& g) { return g.second.covers(*f); });
   });
+  return all;
 }
 
 std::vector<HuntFinding*> HuntReport::to_shrink() {
-  std::vector<HuntFinding*> all, chosen;
-  for (HuntFinding& f : findings) all.push_back(&f);
-  std::sort(all.begin(), all.end(), [](const HuntFinding* a, const HuntFinding* b) {
-    return std::tie(a->first, a->signature) < std::tie(b->first, b->signature);
-  });
-  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> count;
-  for (HuntFinding* f : all)
-    if (++count[{f->scheme, f->check, f->status}] <= kShrunk) chosen.push_back(f);
+  std::map<std::tuple<std::string, std::string, std::string, std::string>, HuntFinding*> least;
+  const auto order = [](const HuntFinding& f) { return std::tuple(f.where.level(), f.first, f.signature); };
+  for (auto& [signature, f] : findings) {
+    HuntFinding*& at = least[{f.scheme, f.check, f.status, f.where.kind}];
+    if (at == nullptr || order(f) < order(*at)) at = &f;
+  }
+  std::vector<HuntFinding*> chosen;
+  for (const HuntFinding* f : uncovered())
+    for (const auto& [key, g] : least)
+      if (g == f) chosen.push_back(g);
   return chosen;
+}
+
+std::vector<const HuntFinding*> new_findings(const HuntReport& report, const HuntReport* earlier) {
+  std::vector<const HuntFinding*> all = report.uncovered();
+  if (earlier != nullptr)
+    std::erase_if(all, [&](const HuntFinding* f) {
+      return std::any_of(earlier->findings.begin(), earlier->findings.end(),
+                         [&](const auto& g) { return g.first == f->signature || g.second.covers(*f); });
+    });
+  return all;
 }
 
 std::string to_json(const HuntReport& r, bool list_of_kinds) {
   Json findings = Json::array();
-  for (const HuntFinding& f : r.findings) findings.push_back(to_json(f));
+  for (const HuntFinding* f : r.by_severity()) findings.push_back(to_json(*f));
   const Json json{{"program", "limitcheck hunt"},
                   {"version", r.version},
                   {"subject", r.subject},
                   {"seed", r.seed},
                   {"asked", r.asked},
                   {"schemes", r.schemes},
+                  {"varied", r.varied},
                   {"shard", {{"index", r.shard.index}, {"count", r.shard.count}}},
                   {"cases", r.cases},
                   {"next", r.next},
@@ -140,10 +158,11 @@ HuntReport read_hunt_report(const std::string& text) try {
   HuntReport r;
   json.at("version").get_to(r.version), json.at("subject").get_to(r.subject);
   json.at("seed").get_to(r.seed), json.at("asked").get_to(r.asked), json.at("schemes").get_to(r.schemes);
+  json.at("varied").get_to(r.varied);
   json.at("shard").at("index").get_to(r.shard.index), json.at("shard").at("count").get_to(r.shard.count);
   json.at("cases").get_to(r.cases), json.at("next").get_to(r.next), json.at("judged").get_to(r.judged);
   if (json.at("edge_kinds").is_array()) json.at("edge_kinds").get_to(r.kinds);
-  for (const Json& f : json.at("findings")) r.findings.push_back(finding_of(f));
+  for (const Json& f : json.at("findings")) take(r.findings, finding_of(f));
   json.at("seconds").get_to(r.seconds), json.at("incomplete").get_to(r.incomplete);
   return r;
 } catch (const Json::exception& error) {
@@ -159,34 +178,30 @@ HuntReport combined(const std::vector<HuntReport>& parts) {
     whole.next = std::max(whole.next, p.next);
     whole.kinds.insert(p.kinds.begin(), p.kinds.end());
     if (whole.incomplete.empty()) whole.incomplete = p.incomplete;
-    for (const HuntFinding& f : p.findings) take(whole.findings, f);
+    for (const auto& [signature, f] : p.findings) take(whole.findings, f);
   }
   const std::vector<HuntFinding*> small = whole.to_shrink();
-  for (HuntFinding& f : whole.findings)  // as if one process had found them all
+  for (auto& [signature, f] : whole.findings)  // as if one process had found them all
     if (std::find(small.begin(), small.end(), &f) == small.end())
       f.faces = 0, f.depth = 0, f.witness.clear(), f.command.clear();
-  whole.sort();
   return whole;
 }
 
 HuntReport merged(const std::vector<HuntReport>& parts) {
-  if (parts.empty()) throw data::ArgumentError("there is nothing to merge");
-  const HuntReport& first = parts.front();
-  std::set<std::uint64_t> there;
+  std::vector<Shard> shards;
   for (const HuntReport& p : parts) {
+    const HuntReport& first = parts.front();
     const auto hunt = [](const HuntReport& r) {
-      return std::tie(r.version, r.subject, r.seed, r.asked, r.schemes, r.shard.count);
+      return std::tie(r.version, r.subject, r.seed, r.asked, r.schemes, r.varied, r.shard.count);
     };
     const auto refuse = [&](const std::string& why) {
       throw data::ArgumentError(fmt::format("shard {} {}", p.shard.text(), why));
     };
     if (hunt(p) != hunt(first)) refuse("is of another hunt than shard " + first.shard.text());
     if (!p.incomplete.empty()) refuse("is incomplete: " + p.incomplete);
-    if (!there.insert(p.shard.index).second) refuse("is there twice");
+    shards.push_back(p.shard);
   }
-  for (std::uint64_t k = 0; k < first.shard.count; ++k)
-    if (!there.contains(k))
-      throw data::ArgumentError(fmt::format("shard {} is missing", Shard{k, first.shard.count}.text()));
+  require_all(shards);
   return combined(parts);
 }
 

@@ -3,28 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "verify/hunt/surroundings.h"
+#include "verify/shard/shard.h"
+
 namespace limitcheck::verify {
 
-/// Every `count`-th block of a plan, from block `index` on.
-struct Shard {
-  std::uint64_t index = 0, count = 1;
-  bool has(std::uint64_t block) const { return block % count == index; }
-  /// "3/8": the third of eight.
-  std::string text() const { return std::to_string(index + 1) + "/" + std::to_string(count); }
-};
-
-/// Throws data::ArgumentError for anything but "K/N" with 1 <= K <= N.
-Shard parse_shard(const std::string& text);
-
-/// Findings of one signature (neighbourhood.h), by the first of them.
+/// Findings of one signature (surroundings.h), by the first of them.
 struct HuntFinding {
   std::string signature, check, status;  // status: "finding", "crash", ...
   std::string scheme;
+  Surroundings where;
   std::int64_t cases = 0;         // in which it was seen
   std::uint64_t first = 0;        // the first of them
   std::string found_on;           // a command that shows it on the mesh where it was found
@@ -37,31 +31,35 @@ struct HuntFinding {
   std::string witness;     // the folder with it; may be empty
   std::string command;     // shows it there; empty as `witness` is
 
+  /// The same check, and its neighbourhood covers that of the other.
+  bool covers(const HuntFinding& other) const;
   /// "high": a breakdown, or a thousand times its bound or more; "medium": ten times; "low".
   std::string severity() const;
 };
 
 struct HuntReport {
   std::string version, subject;
-  std::uint64_t seed = 0, asked = 0;  // cases of the whole plan; 0: as many as there was time for
-  std::vector<std::string> schemes;
-  Shard shard;
-  std::uint64_t cases = 0;            // that were looked at
-  std::uint64_t next = 0;             // all cases of the shard before this one were
-  std::int64_t judged = 0;            // of them, those of which anything was looked at
-  std::set<std::uint64_t> kinds;      // of edges (hunt_plan.h)
-  std::vector<HuntFinding> findings;  // by severity, then by signature
+  std::uint64_t seed = 0, asked = 0;            // cases of the whole plan; 0: as many as there was time for
+  std::vector<std::string> schemes, varied;     // varied: --vary
+  Shard shard;                                  // of blocks of cases
+  std::uint64_t cases = 0;                      // that were looked at
+  std::uint64_t next = 0;                       // all cases of the shard before this one were
+  std::int64_t judged = 0;                      // of them, those of which anything was looked at
+  std::set<std::uint64_t> kinds;                // of edges (hunt_plan.h)
+  std::map<std::string, HuntFinding> findings;  // by signature
   double seconds = 0;
   std::string incomplete;  // "interrupted by SIGINT"; empty: all that was asked for
 
-  /// The gravest first.
-  void sort();
-  /// Which findings get small meshes: of each scheme, check and status the first kShrunk.
+  /// The gravest first, then by signature.
+  std::vector<const HuntFinding*> by_severity() const;
+  /// Those that no other covers: what there is to look at.
+  std::vector<const HuntFinding*> uncovered() const;
+  /// Which of these get small meshes: of each scheme, check, status and kind of neighbourhood the first of
+  /// the least level. What is one of a whole hunt is one of its shard.
   std::vector<HuntFinding*> to_shrink();
-  static constexpr std::size_t kShrunk = 4;
 };
 
-/// As JSON. Keys: program, version, subject, seed, asked, schemes, shard, cases, next, judged, edge_kinds
+/// As JSON. Keys: program, version, subject, seed, asked, schemes, varied, shard, cases, next, judged, edge_kinds
 /// (a list in a shard or if asked for, else their number), findings, seconds, incomplete.
 std::string to_json(const HuntReport& report, bool list_of_kinds = false);
 /// Throws data::ArgumentError: the text is no report of a hunt.
@@ -73,9 +71,11 @@ HuntReport combined(const std::vector<HuntReport>& parts);
 /// is missing, there twice, or incomplete.
 HuntReport merged(const std::vector<HuntReport>& parts);
 
-/// One line for each finding and what to type, below a summary. `known`: findings of an earlier report, which
-/// are not new; none: there is no such report.
-std::string to_text(const HuntReport& report, const std::set<std::string>* known = nullptr);
-std::string to_junit(const HuntReport& report);
+/// Those of uncovered() that an earlier report has not, nor covers; nullptr: there is none.
+std::vector<const HuntFinding*> new_findings(const HuntReport& report, const HuntReport* earlier);
+
+/// One line for each new finding and what to type, below a summary.
+std::string to_text(const HuntReport& report, const HuntReport* earlier = nullptr);
+std::string to_junit(const HuntReport& report, const HuntReport* earlier = nullptr);
 
 }  // namespace limitcheck::verify

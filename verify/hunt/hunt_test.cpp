@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/io/read.h"
-#include "verify/hunt/neighbourhood.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -30,15 +31,13 @@ HuntReport hunt(const std::string& options, std::uint64_t cases, const Shard& sh
     }
   }
   hunt.shrink_findings();
-  HuntReport result = hunt.report();
-  result.sort();
-  return result;
+  return hunt.report();
 }
 
 // The finding of a check with the smallest mesh.
 const HuntFinding* smallest(const HuntReport& report, const std::string& check) {
   const HuntFinding* best = nullptr;
-  for (const HuntFinding& f : report.findings)
+  for (const auto& [signature, f] : report.findings)
     if (f.check == check && f.faces > 0 && (best == nullptr || f.faces < best->faces)) best = &f;
   return best;
 }
@@ -69,7 +68,7 @@ TEST(Hunt, FindsNothingWhereNothingIsWrong) {
   EXPECT_EQ(report.cases, 48U);
   EXPECT_EQ(report.judged, 48);
   EXPECT_GT(report.kinds.size(), 300U);
-  for (const HuntFinding& f : report.findings) ADD_FAILURE() << f.signature << ": " << f.command;
+  for (const auto& [signature, f] : report.findings) ADD_FAILURE() << signature << ": " << f.found_on;
 }
 
 TEST(Hunt, ShardsGiveWhatTheWholeGives) {
@@ -100,31 +99,61 @@ TEST(Hunt, ReportsAreReadAsTheyWereWritten) {
     EXPECT_THROW(read_hunt_report(text), data::ArgumentError) << text;
 }
 
-TEST(Hunt, ShardsAreNamedFromOneOn) {
-  EXPECT_EQ(parse_shard("3/8").index, 2U);
-  EXPECT_EQ(parse_shard("3/8").text(), "3/8");
-  for (const char* text :
-       {"", "0/3", "4/3", "3", "a/b", "1/", "/2", "1/2/3", "-1/2", "1/0", "1/99999999999999999999"})
-    EXPECT_THROW(parse_shard(text), data::ArgumentError) << text;
-}
-
-TEST(Neighbourhood, IsWhatProgramsCanTellApart) {
+TEST(Surroundings, IsWhatProgramsCanTellApart) {
   const auto words = [](const char* name, std::int64_t face, std::vector<std::int32_t> depth = {}) {
     AuditMesh m{name, data::named_mesh(name)};
     m.face_depth = std::move(depth);
     Result r;
     r.scheme = m.scheme();
     if (face >= 0) r.witness = Witness{face};
-    return neighbourhood(r, m);
+    return surroundings(r, m).words();
   };
   EXPECT_EQ(words("octahedron", -1), "");
-  EXPECT_EQ(words("torus", 5), "regular face");
-  EXPECT_EQ(words("octahedron", 0), "vertices of 4 faces, extraordinary ones side by side");
-  EXPECT_EQ(words("bipyramid:50", 0), "vertices of 41 and more faces, extraordinary ones side by side");
-  EXPECT_EQ(words("triangle", 0), "boundary");
-  EXPECT_EQ(words("quad-torus", 3), "regular face");
-  EXPECT_EQ(words("prism:5", 0), words("prism:5", 1));
-  EXPECT_EQ(words("triangle-pair", 0, {3, 0}), "boundary; depths differ by 3");
+  EXPECT_EQ(words("torus", 5), "regular");
+  EXPECT_EQ(words("octahedron", 0), "inner vertex of 4 faces, beside another extraordinary one");
+  EXPECT_EQ(words("bipyramid:50", 0), "inner vertex of more than 40 faces, beside another extraordinary one");
+  EXPECT_EQ(words("bipyramid:6", 0, {3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
+            "inner vertex of 4 faces, beside another extraordinary one; depths differ by 3");
+  EXPECT_EQ(words("triangle", 0), "boundary vertex of 1 face, beside another extraordinary one");
+  EXPECT_EQ(words("quad-torus", 3), "regular");
+  EXPECT_EQ(words("prism:5", 0), words("prism:5", 1)) << "both are the faces of five corners";
+  EXPECT_EQ(words("dart:6", 0), "dart of 6 faces, beside another extraordinary one");
+  EXPECT_EQ(words("corner:3", 0), "corner of 6 faces, beside another extraordinary one");
+}
+
+TEST(Surroundings, CoversThoseThatHaveAllOfItAndMore) {
+  const Surroundings regular{"regular", "", 0, false, 0}, unequal{"regular", "", 0, false, 2};
+  const Surroundings five{"inner vertex", "5", 1, false, 0}, seven{"inner vertex", "7", 1, false, 0};
+  const Surroundings many{"inner vertex", "more than 40", 3, true, 1}, dart{"dart", "5", 1, false, 0};
+  EXPECT_TRUE(regular.covers(unequal) && regular.covers(five) && regular.covers(dart) && five.covers(many));
+  EXPECT_FALSE(unequal.covers(regular) || unequal.covers(five) || five.covers(seven) || seven.covers(five) ||
+               five.covers(dart) || many.covers(five) || five.covers(five) || regular.covers({}) ||
+               Surroundings{}.covers(regular));
+  const std::vector<Surroundings> all{regular, unequal, five, seven, many, dart};
+  for (const Surroundings& a : all)
+    for (const Surroundings& b : all)
+      if (a.covers(b)) {
+        EXPECT_LT(a.level(), b.level()) << a.words() << " / " << b.words();
+      }
+}
+
+TEST(Surroundings, IsThatOfTheNearestExtraordinaryCorner) {
+  const auto near = [](const char* name, std::int64_t face, const char* u, const char* v, int corner = -1) {
+    const AuditMesh m{name, data::named_mesh(name)};
+    Result r;
+    r.scheme = m.scheme();
+    r.witness = Witness{face, u, v};
+    r.witness->corner = corner;
+    return surroundings(r, m).words();
+  };
+  // bipyramid:9 has apices of 9 faces and an equator of 4.
+  std::set<std::string> all;
+  for (const auto& [u, v] : {std::pair{"0", "0"}, std::pair{"1", "0"}, std::pair{"0", "7/8"}})
+    all.insert(near("bipyramid:9", 0, u, v));
+  EXPECT_EQ(all, (std::set<std::string>{"inner vertex of 8 to 40 faces, beside another extraordinary one",
+                                        "inner vertex of 4 faces, beside another extraordinary one"}));
+  EXPECT_EQ(near("prism:7", 0, "3/4", "3/4", 2), "face of 7 corners, beside another extraordinary one");
+  EXPECT_EQ(near("prism:7", 0, "1/8", "0", 2), "inner vertex of 3 faces, beside another extraordinary one");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ const std::string& command_of(const HuntFinding& f) {
 
 }  // namespace
 
-std::string to_text(const HuntReport& r, const std::set<std::string>* known) {
+std::string to_text(const HuntReport& r, const HuntReport* earlier) {
   std::string schemes;
   for (const std::string& s : r.schemes) schemes += (schemes.empty() ? "" : ", ") + s;
   std::string text =
@@ -38,43 +38,40 @@ std::string to_text(const HuntReport& r, const std::set<std::string>* known) {
   if (r.seconds > 0)
     text += fmt::format(", {:.1f} cases per second and process", static_cast<double>(r.cases) / r.seconds);
   text += "\n";
-  HuntReport copy = r;
-  std::set<std::string> shown;  // the same check in many neighbourhoods would hide the others
-  for (const HuntFinding* f : copy.to_shrink()) shown.insert(f->signature);
-  std::int64_t old = 0, more = 0;
-  for (const HuntFinding& f : r.findings) {
-    const bool is_new = known == nullptr || !known->contains(f.signature);
-    old += is_new ? 0 : 1;
-    if (!is_new) continue;
-    if (known == nullptr && !shown.contains(f.signature)) {
-      ++more;
-      continue;
-    }
-    text += fmt::format("\n{}  {}\n  {}; in {} case{}\n  {}\n  {}\n", f.severity(), f.signature, size_of(f),
-                        f.cases, f.cases == 1 ? "" : "s", mesh_of(f), command_of(f));
-  }
-  if (more > 0)
-    text += fmt::format("\n... and the same checks in {} more neighbourhoods, which --json names\n", more);
-  const std::size_t fresh = r.findings.size() - static_cast<std::size_t>(old);
-  text += fmt::format("\n{} finding{}{}\n", fresh, fresh == 1 ? "" : "s",
-                      known == nullptr ? "" : fmt::format(" that the baseline has not, {} that it has", old));
+  const std::vector<const HuntFinding*> fresh = new_findings(r, earlier);
+  for (const HuntFinding* f : fresh)
+    text += fmt::format("\n{}  {}\n  {}; in {} case{}\n  {}\n  {}\n", f->severity(), f->signature,
+                        size_of(*f), f->cases, f->cases == 1 ? "" : "s", mesh_of(*f), command_of(*f));
+  const std::size_t listed = earlier == nullptr ? fresh.size() : r.uncovered().size();
+  text += fmt::format("\n{} finding{}", fresh.size(), fresh.size() == 1 ? "" : "s");
+  if (earlier != nullptr)
+    text += fmt::format(" that the baseline has not, {} that it has", listed - fresh.size());
+  if (r.findings.size() > listed)
+    text += fmt::format(
+        " ({} more of the same checks, where there is all that is said here and more, are in "
+        "--json)",
+        r.findings.size() - listed);
+  text += "\n";
   if (!r.incomplete.empty()) text += fmt::format("INCOMPLETE: {}\n", r.incomplete);
   return text;
 }
 
-std::string to_junit(const HuntReport& r) {
+std::string to_junit(const HuntReport& r, const HuntReport* earlier) {
   std::string cases;
-  for (const HuntFinding& f : r.findings)
+  const std::vector<const HuntFinding*> fresh = new_findings(r, earlier);
+  for (const HuntFinding* at : fresh) {
+    const HuntFinding& f = *at;
     cases += fmt::format(
         "<testcase classname=\"hunt {}\" name=\"{}\"><failure message=\"{}\">{}</failure></testcase>\n",
         xml_text(r.subject), xml_text(f.signature), xml_text(size_of(f)), xml_text(command_of(f)));
-  if (r.findings.empty())
+  }
+  if (fresh.empty())
     cases = fmt::format("<testcase classname=\"hunt {}\" name=\"{} cases\" time=\"{:.3f}\"/>\n",
                         xml_text(r.subject), r.cases, r.seconds);
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"hunt\" tests=\"{}\" "
       "failures=\"{}\" time=\"{:.3f}\">\n{}</testsuite>\n</testsuites>\n",
-      std::max<std::size_t>(1, r.findings.size()), r.findings.size(), r.seconds, cases);
+      std::max<std::size_t>(1, fresh.size()), fresh.size(), r.seconds, cases);
 }
 
 }  // namespace limitcheck::verify

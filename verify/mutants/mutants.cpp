@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "verify/audit/audit.h"
 #include "verify/audit/checks.h"
@@ -143,55 +146,101 @@ bool KillTable::held() const {
          std::all_of(kills.begin(), kills.end(), [](const Kill& k) { return k.by_its_check(); });
 }
 
-KillTable run_mutants(const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step) {
+Plan mutants_plan(const std::string& version) {
+  const std::size_t cases = default_plan(Level::kStandard).size();
+  nlohmann::json what{{"version", version}, {"cases", cases}};
+  for (const Mutant& m : mutants()) what["mutants"].push_back(m.name);
+  return {"limitcheck mutants", std::move(what), cases + mutants().size()};
+}
+
+void run_mutants(Journal& journal,
+                 const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step,
+                 const std::function<bool()>& stop) {
   constexpr int kThreads = 2;
-  KillTable table;
-  for (const Mutant& m : mutants()) table.kills.push_back({&m, {}, ""});
   std::vector<AuditMesh> plan = default_plan(Level::kStandard);
+  const std::size_t cases = plan.size();
+  const auto to_do = [&](std::size_t unit) {
+    return journal.plan().has(unit) && journal.recall(unit) == nullptr;
+  };
+  std::size_t total = 0, done = 0;
+  for (std::size_t unit = 0; unit < journal.plan().units; ++unit) total += to_do(unit) ? 1 : 0;
+  const auto step = [&](const std::string& subject, const AuditMesh& m) {
+    if (on_step) on_step(fmt::format("{} on {}", subject, label(m)), done, total);
+  };
+  const auto keep = [&](std::size_t unit, nlohmann::json result) {
+    journal.keep(unit, std::move(result));
+    ++done;
+  };
+
+  // Right subjects are audited in all cases of the plan.
   const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
                                           {find_subject(kQuadBase), ""},
                                           {find_subject(kQuadBase), "route=kernel"},
                                           {find_subject("row-stream"), "repair=stitch"},
                                           {find_subject("sliding-window"), "precision=double,repair=stitch"}};
-  const std::size_t total = plan.size() * correct.size() + table.kills.size();
-  std::size_t done = 0;
-  const auto step = [&](const std::string& subject, const AuditMesh& m) {
-    if (on_step) on_step(fmt::format("{} on {}", subject, label(m)), done, total);
-  };
-
-  // Correct subjects are audited in all cases of the plan.
   Auditor auditor(0, kThreads, {}, Level::kStandard);
-  for (const AuditMesh& m : plan)
+  for (std::size_t unit = 0; unit < cases; ++unit) {
+    if (!to_do(unit)) continue;
+    const AuditMesh& m = plan[unit];
+    nlohmann::json red = nlohmann::json::array();
     for (const AuditSubject& s : correct) {
+      if (stop && stop()) return;
       step(s.subject->name, m);
-      ++done;
       if (!suits(s.subject->name, m) || (is_model(s.subject->name, s.options) && too_much(m))) continue;
       for (const Result& r : auditor.run(s, m))
         if (is_bad(r))
-          table.red_on_correct.push_back(
-              fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
+          red.push_back(fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
     }
+    keep(unit, std::move(red));
+  }
 
-  // Mutants are audited in the cheap cases first, each until its own check has found it.
+  // Mutants are audited in the cheap cases first, each until its own check has found it; case by case, so
+  // that they share the reference.
+  struct Open {
+    std::size_t unit;
+    Kill kill;
+  };
+  std::vector<Open> open;
+  for (std::size_t k = 0; k < mutants().size(); ++k)
+    if (to_do(cases + k)) open.push_back({cases + k, {&mutants()[k], {}, ""}});
+  const auto close = [&](const Open& at) {
+    keep(at.unit, {{"killed_by", at.kill.killed_by}, {"on", at.kill.on}});
+  };
   std::stable_sort(plan.begin(), plan.end(),
                    [](const AuditMesh& a, const AuditMesh& b) { return cost(a) < cost(b); });
   for (AuditMesh& m : plan) {
     const bool relations = m.relations;
-    for (Kill& k : table.kills) {
+    for (Open& at : open) {
+      Kill& k = at.kill;
       const bool relation = is_relation(k.mutant->check);
       if (k.by_its_check() || (relation && !relations) || !suits(k.mutant->subject, m)) continue;
       if (k.mutant->sharp == m.mesh.sharpness.empty()) continue;
       if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
+      if (stop && stop()) return;
       step(k.mutant->name, m);
       m.relations = relation;
       for (const Result& r : auditor.run({find_subject(k.mutant->subject), k.mutant->options}, m))
         if (is_bad(r)) k.killed_by.insert(r.check);
       if (!k.by_its_check()) continue;
       k.on = label(m);
-      ++done;
+      close(at);
     }
   }
+  for (const Open& at : open)
+    if (!at.kill.by_its_check()) close(at);
+}
 
+KillTable kill_table(const std::map<std::size_t, nlohmann::json>& results) {
+  KillTable table;
+  const std::size_t cases = results.size() - mutants().size();
+  for (const auto& [unit, result] : results) {
+    if (unit < cases) {
+      for (const nlohmann::json& red : result) table.red_on_correct.push_back(red.get<std::string>());
+      continue;
+    }
+    table.kills.push_back({&mutants().at(unit - cases), result.at("killed_by").get<std::set<std::string>>(),
+                           result.at("on").get<std::string>()});
+  }
   std::set<std::string> rows{"tessellates", "refined-positions"}, useful;
   for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());
   rows.insert(relation_rows().begin(), relation_rows().end());

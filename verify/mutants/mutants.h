@@ -4,9 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "verify/shard/journal.h"
 
 namespace limitcheck::verify {
 
@@ -35,9 +38,20 @@ struct KillTable {
   bool held() const;
 };
 
-/// Audits right subjects in all cases of the default plan (audit/default_plan.h), and each mutant in its
-/// cases, the cheap ones first, until the check meant for it is red.
+/// All there is to audit. Right subjects in each case of the default plan (audit/default_plan.h) are a unit,
+/// the first ones; then each mutant is one: it is audited in its cases, the cheap ones first, until the check
+/// meant for it is red.
+///   version   of the program
+Plan mutants_plan(const std::string& version);
+
+/// Audits the units of the journal's shard that it does not know yet.
 ///   on_step  called with what is being done, how much is done, of how much
-KillTable run_mutants(const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step = {});
+///   stop     asked between two audits: true ends it before all is done
+void run_mutants(Journal& journal,
+                 const std::function<void(const std::string&, std::size_t, std::size_t)>& on_step = {},
+                 const std::function<bool()>& stop = {});
+
+/// Of the results of all units.
+KillTable kill_table(const std::map<std::size_t, nlohmann::json>& results);
 
 }  // namespace limitcheck::verify

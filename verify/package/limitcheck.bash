@@ -20,8 +20,8 @@ _limitcheck() {
       *)
         [[ $word == -* ]] || case $command in
           audit | eval | generate | tessellate) words=$("$program" generate --list 2>/dev/null | sed 's/[^a-z-].*//') ;;&
-          audit) # the complaint about an unknown subject lists the subjects there are
-            [[ $previous != audit ]] ||
+          audit | hunt) # the complaint about an unknown subject lists the subjects there are
+            [[ $previous != "$command" ]] ||
               words=$("$program" audit '?' 2>&1 | sed -n 's/.* there are: \(.*\), shared libraries.*/\1/p' | tr -d ,) ;;
           bench) words=$(sed -n 's/^  {\(.*\)}$/\1/p' <<<"$help" | tr , ' ') ;;
         esac

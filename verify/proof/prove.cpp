@@ -75,6 +75,7 @@ std::vector<std::vector<ProofRow>> prove(const std::vector<ProofTask>& tasks,
           ++done.tasks;
           done.share += tasks[t].estimate / all;
           done.latest = &tasks[t];
+          done.rows = &result[t];
           if (progress) progress(done);
         }
       },

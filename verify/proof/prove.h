@@ -14,6 +14,7 @@ struct ProofProgress {
   std::size_t tasks = 0;  ///< done
   double share = 0;       ///< of the estimated work, 0 .. 1
   const ProofTask* latest = nullptr;
+  const std::vector<ProofRow>* rows = nullptr;  ///< of the latest; none if it was stopped
 };
 
 /// Runs the tasks on all cores, begun in their order. The rows of task t are result[t], whatever the number

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "verify/audit/journal.h"
+#include "verify/audit/result_json.h"
 
-#include <fmt/core.h>
-
+#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
-#include <system_error>
 
-#include "data/error.h"
 #include "verify/audit/explain.h"
 #include "verify/audit/json.h"
 
@@ -121,50 +117,44 @@ Result result(const Json& j) {
           j.at(25)};
 }
 
+Json header_json(const Report::Mesh& m) {
+  const auto& [name, vertices, faces, scheme, cut, diagonal] = m;
+  return Json::array({name, vertices, faces, static_cast<int>(scheme), cut, diagonal});
+}
+
 }  // namespace
 
-Journal::Journal(std::filesystem::path file, const std::string& what, bool resume) : file_(std::move(file)) {
-  std::string kept = what + "\n";
-  if (resume) {
-    std::ifstream in(file_, std::ios::binary);
-    std::string line;
-    if (!std::getline(in, line))
-      throw data::ArgumentError(fmt::format("--resume: there is no {}", file_.string()));
-    if (line != what)
-      throw data::ArgumentError(fmt::format(
-          "--resume: {} is of another audit: of other subjects, meshes or options", file_.string()));
-    while (std::getline(in, line) && !in.eof()) {
-      const Json json = Json::parse(line, nullptr, false);
-      if (!json.is_object()) break;
-      std::vector<Result> rows;
-      for (const Json& row : json.at("rows")) rows.push_back(result(row));
-      known_[{json.at("subject"), json.at("case").get<std::size_t>()}] = std::move(rows);
-      kept += line + "\n";
-    }
-  }
-  out_.open(file_, std::ios::binary | std::ios::trunc);
-  out_ << kept << std::flush;
+Json rows_json(const std::vector<Result>& rows) {
+  Json list = Json::array();
+  for (const Result& r : rows) list.push_back(to_json(r));
+  return list;
 }
 
-std::optional<std::vector<Result>> Journal::recall(const std::string& subject, std::size_t number) const {
-  const auto found = known_.find({subject, number});
-  return found == known_.end() ? std::nullopt : std::optional(found->second);
+std::vector<Result> rows_of(const Json& json) {
+  std::vector<Result> rows;
+  for (const Json& row : json) rows.push_back(result(row));
+  return rows;
 }
 
-void Journal::keep(const std::string& subject, std::size_t number, const std::vector<Result>& results) {
-  Json rows = Json::array();
-  for (const Result& r : results) rows.push_back(to_json(r));
-  out_ << Json{{"subject", subject}, {"case", number}, {"rows", std::move(rows)}}.dump(
-              -1, ' ', false, Json::error_handler_t::replace)
-       << '\n'
-       << std::flush;
-  if (!out_) remove();  // half a line is of no use
+Json header_json(const Report& report) {
+  Json meshes = Json::array();
+  for (const Report::Mesh& m : report.meshes) meshes.push_back(header_json(m));
+  return {{"version", report.version},   {"depth", report.depth},
+          {"depths", report.depths},     {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
+          {"sample", report.sample},     {"meshes", meshes},
+          {"subjects", report.subjects}, {"descriptions", report.descriptions}};
 }
 
-void Journal::remove() {
-  out_.close();
-  std::error_code ignored;
-  std::filesystem::remove(file_, ignored);
+Report header_of(const Json& json) {
+  Report report;
+  json.at("version").get_to(report.version), json.at("depth").get_to(report.depth);
+  json.at("depths").get_to(report.depths), json.at("sample").get_to(report.sample);
+  if (!json.at("seed").is_null()) report.seed = json.at("seed").get<std::uint64_t>();
+  for (const Json& m : json.at("meshes"))
+    report.meshes.push_back(
+        {m.at(0), m.at(1), m.at(2), static_cast<data::Scheme>(m.at(3).get<int>()), m.at(4), m.at(5)});
+  json.at("subjects").get_to(report.subjects), json.at("descriptions").get_to(report.descriptions);
+  return report;
 }
 
 }  // namespace limitcheck::verify

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/audit_resume.h"
+#include "verify/cli/audit_plan.h"
 
 #include <fmt/core.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
-#include "data/error.h"
+#include "verify/audit/result_json.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -47,31 +47,18 @@ std::string stamp(const lc_subject& subject) {
 
 }  // namespace
 
-std::unique_ptr<verify::Journal> open_journal(const std::string& json, bool resume,
-                                              const std::vector<verify::AuditSubject>& subjects,
-                                              const std::vector<verify::AuditMesh>& meshes,
-                                              const verify::Report& report, const std::string& level) {
-  std::error_code ignored;
-  const auto type = fs::status(json, ignored).type();
-  if (json.empty() || json == "-" || (type != fs::file_type::not_found && type != fs::file_type::regular)) {
-    if (resume) throw data::ArgumentError("--resume needs --json FILE.json: the rows are kept in FILE.jsonl");
-    return nullptr;
-  }
-  nlohmann::json what{{"program", "limitcheck audit"},
-                      {"version", report.version},
-                      {"depth", report.depth},
-                      {"depths", report.depths},
-                      {"seed", report.seed.value_or(0)},
-                      {"sample", report.sample},
-                      {"level", level},
-                      {"subjects", report.subjects}};
+verify::Plan audit_plan(const std::vector<verify::AuditSubject>& subjects,
+                        const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
+                        const std::string& level) {
+  nlohmann::json what{{"report", verify::header_json(report)}, {"level", level}};
   for (const auto& s : subjects) what["stamps"].push_back(stamp(*s.subject));
-  for (const auto& m : meshes)
+  bool polygons = false;
+  for (const auto& m : meshes) {
     what["meshes"].push_back({m.name, content(m), m.depth, m.depths, name_of(m.scheme())});
-  const fs::path file = json + "l";
-  if (file.has_parent_path()) fs::create_directories(file.parent_path());
-  return std::make_unique<verify::Journal>(
-      file, what.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), resume);
+    polygons = polygons || !m.mesh.faces.are_triangles();
+  }
+  what["polygons"] = polygons;
+  return {"limitcheck audit", std::move(what), subjects.size() * meshes.size(), subjects.size()};
 }
 
 }  // namespace limitcheck::cli

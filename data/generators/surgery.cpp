@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "data/generators/surgery.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "data/error.h"
+#include "data/splitmix64.h"
+
+namespace limitcheck::data {
+namespace {
+
+using Face = std::vector<std::int32_t>;
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+constexpr int kAttempts = 50;  // to find two faces for a tube
+
+Edge between(std::int32_t a, std::int32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+std::vector<Face> faces_of(const ControlMesh& mesh) {
+  std::vector<Face> faces;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto corners = mesh.faces[f];
+    faces.emplace_back(corners.begin(), corners.end());
+  }
+  return faces;
+}
+
+template <class Do>
+void for_each_side(const Face& face, Do&& what) {
+  for (std::size_t k = 0; k < face.size(); ++k) what(face[k], face[(k + 1) % face.size()]);
+}
+
+}  // namespace
+
+ControlMesh with_handles(ControlMesh mesh, int count, std::uint64_t seed) {
+  if (count < 0 || count > 1000) throw InputError("NAME_BAD_PARAMETER", "", 0, "handles: 0 to 1000");
+  const bool triangles = mesh.faces.are_triangles();
+  std::vector<Face> faces = faces_of(mesh);
+  std::set<Edge> edges;
+  for (const Face& f : faces)
+    for_each_side(f, [&](std::int32_t a, std::int32_t b) { edges.insert(between(a, b)); });
+  const auto apart = [&](const Face& f, const Face& g) {
+    return std::all_of(f.begin(), f.end(), [&](std::int32_t a) {
+      return std::all_of(g.begin(), g.end(),
+                         [&](std::int32_t b) { return a != b && !edges.contains(between(a, b)); });
+    });
+  };
+  SplitMix64 random(seed);
+  // Holes are named by number: faces beside them are taken, and they keep theirs.
+  std::vector<bool> fixed(faces.size(), false);
+  for (const std::int32_t f : mesh.holes) fixed[f] = true;
+  for (int attempt = 0; attempt < kAttempts * count && count > 0; ++attempt) {
+    const std::size_t f = random.next() % faces.size(), g = random.next() % faces.size();
+    if (f == g || fixed[f] || fixed[g] || faces[f].size() != faces[g].size() || !apart(faces[f], faces[g]))
+      continue;
+    const Face a = faces[f], b(faces[g].rbegin(), faces[g].rend());
+    std::vector<Face> tube;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const std::size_t next = (k + 1) % a.size();
+      edges.insert(between(a[k], b[k]));
+      if (!triangles) {
+        tube.push_back({a[k], a[next], b[next], b[k]});
+        continue;
+      }
+      edges.insert(between(a[k], b[next]));
+      tube.push_back({a[k], a[next], b[next]});
+      tube.push_back({a[k], b[next], b[k]});
+    }
+    faces[f] = tube[0], faces[g] = tube[1];
+    faces.insert(faces.end(), tube.begin() + 2, tube.end());
+    fixed.resize(faces.size(), false);
+    --count;
+  }
+  mesh.faces.clear();
+  for (const Face& f : faces) mesh.faces.push_back(f);
+  return mesh;
+}
+
+ControlMesh with_turned_edges(ControlMesh mesh, std::uint64_t seed) {
+  std::vector<Face> faces = faces_of(mesh);
+  std::map<Edge, std::vector<std::size_t>> of_edge;
+  std::vector<int> count(mesh.positions.size(), 0), least(mesh.positions.size(), 3);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const std::int32_t v : faces[f]) ++count[v];
+    for_each_side(faces[f], [&](std::int32_t a, std::int32_t b) { of_edge[between(a, b)].push_back(f); });
+  }
+  std::set<Edge> fixed;
+  for (const SharpEdge& e : mesh.sharpness.edges) fixed.insert(between(e.a, e.b));
+  std::vector<Edge> inner;
+  for (const auto& [edge, its] : of_edge) {
+    if (its.size() < 2) least[edge.first] = least[edge.second] = 1;
+    if (its.size() == 2 && !fixed.contains(edge)) inner.push_back(edge);
+  }
+  SplitMix64 random(seed);
+  for (std::size_t turns = inner.size() / 4 + 1; turns > 0 && !inner.empty(); --turns) {
+    const Edge edge = inner[random.next() % inner.size()];
+    const std::uint64_t where = random.next();
+    const auto at = of_edge.find(edge);
+    if (at == of_edge.end() || count[edge.first] <= least[edge.first] ||
+        count[edge.second] <= least[edge.second])
+      continue;
+    const std::size_t left = at->second[0], right = at->second[1];
+    Face &p = faces[left], &q = faces[right];
+    // The faces as one, p from behind the edge on: a .. b of p, then b .. a of q.
+    const auto begin = std::find_if(p.begin(), p.end(), [&](const std::int32_t& v) {
+      const std::int32_t before = &v == p.data() ? p.back() : *(&v - 1);
+      return between(before, v) == edge;
+    });
+    std::rotate(p.begin(), begin, p.end());
+    std::rotate(q.begin(), std::find(q.begin(), q.end(), p.back()), q.end());
+    const Face both = [&] {
+      Face all = p;
+      all.insert(all.end(), q.begin() + 1, q.end() - 1);
+      return all;
+    }();
+    const std::size_t n = both.size();
+    if (std::set<std::int32_t>(both.begin(), both.end()).size() != n) continue;
+    const std::size_t first = where % n, steps = 2 + where / n % (n - 3);
+    const Edge turned = between(both[first], both[(first + steps) % n]);
+    if (of_edge.contains(turned)) continue;
+    Face one, other;
+    for (std::size_t k = 0; k <= steps; ++k) one.push_back(both[(first + k) % n]);
+    for (std::size_t k = steps; k <= n; ++k) other.push_back(both[(first + k) % n]);
+    for (const std::size_t f : {left, right})
+      for_each_side(faces[f], [&](std::int32_t a, std::int32_t b) {
+        auto& its = of_edge[between(a, b)];
+        its.erase(std::find(its.begin(), its.end(), f));
+      });
+    of_edge.erase(edge);
+    p = one, q = other;
+    for (const std::size_t f : {left, right})
+      for_each_side(faces[f], [&](std::int32_t a, std::int32_t b) { of_edge[between(a, b)].push_back(f); });
+    --count[edge.first], --count[edge.second];
+    ++count[turned.first], ++count[turned.second];
+    inner.push_back(turned);
+  }
+  mesh.faces.clear();
+  for (const Face& f : faces) mesh.faces.push_back(f);
+  return mesh;
+}
+
+}  // namespace limitcheck::data

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Changes of topology for meshes of any faces. What is sharp stays sharp.
+#pragma once
+
+#include <cstdint>
+
+#include "data/control_mesh.h"
+
+namespace limitcheck::data {
+
+/// The mesh with up to `count` tubes more, 0 .. 1000: each takes the place of two faces of as many corners,
+/// which lie apart. A tube within one component raises its genus by 1, one between two joins them. It has
+/// triangles if the mesh has no other faces, else quads; there are fewer where no two faces lie apart.
+ControlMesh with_handles(ControlMesh mesh, int count, std::uint64_t seed);
+
+/// The mesh with about a quarter of its inner edges turned: the edge between two faces, which together have n
+/// corners, goes between two other corners of these. Of triangles that is a flip; other faces may get another
+/// number of corners, 3 .. n - 1. Sharp edges stay, and so do those whose ends would keep fewer than three
+/// faces, on the boundary one, and those that would join two neighbours twice.
+ControlMesh with_turned_edges(ControlMesh mesh, std::uint64_t seed);
+
+}  // namespace limitcheck::data

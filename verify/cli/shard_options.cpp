@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "verify/cli/shard_options.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "data/error.h"
+#include "verify/audit/json.h"
+
+namespace limitcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const std::string& json) {
+  std::error_code ignored;
+  const auto type = fs::status(json, ignored).type();
+  return !json.empty() && json != "-" && (type == fs::file_type::not_found || type == fs::file_type::regular);
+}
+
+}  // namespace
+
+void ShardArguments::check() const {
+  if (!of().is_whole() && !is_file(json))
+    throw data::ArgumentError("--shard needs --json FILE.json, which limitcheck merge reads");
+  if (resume && !is_file(json))
+    throw data::ArgumentError("--resume needs --json FILE.json: what is done is kept in FILE.jsonl");
+}
+
+void add_shard_options(CLI::App& command, ShardArguments& a, const std::string& units) {
+  command
+      .add_option("--shard", a.shard,
+                  fmt::format("Only part K of N: every N-th of the {}. --json FILE then has the part, and "
+                              "limitcheck merge makes the report of all parts",
+                              units))
+      ->type_name("K/N")
+      ->capture_default_str();
+  command.add_flag(
+      "--resume", a.resume,
+      "Go on where the same command was ended before its report was complete; what is done is in "
+      "FILE.jsonl beside the report FILE.json");
+}
+
+void add_json_option(CLI::App& command, ShardArguments& a) {
+  command
+      .add_option("--json", a.json,
+                  "Write the results as JSON to FILE; '-' or nothing: standard output, and no table")
+      ->type_name("FILE")
+      ->expected(0, 1)
+      ->default_str("-");
+}
+
+std::unique_ptr<verify::Journal> open_journal(const ShardArguments& a, verify::Plan plan, bool remember) {
+  a.check();
+  plan.shard = a.of();
+  if (!is_file(a.json)) return std::make_unique<verify::Journal>(std::move(plan));
+  return std::make_unique<verify::Journal>(std::move(plan), a.json + "l", a.resume,
+                                           remember || !a.of().is_whole());
+}
+
+void write_part(const ShardArguments& a, const verify::Journal& journal, verify::PartReport part) {
+  part.plan = journal.plan();
+  part.results = journal.results();
+  verify::write_text(a.json, verify::to_json(part));
+}
+
+}  // namespace limitcheck::cli

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "verify/hunt/surroundings.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "verify/audit/faces_around.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// Classes of valence: what tables and special cases of programs tell apart.
+std::string valence_class(std::size_t faces) {
+  if (faces < 8) return fmt::format("{}", faces);
+  return faces <= 40 ? "8 to 40" : "more than 40";
+}
+int rank_of(std::size_t faces, std::size_t regular) {
+  if (faces == regular) return 0;
+  return faces > 40 ? 3 : faces > 7 || faces + 2 < regular ? 2 : 1;
+}
+
+// What a vertex is, from the least to the most that a program has to mind.
+enum class Kind { kInner, kBoundary, kCrease, kDart, kCorner };
+constexpr std::array kWords{"inner vertex", "boundary vertex", "crease", "dart", "corner"};
+
+struct Vertex {
+  Kind kind = Kind::kInner;
+  std::size_t faces = 0;
+  bool regular(std::size_t regular_valence) const { return kind == Kind::kInner && faces == regular_valence; }
+};
+
+Vertex look_at(std::int32_t v, const data::ControlMesh& mesh, const FacesAround& around) {
+  std::map<std::int32_t, int> beside;  // neighbours of v, and in how many faces
+  for (const std::int32_t f : around.of(v)) {
+    const auto its = mesh.faces[static_cast<std::size_t>(f)];
+    for (std::size_t j = 0; j < its.size(); ++j)
+      if (its[j] == v) ++beside[its[(j + 1) % its.size()]], ++beside[its[(j + its.size() - 1) % its.size()]];
+  }
+  const bool border = std::any_of(beside.begin(), beside.end(), [](const auto& n) { return n.second == 1; });
+  const auto sharp =
+      std::count_if(mesh.sharpness.edges.begin(), mesh.sharpness.edges.end(), [&](const data::SharpEdge& e) {
+        const bool at_v = e.a == v || e.b == v;
+        return at_v && beside[e.a == v ? e.b : e.a] != 1;  // a border is sharp anyway
+      });
+  const bool tagged = std::any_of(mesh.sharpness.vertices.begin(), mesh.sharpness.vertices.end(),
+                                  [&](const data::SharpVertex& s) { return s.vertex == v; });
+  Vertex at{Kind::kInner, around.of(v).size()};
+  if (tagged || sharp > 2 || (border && sharp > 0))
+    at.kind = Kind::kCorner;
+  else if (border)
+    at.kind = Kind::kBoundary;
+  else if (sharp > 0)
+    at.kind = sharp == 1 ? Kind::kDart : Kind::kCrease;
+  return at;
+}
+
+// "3/32"
+double number_of(const std::string& fraction) {
+  const std::size_t slash = fraction.find('/');
+  const double n = std::strtod(fraction.c_str(), nullptr);
+  return slash == std::string::npos ? n : n / std::strtod(fraction.c_str() + slash + 1, nullptr);
+}
+
+// How near the place is to each corner, 0 to 1; with the middle of a face that is cut into quads behind them.
+// All alike if the finding names no place.
+std::vector<double> nearness(const Result& finding, std::size_t corners, bool loop) {
+  const bool cut = !loop && corners != 4;
+  std::vector<double> near(corners + (cut ? 1 : 0), 0);
+  const Witness& w = *finding.witness;
+  if (w.l1.empty() || w.l2.empty()) return near;
+  const double u = number_of(w.l1), v = number_of(w.l2);
+  if (loop) return {1 - u - v, u, v};
+  if (!cut) return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+  near[static_cast<std::size_t>(std::max(w.corner, 0)) % corners] = (1 - u) * (1 - v);
+  near.back() = u * v;
+  return near;
+}
+
+int depth_difference(const AuditMesh& audited, std::size_t face, const FacesAround& around) {
+  int difference = 0;
+  if (audited.face_depth.empty()) return 0;
+  for (const std::int32_t v : audited.mesh.faces[face])
+    for (const std::int32_t f : around.of(v)) {
+      const int other = audited.face_depth[static_cast<std::size_t>(f)];
+      if (other >= 0) difference = std::max(difference, std::abs(other - audited.face_depth[face]));
+    }
+  return difference;
+}
+
+}  // namespace
+
+std::string Surroundings::words() const {
+  if (kind.empty()) return "";
+  std::string words = kind;
+  if (kind != "regular")
+    words += fmt::format(" of {} {}{}", valence,
+                         kind == "face"   ? "corners"
+                         : valence == "1" ? "face"
+                                          : "faces",
+                         beside ? ", beside another extraordinary one" : "");
+  if (difference > 3) return words + "; depths differ by more than 3";
+  return difference > 0 ? words + fmt::format("; depths differ by {}", difference) : words;
+}
+
+bool Surroundings::covers(const Surroundings& other) const {
+  if (*this == other || kind.empty() || other.kind.empty() || difference > other.difference) return false;
+  if (kind == "regular") return true;
+  return kind == other.kind && (valence == other.valence || rank < other.rank) && beside <= other.beside;
+}
+
+Surroundings surroundings(const Result& finding, const AuditMesh& audited) {
+  const data::ControlMesh& mesh = audited.mesh;
+  if (!finding.witness || finding.witness->face < 0 ||
+      finding.witness->face >= static_cast<std::int64_t>(mesh.faces.size()))
+    return {};
+  const auto face = static_cast<std::size_t>(finding.witness->face);
+  const auto corners = mesh.faces[face];
+  const FacesAround around(mesh.faces, mesh.positions.size());
+  const bool loop = finding.scheme == data::Scheme::kLoop;
+  const std::size_t regular = loop ? 6 : 4;
+
+  const std::vector<double> near = nearness(finding, corners.size(), loop);
+  std::optional<std::tuple<double, Kind, std::size_t>> cause;
+  bool middle = false;
+  int extraordinary = 0;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const bool of_face = k == corners.size();
+    const Vertex at = of_face ? Vertex{Kind::kInner, corners.size()} : look_at(corners[k], mesh, around);
+    if (at.regular(regular)) continue;
+    ++extraordinary;
+    const std::tuple here{near[k], at.kind, at.faces};
+    if (!cause || here > *cause) cause = here, middle = of_face;
+  }
+  Surroundings where;
+  where.difference = std::min(4, depth_difference(audited, face, around));
+  where.kind = "regular";
+  if (!cause) return where;
+  const auto [nearness, kind, faces] = *cause;
+  where.kind = middle ? "face" : kWords[static_cast<std::size_t>(kind)];
+  where.valence = valence_class(faces);
+  where.rank = rank_of(faces, kind == Kind::kBoundary ? regular / 2 : regular);
+  where.beside = extraordinary > 1;
+  return where;
+}
+
+std::string signature(const Result& finding, const Surroundings& where) {
+  return fmt::format("{}{}{}{}{}",
+                     finding.scheme == data::Scheme::kLoop ? "" : "catmull-clark: ", finding.check,
+                     finding.status == Status::kFinding ? "" : fmt::format(" ({})", word(finding.status)),
+                     where.kind.empty() ? "" : ": ", where.words());
+}
+
+}  // namespace limitcheck::verify

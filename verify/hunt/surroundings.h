@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// What lies about the place of a finding, as far as it tells faults apart.
+#pragma once
+
+#include <string>
+
+#include "verify/audit/audit_case.h"
+#include "verify/audit/result.h"
+
+namespace limitcheck::verify {
+
+/// The likely cause near the place of a finding: of the corners of its face that are not regular, and of its
+/// middle if it is cut into quads, the nearest; or of several equally near the one that most goes with.
+struct Surroundings {
+  std::string kind;  // "regular", "inner vertex", "boundary vertex", "crease", "dart", "corner", "face"; or
+                     // empty: the finding names no face
+  std::string
+      valence;   // class of the number of faces, of a face of corners: "1" to "7", "8 to 40", "more .."
+  int rank = 0;  // how far it is from the regular one, 0 to 3
+  bool beside = false;  // there is another extraordinary corner
+  int difference = 0;   // between the depths of the face and of those at its corners, at most 4
+
+  /// "inner vertex of 7 faces, beside another extraordinary one; depths differ by 3"
+  std::string words() const;
+  /// A fault there would show in `other`, too, which has all that this has and more.
+  bool covers(const Surroundings& other) const;
+  /// Less than that of any other that it covers.
+  int level() const { return (kind == "regular" ? 0 : 1 + rank) + (beside ? 1 : 0) + difference; }
+
+  friend bool operator==(const Surroundings&, const Surroundings&) = default;
+};
+
+Surroundings surroundings(const Result& finding, const AuditMesh& mesh);
+
+/// By which findings are one: scheme, check, status, and the neighbourhood. Stable.
+std::string signature(const Result& finding, const Surroundings& where);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What is done so far of a plan, on the disk before the next unit begins: whatever ends the program, the work
+// can be resumed.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "verify/shard/shard.h"
+
+namespace limitcheck::verify {
+
+/// What is to be done: the same in all shards.
+struct Plan {
+  std::string program;       // "limitcheck audit"
+  nlohmann::json what;       // all that decides the results: subjects, meshes, options, version
+  std::size_t units = 0;     // numbered from 0 on
+  std::size_t together = 1;  // so many units after another belong to one shard
+  Shard shard = {};
+
+  bool has(std::size_t unit) const { return shard.has(unit / together); }
+};
+
+/// The results of units, by number; in a file of JSON lines, too, if there is one. The first line says what
+/// is done, each other line holds one unit: {"unit", "result"}. A line is written whole and flushed. If the
+/// file cannot be written, the work goes on without it.
+class Journal {
+ public:
+  /// In memory only.
+  explicit Journal(Plan plan) : plan_(std::move(plan)) {}
+  /// Begins a new file. With `resume`, reads the lines of an existing file and appends to them; an incomplete
+  /// last line is dropped. Throws data::ArgumentError: with `resume`, there is no such file, or it is of
+  /// another plan or shard.
+  ///   remember   false: results() need not have what is kept from now on
+  Journal(Plan plan, std::filesystem::path file, bool resume, bool remember = true);
+
+  const Plan& plan() const { return plan_; }
+  /// nullptr: it is not done.
+  const nlohmann::json* recall(std::size_t unit) const;
+  void keep(std::size_t unit, nlohmann::json result);
+  /// All that is there.
+  const std::map<std::size_t, nlohmann::json>& results() const { return results_; }
+  /// Deletes the file.
+  void remove();
+
+ private:
+  std::string first_line() const;
+
+  Plan plan_;
+  std::filesystem::path file_;
+  bool remember_ = true;
+  std::ofstream out_;
+  std::map<std::size_t, nlohmann::json> results_;
+};
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "verify/shard/shard.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "data/error.h"
+#include "verify/shard/journal.h"
+#include "verify/shard/part.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Shard, IsNamedFromOneOn) {
+  EXPECT_EQ(parse_shard("3/8").index, 2U);
+  EXPECT_EQ(parse_shard("3/8").text(), "3/8");
+  for (const char* text :
+       {"", "0/3", "4/3", "3", "a/b", "1/", "/2", "1/2/3", "-1/2", "1/0", "1/99999999999999999999"})
+    EXPECT_THROW(parse_shard(text), data::ArgumentError) << text;
+}
+
+// Seven units, two of which go together: unit n has the result 10 n.
+Plan plan(const Shard& shard, int seed = 1) {
+  return {"limitcheck test", Json{{"seed", seed}}, 7, 2, shard};
+}
+
+PartReport part(const Shard& shard) {
+  PartReport p{plan(shard), {}, 1.5, "", shard.text() + "\n", ""};
+  for (std::size_t unit = 0; unit < 7; ++unit)
+    if (p.plan.has(unit)) p.results[unit] = 10 * unit;
+  return p;
+}
+
+TEST(Part, AllOfThemAreTheWhole) {
+  std::vector<PartReport> parts;
+  for (const std::uint64_t k : {2U, 0U, 1U}) parts.push_back(read_part(to_json(part({k, 3}))));
+  EXPECT_EQ(parts[1].results.size(), 3U) << "units 0, 1 and 6";
+  const PartReport whole = joined(parts);
+  EXPECT_EQ(whole.results, part({}).results);
+  EXPECT_EQ(whole.seconds, 4.5);
+  EXPECT_EQ(whole.printed, "1/3\n2/3\n3/3\n");
+  EXPECT_TRUE(joined({part({})}).is_complete());
+}
+
+std::string why_not(const std::vector<PartReport>& parts) {
+  try {
+    (void)joined(parts);
+  } catch (const data::ArgumentError& error) {
+    return error.what();
+  }
+  return "joined";
+}
+
+TEST(Part, IsRefusedWhereTheWholeWouldBeWrong) {
+  EXPECT_EQ(why_not({}), "there is nothing to merge");
+  EXPECT_EQ(why_not({part({0, 2})}), "shard 2/2 is missing");
+  EXPECT_EQ(why_not({part({0, 2}), part({1, 2}), part({0, 2})}), "shard 1/2 is there twice");
+  EXPECT_EQ(why_not({part({0, 2}), part({1, 3})}), "shard 2/3 is not of 2 shards");
+  PartReport other = part({1, 2});
+  other.plan.what["seed"] = 2;
+  EXPECT_EQ(why_not({part({0, 2}), other}), "shard 2/2 is of another plan than shard 1/2");
+  other = part({1, 2}), other.incomplete = "interrupted by SIGINT";
+  EXPECT_EQ(why_not({part({0, 2}), other}), "shard 2/2 is incomplete: interrupted by SIGINT");
+  other = part({1, 2}), other.results.erase(3);
+  EXPECT_EQ(why_not({part({0, 2}), other}), "shard 2/2 is incomplete");
+  for (const char* text : {"", "[]", "{}", "{\"program\": \"limitcheck audit\", \"results\": []}"})
+    EXPECT_THROW(read_part(text), data::ArgumentError) << text;
+}
+
+class JournalTest : public testing::Test {
+ protected:
+  JournalTest() : file_(std::filesystem::path(testing::TempDir()) / "limitcheck-journal.jsonl") {
+    std::filesystem::remove(file_);
+  }
+  ~JournalTest() override { std::filesystem::remove(file_); }
+  std::string text() const {
+    std::ifstream in(file_);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::filesystem::path file_;
+};
+
+TEST_F(JournalTest, KnowsWhatWasDoneBeforeTheProgramEnded) {
+  EXPECT_THROW(Journal(plan({}), file_, true), data::ArgumentError) << "there is no file";
+  {
+    Journal journal(plan({}), file_, false);
+    journal.keep(0, 5), journal.keep(3, Json::array({1, "x"}));
+  }
+  std::ofstream(file_, std::ios::app) << "{\"unit\": 4, \"res";  // killed while it wrote
+  {
+    Journal again(plan({}), file_, true);
+    ASSERT_NE(again.recall(0), nullptr);
+    EXPECT_EQ(*again.recall(0), Json(5));
+    EXPECT_EQ(*again.recall(3), Json::array({1, "x"}));
+    EXPECT_EQ(again.recall(4), nullptr);
+    again.keep(4, "y");
+  }
+  Journal third(plan({}), file_, true);
+  EXPECT_EQ(third.results().size(), 3U);
+  EXPECT_THROW(Journal(plan({}, 2), file_, true), data::ArgumentError) << "of another plan";
+  EXPECT_THROW(Journal(plan({0, 2}), file_, true), data::ArgumentError) << "of another shard";
+  third.remove();
+  EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+TEST_F(JournalTest, WithoutAFileIsInMemoryOnly) {
+  Journal journal(plan({}));
+  journal.keep(2, 7);
+  EXPECT_EQ(*journal.recall(2), Json(7));
+  journal.remove();
+  EXPECT_EQ(text(), "");
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

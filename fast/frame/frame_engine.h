@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct FrameState {
   ///   throws   data::ArgumentError: not one depth per face, a depth outside -1 .. kDeepest
   ///   keep     pairs of faces that are to stay together, each of faces of one depth; for Loop's scheme
   virtual FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) = 0;
+  /// The same; what was planned stays if the depths and pairs are those of the last plan.
+  FrameStats plan_or_keep(std::span<const std::int32_t> depth, std::span<const Grid> keep);
   /// When mesh.positions have changed: what depends on them is made anew.
   virtual void points_moved() = 0;
   virtual std::size_t patch_count() const = 0;
@@ -56,6 +59,13 @@ struct FrameState {
 
  private:
   static std::uint64_t next_version();
+
+  struct Planned {
+    std::vector<std::int32_t> depth;
+    std::vector<Grid> keep;
+    FrameStats stats;
+  };
+  std::optional<Planned> planned_;
 };
 
 /// The same with points of a number type.

@@ -95,6 +95,10 @@ class RowStream {
   RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front(),
             VertexKinds kinds = {}) = delete;
 
+  /// Other positions of the same vertices.
+  ///   throws   data::ArgumentError: another number of them
+  void move_points(const data::ControlMesh& mesh);
+
   const Kernel& kernel() const { return kernel_; }
   const Rings& rings() const { return rings_; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Frames of a bumpy sphere that turns from frame to frame, by one degree unless the name says otherwise: from
 // the camera to the triangles. Names: form/strategy/faces:N/threads:T. Forms: draw (a list of strips and
-// fans), indexed (one mesh), patches (points once, index patterns), kept (patches that stay as they are keep
+// fans), indexed (one mesh), patches (points once, index patterns), compact (the same in 16 bytes a vertex), kept (patches that stay as they are keep
 // their places), sticky (pairs stay together, too), deforming (as patches, but the control points move before
 // each frame), deforming:depths and still:depths (at given depths, with and without moving). Counters: frames/s, triangles/s.
 #include <benchmark/benchmark.h>
@@ -139,6 +139,7 @@ int main(int argc, char** argv) {
           [=](auto& s) { frames(s, c, 1, fast::PatchMesh<float>(with), degrees); });
     };
     patches("patches", {}, 1);
+    patches("compact", {.compact = true}, 1);
     for (const double degrees : {1., .25}) {
       const std::string step = degrees == 1 ? "" : ":quarter";
       patches("kept" + step, {.incremental = true}, degrees);

@@ -13,6 +13,7 @@
 #include "data/control_mesh.h"
 #include "fast/frame/frame_options.h"
 #include "fast/frame/patch_store.h"
+#include "fast/frame/patch_target.h"
 #include "fast/frame/sink.h"
 #include "fast/frame/vertex_copy.h"
 #include "fast/mesh/placement.h"
@@ -84,8 +85,7 @@ struct FrameEngine : FrameState {
   /// The patches of this frame, in their order; then writes those that are fresh to their places, and adds
   /// the calls that draw them all.
   virtual void list_patches(std::vector<PatchWanted>& out) const = 0;
-  virtual void write_patches(std::span<const PatchPlace> places, SurfaceVertex<Real>* vertices,
-                             LatticePoint* provenance) = 0;
+  virtual void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) = 0;
   virtual void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
                                std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const = 0;
   /// Vertices of this frame whose normal came from the rule for vanishing tangents.

@@ -317,6 +317,49 @@ TEST(PatchMesh, GoesIntoTheCallersMemory) {
   }
 }
 
+// The same vertices at the same places, each as compacted() packs it: in whole frames and on walks.
+template <class Engine>
+void expect_compacted_vertices() {
+  for (const Model& model : models()) {
+    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+      for (const bool incremental : {false, true}) {
+        SCOPED_TRACE(model.name);
+        TessellatorOptions options = options_of(model, repair);
+        options.provenance = incremental;
+        Engine engine(model.mesh, options);
+        PatchOptions with;
+        with.incremental = incremental;
+        PatchMesh<float> patches(with);
+        with.compact = true;
+        PatchMesh<float> packed(with);
+        data::SplitMix64 random(13);
+        auto depth = random_depths(model.mesh.faces.size(), 0, 4, random);
+        for (int frame = 0; frame < 12; ++frame, step(depth, random)) {
+          engine.frame(depth, patches), engine.frame(depth, packed);
+          ASSERT_TRUE(packed.vertices().empty() && patches.compact_vertices().empty());
+          ASSERT_EQ(packed.compact_vertices().size(), patches.vertices().size());
+          ASSERT_EQ(packed.provenance().size(), patches.provenance().size());
+          ASSERT_EQ(packed.draws().size(), patches.draws().size());
+          for (const PatchDraw& draw : packed.draws())
+            for (std::int64_t v = draw.base_vertex; v < draw.base_vertex + draw.vertex_count; ++v)
+              ASSERT_EQ(packed.compact_vertices()[static_cast<std::size_t>(v)],
+                        fast::compacted(patches.vertices()[static_cast<std::size_t>(v)]));
+        }
+      }
+    }
+  }
+}
+
+TEST(PatchMesh, PacksVerticesIntoSixteenBytes) {
+  expect_compacted_vertices<StreamTessellator>();
+  expect_compacted_vertices<Tessellator<float>>();
+  PatchOptions with;
+  with.compact = true;
+  Tessellator<double> doubles(tetrahedron());
+  PatchMesh<double> patches(with);
+  EXPECT_THROW(doubles.frame(std::vector<std::int32_t>(4, 1), patches), data::ArgumentError);
+}
+
 TEST(PatchMesh, RefusesPatchesThatNarrowIndicesDoNotReach) {
   StreamTessellator engine(tetrahedron());
   PatchOptions with;

@@ -12,13 +12,12 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/batch.h"
+#include "fast/stream/compact_vertex.h"
 #include "fast/stream/rings.h"
 #include "fast/stream/targets.h"
 #include "fast/stream/vertex.h"
 
 namespace limitcheck::fast::row_stream {
-
-struct CompactVertex;
 
 /// Memory that the kernels can load vectors from.
 class AlignedFloats {

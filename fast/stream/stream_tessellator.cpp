@@ -80,8 +80,9 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
     stores = Stores::kOrdinary;
     run(pairing.grids, patches, [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
   }
-  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
-                     LatticePoint* provenance) override {
+  void write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) override {
+    PatchTarget<float> target = out;
+    target.compact_row = &compact;
     fresh_grids.clear(), fresh_patches.clear(), firsts.clear();
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i].fresh) continue;
@@ -91,8 +92,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
     }
     stores = Stores::kOrdinary;
     run(fresh_grids, fresh_patches, [&](std::size_t i, StreamWorker&) {
-      return PatchWriter<float>(fresh_patches[i], plan, placement, vertices + firsts[i],
-                                provenance != nullptr ? provenance + firsts[i] : nullptr);
+      return PatchWriter<float>(fresh_patches[i], plan, placement, target.from(firsts[i]));
     });
   }
 

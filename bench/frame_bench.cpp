@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Frames of a bumpy sphere that turns from frame to frame, by one degree unless the name says otherwise: from
 // the camera to the triangles. Names: form/strategy/faces:N/threads:T. Forms: draw (a list of strips and
-// fans), indexed (one mesh), patches (points once, index patterns), kept (patches that stay as they are keep
-// their places), sticky (pairs stay together, too). Counters: frames/s, triangles/s.
+// fans), indexed (one mesh), patches (points once, index patterns), compact (the same in 16 bytes a vertex), kept (patches that stay as they are keep
+// their places), sticky (pairs stay together, too), deforming (as patches, but the control points move before
+// each frame), deforming:depths and still:depths (at given depths, with and without moving). Counters: frames/s, triangles/s.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -83,6 +85,42 @@ void frames(benchmark::State& state, const Case& c, int threads, Output out = {}
   state.counters["triangles/s"] = Counter(triangles, Counter::kIsRate);
 }
 
+// The mesh breathes: its points move along their own directions, by up to a twentieth.
+std::vector<std::vector<std::array<double, 3>>> breaths(const data::ControlMesh& mesh) {
+  std::vector<std::vector<std::array<double, 3>>> all(16, mesh.positions);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (auto& p : all[k]) {
+      const double phase = 2 * std::numbers::pi * (static_cast<double>(k) / 16 + p[0]);
+      for (double& x : p) x *= 1 + .05 * std::sin(phase);
+    }
+  return all;
+}
+
+/// `moves`: else the frames are as they would be if the points had not moved.
+void deforming(benchmark::State& state, const Case& c, bool moves, bool same_depths) {
+  fast::TessellatorOptions options;
+  options.threads = 1;
+  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), options);
+  const auto points = breaths(mesh_of(c.faces));
+  fast::PatchMesh<float> out;
+  tessellator.frame(c.strategy, turned(0, 1), out);
+  const std::vector<std::int32_t> depth = tessellator.last_pairing().depth;
+  double triangles = 0;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    ++i;
+    if (moves) tessellator.move_points(points[i % points.size()]);
+    const fast::FrameStats stats =
+        same_depths ? tessellator.frame(depth, out)
+                    : tessellator.frame(c.strategy, turned(static_cast<std::int64_t>(i), 1), out);
+    triangles += static_cast<double>(stats.triangles);
+    benchmark::ClobberMemory();
+  }
+  using benchmark::Counter;
+  state.counters["frames/s"] = Counter(1, Counter::kIsIterationInvariantRate);
+  state.counters["triangles/s"] = Counter(triangles, Counter::kIsRate);
+}
+
 template <class Function>
 void add(const std::string& name, Function function) {
   benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMicrosecond)->UseRealTime();
@@ -101,11 +139,16 @@ int main(int argc, char** argv) {
           [=](auto& s) { frames(s, c, 1, fast::PatchMesh<float>(with), degrees); });
     };
     patches("patches", {}, 1);
+    patches("compact", {.compact = true}, 1);
     for (const double degrees : {1., .25}) {
       const std::string step = degrees == 1 ? "" : ":quarter";
       patches("kept" + step, {.incremental = true}, degrees);
       patches("sticky" + step, {.incremental = true, .sticky = true}, degrees);
     }
+    if (c.strategy.strategy != fast::Strategy::kUniform)
+      add("deforming/" + name + "/threads:1", [=](auto& s) { deforming(s, c, true, false); });
+    add("deforming:depths/" + name + "/threads:1", [=](auto& s) { deforming(s, c, true, true); });
+    add("still:depths/" + name + "/threads:1", [=](auto& s) { deforming(s, c, false, true); });
     add("indexed/" + name + "/threads:1", [=](auto& s) { frames<fast::IndexedMesh<float>>(s, c, 1); });
   }
   benchmark::Initialize(&argc, argv);

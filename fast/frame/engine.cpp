@@ -82,7 +82,7 @@ template <class Real, class Evaluate>
 FrameStats run_frame(FrameEngine<Real>& s, std::span<const std::int32_t> depth, Evaluate&& evaluate,
                      std::span<const Grid> keep = {}) {
   const auto start = Clock::now();
-  FrameStats stats = s.plan_frame(depth, keep);
+  FrameStats stats = s.plan_or_keep(depth, keep);
   const auto preparation = Clock::now();
   s.prepare();
   stats.seconds_planning += seconds_since(preparation);
@@ -99,6 +99,20 @@ FrameStats run_frame(FrameEngine<Real>& s, std::span<const std::int32_t> depth, 
 std::uint64_t FrameState::next_version() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
+}
+
+FrameStats FrameState::plan_or_keep(std::span<const std::int32_t> depth, std::span<const Grid> keep) {
+  const auto start = Clock::now();
+  if (planned_ && std::ranges::equal(planned_->depth, depth) && std::ranges::equal(planned_->keep, keep)) {
+    FrameStats stats = planned_->stats;
+    stats.seconds_pairing = 0;
+    stats.seconds_planning = seconds_since(start);
+    return stats;
+  }
+  planned_.reset();  // until all is well
+  const FrameStats stats = plan_frame(depth, keep);
+  planned_ = {{depth.begin(), depth.end()}, {keep.begin(), keep.end()}, stats};
+  return stats;
 }
 
 FrameState::FrameState(const data::ControlMesh& given, const TessellatorOptions& with)

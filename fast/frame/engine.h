@@ -42,7 +42,8 @@ class Engine {
   FrameStats frame(std::span<const std::int32_t> depth, DrawSink<Real>& sink);
   /// As patches: their points once, what has not changed since the last frame left as it is, if it is so
   /// wanted (see PatchMesh). The patches have the bits of a fresh frame with the same pairs.
-  ///   throws   data::ArgumentError, too: a patch too large for indices of 16 bits
+  ///   throws   data::ArgumentError, too: a patch too large for indices of 16 bits, compact vertices of
+  ///            doubles
   FrameStats frame(std::span<const std::int32_t> depth, PatchMesh<Real>& out);
 
   /// A frame at the depths that a strategy of section 4.1 assigns, at most options.max_depth. Output: as

@@ -31,12 +31,16 @@ struct EngineState : FrameEngine<Real> {
 
   int face_count() const final { return adjacency.face_count(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
-    if (!heuristics) heuristics.emplace(triangles.points(), adjacency, options.max_depth, triangles.kinds());
+    if (!heuristics)
+      heuristics.emplace(triangles.points(), adjacency, options.max_depth, triangles.kinds());
+    else if (heuristics_are_old)
+      heuristics->points_moved();
+    heuristics_are_old = false;
     return heuristics->depths(strategy, camera);
   }
   void points_moved() override {
     triangles.points_moved();
-    heuristics.reset();
+    heuristics_are_old = true;
   }
   FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) final;
   std::size_t patch_count() const final { return patches.size(); }
@@ -89,6 +93,7 @@ struct EngineState : FrameEngine<Real> {
   TriangleMesh triangles;
   const Adjacency& adjacency = triangles.adjacency();
   std::optional<DepthHeuristics> heuristics;
+  bool heuristics_are_old = false;  // the points have moved since
   std::vector<Patch> patches;
 
  private:

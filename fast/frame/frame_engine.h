@@ -6,12 +6,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "fast/frame/frame_options.h"
 #include "fast/frame/patch_store.h"
+#include "fast/frame/patch_target.h"
 #include "fast/frame/sink.h"
 #include "fast/frame/vertex_copy.h"
 #include "fast/mesh/placement.h"
@@ -39,6 +41,8 @@ struct FrameState {
   ///   throws   data::ArgumentError: not one depth per face, a depth outside -1 .. kDeepest
   ///   keep     pairs of faces that are to stay together, each of faces of one depth; for Loop's scheme
   virtual FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) = 0;
+  /// The same; what was planned stays if the depths and pairs are those of the last plan.
+  FrameStats plan_or_keep(std::span<const std::int32_t> depth, std::span<const Grid> keep);
   /// When mesh.positions have changed: what depends on them is made anew.
   virtual void points_moved() = 0;
   virtual std::size_t patch_count() const = 0;
@@ -56,6 +60,13 @@ struct FrameState {
 
  private:
   static std::uint64_t next_version();
+
+  struct Planned {
+    std::vector<std::int32_t> depth;
+    std::vector<Grid> keep;
+    FrameStats stats;
+  };
+  std::optional<Planned> planned_;
 };
 
 /// The same with points of a number type.
@@ -74,8 +85,7 @@ struct FrameEngine : FrameState {
   /// The patches of this frame, in their order; then writes those that are fresh to their places, and adds
   /// the calls that draw them all.
   virtual void list_patches(std::vector<PatchWanted>& out) const = 0;
-  virtual void write_patches(std::span<const PatchPlace> places, SurfaceVertex<Real>* vertices,
-                             LatticePoint* provenance) = 0;
+  virtual void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) = 0;
   virtual void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
                                std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const = 0;
   /// Vertices of this frame whose normal came from the rule for vanishing tangents.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "data/error.h"
@@ -61,7 +62,7 @@ void PatchMesh<Real>::clear() {
   *store_ = PatchStore();  // not {}: clang 14 then leaves the destructor out of a template
   draws_.clear(), changed_.clear();
   indices_.clear(), indices16_.clear();
-  vertices_ = {};
+  vertices_ = {}, compact_ = {};
   provenance_.clear();
   first_new_index_ = 0;
 }
@@ -84,6 +85,8 @@ std::vector<Grid> PatchFrame<Real>::pairs_to_keep(std::span<const std::int32_t> 
 
 template <class Real>
 std::int64_t PatchFrame<Real>::write(std::span<const std::int32_t> depth) {
+  if (out_.options_.compact && !std::is_same_v<Real, float>)
+    throw data::ArgumentError("frame: compact vertices are made of floats only");
   PatchStore& store = *out_.store_;
   engine_.list_patches(store.list);
   std::int64_t vertices = 0;
@@ -102,8 +105,8 @@ std::int64_t PatchFrame<Real>::write(std::span<const std::int32_t> depth) {
   const std::int64_t before = store.end;
   store.place(static_cast<std::size_t>(engine_.face_count()), reuse);
   make_room(reuse ? static_cast<std::size_t>(before) : 0);
-  engine_.write_patches(store.places, out_.vertices_.data(),
-                        out_.provenance_.empty() ? nullptr : out_.provenance_.data());
+  engine_.write_patches(store.places, {out_.vertices_.data(), out_.compact_.data(),
+                                       out_.provenance_.empty() ? nullptr : out_.provenance_.data()});
   add_draws();
   list_changes();
   store.pairs = engine_.pairing.grids;
@@ -115,10 +118,13 @@ std::int64_t PatchFrame<Real>::write(std::span<const std::int32_t> depth) {
 
 template <class Real>
 void PatchFrame<Real>::make_room(std::size_t keep) {
-  using Vertex = SurfaceVertex<Real>;
   const auto count = static_cast<std::size_t>(out_.store_->end);
-  std::byte* memory = out_.memory_->reserve(count * sizeof(Vertex), std::min(keep, count) * sizeof(Vertex));
-  out_.vertices_ = {reinterpret_cast<Vertex*>(memory), count};
+  const std::size_t size = out_.options_.compact ? sizeof(CompactVertex) : sizeof(SurfaceVertex<Real>);
+  std::byte* memory = out_.memory_->reserve(count * size, std::min(keep, count) * size);
+  if (out_.options_.compact)
+    out_.compact_ = {reinterpret_cast<CompactVertex*>(memory), count};
+  else
+    out_.vertices_ = {reinterpret_cast<SurfaceVertex<Real>*>(memory), count};
   out_.provenance_.resize(engine_.options.provenance ? count : 0);
 }
 

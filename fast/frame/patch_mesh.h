@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "fast/frame/compact_vertex.h"
 #include "fast/frame/sink.h"
 
 namespace limitcheck::fast {
@@ -24,6 +25,7 @@ inline constexpr std::uint16_t kRestartIndex16 = 0xffff;
 struct PatchOptions {
   IndexForm form = IndexForm::kTriangles;
   bool narrow = false;       // indices of 16 bits as well: depths of 7 and less
+  bool compact = false;      // vertices of 16 bytes (compact_vertex.h); of float
   bool incremental = false;  // patches that are as they were in the frame before keep their places
   /// Faces stay paired as long as neither of them wants another depth, in place of pairs that depend on the
   /// frame alone: fewer patches change from frame to frame, for about 2 per cent more triangles.
@@ -79,8 +81,9 @@ class PatchMesh {
 
   const PatchOptions& options() const { return options_; }
   std::span<const PatchDraw> draws() const { return draws_; }
-  /// All vertices, those of no draw as well; provenance likewise, or none.
+  /// All vertices, those of no draw as well, in one form or the other; provenance likewise, or none.
   std::span<const SurfaceVertex<Real>> vertices() const { return vertices_; }
+  std::span<const CompactVertex> compact_vertices() const { return compact_; }
   std::span<const LatticePoint> provenance() const { return provenance_; }
   /// The patterns, which are added to from frame to frame and never change; and the same as 16 bits, if so
   /// wanted.
@@ -103,6 +106,7 @@ class PatchMesh {
   std::unique_ptr<PatchStore> store_;
   std::vector<PatchDraw> draws_;
   std::span<SurfaceVertex<Real>> vertices_;
+  std::span<CompactVertex> compact_;
   std::vector<LatticePoint> provenance_;
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint16_t> indices16_;

@@ -10,6 +10,7 @@
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/patch_indices.h"
 #include "fast/frame/patch_store.h"
+#include "fast/frame/patch_target.h"
 
 namespace limitcheck::fast {
 
@@ -83,14 +84,9 @@ class PatchWriter {
  public:
   using Vertex = SurfaceVertex<Real>;
 
-  PatchWriter(const Patch& patch, const CrackPlan& plan, const Placement<Real>& placement, Vertex* vertices,
-              LatticePoint* provenance)
-      : patch_(patch),
-        plan_(plan),
-        placement_(placement),
-        vertices_(vertices),
-        provenance_(provenance),
-        k_(1 << patch.depth) {}
+  PatchWriter(const Patch& patch, const CrackPlan& plan, const Placement<Real>& placement,
+              const PatchTarget<Real>& out)
+      : patch_(patch), plan_(plan), placement_(placement), out_(out), k_(1 << patch.depth) {}
 
   template <class At>
   void whole_strip(int row, const At& at) {
@@ -133,9 +129,8 @@ class PatchWriter {
   template <class At, class Lattice>
   void put_row(const At& at, int below, int count, std::uint32_t first, Lattice&& lattice) {
     if constexpr (std::is_same_v<At, RowPair<Real>>) {
-      if (provenance_ == nullptr && placement_.is_identity() && at.step == -1)
-        return copy_vertices(&at(2 * (count - 1) + below), static_cast<std::size_t>(count), vertices_ + first,
-                             Stores::kOrdinary);
+      if (out_.provenance == nullptr && placement_.is_identity() && at.step == -1)
+        return out_.put(first, &at(2 * (count - 1) + below), static_cast<std::size_t>(count));
     }
     for (int c = count - 1; c >= 0; --c) put(first++, at(2 * c + below), [&] { return lattice(c); });
   }
@@ -150,16 +145,14 @@ class PatchWriter {
 
   template <class Lattice>
   void put(std::uint32_t at, const Vertex& vertex, Lattice&& lattice) {
-    if (provenance_ != nullptr) provenance_[at] = lattice();
-    const Vertex here = placement_.is_identity() ? vertex : placed(vertex, placement_);
-    copy_vertices(&here, 1, vertices_ + at, Stores::kOrdinary);
+    if (out_.provenance != nullptr) out_.provenance[at] = lattice();
+    out_.put(at, placement_.is_identity() ? vertex : placed(vertex, placement_));
   }
 
   const Patch& patch_;
   const CrackPlan& plan_;
   const Placement<Real>& placement_;
-  Vertex* vertices_;
-  LatticePoint* provenance_;
+  const PatchTarget<Real> out_;
   int k_;
 };
 

@@ -9,6 +9,7 @@
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/patch_indices.h"
 #include "fast/frame/patch_store.h"
+#include "fast/frame/patch_target.h"
 #include "fast/frame/quad_patch.h"
 
 namespace limitcheck::fast {
@@ -72,13 +73,12 @@ class QuadPatchWriter {
   using Vertex = SurfaceVertex<Real>;
 
   QuadPatchWriter(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan,
-                  const Placement<Real>& placement, Vertex* vertices, LatticePoint* provenance)
+                  const Placement<Real>& placement, const PatchTarget<Real>& out)
       : patch_(patch),
         faces_(faces),
         plan_(plan),
         placement_(placement),
-        vertices_(vertices),
-        provenance_(provenance),
+        out_(out),
         block_{faces.part_size(patch.depth)} {}
 
   /// Strips know where they go.
@@ -91,9 +91,8 @@ class QuadPatchWriter {
       const int j = m - row - below;
       std::uint32_t to = block_.at({part, m, j});
       if constexpr (std::is_same_v<At, RowPair<Real>>) {
-        if (provenance_ == nullptr && placement_.is_identity() && at.step == -1) {
-          copy_vertices(&at(2 * m + below), static_cast<std::size_t>(m) + 1, vertices_ + to,
-                        Stores::kOrdinary);
+        if (out_.provenance == nullptr && placement_.is_identity() && at.step == -1) {
+          out_.put(to, &at(2 * m + below), static_cast<std::size_t>(m) + 1);
           continue;
         }
       }
@@ -131,21 +130,19 @@ class QuadPatchWriter {
     }
   }
   void put(std::uint32_t at, const Vertex& v, PartPoint p) {
-    if (provenance_ != nullptr) return put(at, v, faces_.lattice(patch_.face, patch_.depth, p));
+    if (out_.provenance != nullptr) return put(at, v, faces_.lattice(patch_.face, patch_.depth, p));
     put(at, v, LatticePoint{});
   }
   void put(std::uint32_t at, const Vertex& v, const LatticePoint& lattice) {
-    const Vertex here = placement_.is_identity() ? v : placed(v, placement_);
-    copy_vertices(&here, 1, vertices_ + at, Stores::kOrdinary);
-    if (provenance_ != nullptr) provenance_[at] = lattice;
+    out_.put(at, placement_.is_identity() ? v : placed(v, placement_));
+    if (out_.provenance != nullptr) out_.provenance[at] = lattice;
   }
 
   const QuadPatch& patch_;
   const QuadFaces& faces_;
   const CrackPlan& plan_;
   const Placement<Real>& placement_;
-  Vertex* vertices_;
-  LatticePoint* provenance_;
+  const PatchTarget<Real> out_;
   PartBlock block_;
 };
 

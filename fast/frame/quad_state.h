@@ -28,12 +28,16 @@ struct QuadEngineState : FrameEngine<Real> {
 
   int face_count() const final { return faces.size(); }
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
-    if (!heuristics) heuristics.emplace(faces, semi_sharp, options.max_depth);
+    if (!heuristics)
+      heuristics.emplace(faces, semi_sharp, options.max_depth);
+    else if (heuristics_are_old)
+      heuristics->points_moved();
+    heuristics_are_old = false;
     return heuristics->depths(strategy, camera);
   }
   void points_moved() override {
     quads = QuadMesh(mesh);  // the same but for the positions
-    heuristics.reset();
+    heuristics_are_old = true;
   }
   FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> /*keep*/) final;
   std::size_t patch_count() const final { return patches.size(); }
@@ -84,7 +88,8 @@ struct QuadEngineState : FrameEngine<Real> {
   QuadFaces faces;
   SemiSharp semi_sharp;
   std::optional<QuadDepthHeuristics> heuristics;
-  std::vector<QuadPatch> patches;  // one per face that is displayed
+  bool heuristics_are_old = false;  // the points have moved since
+  std::vector<QuadPatch> patches;   // one per face that is displayed
 
  private:
   void write_control_vertices(IndexedMesh<Real>& out) const;

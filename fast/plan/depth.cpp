@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "data/error.h"
 #include "data/splitmix64.h"
+#include "fast/mesh/box.h"
 #include "fast/plan/quad_depth.h"
 #include "fast/rules/ring.h"
 
@@ -54,12 +56,18 @@ double checked_cosine(double degrees) {
 // Isolated: a thread that waits here must not pick up a task of the caller that comes back to the same
 // call_once.
 template <class Body>
-void for_each_index(std::size_t count, const Body& body) {
+void for_each_range(std::size_t count, const Body& body) {
   constexpr std::size_t kGrain = 512;
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) body(static_cast<std::int32_t>(i));
+      body(static_cast<std::int32_t>(range.begin()), static_cast<std::int32_t>(range.end()));
     });
+  });
+}
+template <class Body>
+void for_each_index(std::size_t count, const Body& body) {
+  for_each_range(count, [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t i = first; i < last; ++i) body(i);
   });
 }
 
@@ -96,30 +104,52 @@ BasicDepthHeuristics<Surface>::BasicDepthHeuristics(const Surface& surface, int 
   if (max_depth < 0 || max_depth > kDeepest) {
     refuse("the maximum " + std::to_string(max_depth) + " is not in 0.." + std::to_string(kDeepest));
   }
-  const std::size_t vertices = surface_.vertex_count();
-  limit_.resize(vertices);
-  normal_.resize(vertices);
+  points_moved();
+}
+
+template <class Surface>
+void BasicDepthHeuristics<Surface>::points_moved() {
+  make_limits();
+  make_spheres();
+  std::fill(known_cones_.begin(), known_cones_.end(), std::int8_t{0});
+}
+
+template <class Surface>
+void BasicDepthHeuristics<Surface>::make_limits() {
+  const auto positions = surface_.positions();
+  limit_.resize(positions.size());
+  normal_.resize(positions.size());
+  const double farthest = positions.empty() ? 0 : 2 * Box(positions).size();
   std::atomic<std::int64_t> degenerate_count{0};
   tbb::enumerable_thread_specific<typename Surface::VertexRing> rings;
-  for_each_index(vertices, [&](std::int32_t v) {
+  for_each_range(positions.size(), [&](std::int32_t first, std::int32_t last) {
     auto& ring = rings.local();
-    surface_.gather(ring, v);
-    bool degenerate = false;
-    limit_[v] = ring.limit_position();
-    normal_[v] = ring.limit_normal(&degenerate);
-    if (degenerate && ring.faces() > 0) ++degenerate_count;
+    for (std::int32_t v = first; v < last; ++v) {
+      surface_.gather(ring, v);
+      bool degenerate = false;
+      const SurfaceVertex<double> vertex = ring.limit_vertex(&degenerate, farthest);
+      limit_[v] = vertex.position;
+      normal_[v] = vertex.normal;
+      if (degenerate && ring.faces() > 0) ++degenerate_count;
+    }
   });
   degenerate_normals_ = degenerate_count;
+}
+
+template <class Surface>
+void BasicDepthHeuristics<Surface>::make_spheres() {
   spheres_.resize(surface_.face_count());
   for_each_index(spheres_.size(), [&](std::int32_t f) {
     Point3 sum{};
     int corners = 0;
-    surface_.for_each_corner(f, [&](std::int32_t v) { sum = sum + surface_.position(v), ++corners; });
+    surface_.for_each_corner(f, [&](std::int32_t v) { sum = sum + position(v), ++corners; });
     const Point3 centroid = (1. / corners) * sum;
-    double radius = 0;
-    surface_.for_each_corner(
-        f, [&](std::int32_t v) { radius = std::max(radius, length(surface_.position(v) - centroid)); });
-    spheres_[f] = {centroid, radius};
+    double square = 0;
+    surface_.for_each_corner(f, [&](std::int32_t v) {
+      const Point3 spoke = position(v) - centroid;
+      square = std::max(square, dot(spoke, spoke));
+    });
+    spheres_[f] = {centroid, std::sqrt(square)};
   });
 }
 
@@ -180,35 +210,49 @@ std::int32_t BasicDepthHeuristics<Surface>::project_sphere(std::int32_t face, co
   return level;
 }
 
-// The cosines do not depend on the view: one pass over the vertices serves every frame and every angle.
 template <class Surface>
-void BasicDepthHeuristics<Surface>::prepare_cones() const {
-  std::call_once(cones_ready_, [&] {
-    const auto levels = static_cast<std::size_t>(max_depth_) + 1;
-    cones_.resize(limit_.size() * levels);
-    tbb::enumerable_thread_specific<typename Surface::VertexRing> rings;
-    for_each_index(limit_.size(), [&](std::int32_t v) {
-      auto& ring = rings.local();
-      surface_.gather(ring, v);
-      for (std::size_t l = 0; l < levels; ++l) {
-        if (l > 0) ring.subdivide();
-        cones_[static_cast<std::size_t>(v) * levels + l] = ring.cone_cosine(normal_[v]);
-      }
-    });
-  });
+void BasicDepthHeuristics<Surface>::make_room_for_cones() const {
+  cones_.resize((static_cast<std::size_t>(max_depth_) + 1) * limit_.size());
+  known_cones_.resize(limit_.size());
 }
 
 template <class Surface>
 double BasicDepthHeuristics<Surface>::cone_cosine(std::int32_t v, int l) const {
-  prepare_cones();
-  return cones_[static_cast<std::size_t>(v) * (static_cast<std::size_t>(max_depth_) + 1) +
-                static_cast<std::size_t>(l)];
+  const std::lock_guard lock(cones_in_use_);
+  make_room_for_cones();
+  typename Surface::VertexRing ring;
+  int ring_level = -1;
+  return cone_cosine(v, l, ring, ring_level);
+}
+
+// `ring_level`: of the ring, if it is that of v; else -1.
+template <class Surface>
+double BasicDepthHeuristics<Surface>::cone_cosine(std::int32_t v, int l, typename Surface::VertexRing& ring,
+                                                  int& ring_level) const {
+  const auto levels = static_cast<std::size_t>(max_depth_) + 1;
+  double* cosines = cones_.data() + levels * static_cast<std::size_t>(v);
+  for (std::int8_t& known = known_cones_[v]; known <= l; ++known) {
+    if (ring_level < 0) surface_.gather(ring, v), ring_level = 0;
+    for (; ring_level < known; ++ring_level) ring.subdivide();
+    cosines[known] = ring.cone_cosine(normal_[v]);
+  }
+  return cosines[l];
 }
 
 template <class Surface>
 std::int32_t BasicDepthHeuristics<Surface>::cone_depth(std::int32_t v, double cos_angle) const {
+  const std::lock_guard lock(cones_in_use_);
+  make_room_for_cones();
+  typename Surface::VertexRing ring;
+  return cone_depth(v, cos_angle, ring);
+}
+
+template <class Surface>
+std::int32_t BasicDepthHeuristics<Surface>::cone_depth(std::int32_t v, double cos_angle,
+                                                       typename Surface::VertexRing& ring) const {
   std::int32_t level = 0;
-  while (level < max_depth_ && cone_cosine(v, level) < cos_angle) ++level;
+  int ring_level = -1;
+  while (level < max_depth_ && cone_cosine(v, level, ring, ring_level) < cos_angle) ++level;
   return level;
 }
 
@@ -245,7 +289,9 @@ std::vector<std::int32_t> BasicDepthHeuristics<Surface>::depths(const DepthOptio
   const std::vector<std::uint8_t> back = away(camera);
   std::vector<std::int32_t> vertex_depth;
   if (cone) {
-    prepare_cones();
+    const std::lock_guard lock(cones_in_use_);
+    make_room_for_cones();
+    tbb::enumerable_thread_specific<typename Surface::VertexRing> rings;
     const bool one_angle = cosines[0] == cosines[1] && (cull || cosines[0] == cosines[2]);
     vertex_depth.resize(back.size());
     for_each_index(back.size(), [&](std::int32_t v) {
@@ -254,7 +300,7 @@ std::vector<std::int32_t> BasicDepthHeuristics<Surface>::depths(const DepthOptio
         return;
       }
       const Facing vertex_class = one_angle ? Facing::kFront : vertex_facing(v, back);
-      vertex_depth[v] = cone_depth(v, cosines[static_cast<std::size_t>(vertex_class)]);
+      vertex_depth[v] = cone_depth(v, cosines[static_cast<std::size_t>(vertex_class)], rings.local());
     });
   }
   const double focal_pixels = sphere ? camera.focal_pixels() : 0;

@@ -2,6 +2,7 @@
 // How deep each control face is subdivided: the heuristics of section 4.1. [mueller2000, 4.1; C22-C33, C82]
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -63,7 +64,7 @@ struct DepthOptions {
 };
 
 /// Assigns depths to the faces of a mesh for one view after the other; what does not depend on the view is
-/// computed once. Runs in the caller's oneTBB arena; the result does not depend on the number of threads.
+/// computed once, when it is first needed. Runs in the caller's oneTBB arena; the result does not depend on the number of threads.
 ///   Surface   the control faces and the rings of their vertices, by scheme: see below
 template <class Surface>
 class BasicDepthHeuristics {
@@ -72,6 +73,9 @@ class BasicDepthHeuristics {
   explicit BasicDepthHeuristics(const Surface& surface, int max_depth = 5);
 
   int max_depth() const { return max_depth_; }
+
+  /// Takes over the positions of the mesh, which have changed. Not while others ask for depths.
+  void points_moved();
 
   /// One depth per face, -1 .. max_depth. Throws data::ArgumentError: a camera that makes no view (if the
   /// strategy or culling uses it), a target or angle outside its range, a depth outside 0 .. max_depth, an
@@ -106,7 +110,12 @@ class BasicDepthHeuristics {
   std::int32_t project_sphere(std::int32_t face, const Camera& camera, double focal_pixels,
                               double target_pixels) const;
   Facing vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const;
-  void prepare_cones() const;
+  Point3 position(std::int32_t v) const { return to_point(surface_.positions()[v]); }
+  void make_limits();
+  void make_spheres();
+  void make_room_for_cones() const;
+  std::int32_t cone_depth(std::int32_t v, double cos_angle, typename Surface::VertexRing& ring) const;
+  double cone_cosine(std::int32_t v, int l, typename Surface::VertexRing& ring, int& ring_level) const;
 
   Surface surface_;
   int max_depth_;
@@ -117,8 +126,10 @@ class BasicDepthHeuristics {
   std::vector<Point3> limit_, normal_;  // per vertex
   std::vector<Sphere> spheres_;         // per face, round the centroid
   std::int64_t degenerate_normals_ = 0;
-  mutable std::once_flag cones_ready_;
-  mutable std::vector<double> cones_;  // max_depth + 1 per vertex: the cosines of levels 0 .. max_depth
+  // Cosines do not depend on the view: each is computed when a frame first asks for it.
+  mutable std::mutex cones_in_use_;
+  mutable std::vector<double> cones_;             // max_depth + 1 per vertex: those of levels 0 .. max_depth
+  mutable std::vector<std::int8_t> known_cones_;  // per vertex: of how many levels, from 0 on
 };
 
 /// Loop's control faces and rings.
@@ -130,8 +141,7 @@ struct TriangleSurface {
   VertexKinds kinds = {};
 
   std::size_t face_count() const { return mesh.faces.size(); }
-  std::size_t vertex_count() const { return mesh.positions.size(); }
-  Point3 position(std::int32_t v) const { return to_point(mesh.positions[v]); }
+  std::span<const std::array<double, 3>> positions() const { return mesh.positions; }
   template <class Visit>
   void for_each_corner(std::int32_t f, Visit&& visit) const {
     for (int k = 0; k < 3; ++k) visit(adjacency.corner(f, k));

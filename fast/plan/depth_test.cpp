@@ -11,6 +11,7 @@
 #include <set>
 
 #include "data/error.h"
+#include "data/splitmix64.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast {
@@ -233,6 +234,47 @@ TEST(Depth, EmptyMeshesAndVerticesWithoutFacesAreNoProblem) {
   data::ControlMesh point = single_triangle();
   for (auto& p : point.positions) p = {1, 2, 3};
   EXPECT_EQ(Fixture(point).heuristics.degenerate_normals(), 3) << "vertices of one face count, too";
+}
+
+data::ControlMesh shaken(data::ControlMesh mesh, double amount, std::uint64_t seed) {
+  data::SplitMix64 random(seed);
+  for (auto& p : mesh.positions)
+    for (double& x : p) x += amount * (2 * random.unit() - 1);
+  return mesh;
+}
+
+TEST(Depth, MovedPointsGiveWhatTheyGiveToANewOne) {
+  for (const data::ControlMesh& mesh : {shaken(grid_torus(6, 7), .2, 1), shaken(grid_sheet(5, 4), .1, 2)}) {
+    Fixture moved(mesh);
+    moved.heuristics.depths({}, {});  // cones are known
+    moved.mesh.positions = shaken(mesh, .3, 3).positions;
+    moved.heuristics.points_moved();
+    const Fixture fresh(moved.mesh);
+    EXPECT_EQ(moved.heuristics.depths({}, {}), fresh.heuristics.depths({}, {}));
+    EXPECT_EQ(moved.heuristics.degenerate_normals(), fresh.heuristics.degenerate_normals());
+    for (std::int32_t v = 0; v < moved.adjacency.vertex_count(); ++v) {
+      EXPECT_EQ(moved.heuristics.limit_position(v), fresh.heuristics.limit_position(v));
+      EXPECT_EQ(moved.heuristics.limit_normal(v), fresh.heuristics.limit_normal(v));
+    }
+  }
+}
+
+// Cosines are computed as far as a frame needs them; the next one may need more or less.
+TEST(Depth, ConesDoNotDependOnWhatWasAskedBefore) {
+  const data::ControlMesh mesh = shaken(grid_torus(6, 7), .2, 1);
+  const Fixture used(mesh);
+  DepthOptions options;
+  options.strategy = Strategy::kCurvature;
+  for (const double angle : {60., 5., 20.}) {
+    options.angle_front = options.angle_silhouette = options.angle_back = angle;
+    for (const bool cull : {true, false}) {
+      options.cull = cull;
+      EXPECT_EQ(used.heuristics.depths(options, {}), Fixture(mesh).heuristics.depths(options, {})) << angle;
+    }
+  }
+  for (std::int32_t v = 0; v < used.adjacency.vertex_count(); ++v)
+    for (const int l : {3, 0, 5})
+      EXPECT_EQ(used.heuristics.cone_cosine(v, l), Fixture(mesh).heuristics.cone_cosine(v, l));
 }
 
 TEST(Depth, MayBeAskedForByManyTasksAtOnce) {

@@ -2,6 +2,9 @@
 // How deep each control face of Catmull-Clark's scheme is subdivided. [mueller2000, 4.1; C21]
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "fast/plan/depth.h"
 #include "fast/plan/quad_faces.h"
 #include "fast/rules/quad_ring.h"
@@ -16,8 +19,7 @@ struct QuadSurface {
   const SemiSharp& semi_sharp;
 
   std::size_t face_count() const { return static_cast<std::size_t>(faces.size()); }
-  std::size_t vertex_count() const { return faces.mesh->positions.size(); }
-  Point3 position(std::int32_t v) const { return to_point(faces.mesh->positions[v]); }
+  std::span<const std::array<double, 3>> positions() const { return faces.mesh->positions; }
   template <class Visit>
   void for_each_corner(std::int32_t f, Visit&& visit) const {
     for (std::size_t c = faces.first[f]; c < faces.first[f + 1]; ++c)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "fast/mesh/adjacency.h"
 #include "fast/rules/limit.h"
@@ -50,6 +51,18 @@ CornerRing<N, typename Surface::Vertex> gather_corner(const PreparedMesh<N, Surf
   corner.weights = mesh.weights(v);
   corner.limit = &mesh.limit(v);
   int slot = from_last_slot ? corner.n - 1 : 0;
+  if (!adjacency.on_boundary(v)) {
+    const std::span<const std::int32_t> fan = adjacency.fan(v);
+    int at = 0;
+    while (fan[at] != h) ++at;
+    corner.start = slot + corner.n - at - (slot < at ? 0 : corner.n);
+    for (int i = 0; i < corner.n; ++i) {
+      storage[slot] = mesh.position(adjacency.target(fan[at]));
+      slot = slot + 1 == corner.n ? 0 : slot + 1;
+      at = at + 1 == corner.n ? 0 : at + 1;
+    }
+    return corner;
+  }
   std::int32_t walk = h;
   for (int i = 0; i < corner.n; ++i) {
     const int next = slot + 1 == corner.n ? 0 : slot + 1;

@@ -38,7 +38,9 @@ class PreparedMesh {
   using Wide = typename NumberTraits<N>::Wide;
 
   /// One position per vertex of the adjacency. Keeps a reference to the kinds, too.
-  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {})
+  ///   with_limits   false: limit() is not to be asked
+  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {},
+               bool with_limits = true)
       : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
     std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(adjacency.max_valence()) + 1);
     std::vector<bool> known(by_valence.size());
@@ -49,9 +51,7 @@ class PreparedMesh {
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
       if (adjacency.outgoing(v) < 0) continue;
       const bool open = adjacency.on_boundary(v);
-      ring.clear();
-      adjacency.for_each_neighbour(v, [&](std::int32_t w) { ring.push_back(widen<N>(position(w))); });
-      const std::size_t n = ring.size();
+      const auto n = static_cast<std::size_t>(adjacency.valence(v));
       const bool dart = kind(v) == VertexKind::kDart;
       if (!open || dart) {
         const std::size_t neighbours = dart ? n - 1 : n;
@@ -59,12 +59,18 @@ class PreparedMesh {
           by_valence[neighbours] = vertex_weights<N>(static_cast<int>(neighbours)), known[neighbours] = true;
         weights_[v] = by_valence[neighbours];
       }
+      if (!with_limits) continue;
+      ring.clear();
+      adjacency.for_each_neighbour(v, [&](std::int32_t w) { ring.push_back(widen<N>(position(w))); });
       table.make(n, open);
       limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
     }
   }
 
   PreparedMesh(Adjacency&&, std::vector<Vec3<N>>, VertexKinds = {}) = delete;
+
+  /// Other positions for a mesh without limits.
+  void move_points(std::vector<Vec3<N>> positions) { positions_ = std::move(positions); }
 
   const Adjacency& adjacency() const { return *adjacency_; }
   VertexKind kind(std::int32_t v) const { return kinds_[v]; }

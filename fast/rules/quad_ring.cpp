@@ -45,10 +45,18 @@ Point3 QuadRing::limit_position() {
 }
 
 Point3 QuadRing::limit_normal(bool* degenerate) {
+  return limit_vertex(degenerate).normal;
+}
+
+SurfaceVertex<double> QuadRing::limit_vertex(bool* degenerate, double /*farthest*/) {
   bool without_tangents = true;
-  const Point3 normal = faces() == 0 ? Point3{0, 0, 1} : star_normal(limit(), final_, without_tangents);
+  SurfaceVertex<double> vertex{centre(), {0, 0, 1}};
+  if (faces() > 0) {
+    const LimitFrame<double> at = limit();
+    vertex = {at.position, star_normal(at, final_, without_tangents)};
+  }
   if (degenerate != nullptr) *degenerate = without_tangents;
-  return normal;
+  return vertex;
 }
 
 double QuadRing::cone_cosine(const Point3& normal) const {

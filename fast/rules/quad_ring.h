@@ -26,6 +26,9 @@ class QuadRing {
   /// Unit limit normal of the centre; `degenerate`: whether the tangents vanish or are parallel. [D12]
   Point3 limit_normal(bool* degenerate = nullptr);
 
+  /// Both.
+  SurfaceVertex<double> limit_vertex(bool* degenerate = nullptr, double farthest = 0);
+
   /// The smallest cosine between `normal` and the normals of the faces with area; 1 if there is none.
   double cone_cosine(const Point3& normal) const;
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "fast/rules/vertex_normal.h"
@@ -23,9 +22,10 @@ void Ring::gather(const data::ControlMesh& mesh, const Adjacency& adjacency, std
                   VertexKind kind) {
   kind_ = kind;
   centre_ = to_point(mesh.positions[v]);
-  points_.clear();
+  points_.resize(static_cast<std::size_t>(adjacency.valence(v)));
   open_ = adjacency.on_boundary(v);
-  adjacency.for_each_neighbour(v, [&](std::int32_t w) { points_.push_back(to_point(mesh.positions[w])); });
+  Point3* next = points_.data();
+  adjacency.for_each_neighbour(v, [&](std::int32_t w) { *next++ = to_point(mesh.positions[w]); });
   if (!points_.empty()) weights_.make(points_.size(), open_);
 }
 
@@ -50,13 +50,19 @@ Point3 Ring::limit_position() const {
 }
 
 Point3 Ring::limit_normal(bool* degenerate) const {
+  return limit_vertex(degenerate).normal;
+}
+
+SurfaceVertex<double> Ring::limit_vertex(bool* degenerate, double farthest) const {
   bool without_tangents = true;
-  const Point3 normal = points_.empty()
-                            ? Point3{0, 0, 1}
-                            : vertex_normal<double>(limit(), centre_, points_, open_, without_tangents,
-                                                    std::numeric_limits<double>::infinity(), kind_);
+  SurfaceVertex<double> vertex{centre_, {0, 0, 1}};
+  if (!points_.empty()) {
+    const VertexLimit<double> at = limit();
+    vertex = {at.position,
+              vertex_normal<double>(at, centre_, points_, open_, without_tangents, farthest, kind_)};
+  }
   if (degenerate != nullptr) *degenerate = without_tangents;
-  return normal;
+  return vertex;
 }
 
 Point3 Ring::face_normal(int i) const {
@@ -66,9 +72,13 @@ Point3 Ring::face_normal(int i) const {
 
 double Ring::cone_cosine(const Point3& normal) const {
   double smallest = 1;
-  for (int i = 0; i < faces(); ++i) {
-    const Point3 face = face_normal(i);
+  if (points_.empty()) return smallest;
+  Point3 edge = points_.front() - centre_;
+  for (std::size_t i = 1, last = open_ ? points_.size() - 1 : points_.size(); i <= last; ++i) {
+    const Point3 next = points_[i == points_.size() ? 0 : i] - centre_,
+                 face = unit_or_zero(cross(edge, next));
     if (face != Point3{}) smallest = std::min(smallest, dot(face, normal));
+    edge = next;
   }
   return smallest;
 }

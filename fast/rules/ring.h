@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/point3.h"
 #include "fast/rules/sharp_limit.h"
+#include "fast/rules/surface_vertex.h"
 #include "fast/rules/vertex_limit.h"
 
 namespace limitcheck::fast {
@@ -52,6 +54,11 @@ class Ring {
   /// surface has no tangent plane [claim D5], and this is the plane of the masks' eigenvector.
   /// [erratum 1; D12]
   Point3 limit_normal(bool* degenerate = nullptr) const;
+
+  /// Both.
+  ///   farthest   no point of the ring is farther from the centre, if that is known: it saves looking
+  SurfaceVertex<double> limit_vertex(bool* degenerate = nullptr,
+                                     double farthest = std::numeric_limits<double>::infinity()) const;
 
   /// Unit normal of triangle (centre, r_i, r_{i+1}); zero if it has no area.
   Point3 face_normal(int i) const;

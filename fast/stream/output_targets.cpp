@@ -94,5 +94,9 @@ void compact(std::span<const Vertex> vertices, CompactVertex* out) {
   HWY_DYNAMIC_DISPATCH(compact_vectors)(vertices.data(), vertices.size(), out);
 }
 
+void compact(const SurfaceVertex<float>* vertices, std::size_t count, CompactVertex* out) {
+  HWY_DYNAMIC_DISPATCH(compact_vectors)(reinterpret_cast<const Vertex*>(vertices), count, out);
+}
+
 }  // namespace limitcheck::fast::row_stream
 #endif  // HWY_ONCE

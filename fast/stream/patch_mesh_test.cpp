@@ -95,12 +95,13 @@ TEST(PatchMesh, KnowsWhereEveryPointLies) {
 
 // A walk through frames: the triangles are those of a fresh frame to the bit, and a copy of the buffer to
 // which only the changed ranges went has them as well.
-TEST(PatchMesh, StaysAFreshFrameOnAnyWalk) {
+template <class Engine>
+void expect_fresh_frames_on_a_walk() {
   std::int64_t kept = 0, all = 0;
   for (const Model& model : models()) {
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       SCOPED_TRACE(model.name);
-      StreamTessellator engine(model.mesh, options_of(model, repair));
+      Engine engine(model.mesh, options_of(model, repair));
       PatchOptions with;
       with.incremental = true;
       PatchMesh<float> patches(with);
@@ -125,6 +126,11 @@ TEST(PatchMesh, StaysAFreshFrameOnAnyWalk) {
     }
   }
   EXPECT_GT(static_cast<double>(kept), .4 * static_cast<double>(all)) << "or nothing is tested";
+}
+
+TEST(PatchMesh, StaysAFreshFrameOnAnyWalk) {
+  expect_fresh_frames_on_a_walk<StreamTessellator>();
+  expect_fresh_frames_on_a_walk<Tessellator<float>>();
 }
 
 // Sticky pairs depend on the frames before, incremental or not: both outputs have taken the same walk. They
@@ -257,6 +263,14 @@ TEST(PatchMesh, FollowsPointsThatMove) {
       Tessellator<float>(mesh, options).frame(depth, expected);
       window.frame(depth, other);
       ASSERT_EQ(soup_of(other), soup_of(expected)) << frame;
+      // The same depths again: what was planned for them stays, the points do not.
+      stream.move_points(model.mesh.positions), window.move_points(model.mesh.positions);
+      DrawList<float> again;
+      StreamTessellator(model.mesh, options).frame(depth, expected);
+      stream.frame(depth, again), stream.frame(depth, patches);
+      ASSERT_EQ(soup_of(again), soup_of(expected)) << frame;
+      ASSERT_EQ(soup_of(patches), soup_of(expected)) << frame;
+      stream.move_points(mesh.positions), window.move_points(mesh.positions);
       Camera camera;
       DepthOptions strategy;
       strategy.strategy = Strategy::kCombined;
@@ -301,6 +315,49 @@ TEST(PatchMesh, GoesIntoTheCallersMemory) {
     ASSERT_EQ(static_cast<const void*>(patches.vertices().data()), memory.memory.data());
     ASSERT_EQ(soup_of(patches), soup_of(list)) << frame;
   }
+}
+
+// The same vertices at the same places, each as compacted() packs it: in whole frames and on walks.
+template <class Engine>
+void expect_compacted_vertices() {
+  for (const Model& model : models()) {
+    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+      for (const bool incremental : {false, true}) {
+        SCOPED_TRACE(model.name);
+        TessellatorOptions options = options_of(model, repair);
+        options.provenance = incremental;
+        Engine engine(model.mesh, options);
+        PatchOptions with;
+        with.incremental = incremental;
+        PatchMesh<float> patches(with);
+        with.compact = true;
+        PatchMesh<float> packed(with);
+        data::SplitMix64 random(13);
+        auto depth = random_depths(model.mesh.faces.size(), 0, 4, random);
+        for (int frame = 0; frame < 12; ++frame, step(depth, random)) {
+          engine.frame(depth, patches), engine.frame(depth, packed);
+          ASSERT_TRUE(packed.vertices().empty() && patches.compact_vertices().empty());
+          ASSERT_EQ(packed.compact_vertices().size(), patches.vertices().size());
+          ASSERT_EQ(packed.provenance().size(), patches.provenance().size());
+          ASSERT_EQ(packed.draws().size(), patches.draws().size());
+          for (const PatchDraw& draw : packed.draws())
+            for (std::int64_t v = draw.base_vertex; v < draw.base_vertex + draw.vertex_count; ++v)
+              ASSERT_EQ(packed.compact_vertices()[static_cast<std::size_t>(v)],
+                        fast::compacted(patches.vertices()[static_cast<std::size_t>(v)]));
+        }
+      }
+    }
+  }
+}
+
+TEST(PatchMesh, PacksVerticesIntoSixteenBytes) {
+  expect_compacted_vertices<StreamTessellator>();
+  expect_compacted_vertices<Tessellator<float>>();
+  PatchOptions with;
+  with.compact = true;
+  Tessellator<double> doubles(tetrahedron());
+  PatchMesh<double> patches(with);
+  EXPECT_THROW(doubles.frame(std::vector<std::int32_t>(4, 1), patches), data::ArgumentError);
 }
 
 TEST(PatchMesh, RefusesPatchesThatNarrowIndicesDoNotReach) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <tuple>
 
+#include "fast/stream/compact_vertex.h"
+
 namespace limitcheck::fast::row_stream {
 
 namespace {
@@ -46,15 +48,14 @@ void QuadStreamState::index(const QuadIndexLayout& layout, IndexedMesh<float>& o
   run(
       0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); }, none);
 }
-void QuadStreamState::write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
-                                    LatticePoint* provenance) {
+void QuadStreamState::write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) {
+  PatchTarget<float> target = out;
+  target.compact_row = &compact;
   stores = Stores::kOrdinary;
   run(
       0, patches.size(),
       [&](std::size_t i) {
-        const std::int64_t at = places[i].first;
-        return QuadPatchWriter<float>(patches[i], faces, plan, placement, vertices + at,
-                                      provenance != nullptr ? provenance + at : nullptr);
+        return QuadPatchWriter<float>(patches[i], faces, plan, placement, target.from(places[i].first));
       },
       [&](std::size_t i) { return !places[i].fresh; });
 }

@@ -21,8 +21,7 @@ struct QuadStreamState final : QuadEngineState<float>, StreamHooks {
   void prepare() override { worker_bytes = 0; }
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override;
   void index(const QuadIndexLayout& layout, IndexedMesh<float>& out) override;
-  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
-                     LatticePoint* provenance) override;
+  void write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) override;
   SurfaceVertex<float> limit(std::int32_t v) const override { return stream->limit(v); }
   std::int64_t zero_normals() const override { return stream->rings().degenerate_normals(); }
 

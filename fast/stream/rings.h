@@ -62,11 +62,15 @@ class BasicRings {
   using T = typename N::Scalar;
   using Wide = typename NumberTraits<T>::Wide;
 
-  /// One point per vertex of the adjacency. Throws data::ArgumentError otherwise, and for darts: what becomes
+  /// One point per vertex of the adjacency. Keeps a reference to the kinds, which must outlive it. Throws data::ArgumentError otherwise, and for darts: what becomes
   /// of their rings is not what the kernel knows of a corner.
   BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds = {});
   BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency, VertexKinds kinds = {})
       : BasicRings(adjacency, place<T>(mesh), kinds) {}
+
+  /// Other points, for the same adjacency: what depends on the topology alone stays.
+  ///   throws   data::ArgumentError: not one point per vertex
+  void move_points(const Adjacency& adjacency, PlacedPoints<T> points);
 
   /// Ring of a vertex as indices into points(). Entry k of an interior ring is at (k mod n) of `first`; a
   /// boundary ring has kReach further entries at either end and does not wrap.
@@ -108,6 +112,8 @@ class BasicRings {
                   const VertexLimit<Wide>& limit, const Vec3<Wide>& normal);
 
   std::vector<ControlPoint<T>> points_;  // control vertices, then ghosts
+  VertexKinds kinds_;
+  std::size_t ghosts_ = 0;
   std::vector<std::int32_t> entries_;
   std::vector<Ring> rings_;
   std::vector<std::int32_t> slot_;

@@ -39,22 +39,30 @@ std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
 
 template <class N>
 BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
-    : points_(std::move(points.points)), placement_(points.placement), weights_(adjacency.max_valence()) {
-  if (points_.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
-    throw data::ArgumentError("rings: " + std::to_string(points_.size()) + " points for " +
-                              std::to_string(adjacency.vertex_count()) + " vertices");
-  }
-  lay_out(adjacency);
-  const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());
-  Scratch scratch{std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(most), {}};
-  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-    if (adjacency.outgoing(v) < 0) continue;
-    if (kinds[v] == VertexKind::kDart)
+    : kinds_(kinds), weights_(adjacency.max_valence()) {
+  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
+    if (adjacency.outgoing(v) >= 0 && kinds[v] == VertexKind::kDart)
       throw data::ArgumentError(
           "row streaming: in Loop's scheme no sharp edge that ends inside the surface, as at vertex " +
           std::to_string(v) + "; the sliding window has them");
-    make_vertex(adjacency, v, kinds[v] == VertexKind::kHeld, scratch);
+  lay_out(adjacency);
+  move_points(adjacency, std::move(points));
+}
+
+template <class N>
+void BasicRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> points) {
+  if (points.points.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
+    throw data::ArgumentError("rings: " + std::to_string(points.points.size()) + " points for " +
+                              std::to_string(adjacency.vertex_count()) + " vertices");
   }
+  points_ = std::move(points.points);
+  points_.reserve(points_.size() + ghosts_);
+  placement_ = points.placement;
+  degenerate_normals_ = 0;
+  const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());
+  Scratch scratch{std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(most), {}};
+  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
+    if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, kinds_[v] == VertexKind::kHeld, scratch);
 }
 
 // Where each vertex' entries and ghosts go, and the weights of the valences there are.
@@ -64,7 +72,7 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
   rings_.resize(vertices);
   corners_.resize(vertices);
   slot_.resize(3 * static_cast<std::size_t>(adjacency.face_count()));
-  std::int32_t entries = 0, ghosts = 0;
+  std::int32_t entries = 0;
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
     Ring& ring = rings_[v];
     const int n = adjacency.valence(v);
@@ -73,11 +81,10 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
     const bool open = adjacency.on_boundary(v);
     ring = {entries + (open ? kReach : 0), open ? kOpen : n};
     entries += n + (open ? 2 * kReach : 0);
-    ghosts += open ? 2 * kReach : 0;
+    ghosts_ += open ? std::size_t{2 * kReach} : 0;
     weights_.make(static_cast<std::size_t>(n), open);
   }
   entries_.resize(static_cast<std::size_t>(entries));
-  points_.reserve(vertices + static_cast<std::size_t>(ghosts));
 }
 
 template <class N>

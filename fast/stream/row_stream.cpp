@@ -66,6 +66,10 @@ RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, 
                      VertexKinds kinds)
     : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency, kinds) {}
 
+void RowStream::move_points(const data::ControlMesh& mesh) {
+  rings_.move_points(adjacency_, place<float>(mesh));
+}
+
 void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspace,
                      void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
   batches(kernel_, grids, depth, workspace, visit, context, order, kept);

@@ -12,13 +12,12 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/batch.h"
+#include "fast/stream/compact_vertex.h"
 #include "fast/stream/rings.h"
 #include "fast/stream/targets.h"
 #include "fast/stream/vertex.h"
 
 namespace limitcheck::fast::row_stream {
-
-struct CompactVertex;
 
 /// Memory that the kernels can load vectors from.
 class AlignedFloats {
@@ -94,6 +93,10 @@ class RowStream {
             const Kernel& kernel = kernels().front(), VertexKinds kinds = {});
   RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front(),
             VertexKinds kinds = {}) = delete;
+
+  /// Other positions of the same vertices.
+  ///   throws   data::ArgumentError: another number of them
+  void move_points(const data::ControlMesh& mesh);
 
   const Kernel& kernel() const { return kernel_; }
   const Rings& rings() const { return rings_; }

@@ -32,7 +32,7 @@ const Kernel& narrow_of(const Kernel& kernel) {
 struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   State(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
       : EngineState<float>(given, with, PrintedRules{}),
-        stream(std::in_place, triangles.points(), adjacency, kernel, triangles.kinds()),
+        stream(triangles.points(), adjacency, kernel, triangles.kinds()),
         narrow(narrow_of(kernel)) {
     if (triangles.is_cut())
       throw data::ArgumentError(
@@ -43,25 +43,29 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
 
   void points_moved() override {
     EngineState<float>::points_moved();
-    stream.emplace(triangles.points(), adjacency, stream->kernel(), triangles.kinds());
-    control.reset();
+    stream.move_points(triangles.points());
+    if (options.cracks.centre == FanCentre::kFlatLimit) control.reset();
+    if (control) control->move_points(control_points());
     centres.clear();
   }
 
   void prepare() override {
-    if (plan.fans > 0 && !control) make_control();
+    if (plan.fans > 0 && !control)
+      control.emplace(adjacency, control_points(), triangles.kinds(),
+                      options.cracks.centre == FanCentre::kFlatLimit);
     if (plan.fans > 0) centres.resize(static_cast<std::size_t>(adjacency.face_count()));
     worker_bytes = 0;
   }
 
   // The centres of fans are no lattice points; they come from the sliding window's own rules.
-  void make_control() {
+  std::vector<Vec3<float>> control_points() const {
     std::vector<Vec3<float>> positions;
+    positions.reserve(static_cast<std::size_t>(adjacency.vertex_count()));
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-      const auto& p = stream->rings().points()[v];
+      const auto& p = stream.rings().points()[v];
       positions.push_back({p[0], p[1], p[2]});
     }
-    control.emplace(adjacency, positions, triangles.kinds());
+    return positions;
   }
 
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
@@ -76,8 +80,9 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
     stores = Stores::kOrdinary;
     run(pairing.grids, patches, [&](std::size_t i, StreamWorker&) { return index_writer(i, layout, out); });
   }
-  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<float>* vertices,
-                     LatticePoint* provenance) override {
+  void write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) override {
+    PatchTarget<float> target = out;
+    target.compact_row = &compact;
     fresh_grids.clear(), fresh_patches.clear(), firsts.clear();
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i].fresh) continue;
@@ -87,27 +92,26 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
     }
     stores = Stores::kOrdinary;
     run(fresh_grids, fresh_patches, [&](std::size_t i, StreamWorker&) {
-      return PatchWriter<float>(fresh_patches[i], plan, placement, vertices + firsts[i],
-                                provenance != nullptr ? provenance + firsts[i] : nullptr);
+      return PatchWriter<float>(fresh_patches[i], plan, placement, target.from(firsts[i]));
     });
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
-    const float* x = stream->rings().corner(v).head.data() + CornerBlock::kLimit;
+    const float* x = stream.rings().corner(v).head.data() + CornerBlock::kLimit;
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
   }
 
-  std::int64_t zero_normals() const override { return stream->rings().degenerate_normals(); }
+  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
 
   // Evaluates patches in parallel, shown[i] into make_writer(i, worker); a writer must not care about the
   // order of patches.
   template <class MakeWriter>
   void run(std::span<const Grid> grids, std::span<const Patch> shown, MakeWriter&& make_writer) {
     const std::size_t total = shown.size();
-    batches.make(shown, static_cast<std::size_t>(stream->kernel().lanes),
+    batches.make(shown, static_cast<std::size_t>(stream.kernel().lanes),
                  static_cast<std::size_t>(narrow.lanes));
     const StreamFrame frame{adjacency,
-                            *stream,
+                            stream,
                             narrow,
                             plan,
                             grids,
@@ -124,7 +128,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
     });
   }
 
-  std::optional<RowStream> stream;
+  RowStream stream;
   const Kernel& narrow;
   std::optional<PreparedMesh<float>> control;
   std::vector<CachedCentre> centres;

@@ -113,17 +113,14 @@ struct Tessellator<Real>::State final : EngineState<Real> {
   void index(const IndexLayout& layout, IndexedMesh<Real>& out) override {
     run(0, patches.size(), [&](std::size_t i, Worker<Real>&) { return this->index_writer(i, layout, out); });
   }
-  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<Real>* vertices,
-                     LatticePoint* provenance) override {
+  void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) override {
     fresh.clear();
     for (std::size_t i = 0; i < places.size(); ++i)
       if (places[i].fresh) fresh.push_back(i);
     run_each(
         0, fresh.size(), [&](std::size_t k) { return fresh[k]; },
         [&](std::size_t i, Worker<Real>&) {
-          const std::int64_t at = places[i].first;
-          return PatchWriter<Real>(patches[i], plan, placement, vertices + at,
-                                   provenance != nullptr ? provenance + at : nullptr);
+          return PatchWriter<Real>(patches[i], plan, placement, out.from(places[i].first));
         });
   }
 
@@ -199,17 +196,14 @@ struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
   void index(const QuadIndexLayout& layout, IndexedMesh<Real>& out) override {
     run(0, patches.size(), [&](std::size_t i) { return this->index_writer(i, layout, out); });
   }
-  void write_patches(std::span<const PatchPlace> places, SurfaceVertex<Real>* vertices,
-                     LatticePoint* provenance) override {
+  void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) override {
     fresh.clear();
     for (std::size_t i = 0; i < places.size(); ++i)
       if (places[i].fresh) fresh.push_back(i);
     run_each(
         0, fresh.size(), [&](std::size_t k) { return fresh[k]; },
         [&](std::size_t i) {
-          const std::int64_t at = places[i].first;
-          return QuadPatchWriter<Real>(patches[i], faces, plan, placement, vertices + at,
-                                       provenance != nullptr ? provenance + at : nullptr);
+          return QuadPatchWriter<Real>(patches[i], faces, plan, placement, out.from(places[i].first));
         });
   }
   SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }

@@ -134,6 +134,10 @@ const std::vector<Mutant>& mutants() {
       if (m.name != "none")
         all.push_back({fmt::format("quad_{}", m.name), std::string(m.description), kQuadBase,
                        fmt::format("mutation={}", m.name), std::string(m.check), "", m.sharp});
+    for (const FrameFault& f : frame_faults())
+      if (f.name != "none")
+        all.push_back({std::string(f.name), std::string(f.description), "faulty-frames",
+                       fmt::format("fault={}", f.name), std::string(f.check), "", false});
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
                    faulty_options("wrong_edge_mask", "cgal"), "refined-positions", "", false});
     return all;
@@ -177,6 +181,7 @@ void run_mutants(Journal& journal,
                                           {find_subject(kQuadBase), ""},
                                           {find_subject(kQuadBase), "route=kernel"},
                                           {find_subject("row-stream"), "repair=stitch"},
+                                          {find_subject("row-stream"), "frames=4"},
                                           {find_subject("sliding-window"), "precision=double,repair=stitch"}};
   Auditor auditor(0, kThreads, {}, Level::kStandard);
   for (std::size_t unit = 0; unit < cases; ++unit) {

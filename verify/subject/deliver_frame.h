@@ -75,27 +75,38 @@ void deliver_frame(Engine& engine, std::span<const std::int32_t> depth, bool ind
   }
 }
 
-/// The same from patches. Vertices that no triangle has, such as those of patches that are not shown, are left
-/// out.
-template <class Real, class Engine>
-void deliver_patches(Engine& engine, std::span<const std::int32_t> depth, fast::PatchMesh<Real>& patches,
-                     const lc_request& request, lc_tessellation& out, bool corners) {
-  refuse_too_many_vertices(depth);
-  engine.frame(depth, patches);
+/// A frame as patches, in memory that something may have been changed in.
+template <class Real>
+struct PatchView {
+  std::span<const fast::PatchDraw> draws;
+  std::span<const std::uint32_t> indices;
+  std::span<const fast::SurfaceVertex<Real>> vertices;
+  std::span<const fast::LatticePoint> provenance;
+
+  static PatchView of(const fast::PatchMesh<Real>& mesh) {
+    return {mesh.draws(), mesh.indices(), mesh.vertices(), mesh.provenance()};
+  }
+};
+
+/// Delivers a frame of patches, whose indices are triangles. Vertices that no triangle has, such as those of
+/// patches that are not shown, are left out.
+template <class Real>
+void deliver_patches(const PatchView<Real>& patches, const lc_request& request, lc_tessellation& out,
+                     bool corners) {
   constexpr std::uint32_t kUnused = UINT32_MAX;
   std::vector<fast::SurfaceVertex<Real>> vertices;
   std::vector<fast::LatticePoint> provenance;
   std::vector<std::uint32_t> triangles, number;
   std::vector<std::int32_t> faces;
-  for (const fast::PatchDraw& draw : patches.draws()) {
+  for (const fast::PatchDraw& draw : patches.draws) {
     number.assign(static_cast<std::size_t>(draw.vertex_count), kUnused);
     for (std::uint32_t i = 0; i < draw.index_count; ++i) {
-      const std::uint32_t v = patches.indices()[draw.first_index + i];
+      const std::uint32_t v = patches.indices[draw.first_index + i];
       if (number[v] == kUnused) {
         const auto at = static_cast<std::size_t>(draw.base_vertex) + v;
         number[v] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(patches.vertices()[at]);
-        provenance.push_back(patches.provenance()[at]);
+        vertices.push_back(patches.vertices[at]);
+        provenance.push_back(patches.provenance[at]);
       }
       triangles.push_back(number[v]);
     }

@@ -29,4 +29,13 @@ std::span<const Fault> faults();
 /// The options that plant `fault` in `subject`, run under `options`.
 std::string faulty_options(std::string_view fault, std::string_view subject, std::string_view options = {});
 
+/// Faults of what stays from one frame to the next, which the subject `faulty-frames` plants at the end of a
+/// walk of frames; the first is "none".
+struct FrameFault {
+  std::string_view name;
+  std::string_view description;
+  std::string_view check;  // the row of the audit that is meant for it
+};
+std::span<const FrameFault> frame_faults();
+
 }  // namespace limitcheck::verify

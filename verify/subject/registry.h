@@ -20,10 +20,11 @@ const lc_subject* lc_subject_openmesh();
 const lc_subject* lc_subject_embree();
 const lc_subject* lc_subject_vtk();  // nullptr: this build has none
 const lc_subject* lc_subject_null();
-const lc_subject* lc_subject_model();       // right, or wrong in one stated way: model_rules.h
-const lc_subject* lc_subject_quad_model();  // the same of Catmull-Clark's surfaces: quad_model_rules.h
-const lc_subject* lc_subject_faulty();      // options: verify/subject/faulty_subjects.h
-const lc_subject* lc_subject_unusual();     // options: verify/subject/unusual_subjects.h
+const lc_subject* lc_subject_model();          // right, or wrong in one stated way: model_rules.h
+const lc_subject* lc_subject_quad_model();     // the same of Catmull-Clark's surfaces: quad_model_rules.h
+const lc_subject* lc_subject_faulty();         // options: verify/subject/faulty_subjects.h
+const lc_subject* lc_subject_faulty_frames();  // options: the same
+const lc_subject* lc_subject_unusual();        // options: verify/subject/unusual_subjects.h
 }
 
 namespace limitcheck::verify {
@@ -37,7 +38,7 @@ struct MissingSubject {
 };
 std::vector<MissingSubject> missing_subjects();
 
-/// By name, `null`, `faulty`, `unusual`, `model` and `quad-model` included; nullptr if there is none.
+/// By name, `null`, `faulty`, `faulty-frames`, `unusual`, `model` and `quad-model` included; nullptr if there is none.
 const lc_subject* find_subject(std::string_view name);
 
 }  // namespace limitcheck::verify

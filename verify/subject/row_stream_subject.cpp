@@ -2,7 +2,7 @@
 // Row streaming as a subject, of both schemes. As strips and fans (the default) every face and pair delivers
 // its border points itself, so that their bits can be compared; as an indexed mesh they are shared. As
 // patches, which stay in their places as long as they are as they were, frames=N walks through N frames of
-// other depths before the one that is asked for. (Not with sticky pairs: what these deliver depends on the
+// other depths and control points before the one that is asked for. (Not with sticky pairs: what these deliver depends on the
 // frames before, which the audit's check of state finds.) `target` forces one compiled variant.
 #include <algorithm>
 #include <array>
@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "data/error.h"
-#include "data/splitmix64.h"
 #include "fast/stream/stream_tessellator.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/deliver_frame.h"
+#include "verify/subject/frame_walk.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -72,24 +72,13 @@ class RowStreamSubject {
     if (settings_.output != Settings::Output::kPatches)
       return deliver_frame<float>(*tessellator_, depth, settings_.output == Settings::Output::kIndexed,
                                   request, out, quads);
-    walk(depth);
-    deliver_patches(*tessellator_, depth, patches_, request, out, quads);
+    refuse_too_many_vertices(depth);
+    walk(*tessellator_, mesh_, depth, settings_.frames, patches_);
+    tessellator_->frame(depth, patches_);
+    deliver_patches(PatchView<float>::of(patches_), request, out, quads);
   }
 
  private:
-  // Frames with the depth of every fourth face changed by one, or with faces gone, at random.
-  void walk(std::span<const std::int32_t> depth) {
-    data::SplitMix64 random(static_cast<std::uint64_t>(settings_.frames));
-    for (int frame = 0; frame < settings_.frames; ++frame) {
-      std::vector<std::int32_t> other(depth.begin(), depth.end());
-      for (std::int32_t& d : other) {
-        const std::uint64_t what = random.next() % 16;
-        if (what < 4)
-          d = what == 0 ? -1 : std::clamp<std::int32_t>(d + (what < 3 ? 1 : -1), -1, rs::kMaxDepth);
-      }
-      tessellator_->frame(other, patches_);
-    }
-  }
   void use_threads(int threads) {
     settings_.tessellator.threads = threads;
     try {

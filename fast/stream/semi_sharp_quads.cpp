@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "fast/stream/rounded_vertex.h"
+
 namespace limitcheck::fast::row_stream {
 
 namespace {
@@ -13,13 +15,6 @@ std::vector<Vec3<double>> points_of(const QuadMesh& mesh) {
   points.reserve(mesh.positions.size());
   for (const auto& p : mesh.positions) points.push_back({p[0], p[1], p[2]});
   return points;
-}
-
-// Zeros have no sign.
-Vertex rounded(const SurfaceVertex<double>& v) {
-  const auto number = [](double x) { return static_cast<float>(x) + 0.F; };
-  return {{number(v.position.x), number(v.position.y), number(v.position.z)},
-          {number(v.normal.x), number(v.normal.y), number(v.normal.z)}};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // How far the float engines are from the limit surface, by depth: median, 99.9 % and worst, as a table.
 //   accuracy [MESH [DEEPEST [SUBJECT...]]]
 // Defaults: bumpy:4000, 8, row-stream:output=indexed and sliding-window:output=indexed.
+// The scheme is Loop's if all faces are triangles, else Catmull and Clark's.
 // Every lattice point of all faces up to two million of them; beyond, of faces evenly spread over the mesh.
 // The reference is Stam's evaluator in double on the control mesh rounded to float.
 #include <fmt/core.h>
@@ -18,7 +19,7 @@
 #include "data/bounding_box.h"
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
-#include "reference/loop/stam.h"
+#include "reference/surface/surface.h"
 #include "verify/audit/vector.h"
 #include "verify/subject/face_domain.h"
 #include "verify/subject/host.h"
@@ -49,9 +50,10 @@ double angle(const verify::Vector& a, const verify::Vector& b) {
   return std::atan2(verify::norm(verify::cross(a, b)), verify::dot(a, b));
 }
 
-void print_line(verify::Session& session, const reference::StamEvaluator<double>& limit, int depth) {
+void print_line(verify::Session& session, const reference::Surface& limit, data::Scheme scheme, int depth) {
   const auto faces = static_cast<std::int64_t>(session.mesh().faces.size());
-  const std::int64_t each = verify::FaceDomain::triangle().point_count(std::int64_t{1} << depth);
+  const verify::FaceDomain first(scheme, static_cast<int>(session.mesh().faces[0].size()));
+  const std::int64_t each = first.point_count(std::int64_t{1} << depth);
   const std::int64_t sampled = std::clamp<std::int64_t>(kMostPoints / each, 1, faces);
   std::vector<std::int32_t> depths(faces, -1);
   for (std::int64_t s = 0; s < sampled; ++s) depths[s * faces / sampled] = depth;
@@ -62,8 +64,8 @@ void print_line(verify::Session& session, const reference::StamEvaluator<double>
   std::vector<double> position(count), normal(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const auto at = static_cast<std::int64_t>(v);
-    const lc_provenance& p = t.provenance()[v];
-    const auto exact = limit.evaluate(p.face, static_cast<double>(p.i) / p.denominator,
+    const verify::Place p = t.place(at);
+    const auto exact = limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
                                       static_cast<double>(p.j) / p.denominator, reference::Order::kFirst);
     position[v] = verify::norm(t.position(at) - verify::vector_of(exact.position)) / scale;
     normal[v] = exact.normal_kind == reference::NormalKind::kRegular
@@ -83,19 +85,22 @@ int run(const std::vector<std::string>& arguments) {
   std::vector<std::string> subjects(arguments.begin() + std::min<std::ptrdiff_t>(2, std::ssize(arguments)),
                                     arguments.end());
   if (subjects.empty()) subjects = {"row-stream:output=indexed", "sliding-window:output=indexed"};
-  const data::ControlMesh mesh = data::open_mesh(name, {.scheme = data::Scheme::kLoop}).mesh;
+  const data::ControlMesh mesh = data::open_mesh(name).mesh;
+  const bool triangles = 3 * mesh.faces.size() == mesh.faces.corners().size();
+  const data::Scheme scheme = triangles ? data::Scheme::kLoop : data::Scheme::kCatmullClark;
   fmt::print(
-      "{}, scheme: loop\n\n| subject | depth | points | position, diagonals: median | 99.9 % | worst "
+      "{}, scheme: {}\n\n| subject | depth | points | position, diagonals: median | 99.9 % | worst "
       "| normal, rad: median | 99.9 % | worst |\n|---|---|---|---|---|---|---|---|---|\n",
-      name);
+      name, triangles ? "loop" : "catmull-clark");
   for (const std::string& text : subjects) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const lc_subject* subject = verify::find_subject(text.substr(0, colon));
     if (subject == nullptr) throw data::ArgumentError("there is no subject " + text);
-    verify::Session session(*subject, mesh, text.substr(std::min(colon + 1, text.size())));
-    const reference::StamEvaluator<double> limit(session.mesh());
+    verify::Session session(*subject, mesh, text.substr(std::min(colon + 1, text.size())),
+                            verify::Session::Input::kValid, scheme);
+    const reference::Surface limit(session.mesh(), scheme);
     for (int depth = 1; depth <= std::min(deepest, session.capabilities().max_depth); ++depth)
-      print_line(session, limit, depth);
+      print_line(session, limit, scheme, depth);
   }
   return 0;
 }

@@ -19,6 +19,8 @@
 #include "bench/build_identity.h"
 #include "bench/contenders/contender.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/generators/sharp_meshes.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/stream/targets.h"
 #include "fast/window/tessellator.h"
@@ -54,6 +56,26 @@ std::map<std::string, std::function<Case()>> cases() {
         return Case{[contender] { contender->run(); }};
       };
     }
+  }
+  // Quads: around vertices of valences 3, 4 and 12; and with a crease that fades.
+  static const data::ControlMesh quads = data::pawn(12), faded = data::crease_ring(2, 5);
+  for (const bench::Route& route : bench::our_quad_routes()) {
+    if (route.name.find("avx512") != std::string::npos) continue;
+    list["set-up/quads/" + route.name] = [route] { return Case{[route] { route.make(quads, 3, 1); }}; };
+    for (const int depth : {3, 5}) {
+      if (route.nanoseconds_per_point > 50 && depth > 3) continue;
+      list["quads/" + route.name + "/depth:" + std::to_string(depth)] = [route, depth] {
+        std::shared_ptr<bench::Contender> contender = route.make(quads, depth, 1);
+        contender->run();
+        return Case{[contender] { contender->run(); }};
+      };
+    }
+    if (route.name == "row-stream/avx2")
+      list["quads/semi-sharp/" + route.name] = [route] {
+        std::shared_ptr<bench::Contender> contender = route.make(faded, 3, 1);
+        contender->run();
+        return Case{[contender] { contender->run(); }};
+      };
   }
   // Frames at unequal depths: as a draw list, as patches, and as patches of which few have changed.
   const auto engine = [] {

@@ -33,6 +33,7 @@ class TriangleMesh {
   VertexKinds kinds() const { return std::span(kinds_); }
   /// Whether there are sharp edges inside the surface, along which it is cut.
   bool is_cut() const { return with_copies_.has_value(); }
+  bool is_cut(std::int32_t h) const { return !cut_twin_.empty() && cut_twin_[h] >= 0; }
   /// The vertex that this one is a copy of, or itself.
   std::int32_t uncut(std::int32_t v) const { return with_copies_ ? uncut_[v] : v; }
   /// The face on the other side of a cut or an ordinary edge; -1 at the boundary of the control mesh.

@@ -24,9 +24,10 @@ namespace limitcheck::fast::row_stream {
 
 /// How the vertices of a quad let it be evaluated.
 enum class QuadClass : std::uint8_t {
-  kRegular,  ///< all interior, of four quads: a bicubic polynomial
-  kClosed,   ///< all interior
-  kOpen      ///< some vertex on a boundary or a cut
+  kRegular,   ///< all interior, of four quads: a bicubic polynomial
+  kClosed,    ///< all interior
+  kOpen,      ///< some vertex on a boundary or a cut
+  kSemiSharp  ///< some vertex in semi_sharp.h's steps: not for the kernels
 };
 
 /// Rings and limits of all control vertices of a mesh of quads, T float or double, or a number that knows
@@ -39,7 +40,6 @@ enum class QuadClass : std::uint8_t {
 template <class T>
 class BasicQuadRings {
  public:
-  /// Throws data::ArgumentError: something is semi-sharp.
   explicit BasicQuadRings(const QuadMesh& mesh) : BasicQuadRings(mesh, place_points<T>(mesh.positions), 0) {}
   /// Points of the caller's, one per vertex of the adjacency.
   ///   tangent   of numbers without lengths: which limit tangent stands for a vertex's normal, 0 or 1
@@ -64,8 +64,13 @@ class BasicQuadRings {
     std::int32_t entries;  // of the ring
     bool open;             // the ring
     bool sharp, polynomial;  // the side that the half-edge is
+    bool semi_sharp;         // the vertex, or an edge at it
   };
   const Corner& corner(std::int32_t h) const { return corners_[h]; }
+  /// Whether something at an end of a side is semi-sharp: such sides are not for the kernels.
+  bool touches_semi_sharp(std::int32_t h) const {
+    return corners_[h].semi_sharp || corners_[QuadAdjacency::next(h)].semi_sharp;
+  }
   const T* numbers() const { return numbers_.data(); }
 
   /// The centre of a dart in the levels from 1 on, each 4^level times too large; null for another vertex.

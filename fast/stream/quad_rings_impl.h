@@ -56,17 +56,16 @@ struct BasicQuadRings<T>::Scratch {
   std::vector<ControlPoint<T>> points;
   StarWeightTable<typename NumberTraits<Wide>::Scalar> weights;
   OwnQuadStar<Wide> own;
+  SemiSharp semi_sharp;
 };
 
 template <class T>
 BasicQuadRings<T>::BasicQuadRings(const QuadMesh& mesh, PlacedPoints<T> placed, int tangent)
     : placement_(placed.placement), tangent_(tangent) {
-  if (mesh.semi_sharp())
-    throw data::ArgumentError("row streaming: semi-sharp edges and vertices are not supported");
   if (placed.points.size() != static_cast<std::size_t>(mesh.adjacency.vertex_count()))
     throw data::ArgumentError("row streaming: not one point per vertex");
   lay_out(mesh.adjacency);
-  Scratch scratch{std::move(placed.points), {}, {}};
+  Scratch scratch{std::move(placed.points), {}, {}, SemiSharp(mesh)};
   for (std::int32_t v = 0; v < mesh.adjacency.vertex_count(); ++v)
     if (mesh.adjacency.outgoing(v) >= 0) make_vertex(mesh, v, scratch);
   find_kinds(mesh);
@@ -93,11 +92,13 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
   const Ring at = rings_[v];
   using Point = Vec3<Wide>;
   OwnQuadStar<Wide>& own = scratch.own;
-  own.gather(mesh, v, [&](std::int32_t w) {
+  const auto point = [&](std::int32_t w) {
     const auto& p = scratch.points[w];
     return widen<T>(Vec3<T>{p[0], p[1], p[2]});
-  });
+  };
+  own.gather(mesh, v, point);
   QuadStar<Wide>& star = own.star;
+  const std::span<const StarTags> steps = scratch.semi_sharp.steps(v);
   int start = 0;
   if constexpr (std::is_floating_point_v<T>) {
     if (!star.open) start = detail::canonical_quad_start(star);
@@ -106,7 +107,8 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
   for (int k = 0; k < star.faces; ++k) {
     const int slot = (k + star.faces - start / 2) % star.faces;
     const int e = slot > 0 ? 2 * slot - 2 : star.open ? -1 : 2 * star.faces - 2;
-    corners_[fan[k]] = {v, e < 0 ? -1 : at.first + 3 * e, at.entries, star.open, false, false};
+    corners_[fan[k]] = {
+        v, e < 0 ? -1 : at.first + 3 * e, at.entries, star.open, false, false, !steps.empty()};
   }
 
   const Point c = star.centre;
@@ -131,6 +133,10 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
   for (int copy = 0; copy < (star.open ? 1 : 2); ++copy)
     for (int k = 0; k < star.size(); ++k, out += 3) put(star.ring[k], out);
 
+  if (!steps.empty()) {  // which know the edges by their numbers in the adjacency
+    own.gather(mesh, v, point);
+    for (const StarTags& tags : steps) own.subdivide(&tags);
+  }
   const LimitFrame<Wide> limit = star_limit(star, scratch.weights.of(star.faces, star.open, star.kind));
   const Point origin = widen<T>(Vec3<T>{placement_.centre[0], placement_.centre[1], placement_.centre[2]});
   put(NumberTraits<T>::widen(placement_.unit) * limit.position + origin,
@@ -170,18 +176,22 @@ void BasicQuadRings<T>::find_kinds(const QuadMesh& mesh) {
   const QuadAdjacency& adjacency = mesh.adjacency;
   kinds_.resize(static_cast<std::size_t>(adjacency.face_count()));
   const auto regular = [&](std::int32_t h) {
-    return !corners_[h].open && corners_[h].entries == 8 &&
+    return !corners_[h].open && !corners_[h].semi_sharp && corners_[h].entries == 8 &&
            mesh.kind(corners_[h].vertex) == VertexKind::kPlain;
   };
   for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
-    bool all = true, open = false;
+    bool all = true, open = false, semi_sharp = false;
     for (std::int32_t h = 4 * f; h < 4 * f + 4; ++h) {
       corners_[h].sharp = adjacency.twin(h) < 0;
       corners_[h].polynomial = regular(h) && regular(QuadAdjacency::next(h));
       all = all && regular(h);
       open = open || corners_[h].open;
+      semi_sharp = semi_sharp || corners_[h].semi_sharp;
     }
-    kinds_[f] = all ? QuadClass::kRegular : open ? QuadClass::kOpen : QuadClass::kClosed;
+    kinds_[f] = semi_sharp ? QuadClass::kSemiSharp
+                : all      ? QuadClass::kRegular
+                : open     ? QuadClass::kOpen
+                           : QuadClass::kClosed;
   }
 }
 

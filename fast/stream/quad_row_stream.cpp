@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "data/error.h"
 #include "fast/stream/memory_stream.h"
 #include "fast/stream/quad_batch.h"
+#include "fast/stream/semi_sharp_quads.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -26,15 +28,17 @@ void prepare(Workspace& workspace, int depth, int lanes) {
 /// The quads of a list that wait for others of their class.
 class Queue {
  public:
-  /// run(kind, indices) for batches of up to `lanes` quads of one class.
+  /// run(kind, indices) for batches of up to `lanes` quads of one class; those next to something semi-sharp
+  /// come one by one.
   template <class Run>
   static void go(const QuadRings& rings, std::span<const std::int32_t> faces, int lanes, const Run& run) {
-    std::array<Queue, 3> queues;
+    std::array<Queue, 4> queues;
     for (std::size_t i = 0; i < faces.size(); ++i) {
       const QuadClass kind = rings.kind(faces[i]);
       Queue& queue = queues[static_cast<std::size_t>(kind)];
       queue.index_[queue.count_++] = static_cast<std::uint32_t>(i);
-      if (queue.count_ == static_cast<std::size_t>(lanes)) queue.empty(kind, run);
+      if (queue.count_ == static_cast<std::size_t>(kind == QuadClass::kSemiSharp ? 1 : lanes))
+        queue.empty(kind, run);
     }
     for (const QuadClass kind : {QuadClass::kRegular, QuadClass::kClosed, QuadClass::kOpen}) {
       Queue& queue = queues[static_cast<std::size_t>(kind)];
@@ -52,15 +56,29 @@ class Queue {
   std::size_t count_ = 0;
 };
 
+// The points of some sides, those of half_edges[e] to out[e].
+void evaluate_sides(const QuadRings& rings, const QuadKernel& kernel,
+                    std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
+                    Vertex* const* out) {
+  std::array<float*, kMaxLanes> lane;
+  for (std::size_t k = 0; k < lane.size(); ++k) lane[k] = out[std::min(k, half_edges.size() - 1)]->position;
+  const auto batch = gather_sides<float>(rings, half_edges, depth, kernel.lanes, workspace.input.data());
+  kernel.sides(batch, rings.placement(), workspace.work.data(), {lane.data(), 0, nullptr, nullptr});
+}
+
 struct Evaluation {
   const QuadRings& rings;
+  const SemiSharpQuads* semi_sharp;
   const QuadKernel& kernel;
   std::span<const std::int32_t> faces;
   int depth;
   Workspace& workspace;
   Order order = Order::kFromA;
+  std::optional<SemiSharpEvaluator> alone = {};
+  std::vector<Vertex> sides = {};
 
-  void run(QuadClass kind, std::span<const std::uint32_t> index, const QuadTarget<float>& target) const {
+  void run(QuadClass kind, std::span<const std::uint32_t> index, const QuadTarget<float>& target) {
+    if (kind == QuadClass::kSemiSharp) return run_alone(faces[index.front()], target);
     std::array<std::int32_t, kMaxLanes> face;
     for (std::size_t k = 0; k < index.size(); ++k) face[k] = faces[index[k]];
     const std::span<const std::int32_t> some(face.data(), index.size());
@@ -69,6 +87,19 @@ struct Evaluation {
         (regular ? gather_patches<float> : gather_quads<float>)(rings, some, depth, kernel.lanes,
                                                                 workspace.input.data(), order);
     (regular ? kernel.patches : kernel.quads)(batch, rings.placement(), workspace.work.data(), target);
+  }
+
+ private:
+  void run_alone(std::int32_t face, const QuadTarget<float>& target) {
+    if (!alone) alone.emplace(*semi_sharp, rings, depth);
+    const auto n = static_cast<std::size_t>(side(depth));
+    sides.resize(4 * n);
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t h = 4 * face + (k + static_cast<int>(order)) % 4;
+      Vertex* const out = sides.data() + static_cast<std::size_t>(k) * n;
+      if (!rings.touches_semi_sharp(h)) evaluate_sides(rings, kernel, {&h, 1}, depth, workspace, &out);
+    }
+    alone->quad(4 * face + static_cast<int>(order), sides.data(), target);
   }
 };
 
@@ -87,7 +118,9 @@ void visit_row(void* context, int j) {
 }  // namespace
 
 QuadRowStream::QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel)
-    : kernel_(kernel), rings_(mesh) {}
+    : kernel_(kernel),
+      rings_(mesh),
+      semi_sharp_(mesh.semi_sharp() ? std::make_shared<const SemiSharpQuads>(mesh) : nullptr) {}
 
 std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
   struct Key {
@@ -122,7 +155,7 @@ void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspa
   for (int k = 0; k < kMaxLanes; ++k) lane[k] = buffer.base + std::min(k, kernel_.lanes - 1) * buffer.pitch;
   const QuadTarget<float> target{lane.data(), buffer.stride, visit ? &visit_row : nullptr, &rows,
                                  buffer.mask};
-  const Evaluation evaluation{rings_, kernel_, faces, depth, workspace, order};
+  Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace, order};
   Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
     rows.view.index = index;
     evaluation.run(kind, index, target);
@@ -136,7 +169,7 @@ void QuadRowStream::whole(std::span<const std::int32_t> faces, int depth, Worksp
   const auto n = static_cast<std::size_t>(side(depth));
   std::array<float*, kMaxLanes> lane;
   const QuadTarget<float> target{lane.data(), 6 * static_cast<std::ptrdiff_t>(n), nullptr, nullptr};
-  const Evaluation evaluation{rings_, kernel, faces, depth, workspace};
+  Evaluation evaluation{rings_, semi_sharp_.get(), kernel, faces, depth, workspace};
   Queue::go(rings_, faces, kernel.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(kMaxLanes); ++k)
       lane[k] = out[n * n * index[std::min(k, index.size() - 1)]].position;
@@ -169,13 +202,22 @@ void QuadRowStream::edges(std::span<const std::int32_t> half_edges, int depth, W
   const QuadKernel& kernel = other != nullptr ? *other : kernel_;
   prepare(workspace, depth, kernel.lanes);
   const auto lanes = static_cast<std::size_t>(kernel.lanes), n = static_cast<std::size_t>(side(depth));
-  std::array<float*, kMaxLanes> lane;
-  for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
-    const auto some = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
-    for (std::size_t k = 0; k < static_cast<std::size_t>(kMaxLanes); ++k)
-      lane[k] = out[n * (first + std::min(k, some.size() - 1))].position;
-    const auto batch = gather_sides<float>(rings_, some, depth, kernel.lanes, workspace.input.data());
-    kernel.sides(batch, rings_.placement(), workspace.work.data(), {lane.data(), 0, nullptr, nullptr});
+  std::optional<SemiSharpEvaluator> alone;
+  std::array<std::int32_t, kMaxLanes> some;
+  std::array<Vertex*, kMaxLanes> to;
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < half_edges.size(); ++e) {
+    const std::int32_t h = half_edges[e];
+    if (rings_.touches_semi_sharp(h)) {
+      if (!alone) alone.emplace(*semi_sharp_, rings_, depth);
+      alone->side(h, out + n * e);
+    } else {
+      some[count] = h, to[count] = out + n * e, ++count;
+    }
+    if (count == lanes || (count > 0 && e + 1 == half_edges.size())) {
+      evaluate_sides(rings_, kernel, {some.data(), count}, depth, workspace, to.data());
+      count = 0;
+    }
   }
 }
 

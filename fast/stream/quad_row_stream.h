@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@
 #include "fast/stream/row_stream.h"
 
 namespace limitcheck::fast::row_stream {
+
+struct SemiSharpQuads;
 
 /// Row j of a batch of quads, overwritten by the next row or, if two are kept, by the one after it. Row 0 runs from corner A = 0 of a face to B = 1.
 struct QuadRowView {
@@ -35,13 +38,16 @@ struct QuadRowView {
 /// Points on sides between two regular vertices, and all points of regular quads, are the same at every depth
 /// up to 8.
 ///
+/// Quads that something semi-sharp touches are evaluated one by one, by the rules of the sliding window; the
+/// bits are equal there too.
+///
 /// Error in float, against the exact limit: position 1e-7 of the mesh's box; normals of regular quads 1e-6
 /// rad at every depth, of others about 2e-7 2^depth times what the mesh is larger than an edge.
 class QuadRowStream {
  public:
-  /// Keeps a reference to the kernel, which must outlive it. Throws
-  /// data::ArgumentError: something is semi-sharp.
+  /// Keeps references to the kernel and, if something is semi-sharp, to the mesh, which must outlive it.
   explicit QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel = quad_kernels().front());
+  explicit QuadRowStream(QuadMesh&&, const QuadKernel& = quad_kernels().front()) = delete;
 
   const QuadKernel& kernel() const { return kernel_; }
   const QuadRings& rings() const { return rings_; }
@@ -61,7 +67,8 @@ class QuadRowStream {
 
   /// Calls visit(context, QuadRowView) for each row of each batch of quads. A batch takes quads that can go
   /// together from anywhere in the list; its rows come one after the other. From C, rows and columns are
-  /// counted from that corner; the points are the same, those inside regular quads but for rounding.
+  /// counted from that corner; the points are the same, those inside regular quads and quads that something
+  /// semi-sharp touches but for rounding.
   void rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
             void (*visit)(void*, const QuadRowView&), void* context, Order order = Order::kFromA,
             Kept kept = Kept::kOneRow) const;
@@ -83,6 +90,7 @@ class QuadRowStream {
  private:
   const QuadKernel& kernel_;
   QuadRings rings_;
+  std::shared_ptr<const SemiSharpQuads> semi_sharp_;  // null: nothing is
 };
 
 }  // namespace limitcheck::fast::row_stream

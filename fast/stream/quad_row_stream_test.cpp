@@ -250,11 +250,6 @@ TEST(QuadStream, GivesTheSurfaceOfTheWindowWhereEdgesAreSharp) {
   }
 }
 
-TEST(QuadStream, RefusesWhatIsSemiSharp) {
-  const QuadMesh quads(data::creased_cube(2));
-  EXPECT_THROW(QuadRowStream{quads}, data::ArgumentError);
-}
-
 // The two sides of a cut have a point each, in one place.
 TEST(QuadStreamBits, PositionsAreEqualOnBothSidesOfACut) {
   std::int64_t compared = 0;

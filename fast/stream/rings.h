@@ -12,6 +12,7 @@
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/vertex_kind.h"
+#include "fast/rules/sharp_limit.h"
 #include "fast/rules/vertex_limit.h"
 #include "fast/stream/layout.h"
 #include "fast/stream/number.h"
@@ -62,8 +63,9 @@ class BasicRings {
   using T = typename N::Scalar;
   using Wide = typename NumberTraits<T>::Wide;
 
-  /// One point per vertex of the adjacency. Keeps a reference to the kinds, which must outlive it. Throws data::ArgumentError otherwise, and for darts: what becomes
-  /// of their rings is not what the kernel knows of a corner.
+  /// One point per vertex of the adjacency; throws data::ArgumentError otherwise. Of darts only the limits are
+  /// right: what becomes of their rings is not what the kernel knows of a corner. Keeps a reference to the
+  /// kinds, which must outlive it.
   BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds = {});
   BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency, VertexKinds kinds = {})
       : BasicRings(adjacency, place<T>(mesh), kinds) {}
@@ -105,7 +107,7 @@ class BasicRings {
   };
 
   void lay_out(const Adjacency& adjacency);
-  void make_vertex(const Adjacency& adjacency, std::int32_t v, bool held, Scratch& scratch);
+  void make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind, Scratch& scratch);
   void continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, Ring ring,
                      Scratch& scratch);
   void put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0, const Weight& k1,
@@ -120,6 +122,7 @@ class BasicRings {
   std::vector<CornerHead> corners_;
   KernelPlacement<T> placement_;
   RingWeightTable<Weight> weights_;
+  DartWeightTable<Weight> darts_;
   std::int64_t degenerate_normals_ = 0;
 };
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "data/error.h"
-#include "fast/rules/sharp_limit.h"
 #include "fast/rules/vertex_normal.h"
 #include "fast/stream/rings.h"
 
@@ -40,11 +39,6 @@ std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
 template <class N>
 BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
     : kinds_(kinds), weights_(adjacency.max_valence()) {
-  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
-    if (adjacency.outgoing(v) >= 0 && kinds[v] == VertexKind::kDart)
-      throw data::ArgumentError(
-          "row streaming: in Loop's scheme no sharp edge that ends inside the surface, as at vertex " +
-          std::to_string(v) + "; the sliding window has them");
   lay_out(adjacency);
   move_points(adjacency, std::move(points));
 }
@@ -62,7 +56,7 @@ void BasicRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> poin
   const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());
   Scratch scratch{std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(most), {}};
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
-    if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, kinds_[v] == VertexKind::kHeld, scratch);
+    if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, kinds_[v], scratch);
 }
 
 // Where each vertex' entries and ghosts go, and the weights of the valences there are.
@@ -88,11 +82,12 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
 }
 
 template <class N>
-void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, bool held, Scratch& scratch) {
+void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind,
+                                Scratch& scratch) {
   // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
   const std::span<const std::int32_t> fan = adjacency.fan(v);
   const Ring ring = rings_[v];
-  const bool open = ring.period == kOpen;
+  const bool open = ring.period == kOpen, held = kind == VertexKind::kHeld;
   const std::size_t faces = fan.size(), n = faces + (open ? 1 : 0);
   const auto position = [&](std::int32_t at) {
     const auto& p = points_[at];
@@ -122,8 +117,7 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, bool
   const Vec3<Wide> centre = position(v);
   if (open) continue_ring(centre, held, around, ring, scratch);
   const auto& weights = weights_.of(n, open);
-  const auto limit =
-      held ? held_limit(centre, around, open, weights) : vertex_limit(centre, around, open, weights);
+  const auto limit = limit_of_kind(centre, around, open, kind, weights, darts_);
   Vec3<Wide> normal;
   if constexpr (N::kLinear) {
     normal = {N::tangent(limit.du.x, limit.dv.x), N::tangent(limit.du.y, limit.dv.y),
@@ -131,8 +125,7 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, bool
   } else {
     constexpr double kFarthest = 4;  // in a mesh of size 1, see `place`
     bool degenerate = false;
-    normal = vertex_normal<Wide>(limit, centre, around, open, degenerate, kFarthest,
-                                 held ? VertexKind::kHeld : VertexKind::kPlain);
+    normal = vertex_normal<Wide>(limit, centre, around, open, degenerate, kFarthest, kind);
     if (degenerate) ++degenerate_normals_;
   }
   // What is held moves by nothing, and the sum of its differences halves or, at a closed ring, becomes 5/8.

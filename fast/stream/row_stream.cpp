@@ -5,8 +5,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <optional>
+#include <vector>
 
 #include "data/error.h"
+#include "fast/stream/cut_grids.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -62,12 +65,26 @@ RowBuffer RowBuffer::in(AlignedFloats& memory, int depth, int lanes, Kept kept) 
           static_cast<int>(kept)};
 }
 
-RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel,
-                     VertexKinds kinds)
-    : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency, kinds) {}
+RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel)
+    : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency) {}
 
-void RowStream::move_points(const data::ControlMesh& mesh) {
-  rings_.move_points(adjacency_, place<float>(mesh));
+RowStream::RowStream(const TriangleMesh& mesh, const Kernel& kernel)
+    : adjacency_(mesh.adjacency()),
+      kernel_(kernel),
+      rings_(mesh.points(), mesh.adjacency(), mesh.kinds()),
+      cut_(mesh.is_cut() ? std::make_shared<const CutGrids>(mesh) : nullptr) {}
+
+template <class T>
+std::size_t RowStream::together(std::span<const T> list, std::size_t most) const {
+  std::size_t count = std::min(most, list.size());
+  if (!cut_) return count;
+  const auto alone = [&](const T& of) { return cut_->touches(of); };
+  return std::max<std::ptrdiff_t>(1, std::find_if(list.begin(), list.begin() + count, alone) - list.begin());
+}
+
+void RowStream::move_points(const TriangleMesh& mesh) {
+  rings_.move_points(adjacency_, place<float>(mesh.points()));
+  if (cut_) cut_ = std::make_shared<const CutGrids>(mesh);
 }
 
 void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspace,
@@ -83,8 +100,21 @@ void RowStream::batches(const Kernel& kernel, std::span<const Grid> grids, int d
   const RowBuffer& buffer = rows.view.rows;
   const Target<float> target{buffer.base, buffer.pitch, buffer.stride, visit ? &visit_row : nullptr,
                              &rows,       buffer.mask};
-  for (std::size_t first = 0; first < grids.size(); first += lanes) {
-    rows.view.grids = grids.subspan(first, std::min(lanes, grids.size() - first));
+  std::optional<CutGridEvaluator> alone;
+  std::vector<Vertex> along;
+  for (std::size_t first = 0; first < grids.size(); first += rows.view.grids.size()) {
+    rows.view.grids = grids.subspan(first, together(grids.subspan(first), lanes));
+    if (cut_ && cut_->touches(grids[first])) {
+      if (!alone) alone.emplace(*cut_, rings_, depth);
+      const GridEdges on(adjacency_, grids[first], order);
+      const auto n = static_cast<std::size_t>(side(depth));
+      along.resize(GridEdges::kCount * n);
+      for (std::size_t k = 0; k < GridEdges::kCount; ++k)
+        if (on.of[k] >= 0 && !cut_->touches(on.of[k]))
+          edges({&on.of[k], 1}, depth, workspace, along.data() + k * n, &kernel);
+      alone->grid(grids[first], order, along.data(), target);
+      continue;
+    }
     gather(adjacency_, rings_, rows.view.grids, depth, kernel.lanes, workspace.input.data(), order);
     kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
@@ -97,7 +127,7 @@ void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspa
   const auto grid_size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
   prepare(workspace, depth, kernel.lanes);
 
-  const std::size_t full = grids.size() / lanes * lanes;
+  const std::size_t full = cut_ ? 0 : grids.size() / lanes * lanes;
   for (std::size_t first = 0; first < full; first += lanes) {
     gather(adjacency_, rings_, grids.subspan(first, lanes), depth, kernel.lanes, workspace.input.data(),
            Order::kFromA);
@@ -106,16 +136,21 @@ void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspa
     kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
   // The lanes beyond the last grid write too, but not into the caller's memory.
-  Vertex* rest = out + full * grid_size;
+  struct Rest {
+    const Grid* grids;
+    Vertex* out;
+  } rest{grids.data() + full, out + full * grid_size};
   batches(
       kernel, grids.subspan(full), depth, workspace,
       [](void* context, const RowView& view) {
-        const auto n = static_cast<std::size_t>(side(view.depth));
-        for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
-          std::memcpy(static_cast<Vertex*>(context) + (lane * n + static_cast<std::size_t>(view.j)) * n,
-                      view.vertices(lane), n * sizeof(Vertex));
+        const Rest& to = *static_cast<const Rest*>(context);
+        const auto n = static_cast<std::size_t>(side(view.depth)), j = static_cast<std::size_t>(view.j);
+        for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
+          const auto grid = static_cast<std::size_t>(&view.grids[lane] - to.grids);
+          std::memcpy(to.out + (grid * n + j) * n, view.vertices(lane), n * sizeof(Vertex));
+        }
       },
-      rest, Order::kFromA, Kept::kOneRow);
+      &rest, Order::kFromA, Kept::kOneRow);
 }
 
 void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
@@ -127,8 +162,15 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
   workspace.work.grow(lanes * static_cast<std::size_t>(edge_work_size(depth)));
   const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
 
-  for (std::size_t first = 0; first < half_edges.size(); first += lanes) {
-    const auto batch = half_edges.subspan(first, std::min(lanes, half_edges.size() - first));
+  std::optional<CutGridEvaluator> alone;
+  std::size_t first = 0;
+  for (std::span<const std::int32_t> batch; first < half_edges.size(); first += batch.size()) {
+    batch = half_edges.subspan(first, together(half_edges.subspan(first), lanes));
+    if (cut_ && cut_->touches(batch.front())) {
+      if (!alone) alone.emplace(*cut_, rings_, depth);
+      alone->edge(batch.front(), out + first * length);
+      continue;
+    }
     gather_edges(adjacency_, rings_, batch, depth, kernel.lanes, workspace.input.data());
     // The lanes beyond the last edge write too, but not into the caller's memory.
     const bool full = batch.size() == lanes;

@@ -10,6 +10,7 @@
 
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
+#include "fast/mesh/triangle_mesh.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/batch.h"
 #include "fast/stream/compact_vertex.h"
@@ -18,6 +19,8 @@
 #include "fast/stream/vertex.h"
 
 namespace limitcheck::fast::row_stream {
+
+class CutGrids;
 
 /// Memory that the kernels can load vectors from.
 class AlignedFloats {
@@ -80,6 +83,9 @@ struct RowView {
 /// A control mesh prepared for the kernel: the rings and limits of its vertices. Read-only afterwards, so
 /// that threads may share it.
 ///
+/// Grids next to a cut are evaluated one by one, by the rules of the sliding window: the kernels have ghosts
+/// beyond a border, which would give its two sides other bits.
+///
 /// The same points come out in several forms: rows() hands over each row in a buffer that the next one
 /// overwrites; whole() and streamed() write whole grids to memory, for which grid_indices.h has the index
 /// buffers that all grids of a depth share; and StreamTessellator makes strips, or an indexed mesh in which
@@ -90,19 +96,19 @@ class RowStream {
   /// each vertex of the adjacency.
   ///   throws   data::ArgumentError: what Rings refuse
   RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency,
-            const Kernel& kernel = kernels().front(), VertexKinds kinds = {});
-  RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front(),
-            VertexKinds kinds = {}) = delete;
+            const Kernel& kernel = kernels().front());
+  RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front()) = delete;
+  /// A mesh that may be cut, which must outlive it.
+  explicit RowStream(const TriangleMesh& mesh, const Kernel& kernel = kernels().front());
 
-  /// Other positions of the same vertices.
-  ///   throws   data::ArgumentError: another number of them
-  void move_points(const data::ControlMesh& mesh);
+  /// The mesh that it was made with, whose points have moved.
+  void move_points(const TriangleMesh& mesh);
 
   const Kernel& kernel() const { return kernel_; }
   const Rings& rings() const { return rings_; }
 
-  /// Calls visit(context, RowView) for each row of each batch of grids, which all have this depth. From C,
-  /// rows and columns are counted from that corner.
+  /// Calls visit(context, RowView) for each row of each batch of grids, which all have this depth; a batch is a
+  /// part of the list. From C, rows and columns are counted from that corner.
   void rows(std::span<const Grid> grids, int depth, Workspace& workspace,
             void (*visit)(void*, const RowView&), void* context, Order order = Order::kFromA,
             Kept kept = Kept::kOneRow) const;
@@ -127,10 +133,14 @@ class RowStream {
  private:
   void batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
                void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const;
+  /// How many of a list, and at most `most`, go together: one that is next to a cut goes alone.
+  template <class T>
+  std::size_t together(std::span<const T> list, std::size_t most) const;
 
   const Adjacency& adjacency_;
   const Kernel& kernel_;
   Rings rings_;
+  std::shared_ptr<const CutGrids> cut_;  // null: there is none
 };
 
 }  // namespace limitcheck::fast::row_stream

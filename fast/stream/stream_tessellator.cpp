@@ -32,18 +32,12 @@ const Kernel& narrow_of(const Kernel& kernel) {
 struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   State(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
       : EngineState<float>(given, with, PrintedRules{}),
-        stream(triangles.points(), adjacency, kernel, triangles.kinds()),
-        narrow(narrow_of(kernel)) {
-    if (triangles.is_cut())
-      throw data::ArgumentError(
-          "row streaming: in Loop's scheme no sharp edges inside the surface, whose two sides would not have "
-          "the "
-          "same bits; the sliding window has them");
-  }
+        stream(triangles, kernel),
+        narrow(narrow_of(kernel)) {}
 
   void points_moved() override {
     EngineState<float>::points_moved();
-    stream.move_points(triangles.points());
+    stream.move_points(triangles);
     if (options.cracks.centre == FanCentre::kFlatLimit) control.reset();
     if (control) control->move_points(control_points());
     centres.clear();

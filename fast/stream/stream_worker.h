@@ -81,14 +81,17 @@ class StreamWorker {
       const StreamFrame& frame;
       const Batch& batch;
       std::vector<Writer>& writers;
-    } context{frame, batch, writers};
+      const Grid* grids;
+    } context{frame, batch, writers, grids_.data()};
     frame.stream.rows(
         grids_, batch.depth, workspace_,
         [](void* opaque, const RowView& view) {
           if (view.j == 0) return;
           Context& c = *static_cast<Context*>(opaque);
+          const auto first = static_cast<std::size_t>(view.grids.data() - c.grids);
           for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
-            take_rows(c.frame.patches[c.batch.patches[lane]], view, lane, c.batch.delivery, c.writers[lane]);
+            take_rows(c.frame.patches[c.batch.patches[first + lane]], view, lane, c.batch.delivery,
+                      c.writers[first + lane]);
         },
         &context, batch.delivery == Delivery::kRowsFromC ? Order::kFromC : Order::kFromA, Kept::kTwoRows);
   }

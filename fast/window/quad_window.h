@@ -75,7 +75,13 @@ class QuadWindow {
   /// Throws data::ArgumentError: depth outside 0 .. max_depth(), a valence above max_valence().
   template <class Sink>
   void run(const PreparedQuads<N, Surface>& mesh, std::int32_t quad, int depth, Sink&& sink) {
-    fill(mesh, quad, depth);
+    run_from(mesh, 4 * quad, depth, sink);
+  }
+  /// The same with corner0 where half-edge h begins and corner1 where it ends.
+  template <class Sink>
+  void run_from(const PreparedQuads<N, Surface>& mesh, std::int32_t h, int depth, Sink&& sink) {
+    const std::int32_t second = QuadAdjacency::next(h), third = QuadAdjacency::next(second);
+    fill(mesh, {h, second, third, QuadAdjacency::next(third)}, depth);
     subdivide(depth, 0, sink);
   }
 
@@ -90,20 +96,21 @@ class QuadWindow {
   static std::size_t row_length(int s) { return (std::size_t{1} << s) + 3; }
   std::size_t ring_length() const { return 2 * static_cast<std::size_t>(max_valence_) + 1; }
 
-  void fill(const PreparedQuads<N, Surface>& mesh, std::int32_t quad, int depth) {
+  /// h: the half-edges that leave the corners.
+  void fill(const PreparedQuads<N, Surface>& mesh, const std::array<std::int32_t, 4>& h, int depth) {
     if (depth < 0 || depth > max_depth_) throw data::ArgumentError("quad window: depth beyond the arrays");
     if (mesh.mesh().adjacency.max_valence() > max_valence_)
       throw data::ArgumentError("quad window: a valence beyond the corner arrays");
     depth_ = depth;
     Level& l = levels_[0];
     for (int k = 0; k < 4; ++k) {
-      l.corner[k] = gather_corner(mesh, 4 * quad + k, l.corner[k].star.ring);
+      l.corner[k] = gather_corner(mesh, h[k], l.corner[k].star.ring);
       probe_.add(&WindowCounts::filled, l.corner[k].star.size());
     }
-    side_[0].fill(mesh, 4 * quad, depth, false);      // bottom, from the left
-    side_[1].fill(mesh, 4 * quad + 1, depth, true);   // right, from the top
-    side_[2].fill(mesh, 4 * quad + 2, depth, true);   // top, from the left
-    side_[3].fill(mesh, 4 * quad + 3, depth, false);  // left, from the top
+    side_[0].fill(mesh, h[0], depth, false);  // bottom, from the left
+    side_[1].fill(mesh, h[1], depth, true);   // right, from the top
+    side_[2].fill(mesh, h[2], depth, true);   // top, from the left
+    side_[3].fill(mesh, h[3], depth, false);  // left, from the top
     top_is_inside_ = side_[2].inside();
     bottom_is_inside_ = side_[0].inside();
     const auto& c = l.corner;

@@ -49,7 +49,7 @@ Sharpness::Sharpness(const Topology& topology, const SharpTags& tags)
     const auto at = static_cast<std::size_t>(e);
     if (tagged[at] && edge_[at] != s) refuse("edge " + name + " has two");
     tagged[at] = true;
-    edge_[at] = s;
+    edge_.set(at, s);
   }
   tagged.assign(vertex_.size(), false);
   for (const auto& tag : tags.vertices) {
@@ -59,13 +59,19 @@ Sharpness::Sharpness(const Topology& topology, const SharpTags& tags)
     const auto at = static_cast<std::size_t>(tag.vertex);
     if (tagged[at] && vertex_[at] != s) refuse("vertex " + std::to_string(tag.vertex) + " has two");
     tagged[at] = true;
-    vertex_[at] = s;
+    vertex_.set(at, s);
   }
   if (tags.boundary == data::Boundary::kEdgeAndCorner)
     for (std::size_t v = 0; v < vertex_.size(); ++v) {
       const Sector sector = topology.sector(static_cast<std::int32_t>(v));
-      if (!sector.closed && sector.faces.size() == 1) vertex_[v] = 10;
+      if (!sector.closed && sector.faces.size() == 1) vertex_.set(v, 10);
     }
+}
+
+bool Sharpness::is_smooth_around(const Topology& topology, std::int32_t v) const {
+  if (!vertex_.is_zero(static_cast<std::size_t>(v))) return false;
+  const auto edges = topology.sector(v).edges;
+  return std::none_of(edges.begin(), edges.end(), [&](std::int32_t e) { return is_sharp(topology, e); });
 }
 
 Rational Sharpness::child_at(const Topology& topology, std::int32_t e, std::int32_t v) const {
@@ -131,15 +137,17 @@ VertexRules Sharpness::rules(const Topology& topology, std::int32_t v) const {
 Sharpness Sharpness::refined(const Topology& topology, const Topology& finer) const {
   Sharpness result;
   result.chaikin_ = chaikin_;
-  result.vertex_.resize(finer.vertex_count());
-  for (std::size_t v = 0; v < vertex_.size(); ++v) result.vertex_[v] = one_less(vertex_[v]);
-  result.edge_.resize(finer.edges().size());
+  result.vertex_ = SparseRationals(finer.vertex_count());
+  for (std::size_t v = 0; v < vertex_.size(); ++v)
+    if (!vertex_.is_zero(v)) result.vertex_.set(v, one_less(vertex_[v]));
+  result.edge_ = SparseRationals(finer.edges().size());
   const std::size_t vertices = topology.vertex_count(), edges = topology.edges().size();
   for (std::size_t e = 0; e < finer.edges().size(); ++e) {
     const auto [v, point] = std::minmax(finer.edges()[e].a, finer.edges()[e].b);
     const auto parent = static_cast<std::size_t>(point) - vertices;
     if (static_cast<std::size_t>(v) >= vertices || parent >= edges) continue;
-    if (edge_[parent] > 0) result.edge_[e] = child_at(topology, static_cast<std::int32_t>(parent), v);
+    if (!edge_.is_zero(parent))
+      result.edge_.set(e, child_at(topology, static_cast<std::int32_t>(parent), v));
   }
   return result;
 }
@@ -149,12 +157,14 @@ Sharpness Sharpness::of_part(const Topology& topology, const Topology& part,
                              const std::vector<std::int32_t>& vertices) const {
   Sharpness result;
   result.chaikin_ = chaikin_;
-  result.edge_.resize(part.edges().size());
+  result.edge_ = SparseRationals(part.edges().size());
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t k = 0; k < part.faces()[f].size(); ++k)
-      result.edge_[static_cast<std::size_t>(part.edge(f, k))] =
-          edge(topology.edge(static_cast<std::size_t>(faces[f]), k));
-  for (const std::int32_t v : vertices) result.vertex_.push_back(vertex_[static_cast<std::size_t>(v)]);
+      if (const std::int32_t e = topology.edge(static_cast<std::size_t>(faces[f]), k); !is_smooth(e))
+        result.edge_.set(static_cast<std::size_t>(part.edge(f, k)), edge(e));
+  result.vertex_ = SparseRationals(vertices.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    result.vertex_.set(k, vertex_[static_cast<std::size_t>(vertices[k])]);
   return result;
 }
 
@@ -162,9 +172,9 @@ SharpTags Sharpness::tags(const Topology& topology) const {
   SharpTags result;
   const auto exact = [](const Rational& s) { return Parameter::parse(s.str()); };
   for (std::size_t e = 0; e < edge_.size(); ++e)
-    if (edge_[e] > 0) result.edges.push_back({topology.edges()[e].a, topology.edges()[e].b, exact(edge_[e])});
+    if (!edge_.is_zero(e)) result.edges.push_back({topology.edges()[e].a, topology.edges()[e].b, exact(edge_[e])});
   for (std::size_t v = 0; v < vertex_.size(); ++v)
-    if (vertex_[v] > 0) result.vertices.push_back({static_cast<std::int32_t>(v), exact(vertex_[v])});
+    if (!vertex_.is_zero(v)) result.vertices.push_back({static_cast<std::int32_t>(v), exact(vertex_[v])});
   if (chaikin_) result.creasing = data::Creasing::kChaikin;
   return result;
 }
@@ -177,10 +187,10 @@ int Sharpness::lasting_edges(const Topology& topology, std::int32_t v) const {
 
 std::vector<bool> Sharpness::needs_a_step(const Topology& topology) const {
   std::vector<bool> at_vertex(topology.vertex_count(), false);
-  for (std::size_t v = 0; v < vertex_.size(); ++v) at_vertex[v] = is_semi_sharp(vertex_[v]);
+  for (std::size_t v = 0; v < vertex_.size(); ++v) at_vertex[v] = !vertex_.is_zero(v) && is_semi_sharp(vertex_[v]);
   for (std::size_t e = 0; e < edge_.size(); ++e) {
     const Edge& ends = topology.edges()[e];
-    if (ends.on_boundary() || edge_[e] == 0) continue;
+    if (ends.on_boundary() || edge_.is_zero(e)) continue;
     if (is_semi_sharp(edge_[e]) ||
         (lasting_edges(topology, ends.a) == 1 && lasting_edges(topology, ends.b) == 1))
       at_vertex[static_cast<std::size_t>(ends.a)] = at_vertex[static_cast<std::size_t>(ends.b)] = true;
@@ -204,7 +214,7 @@ Sharpness::Cut Sharpness::cut(const Topology& topology) const {
     std::vector<std::size_t> sharp;  // where in the sector
     for (std::size_t i = 0; i < sector.edges.size(); ++i)
       if (stays_sharp(topology, sector.edges[i])) sharp.push_back(i);
-    const bool held = is_infinite(vertex_[id]) || sharp.size() > 2;
+    const bool held = (!vertex_.is_zero(id) && is_infinite(vertex_[id])) || sharp.size() > 2;
     const bool uncut = sector.closed && sharp.size() == 1 &&
                        lasting_edges(topology, sector.neighbours[sharp[0]]) == 1;  // needs a step
     const VertexState state = held                                           ? VertexState::kHeld

@@ -12,6 +12,7 @@
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/number_exact.h"
+#include "reference/number/sparse_rationals.h"
 #include "reference/number/vec3.h"
 
 namespace limitcheck::reference {
@@ -40,6 +41,9 @@ class Sharpness {
 
   const Rational& edge(std::int32_t e) const { return edge_[static_cast<std::size_t>(e)]; }
   bool is_chaikin() const { return chaikin_; }
+  /// Whether an edge is smooth, and a vertex with all its edges.
+  bool is_smooth(std::int32_t e) const { return edge_.is_zero(static_cast<std::size_t>(e)); }
+  bool is_smooth_around(const Topology& topology, std::int32_t v) const;
   static bool is_infinite(const Rational& s) { return s >= 10; }
   static bool is_semi_sharp(const Rational& s) { return s > 0 && s < 10; }
 
@@ -73,16 +77,16 @@ class Sharpness {
  private:
   Sharpness() = default;
   bool is_sharp(const Topology& topology, std::int32_t e) const {
-    return topology.edges()[static_cast<std::size_t>(e)].on_boundary() || edge(e) > 0;
+    return topology.edges()[static_cast<std::size_t>(e)].on_boundary() || !is_smooth(e);
   }
   bool stays_sharp(const Topology& topology, std::int32_t e) const {
-    return topology.edges()[static_cast<std::size_t>(e)].on_boundary() || is_infinite(edge(e));
+    return topology.edges()[static_cast<std::size_t>(e)].on_boundary() || (!is_smooth(e) && is_infinite(edge(e)));
   }
   int lasting_edges(const Topology& topology, std::int32_t v) const;
   /// Of the half of an edge at its end v, after a step.
   Rational child_at(const Topology& topology, std::int32_t e, std::int32_t v) const;
 
-  std::vector<Rational> edge_, vertex_;
+  SparseRationals edge_, vertex_;
   bool chaikin_ = false;
 };
 
@@ -105,6 +109,7 @@ void sharpen(const Topology& topology, const Sharpness& sharpness, const std::ve
   const N half = N(1) / N(2), eighth = N(1) / N(8);
   for (std::size_t e = 0; e < topology.edges().size(); ++e) {
     const Edge& edge = topology.edges()[e];
+    if (sharpness.is_smooth(static_cast<std::int32_t>(e))) continue;
     const Rational share = sharpness.edge_share(topology, static_cast<std::int32_t>(e));
     if (edge.on_boundary() || share == 0) continue;
     Vec3<N>& point = refined[positions.size() + e];
@@ -113,7 +118,7 @@ void sharpen(const Topology& topology, const Sharpness& sharpness, const std::ve
   }
   for (std::size_t id = 0; id < positions.size(); ++id) {
     const auto v = static_cast<std::int32_t>(id);
-    if (topology.sector(v).faces.empty()) continue;
+    if (topology.sector(v).faces.empty() || sharpness.is_smooth_around(topology, v)) continue;
     const VertexRules rules = sharpness.rules(topology, v);
     const Vec3<N> smooth = refined[id], &c = positions[id];
     const auto point = [&](const VertexRules::One& one) -> Vec3<N> {

@@ -9,6 +9,7 @@
 
 #include "verify/audit/normal_origin.h"
 #include "verify/audit/schemes.h"
+#include "verify/audit/worst_faces.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -20,6 +21,7 @@ constexpr std::int64_t kFewest = 10;  // points that both have
 struct Apart {
   std::int64_t points = 0;
   double from_guess = 0, from_truth = 0, worst_guess = 0, worst_truth = 0;
+  double squares_from_guess = 0;
 };
 
 Apart apart(const Evidence& e, const SchemePoints& guess) {
@@ -41,6 +43,7 @@ Apart apart(const Evidence& e, const SchemePoints& guess) {
     a.worst_guess = std::max(a.worst_guess, x);
     a.worst_truth = std::max(a.worst_truth, y);
   }
+  a.squares_from_guess = a.from_guess;
   const double count = static_cast<double>(std::max<std::int64_t>(a.points, 1));
   a.from_guess = std::sqrt(a.from_guess / count);
   a.from_truth = std::sqrt(a.from_truth / count);
@@ -78,10 +81,23 @@ std::string origin_of_points(const Evidence& e) {
       guesses.push_back({loop ? Scheme::kLoop : Scheme::kCatmullClark, limit,
                          "; its sharp edges and vertices were not taken as sharp", false});
   const data::ControlMesh smooth = without_tags(e.mesh);
+  // On few faces alone a guess is farther off than it may be on all of them.
+  const WorstFaces worst_one(e, 1), worst_few(e, 8);
+  const auto is_wrong = [&](const Guess& guess) {
+    const auto is_wrong_on = [&](const WorstFaces& worst) {
+      constexpr double kRounding = 1.01;
+      if (!worst.worthwhile()) return false;
+      const Apart a =
+          apart(e, worst.points(guess.tags, guess.scheme, steps, guess.limit, e.lattice.scheme()));
+      return kTimesNearer * kTimesNearer * a.squares_from_guess > kRounding * worst.squares();
+    };
+    return is_wrong_on(worst_one) || is_wrong_on(worst_few);
+  };
   std::string text;
   double least = std::numeric_limits<double>::infinity();
   for (const Guess& guess : guesses) {
     if (loop && guess.scheme == Scheme::kCatmullClark && steps == 0) continue;  // the control mesh again
+    if (is_wrong(guess)) continue;
     const Apart a = apart(e, placed_scheme_points(guess.tags ? e.mesh : smooth, guess.scheme, steps,
                                                   guess.limit, e.lattice.scheme()));
     if (a.points < kFewest || !(kTimesNearer * a.from_guess < a.from_truth) || !(a.from_guess < least))

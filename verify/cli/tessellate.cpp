@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "data/error.h"
-#include "fast/mesh/triangle_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "verify/cli/commands.h"
@@ -31,7 +30,7 @@ namespace {
 struct Arguments {
   MeshOptions scheme;
   std::string mesh, output, strategy, camera, viewport = "1024x768", centre = "limit", repair = "fan", colour;
-  std::string engine;  // empty: the scheme's
+  std::string engine = "row-stream";
   std::vector<double> angles{30};
   int depth = 3, threads = 0;
   std::optional<int> max_depth;
@@ -99,36 +98,18 @@ fast::DepthOptions depth_options(const Arguments& a) {
   return options;
 }
 
-bool has_semi_sharp(const data::Sharpness& sharpness) {
-  const auto semi = [](const auto& tag) {
-    return tag.sharpness > 0 && tag.sharpness < data::kInfiniteSharpness;
-  };
-  return std::any_of(sharpness.edges.begin(), sharpness.edges.end(), semi) ||
-         std::any_of(sharpness.vertices.begin(), sharpness.vertices.end(), semi);
-}
-
-/// The one asked for, else row streaming, unless it does not do the mesh.
-std::string engine_of(const Arguments& a, const OpenedMesh& opened) {
-  if (!a.engine.empty()) return a.engine;
-  const data::ControlMesh& mesh = opened.mesh;
-  const bool beyond_streaming =
-      has_semi_sharp(mesh.sharpness) || (opened.chosen.scheme == data::Scheme::kLoop &&
-                                         !mesh.sharpness.empty() && fast::TriangleMesh(mesh).is_cut());
-  return beyond_streaming ? "sliding-window" : "row-stream";
-}
-
 struct Timings {
   double read = 0, prepare = 0, write = 0;
 };
 
-nlohmann::ordered_json report(const Arguments& a, const std::string& engine, const MeshScheme& chosen,
-                              const fast::FrameStats& s, const fast::DepthOptions& options,
+nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, const fast::FrameStats& s,
+                              const fast::DepthOptions& options,
                               const Timings& t) {
   return {{"mesh", a.mesh},
           {"scheme", name_of(chosen.scheme)},
           {"faces_cut", chosen.cut},
           {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
-          {"engine", engine},
+          {"engine", a.engine},
           {"strategy", std::string(fast::name(options.strategy))},
           {"seed", options.seed},
           {"faces", s.faces},
@@ -205,7 +186,7 @@ Outcome run(const Arguments& a, const OpenedMesh& opened, const fast::DepthOptio
   engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
   engine.threads = std::min(a.threads, tbb::info::default_concurrency());
   engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
-  if (engine_of(a, opened) == "sliding-window")
+  if (a.engine == "sliding-window")
     return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
   fast::row_stream::StreamTessellator stream(mesh, engine);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
@@ -251,7 +232,7 @@ int tessellate(const Arguments& a) {
                stats.faces);
   }
   if (a.json) {
-    fmt::print("{}\n", report(a, engine_of(a, opened), opened.chosen, stats, options, timings).dump(2));
+    fmt::print("{}\n", report(a, opened.chosen, stats, options, timings).dump(2));
   } else {
     fmt::print("{}\n{}", scheme_line({opened.chosen}, a.scheme), summary(a, stats, timings));
   }
@@ -283,10 +264,9 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--engine", a->engine,
-          "row-stream, or sliding-window: the paper's engine, one pair or quad after the other; default "
-          "row-stream, or sliding-window for what row-stream does not do: semi-sharp edges and vertices, and "
-          "in Loop's scheme sharp edges inside the surface")
-      ->check(CLI::IsMember({"row-stream", "sliding-window"}));
+          "row-stream, or sliding-window: the paper's engine, one pair or quad after the other")
+      ->check(CLI::IsMember({"row-stream", "sliding-window"}))
+      ->capture_default_str();
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
   auto* pixels =

@@ -55,8 +55,9 @@ class RowStreamSubject {
     const Settings settings(options);
     lc_capabilities result{
         LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, rs::kMaxDepth, 1, 1, 1};
-    result.sharp = LC_SHARP_CORNERS;
-    if (scheme == LC_SCHEME_CATMULL_CLARK) result.sharp |= LC_SHARP_CREASES | LC_SHARP_SMOOTH_TRIANGLES;
+    result.sharp = LC_SHARP_CREASES | LC_SHARP_CORNERS;
+    if (scheme == LC_SCHEME_CATMULL_CLARK)
+      result.sharp |= LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_SMOOTH_TRIANGLES;
     return result;
   }
 

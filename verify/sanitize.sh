@@ -62,7 +62,8 @@ case $kind in
     folders=(data reference fast verify/cli verify/files verify/subject/isolation)
     cmake --preset asan-ubsan -DLIMITCHECK_VERIFY=ON -DBUILD_TESTING=ON >/dev/null
     cmake --build --preset asan-ubsan --target limitcheck "${folders[@]/%//all}" >&2
-    export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
+    # Programs that crash on purpose are to end by the signal.
+    export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:handle_segv=0 UBSAN_OPTIONS=print_stacktrace=1
     for folder in "${folders[@]}"; do
       tests_of "build/asan-ubsan/$folder" 'Hostile|Behaviours.OfLibraries' "$@"
     done

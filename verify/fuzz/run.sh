@@ -10,9 +10,9 @@ seconds=${1:-150}
 targets=("${@:2}")
 [[ ${#targets[@]} -gt 0 ]] || targets=(read_obj read_off read_ply read_stl protocol waivers provenance gltf file_audit difference)
 
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}" >/dev/null
 mkdir -p build/fuzz/findings
+{ cmake --preset fuzz && cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"; } >build/fuzz/build.log 2>&1 ||
+  { tail -n 40 build/fuzz/build.log; exit 1; }
 status=0
 for target in "${targets[@]}"; do
   program=$(find build/fuzz -type f -name "fuzz_$target" -perm -u+x)

@@ -12,11 +12,11 @@ namespace limitcheck::verify {
 /// The likely cause near the place of a finding: of the corners of its face that are not regular, and of its
 /// middle if it is cut into quads, the nearest; or of several equally near the one that most goes with.
 struct Surroundings {
-  std::string kind;  // "regular", "inner vertex", "boundary vertex", "crease", "dart", "corner", "face"; or
-                     // empty: the finding names no face
-  std::string
-      valence;   // class of the number of faces, of a face of corners: "1" to "7", "8 to 40", "more .."
-  int rank = 0;  // how far it is from the regular one, 0 to 3
+  /// "regular", "inner vertex", "boundary vertex", "crease", "dart", "corner", "face"; or empty: the finding
+  /// names no face, or is of a relation.
+  std::string kind;
+  std::string valence;  // class of its faces (of a face, corners): "1" to "7", "8 to 40", "more than 40"
+  int rank = 0;         // how far it is from the regular one, 0 to 3
   bool beside = false;  // there is another extraordinary corner
   int difference = 0;   // between the depths of the face and of those at its corners, at most 4
 

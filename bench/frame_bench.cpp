@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Frames of a bumpy sphere that turns from frame to frame, by one degree unless the name says otherwise: from
-// the camera to the triangles. Names: form/strategy/faces:N/threads:T. Forms: draw (a list of strips and
-// fans), indexed (one mesh), patches (points once, index patterns), compact (the same in 16 bytes a vertex), kept (patches that stay as they are keep
-// their places), sticky (pairs stay together, too), deforming (as patches, but the control points move before
-// each frame), deforming:depths and still:depths (at given depths, with and without moving). Counters: frames/s, triangles/s.
+// the camera to the triangles. Names: form/strategy/faces:N/threads:T; counters: frames/s, triangles/s.
+//   draw                  a list of strips and fans
+//   indexed               one mesh
+//   patches, compact      points once and index patterns; the same with 16 bytes a vertex
+//   kept, sticky          patches that stay as they are keep their places; pairs stay together, too
+//   deforming             as patches, but the control points move before each frame
+//   deforming:depths, still:depths   the same at given depths, with and without moving
+//   bfr                   OpenSubdiv's Bfr, the points of the same faces at the same depths
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -15,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/contenders/contender.h"
 #include "data/generators/bumpy_sphere.h"
 #include "fast/stream/stream_tessellator.h"
 
@@ -121,6 +126,20 @@ void deforming(benchmark::State& state, const Case& c, bool moves, bool same_dep
   state.counters["triangles/s"] = Counter(triangles, Counter::kIsRate);
 }
 
+/// OpenSubdiv's Bfr, a surface for each face made and forgotten: the faces and depths of one of the frames,
+/// points alone.
+void bfr(benchmark::State& state, const Case& c) {
+  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces));
+  fast::PatchMesh<float> out;
+  const fast::FrameStats stats = tessellator.frame(c.strategy, turned(0, 1), out);
+  const auto peer = bench::bfr_frame(mesh_of(c.faces), tessellator.last_pairing().depth);
+  for (auto _ : state) peer->run();
+  using benchmark::Counter;
+  state.counters["frames/s"] = Counter(1, Counter::kIsIterationInvariantRate);
+  state.counters["triangles/s"] =
+      Counter(static_cast<double>(stats.triangles), Counter::kIsIterationInvariantRate);
+}
+
 template <class Function>
 void add(const std::string& name, Function function) {
   benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMicrosecond)->UseRealTime();
@@ -149,6 +168,7 @@ int main(int argc, char** argv) {
       add("deforming/" + name + "/threads:1", [=](auto& s) { deforming(s, c, true, false); });
     add("deforming:depths/" + name + "/threads:1", [=](auto& s) { deforming(s, c, true, true); });
     add("still:depths/" + name + "/threads:1", [=](auto& s) { deforming(s, c, false, true); });
+    add("bfr/" + name + "/threads:1", [=](auto& s) { bfr(s, c); });
     add("indexed/" + name + "/threads:1", [=](auto& s) { frames<fast::IndexedMesh<float>>(s, c, 1); });
   }
   benchmark::Initialize(&argc, argv);

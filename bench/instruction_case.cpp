@@ -93,8 +93,9 @@ std::map<std::string, std::function<Case()>> cases() {
   list["frame/row-stream/random-depths"] = [=] {
     const auto out = std::make_shared<fast::DrawList<float>>();
     const auto by = engine();
+    by->frame(depths(4), *out);
     by->frame(depths(0), *out);
-    return Case{[=, depth = depths(0)] { by->frame(depth, *out); }};
+    return Case{[=, depth = depths(4)] { by->frame(depth, *out); }};
   };
   for (const bool kept : {false, true}) {
     list[std::string("frame/row-stream/patches") + (kept ? "-kept" : "")] = [=] {
@@ -103,6 +104,26 @@ std::map<std::string, std::function<Case()>> cases() {
       by->frame(depths(4), *out);
       by->frame(depths(0), *out);
       return Case{[=, depth = depths(4)] { by->frame(depth, *out); }};
+    };
+  }
+  list["frame/row-stream/patches-compact"] = [=] {
+    const auto out = std::make_shared<fast::PatchMesh<float>>(fast::PatchOptions{.compact = true});
+    const auto by = engine();
+    by->frame(depths(4), *out);
+    by->frame(depths(0), *out);
+    return Case{[=, depth = depths(4)] { by->frame(depth, *out); }};
+  };
+  // Control points that move before the frame, whose depths do not need cones, or do.
+  for (const fast::Strategy strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined}) {
+    list["frame/row-stream/deforming-" + std::string(fast::name(strategy))] = [=] {
+      fast::DepthOptions depth;
+      depth.strategy = strategy;
+      const auto out = std::make_shared<fast::PatchMesh<float>>();
+      const auto by = engine();
+      auto moved = mesh.positions;
+      for (auto& p : moved) p[0] *= 1.01;
+      by->move_points(moved), by->frame(depth, fast::Camera{}, *out);
+      return Case{[=] { by->move_points(mesh.positions), by->frame(depth, fast::Camera{}, *out); }};
     };
   }
   return list;

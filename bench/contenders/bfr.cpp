@@ -5,6 +5,9 @@
 #include <opensubdiv/bfr/tessellation.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "bench/contenders/contender.h"
@@ -16,16 +19,43 @@ namespace {
 
 namespace Bfr = OpenSubdiv::Bfr;
 
-/// What both uses share: the topology, the factory, and the parameters of a face's lattice points.
+/// The parameters of a face's lattice points.
+std::vector<float> lattice_coordinates(const OpenSubdivMesh& mesh, int depth) {
+  const Bfr::Tessellation tessellation(Bfr::Parameterization(mesh.refiner().GetSchemeType(), mesh.corners()),
+                                       1 << depth);
+  std::vector<float> coords(2 * static_cast<std::size_t>(tessellation.GetNumCoords()));
+  tessellation.GetCoords(coords.data());
+  return coords;
+}
+
+/// The points of a face, nothing kept: nearest to the paper's method.
+struct FaceStream {
+  Bfr::Surface<float> surface;
+  std::vector<float> patch_points;
+  std::vector<LimitPoint> out;
+
+  void run(const OpenSubdivMesh& mesh, const Bfr::RefinerSurfaceFactory<>& factory, std::size_t face,
+           const std::vector<float>& coords) {
+    factory.InitVertexSurface(static_cast<int>(face), &surface);
+    patch_points.resize(3 * static_cast<std::size_t>(surface.GetNumPatchPoints()));
+    surface.PreparePatchPoints(mesh.control(), 3, patch_points.data(), 3);
+    out.resize(coords.size() / 2);
+    for (std::size_t p = 0; p < out.size(); ++p) {
+      float du[3], dv[3];
+      surface.Evaluate(&coords[2 * p], patch_points.data(), 3, out[p].position, du, dv);
+      set_normal(du, dv, out[p]);
+    }
+  }
+};
+
+/// What all uses at one depth share: the topology and the factory.
 class BfrContender : public Contender {
  public:
   BfrContender(const data::ControlMesh& mesh, int depth, int threads)
-      : threads_(threads), mesh_(mesh), factory_(mesh_.refiner()) {
-    const Bfr::Tessellation tessellation(
-        Bfr::Parameterization(mesh_.refiner().GetSchemeType(), mesh_.corners()), 1 << depth);
-    coords_.resize(2 * static_cast<std::size_t>(tessellation.GetNumCoords()));
-    tessellation.GetCoords(coords_.data());
-  }
+      : threads_(threads),
+        mesh_(mesh),
+        factory_(mesh_.refiner()),
+        coords_(lattice_coordinates(mesh_, depth)) {}
   double evaluated() const override { return static_cast<double>(mesh_.faces() * points()); }
 
  protected:
@@ -37,28 +67,44 @@ class BfrContender : public Contender {
   std::vector<float> coords_;
 };
 
-/// Surface of a face made, its points evaluated, all forgotten: nearest to the paper's method.
 class Streaming : public BfrContender {
  public:
   using BfrContender::BfrContender;
 
   void run() override {
     in_parallel(mesh_.faces(), threads_, [&](std::size_t first, std::size_t last) {
-      Bfr::Surface<float> surface;
-      std::vector<float> patch_points;
-      std::vector<LimitPoint> out(points());
-      for (std::size_t f = first; f < last; ++f) {
-        factory_.InitVertexSurface(static_cast<int>(f), &surface);
-        patch_points.resize(3 * static_cast<std::size_t>(surface.GetNumPatchPoints()));
-        surface.PreparePatchPoints(mesh_.control(), 3, patch_points.data(), 3);
-        for (std::size_t p = 0; p < out.size(); ++p) {
-          float du[3], dv[3];
-          surface.Evaluate(&coords_[2 * p], patch_points.data(), 3, out[p].position, du, dv);
-          set_normal(du, dv, out[p]);
-        }
-      }
+      FaceStream stream;
+      for (std::size_t f = first; f < last; ++f) stream.run(mesh_, factory_, f, coords_);
     });
   }
+};
+
+/// The same with a depth for each face, -1: not at all.
+class Frame final : public Contender {
+ public:
+  Frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth)
+      : mesh_(mesh), factory_(mesh_.refiner()), depth_(depth.begin(), depth.end()) {
+    for (const std::int32_t d : depth_)
+      while (static_cast<std::int32_t>(coords_.size()) <= d)
+        coords_.push_back(lattice_coordinates(mesh_, static_cast<int>(coords_.size())));
+  }
+  void run() override {
+    for (std::size_t f = 0; f < depth_.size(); ++f)
+      if (depth_[f] >= 0) stream_.run(mesh_, factory_, f, coords_[static_cast<std::size_t>(depth_[f])]);
+  }
+  double evaluated() const override {
+    double points = 0;
+    for (const std::int32_t d : depth_)
+      if (d >= 0) points += static_cast<double>(coords_[static_cast<std::size_t>(d)].size() / 2);
+    return points;
+  }
+
+ private:
+  OpenSubdivMesh mesh_;
+  Bfr::RefinerSurfaceFactory<> factory_;
+  std::vector<std::int32_t> depth_;
+  std::vector<std::vector<float>> coords_;  // by depth
+  FaceStream stream_;
 };
 
 /// Limit stencils of all points made once, a surface object per face kept.
@@ -126,6 +172,10 @@ Route bfr_cached_stencils() {
           [](const auto& mesh, int depth, int threads) {
             return std::make_unique<CachedStencils>(mesh, depth, threads);
           }};
+}
+
+std::unique_ptr<Contender> bfr_frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth) {
+  return std::make_unique<Frame>(mesh, depth);
 }
 
 }  // namespace limitcheck::bench

@@ -2,8 +2,10 @@
 // The routes from a control mesh to limit points that the throughput bench compares, all behind one class.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,8 @@ std::vector<Route> our_quad_routes();
 /// library's own interface lets it be, in float where it can be: no plug-in interface, no provenance.
 Route bfr_streaming();
 Route bfr_cached_stencils();
+/// Bfr streaming of a mesh whose faces have depths of their own, -1: not at all; on one thread.
+std::unique_ptr<Contender> bfr_frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth);
 Route far_uniform();
 Route far_limit_stencils();
 Route cgal_refinement();

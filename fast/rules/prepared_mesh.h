@@ -38,33 +38,15 @@ class PreparedMesh {
   using Wide = typename NumberTraits<N>::Wide;
 
   /// One position per vertex of the adjacency. Keeps a reference to the kinds, too.
-  ///   with_limits   false: limit() is not to be asked
-  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {},
-               bool with_limits = true)
+  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {})
       : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
-    std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(adjacency.max_valence()) + 1);
-    std::vector<bool> known(by_valence.size());
-    RingWeightTable<typename NumberTraits<Wide>::Scalar> table(adjacency.max_valence());
-    weights_.resize(positions_.size());
-    limits_.resize(positions_.size());
-    std::vector<Vec3<Wide>> ring;
-    for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-      if (adjacency.outgoing(v) < 0) continue;
-      const bool open = adjacency.on_boundary(v);
-      const auto n = static_cast<std::size_t>(adjacency.valence(v));
-      const bool dart = kind(v) == VertexKind::kDart;
-      if (!open || dart) {
-        const std::size_t neighbours = dart ? n - 1 : n;
-        if (!known[neighbours])
-          by_valence[neighbours] = vertex_weights<N>(static_cast<int>(neighbours)), known[neighbours] = true;
-        weights_[v] = by_valence[neighbours];
-      }
-      if (!with_limits) continue;
-      ring.clear();
-      adjacency.for_each_neighbour(v, [&](std::int32_t w) { ring.push_back(widen<N>(position(w))); });
-      table.make(n, open);
-      limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
-    }
+    prepare<true>();
+  }
+  /// The same, but limit() is not to be asked.
+  struct WithoutLimits {};
+  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds, WithoutLimits)
+      : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
+    prepare<false>();
   }
 
   PreparedMesh(Adjacency&&, std::vector<Vec3<N>>, VertexKinds = {}) = delete;
@@ -80,6 +62,34 @@ class PreparedMesh {
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:
+  template <bool with_limits>
+  void prepare() {
+    const Adjacency& mesh = adjacency();
+    std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(mesh.max_valence()) + 1);
+    std::vector<bool> known(by_valence.size());
+    RingWeightTable<typename NumberTraits<Wide>::Scalar> table(mesh.max_valence());
+    weights_.resize(positions_.size());
+    limits_.resize(positions_.size());
+    std::vector<Vec3<Wide>> ring;
+    for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+      if (mesh.outgoing(v) < 0) continue;
+      const bool open = mesh.on_boundary(v);
+      ring.clear();
+      mesh.for_each_neighbour(v, [&](std::int32_t w) { ring.push_back(widen<N>(position(w))); });
+      const std::size_t n = ring.size();
+      const bool dart = kind(v) == VertexKind::kDart;
+      if (!open || dart) {
+        const std::size_t neighbours = dart ? n - 1 : n;
+        if (!known[neighbours])
+          by_valence[neighbours] = vertex_weights<N>(static_cast<int>(neighbours)), known[neighbours] = true;
+        weights_[v] = by_valence[neighbours];
+      }
+      table.make(n, open);
+      if constexpr (with_limits)
+        limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
+    }
+  }
+
   template <class Weights>
   Vertex limit_of(const Vec3<Wide>& v, std::span<const Vec3<Wide>> ring, bool open, VertexKind kind,
                   const Weights& weights) {

@@ -61,13 +61,13 @@ HWY_ATTR void compact_vectors(const Vertex* from, std::size_t count, CompactVert
   std::size_t k = 0;
   for (; k + lanes <= count; k += lanes) compact_one_vector(wide, in + 6 * k, out + 4 * k);
   for (; k + lanes_four <= count; k += lanes_four) compact_one_vector(four, in + 6 * k, out + 4 * k);
-  for (; k < count; ++k) to[k] = compacted(from[k]);
+  compact_row(reinterpret_cast<const SurfaceVertex<float>*>(from) + k, count - k, to + k);
 }
 
 #else
 
 void compact_vectors(const Vertex* from, std::size_t count, CompactVertex* to) {
-  for (std::size_t k = 0; k < count; ++k) to[k] = compacted(from[k]);
+  compact_row(reinterpret_cast<const SurfaceVertex<float>*>(from), count, to);
 }
 
 #endif

@@ -44,9 +44,12 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   }
 
   void prepare() override {
-    if (plan.fans > 0 && !control)
-      control.emplace(adjacency, control_points(), triangles.kinds(),
-                      options.cracks.centre == FanCentre::kFlatLimit);
+    if (plan.fans > 0 && !control) {
+      if (options.cracks.centre == FanCentre::kFlatLimit)
+        control.emplace(adjacency, control_points(), triangles.kinds());
+      else
+        control.emplace(adjacency, control_points(), triangles.kinds(), PreparedMesh<float>::WithoutLimits());
+    }
     if (plan.fans > 0) centres.resize(static_cast<std::size_t>(adjacency.face_count()));
     worker_bytes = 0;
   }

@@ -69,7 +69,9 @@ void CutGridEvaluator::grid(const Grid& grid, Order order, const Vertex* edges, 
   window_.run(mesh_.prepared(), order == Order::kFromA ? adjacency.twin(ac) : ac, depth_,
               [&](int row, const Double* strip) {
                 for (int j = row == 0 ? 0 : row + 1; j <= row + 1; ++j) {
-                  const auto points = [&](int i) -> const Double& { return strip[2 * (size - i) + (j - row)]; };
+                  const auto points = [&](int i) -> const Double& {
+                    return strip[2 * (size - i) + (j - row)];
+                  };
                   put_row(along, j, points, edges, target);
                 }
               });

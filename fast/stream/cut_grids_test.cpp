@@ -137,10 +137,10 @@ TEST(CutGrids, AreTheSameInEveryForm) {
           const Context& to = *static_cast<const Context*>(opaque);
           const auto size = static_cast<std::size_t>(side(view.depth));
           for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
-            Vertex* const grid = to.out + static_cast<std::size_t>(&view.grids[lane] - to.first) * size * size;
+            Vertex* const grid =
+                to.out + static_cast<std::size_t>(&view.grids[lane] - to.first) * size * size;
             const auto row = size - 1 - static_cast<std::size_t>(view.j);
-            for (std::size_t i = 0; i < size; ++i)
-              grid[row * size + size - 1 - i] = view.vertices(lane)[i];
+            for (std::size_t i = 0; i < size; ++i) grid[row * size + size - 1 - i] = view.vertices(lane)[i];
           }
         },
         &context, Order::kFromC);

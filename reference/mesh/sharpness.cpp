@@ -146,8 +146,7 @@ Sharpness Sharpness::refined(const Topology& topology, const Topology& finer) co
     const auto [v, point] = std::minmax(finer.edges()[e].a, finer.edges()[e].b);
     const auto parent = static_cast<std::size_t>(point) - vertices;
     if (static_cast<std::size_t>(v) >= vertices || parent >= edges) continue;
-    if (!edge_.is_zero(parent))
-      result.edge_.set(e, child_at(topology, static_cast<std::int32_t>(parent), v));
+    if (!edge_.is_zero(parent)) result.edge_.set(e, child_at(topology, static_cast<std::int32_t>(parent), v));
   }
   return result;
 }
@@ -172,7 +171,8 @@ SharpTags Sharpness::tags(const Topology& topology) const {
   SharpTags result;
   const auto exact = [](const Rational& s) { return Parameter::parse(s.str()); };
   for (std::size_t e = 0; e < edge_.size(); ++e)
-    if (!edge_.is_zero(e)) result.edges.push_back({topology.edges()[e].a, topology.edges()[e].b, exact(edge_[e])});
+    if (!edge_.is_zero(e))
+      result.edges.push_back({topology.edges()[e].a, topology.edges()[e].b, exact(edge_[e])});
   for (std::size_t v = 0; v < vertex_.size(); ++v)
     if (!vertex_.is_zero(v)) result.vertices.push_back({static_cast<std::int32_t>(v), exact(vertex_[v])});
   if (chaikin_) result.creasing = data::Creasing::kChaikin;
@@ -187,7 +187,8 @@ int Sharpness::lasting_edges(const Topology& topology, std::int32_t v) const {
 
 std::vector<bool> Sharpness::needs_a_step(const Topology& topology) const {
   std::vector<bool> at_vertex(topology.vertex_count(), false);
-  for (std::size_t v = 0; v < vertex_.size(); ++v) at_vertex[v] = !vertex_.is_zero(v) && is_semi_sharp(vertex_[v]);
+  for (std::size_t v = 0; v < vertex_.size(); ++v)
+    at_vertex[v] = !vertex_.is_zero(v) && is_semi_sharp(vertex_[v]);
   for (std::size_t e = 0; e < edge_.size(); ++e) {
     const Edge& ends = topology.edges()[e];
     if (ends.on_boundary() || edge_.is_zero(e)) continue;

@@ -80,7 +80,8 @@ class Sharpness {
     return topology.edges()[static_cast<std::size_t>(e)].on_boundary() || !is_smooth(e);
   }
   bool stays_sharp(const Topology& topology, std::int32_t e) const {
-    return topology.edges()[static_cast<std::size_t>(e)].on_boundary() || (!is_smooth(e) && is_infinite(edge(e)));
+    return topology.edges()[static_cast<std::size_t>(e)].on_boundary() ||
+           (!is_smooth(e) && is_infinite(edge(e)));
   }
   int lasting_edges(const Topology& topology, std::int32_t v) const;
   /// Of the half of an edge at its end v, after a step.

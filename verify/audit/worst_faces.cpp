@@ -62,7 +62,8 @@ bool WorstFaces::worthwhile() const {
 }
 
 SchemePoints WorstFaces::points(bool tags, Scheme scheme, int steps, bool limit, data::Scheme lattice) const {
-  SchemePoints points = placed_scheme_points(tags ? part_ : without_tags(part_), scheme, steps, limit, lattice);
+  SchemePoints points =
+      placed_scheme_points(tags ? part_ : without_tags(part_), scheme, steps, limit, lattice);
   for (Place& p : points.place) {
     if (p.denominator == 0) continue;
     const auto face = static_cast<std::size_t>(p.face);

@@ -103,8 +103,7 @@ struct Timings {
 };
 
 nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, const fast::FrameStats& s,
-                              const fast::DepthOptions& options,
-                              const Timings& t) {
+                              const fast::DepthOptions& options, const Timings& t) {
   return {{"mesh", a.mesh},
           {"scheme", name_of(chosen.scheme)},
           {"faces_cut", chosen.cut},
@@ -262,9 +261,8 @@ void add_tessellate(CLI::App& app, int& exit_code) {
                    "view is given")
       ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
   command
-      ->add_option(
-          "--engine", a->engine,
-          "row-stream, or sliding-window: the paper's engine, one pair or quad after the other")
+      ->add_option("--engine", a->engine,
+                   "row-stream, or sliding-window: the paper's engine, one pair or quad after the other")
       ->check(CLI::IsMember({"row-stream", "sliding-window"}))
       ->capture_default_str();
   auto* eye =

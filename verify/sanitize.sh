@@ -63,7 +63,8 @@ case $kind in
     cmake --preset asan-ubsan -DLIMITCHECK_VERIFY=ON -DBUILD_TESTING=ON >/dev/null
     cmake --build --preset asan-ubsan --target limitcheck "${folders[@]/%//all}" >&2
     # Programs that crash on purpose are to end by the signal.
-    export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:handle_segv=0 UBSAN_OPTIONS=print_stacktrace=1
+    export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:handle_segv=0
+    export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS=suppressions=$PWD/verify/lsan.suppressions:print_suppressions=0
     for folder in "${folders[@]}"; do
       tests_of "build/asan-ubsan/$folder" 'Hostile|Behaviours.OfLibraries' "$@"
     done

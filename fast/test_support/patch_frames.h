@@ -104,7 +104,9 @@ inline std::vector<Model> models() {
           {"triangle", single_triangle(), loop},
           {"cube", data::named_mesh("cube-quads"), quads},
           {"polygons", data::named_mesh("mixed:1"), quads},
-          {"creases", data::named_mesh("creased-cube"), quads}};
+          {"creases", data::named_mesh("creased-cube"), quads},
+          {"cut triangles", data::named_mesh("creased:3:40"), loop},
+          {"semi-sharp", data::named_mesh("mixed-sharp:3:30"), quads}};
 }
 
 inline std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most,

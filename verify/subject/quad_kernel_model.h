@@ -29,7 +29,7 @@ class QuadKernelModel {
   using Point = fast::Vec3<double>;
   using Vertex = fast::SurfaceVertex<double>;
 
-  /// Throws SubjectError: something is semi-sharp, which the kernel of row streaming does not do either.
+  /// Throws SubjectError: something is semi-sharp, which row streaming leaves to the rules of the sliding window.
   QuadKernelModel(const data::ControlMesh& mesh, std::string_view mutation);
 
   /// Point (i, j) of n = 2^level steps of a control face, or of the sub-quad at `part` of one that is no quad,

@@ -97,7 +97,8 @@ void cut_otherwise(DeliveredCopy<Real>& out) {
   }
 }
 
-// Points on a control edge, or at a vertex, named by another face that touches them.
+// Points on a control edge, or at a vertex, named by another face that touches them; not by one beyond an edge that
+// stays sharp, whose normals are others.
 template <class Real>
 void name_other_faces(const data::ControlMesh& mesh, DeliveredCopy<Real>& out) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::size_t>> edges;
@@ -105,6 +106,8 @@ void name_other_faces(const data::ControlMesh& mesh, DeliveredCopy<Real>& out) {
     for (std::size_t k = 0; k < 3; ++k)
       edges[{triangles_of(mesh)[f][k], triangles_of(mesh)[f][(k + 1) % 3]}] = {static_cast<std::int32_t>(f),
                                                                                k};
+  for (const data::SharpEdge& e : mesh.sharpness.edges)
+    if (e.sharpness >= data::kInfiniteSharpness) edges.erase({e.a, e.b}), edges.erase({e.b, e.a});
   for (lc_provenance& p : out.provenance) {
     const std::array<std::uint32_t, 3> l{p.denominator - p.i - p.j, p.i, p.j};
     const auto& t = triangles_of(mesh)[p.face];

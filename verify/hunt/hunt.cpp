@@ -68,7 +68,7 @@ bool Hunt::look(std::uint64_t number) {
   std::set<std::string> here;
   for (const Result* row : causes_in(report)) {
     HuntFinding f;
-    f.where = surroundings(*row, at.mesh);
+    f.where = likely_cause(*row, at.mesh);
     f.signature = signature(*row, f.where);
     if (!here.insert(f.signature).second) continue;
     if (const auto before = report_.findings.find(f.signature); before != report_.findings.end()) {
@@ -97,7 +97,7 @@ void Hunt::shrink_finding(HuntFinding& f) {
   const Report found = audit(at);
   for (const Result* cause : causes_in(found)) {
     const Result& row = *cause;
-    if (signature(row, surroundings(row, at.mesh)) != f.signature) continue;
+    if (signature(row, likely_cause(row, at.mesh)) != f.signature) continue;
     // Each attempt with a subject that hangs takes as long as it is given.
     const int attempts =
         row.status == Status::kTimeout ? std::min(options_.attempts, kOfHangs) : options_.attempts;

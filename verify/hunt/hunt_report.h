@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "verify/hunt/surroundings.h"
+#include "verify/hunt/likely_cause.h"
 #include "verify/shard/shard.h"
 
 namespace limitcheck::verify {
 
-/// Findings of one signature (surroundings.h), by the first of them.
+/// Findings of one signature (likely_cause.h), by the first of them.
 struct HuntFinding {
   std::string signature, check, status;  // status: "finding", "crash", ...
   std::string scheme;
-  Surroundings where;
+  LikelyCause where;
   std::int64_t cases = 0;         // in which it was seen
   std::uint64_t first = 0;        // the first of them
   std::string found_on;           // a command that shows it on the mesh where it was found

@@ -99,14 +99,14 @@ TEST(Hunt, ReportsAreReadAsTheyWereWritten) {
     EXPECT_THROW(read_hunt_report(text), data::ArgumentError) << text;
 }
 
-TEST(Surroundings, IsWhatProgramsCanTellApart) {
+TEST(LikelyCause, IsWhatProgramsCanTellApart) {
   const auto words = [](const char* name, std::int64_t face, std::vector<std::int32_t> depth = {}) {
     AuditMesh m{name, data::named_mesh(name)};
     m.face_depth = std::move(depth);
     Result r;
     r.scheme = m.scheme();
     if (face >= 0) r.witness = Witness{face};
-    return surroundings(r, m).words();
+    return likely_cause(r, m).words();
   };
   EXPECT_EQ(words("octahedron", -1), "");
   EXPECT_EQ(words("torus", 5), "regular");
@@ -121,30 +121,30 @@ TEST(Surroundings, IsWhatProgramsCanTellApart) {
   EXPECT_EQ(words("corner:3", 0), "corner of 6 faces, beside another extraordinary one");
 }
 
-TEST(Surroundings, CoversThoseThatHaveAllOfItAndMore) {
-  const Surroundings regular{"regular", "", 0, false, 0}, unequal{"regular", "", 0, false, 2};
-  const Surroundings five{"inner vertex", "5", 1, false, 0}, seven{"inner vertex", "7", 1, false, 0};
-  const Surroundings many{"inner vertex", "more than 40", 3, true, 1}, dart{"dart", "5", 1, false, 0};
+TEST(LikelyCause, CoversThoseThatHaveAllOfItAndMore) {
+  const LikelyCause regular{"regular", "", 0, false, 0}, unequal{"regular", "", 0, false, 2};
+  const LikelyCause five{"inner vertex", "5", 1, false, 0}, seven{"inner vertex", "7", 1, false, 0};
+  const LikelyCause many{"inner vertex", "more than 40", 3, true, 1}, dart{"dart", "5", 1, false, 0};
   EXPECT_TRUE(regular.covers(unequal) && regular.covers(five) && regular.covers(dart) && five.covers(many));
   EXPECT_FALSE(unequal.covers(regular) || unequal.covers(five) || five.covers(seven) || seven.covers(five) ||
                five.covers(dart) || many.covers(five) || five.covers(five) || regular.covers({}) ||
-               Surroundings{}.covers(regular));
-  const std::vector<Surroundings> all{regular, unequal, five, seven, many, dart};
-  for (const Surroundings& a : all)
-    for (const Surroundings& b : all)
+               LikelyCause{}.covers(regular));
+  const std::vector<LikelyCause> all{regular, unequal, five, seven, many, dart};
+  for (const LikelyCause& a : all)
+    for (const LikelyCause& b : all)
       if (a.covers(b)) {
         EXPECT_LT(a.level(), b.level()) << a.words() << " / " << b.words();
       }
 }
 
-TEST(Surroundings, IsThatOfTheNearestExtraordinaryCorner) {
+TEST(LikelyCause, IsThatOfTheNearestExtraordinaryCorner) {
   const auto near = [](const char* name, std::int64_t face, const char* u, const char* v, int corner = -1) {
     const AuditMesh m{name, data::named_mesh(name)};
     Result r;
     r.scheme = m.scheme();
     r.witness = Witness{face, u, v};
     r.witness->corner = corner;
-    return surroundings(r, m).words();
+    return likely_cause(r, m).words();
   };
   // bipyramid:9 has apices of 9 faces and an equator of 4.
   std::set<std::string> all;

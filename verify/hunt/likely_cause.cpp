@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/hunt/surroundings.h"
+#include "verify/hunt/likely_cause.h"
 
 #include <fmt/core.h>
 
@@ -98,7 +98,7 @@ int depth_difference(const AuditMesh& audited, std::size_t face, const FacesArou
 
 }  // namespace
 
-std::string Surroundings::words() const {
+std::string LikelyCause::words() const {
   if (kind.empty()) return "";
   std::string words = kind;
   if (kind != "regular")
@@ -111,13 +111,13 @@ std::string Surroundings::words() const {
   return difference > 0 ? words + fmt::format("; depths differ by {}", difference) : words;
 }
 
-bool Surroundings::covers(const Surroundings& other) const {
+bool LikelyCause::covers(const LikelyCause& other) const {
   if (*this == other || kind.empty() || other.kind.empty() || difference > other.difference) return false;
   if (kind == "regular") return true;
   return kind == other.kind && (valence == other.valence || rank < other.rank) && beside <= other.beside;
 }
 
-Surroundings surroundings(const Result& finding, const AuditMesh& audited) {
+LikelyCause likely_cause(const Result& finding, const AuditMesh& audited) {
   const data::ControlMesh& mesh = audited.mesh;
   // Another order, place or size is that of the whole mesh.
   const auto& relations = relation_rows();
@@ -143,7 +143,7 @@ Surroundings surroundings(const Result& finding, const AuditMesh& audited) {
     const std::tuple here{near[k], at.kind, at.faces};
     if (!cause || here > *cause) cause = here, middle = of_face;
   }
-  Surroundings where;
+  LikelyCause where;
   where.difference = std::min(4, depth_difference(audited, face, around));
   where.kind = "regular";
   if (!cause) return where;
@@ -155,7 +155,7 @@ Surroundings surroundings(const Result& finding, const AuditMesh& audited) {
   return where;
 }
 
-std::string signature(const Result& finding, const Surroundings& where) {
+std::string signature(const Result& finding, const LikelyCause& where) {
   return fmt::format("{}{}{}{}{}",
                      finding.scheme == data::Scheme::kLoop ? "" : "catmull-clark: ", finding.check,
                      finding.status == Status::kFinding ? "" : fmt::format(" ({})", word(finding.status)),

@@ -11,7 +11,7 @@ namespace limitcheck::verify {
 
 /// The likely cause near the place of a finding: of the corners of its face that are not regular, and of its
 /// middle if it is cut into quads, the nearest; or of several equally near the one that most goes with.
-struct Surroundings {
+struct LikelyCause {
   /// "regular", "inner vertex", "boundary vertex", "crease", "dart", "corner", "face"; or empty: the finding
   /// names no face, or is of a relation.
   std::string kind;
@@ -23,16 +23,16 @@ struct Surroundings {
   /// "inner vertex of 7 faces, beside another extraordinary one; depths differ by 3"
   std::string words() const;
   /// A fault there would show in `other`, too, which has all that this has and more.
-  bool covers(const Surroundings& other) const;
+  bool covers(const LikelyCause& other) const;
   /// Less than that of any other that it covers.
   int level() const { return (kind == "regular" ? 0 : 1 + rank) + (beside ? 1 : 0) + difference; }
 
-  friend bool operator==(const Surroundings&, const Surroundings&) = default;
+  friend bool operator==(const LikelyCause&, const LikelyCause&) = default;
 };
 
-Surroundings surroundings(const Result& finding, const AuditMesh& mesh);
+LikelyCause likely_cause(const Result& finding, const AuditMesh& mesh);
 
 /// By which findings are one: scheme, check, status, and the neighbourhood. Stable.
-std::string signature(const Result& finding, const Surroundings& where);
+std::string signature(const Result& finding, const LikelyCause& where);
 
 }  // namespace limitcheck::verify

@@ -61,7 +61,9 @@ std::vector<Vertex> whole(const RowStream& stream, std::span<const Grid> grids, 
 // and positions from both sides of a cut.
 TEST(CutGrids, ShareTheirBorderPointsWithTheOthersBitByBit) {
   std::int64_t compared = 0, across = 0;
-  for (const auto& [name, mesh] : cut_meshes()) {
+  for (const NamedMesh& named : cut_meshes()) {
+    const std::string& name = named.name;  // clang 14 captures no structured bindings
+    const data::ControlMesh& mesh = named.mesh;
     const TriangleMesh cut(mesh);
     const Adjacency& adjacency = cut.adjacency();
     const auto grids = grids_of(cut);
@@ -118,7 +120,9 @@ TEST(CutGrids, ShareTheirBorderPointsWithTheOthersBitByBit) {
 
 // Whatever the order of rows, and past the caches.
 TEST(CutGrids, AreTheSameInEveryForm) {
-  for (const auto& [name, mesh] : cut_meshes()) {
+  for (const NamedMesh& named : cut_meshes()) {
+    const std::string& name = named.name;  // clang 14 captures no structured bindings
+    const data::ControlMesh& mesh = named.mesh;
     const TriangleMesh cut(mesh);
     const RowStream stream(cut);
     const auto grids = grids_of(cut);

@@ -56,7 +56,9 @@ std::vector<Vertex> whole(const QuadRowStream& stream, const QuadMesh& quads, in
 }
 
 TEST(SemiSharpQuads, AreThoseOfTheWindowInDouble) {
-  for (const auto& [name, mesh] : semi_sharp_meshes()) {
+  for (const NamedMesh& named : semi_sharp_meshes()) {
+    const std::string& name = named.name;  // clang 14 captures no structured bindings
+    const data::ControlMesh& mesh = named.mesh;
     const QuadMesh quads(mesh);
     std::vector<Vec3<double>> positions;
     for (const auto& p : quads.positions) positions.push_back({p[0], p[1], p[2]});
@@ -98,7 +100,9 @@ TEST(SemiSharpQuads, AreThoseOfTheWindowInDouble) {
 // positions from both sides of a cut.
 TEST(SemiSharpQuads, ShareTheirBorderPointsWithTheOthersBitByBit) {
   std::int64_t compared = 0, across = 0;
-  for (const auto& [name, mesh] : semi_sharp_meshes()) {
+  for (const NamedMesh& named : semi_sharp_meshes()) {
+    const std::string& name = named.name;  // clang 14 captures no structured bindings
+    const data::ControlMesh& mesh = named.mesh;
     const QuadMesh quads(mesh);
     for (int depth = 0; depth <= 5; ++depth) {
       const int n = side(depth);
@@ -150,7 +154,9 @@ TEST(SemiSharpQuads, ShareTheirBorderPointsWithTheOthersBitByBit) {
 
 // Rows come one by one, whichever corner they are counted from.
 TEST(SemiSharpQuads, HaveTheSameRowsFromEitherCorner) {
-  for (const auto& [name, mesh] : semi_sharp_meshes()) {
+  for (const NamedMesh& named : semi_sharp_meshes()) {
+    const std::string& name = named.name;  // clang 14 captures no structured bindings
+    const data::ControlMesh& mesh = named.mesh;
     const QuadMesh quads(mesh);
     const QuadRowStream stream(quads);
     const int depth = 4, n = side(depth);

@@ -50,11 +50,8 @@ struct CornerBlock {
 /// From a depth on every control edge and every grid has an origin of its own, near it: differences of points
 /// are then formed from small numbers, and normals gain what the mesh is larger than an edge. The edges'
 /// points come from strips along them, which both faces compute alike. Below depth 4 the strips would cost
-/// more than normals need, but for meshes of many vertices with needles: these have origins of their own from
-/// depth 1 on.
+/// more than normals need, but for meshes with low triangles: see local_origins_from.
 inline constexpr int kLocalFrom = 4;
-inline constexpr std::size_t kManyVertices = 8192;
-inline constexpr double kNeedle = 0x1p-11;  ///< height of a triangle beside the size of the mesh
 
 constexpr int corner_block_size(int depth) {
   return CornerBlock::kWindow + 3 * window_width(kA, depth);

@@ -82,17 +82,17 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
   return open;
 }
 
-/// The centres of the corners that are darts.
+/// How the centres of the corners that are darts move.
 template <class T>
 void put_darts(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>::Corner* const* corner, int k,
                int lanes, QuadBatch<T>& batch) {
   T* out = batch.input + (quad_dart_offset(batch.depth) + k * quad_dart_size(batch.depth)) * lanes;
   for (int lane = 0; lane < lanes; ++lane) {
-    const auto* centres = rings.dart(corner[lane]->vertex);
-    if (centres != nullptr) batch.darts |= 1u << k;
-    out[lane] = T(centres != nullptr ? 1 : 0);
+    const auto* moves = rings.dart(corner[lane]->vertex);
+    if (moves != nullptr) batch.darts |= 1u << k;
+    out[lane] = T(moves != nullptr ? 1 : 0);
     for (int t = 0; t < 3 * batch.depth; ++t)
-      out[(1 + t) * lanes + lane] = centres != nullptr ? (*centres)[t / 3][t % 3] : T(0);
+      out[(1 + t) * lanes + lane] = moves != nullptr ? (*moves)[t / 3][t % 3] : T(0);
   }
 }
 

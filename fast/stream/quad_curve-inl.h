@@ -14,14 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
-/// Half the sum of p and q, with few enough digits that moving there and back costs hardly any.
-template <class N, class V>
-HWY_ATTR HWY_INLINE void choose_middle(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
-  const V magic = N::splat(0x1.8p11);
-  for (int c = 0; c < 3; ++c)
-    origin[c] = (N::splat(.5) * (N::load(p + c * N::lanes) + N::load(q + c * N::lanes)) + magic) - magic;
-}
-
 /// Numbers of a side, see QuadCurve. at[r][k]: point k = -1 .. 2 along the side, which runs from 0 to 1; row
 /// 0 is right of it, row 2 left. Half a turn gives the same points in the opposite order, with the same bits.
 template <class N>

@@ -56,8 +56,8 @@ constexpr int quad_block_size(int depth) {
 }
 
 /// Of quads that are streamed: four corner blocks, then per side 1 where it is sharp (a boundary or one side
-/// of a cut), then per side 1 where it is a polynomial, then per corner 1 where it is a dart, and its centre
-/// in the levels from 1 on.
+/// of a cut), then per side 1 where it is a polynomial, then per corner 1 where it is a dart, and for each
+/// level from 1 on how far its centre has moved since the level before.
 constexpr int quad_sharp_offset(int depth) {
   return 4 * quad_block_size(depth);
 }
@@ -107,8 +107,9 @@ struct QuadCurve {
 /// last level's: half the memory, and fewer operations. Rows and columns next to the sides are as ever.
 constexpr int kFusedFrom = 5;
 
-/// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, what the
-/// levels take from the corners, the curves of the sides.
+/// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, or, before the
+/// rows begin, what a side needs by itself (two corners, and three rows of two levels in turn); what the
+/// levels take from the corners; the curves of the sides.
 constexpr int quad_row_size(int level) {
   return 3 * ((1 << level) + 3);
 }
@@ -117,8 +118,11 @@ constexpr int quad_rows_offset(int level) {
   for (int l = 1; l < level; ++l) offset += 4 * quad_row_size(l);
   return offset;
 }
+constexpr int quad_side_work_size(int depth) {
+  return 2 * quad_block_size(depth) + 6 * quad_row_size(depth);
+}
 constexpr int quad_border_offset(int depth) {
-  return quad_rows_offset(depth + 1);
+  return std::max(quad_rows_offset(depth + 1), quad_side_work_size(depth));
 }
 constexpr int quad_curves_offset(int depth) {
   return quad_border_offset(depth) + 4 * kQuadBorder * (depth + 1);
@@ -127,8 +131,15 @@ constexpr int quad_patch_offset(int depth) {
   return quad_curves_offset(depth) + 4 * QuadCurve::kSize;
 }
 constexpr int kPatchWork = 48 + 24;  // coefficients of the patch, and of a row
-constexpr int quad_work_size(int depth) {
+/// Points of sides that have origins of their own: of B C, C D and D A, for those of A B leave first.
+constexpr int quad_strips_offset(int depth) {
   return quad_patch_offset(depth) + kPatchWork;
+}
+constexpr int quad_strip_size(int depth) {
+  return 6 * ((1 << depth) + 1);
+}
+constexpr int quad_work_size(int depth) {
+  return quad_strips_offset(depth) + 3 * quad_strip_size(depth);
 }
 
 /// The unit of limit points of a depth, which the rules leave 36 * 4^depth times too large.

@@ -30,6 +30,10 @@ enum class QuadClass : std::uint8_t {
   kSemiSharp  ///< some vertex in semi_sharp.h's steps: not for the kernels
 };
 
+/// place_points, with local origins sooner where some triangle between two sides of a quad is low.
+template <class T>
+PlacedPoints<T> place(const QuadMesh& mesh);
+
 /// Rings and limits of all control vertices of a mesh of quads, T float or double, or a number that knows
 /// linear maps alone (quad_rings_impl.h).
 ///
@@ -40,7 +44,7 @@ enum class QuadClass : std::uint8_t {
 template <class T>
 class BasicQuadRings {
  public:
-  explicit BasicQuadRings(const QuadMesh& mesh) : BasicQuadRings(mesh, place_points<T>(mesh.positions), 0) {}
+  explicit BasicQuadRings(const QuadMesh& mesh) : BasicQuadRings(mesh, place<T>(mesh), 0) {}
   /// Points of the caller's, one per vertex of the adjacency.
   ///   tangent   of numbers without lengths: which limit tangent stands for a vertex's normal, 0 or 1
   BasicQuadRings(const QuadMesh& mesh, PlacedPoints<T> points, int tangent);
@@ -73,9 +77,10 @@ class BasicQuadRings {
   }
   const T* numbers() const { return numbers_.data(); }
 
-  /// The centre of a dart in the levels from 1 on, each 4^level times too large; null for another vertex.
-  using DartCentres = std::array<std::array<T, 3>, kMaxDepth>;
-  const DartCentres* dart(std::int32_t v) const { return darts_.empty() ? nullptr : darts_[v].get(); }
+  /// How far the centre of a dart has moved in each level from 1 on since the level before, 4^level times too
+  /// large; null for another vertex.
+  using DartMoves = std::array<std::array<T, 3>, kMaxDepth>;
+  const DartMoves* dart(std::int32_t v) const { return darts_.empty() ? nullptr : darts_[v].get(); }
   QuadClass kind(std::int32_t face) const { return kinds_[face]; }
 
   const KernelPlacement<T>& placement() const { return placement_; }
@@ -95,7 +100,7 @@ class BasicQuadRings {
   std::vector<std::array<T, QuadCornerBlock::kHead>> heads_;
   std::vector<Corner> corners_;
   std::vector<QuadClass> kinds_;
-  std::vector<std::unique_ptr<DartCentres>> darts_;  // per vertex, or empty
+  std::vector<std::unique_ptr<DartMoves>> darts_;  // per vertex, or empty
   KernelPlacement<T> placement_;
   int tangent_;
   std::int64_t degenerate_normals_ = 0;

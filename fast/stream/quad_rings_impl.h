@@ -161,13 +161,14 @@ void BasicQuadRings<T>::make_dart(std::int32_t v, const OwnQuadStar<Wide>& own) 
   star.star.centre = own.star.centre;
   std::copy_n(own.star.ring, own.star.size(), star.star.ring);
   if (darts_.empty()) darts_.resize(rings_.size());
-  darts_[v] = std::make_unique<DartCentres>();
+  darts_[v] = std::make_unique<DartMoves>();
   S scale(1);
   for (int level = 0; level < kMaxDepth; ++level) {
+    const Vec3<Wide> before = star.star.centre;
     star.subdivide();
     scale = S(4) * scale;
-    const Vec3<T> c = narrow<T>(scale * star.star.centre);
-    (*darts_[v])[level] = {c.x, c.y, c.z};
+    const Vec3<T> moved = narrow<T>(scale * (star.star.centre - before));
+    (*darts_[v])[level] = {moved.x, moved.y, moved.z};
   }
 }
 

@@ -303,6 +303,22 @@ HWY_ATTR HWY_INLINE void scatter_row(Row& row, int size, const Vertex<N>& first,
   N::scatter_vertex(last, out, offset + 12);
 }
 
+/// The same to memory of one's own: points 1 .. size - 1, six vectors each, that of point i to out[6 i].
+template <class N, class Row>
+HWY_ATTR HWY_INLINE void store_row(Row& row, int size, typename N::Scalar* out) {
+  constexpr int step = 6 * N::lanes;
+  Vertex<N> a, b;
+  row.template begin<true>(a);
+  for (int i = 2; i < size; ++i) {
+    out += step;
+    row.template begin<false>(b, a);
+    a.store(out);
+    a = b;
+  }
+  a.root_1(), a.root_2(), a.root_3(), a.root_4(), a.scale();
+  a.store(out + step);
+}
+
 }  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

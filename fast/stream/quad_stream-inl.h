@@ -11,9 +11,11 @@
 #include <array>
 #include <cstddef>
 
+#include "fast/stream/quad_corner-inl.h"
 #include "fast/stream/quad_curve-inl.h"
 #include "fast/stream/quad_layout.h"
 #include "fast/stream/quad_rows-inl.h"
+#include "fast/stream/quad_side-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
@@ -26,7 +28,6 @@ class QuadStream {
  public:
   using Scalar = typename N::Scalar;
   using V = typename N::V;
-  using Block = QuadCornerBlock;
   static constexpr int L = N::lanes;
 
   /// work: quad_work_size(depth) * lanes. It and the input are aligned to 64 bytes and hold finite numbers;
@@ -36,15 +37,17 @@ class QuadStream {
       : batch_(batch),
         depth_(batch.depth),
         fused_(batch.depth >= kFusedFrom),
+        local_(placement.has_local_origin(batch.depth)),
+        side_work_(work),
         border_(work + quad_border_offset(batch.depth) * L),
         curves_(work + quad_curves_offset(batch.depth) * L),
+        strips_(work + quad_strips_offset(batch.depth) * L),
         placement_(placement),
         target_(target) {
     rows_[0] = work;
     for (int level = 1; level <= depth_; ++level) rows_[level] = work + (quad_rows_offset(level) + 3) * L;
     for (int c = 0; c < 3; ++c) centre_[c] = N::splat(placement.centre[c]);
     unit_ = quad_unit(placement.unit, depth_);
-    curve_unit_ = quad_unit(placement.unit, 0);
   }
 
   HWY_ATTR void run() {
@@ -56,87 +59,79 @@ class QuadStream {
     for (int side = 0; side < 4; ++side) {
       if (batch_.some_polynomial >> side & 1) curve(side);
     }
-    for (int corner = 0; corner < 4; ++corner) refine_corner(corner);
+    if (local_) move_origin();
+    for (int k = 0; k < 4; ++k) refine_corner(k);
     for (int j = -1; j <= 3; ++j) receive(1, j);
   }
 
-  /// The side A B alone, which is row 0: the rows next to a side need nothing but themselves and the rings of
-  /// its two ends. The input of the other corners and sides is not looked at.
+  /// The side A B alone, which is row 0. The input of the other corners and sides is not looked at.
   HWY_ATTR void run_side() {
-    if (depth_ == 0) return corners(kA, kB, 0);
-    if (batch_.some_polynomial & 1) curve(kAB);
-    refine_corner(kA), refine_corner(kB);
-    for (int level = 1; level <= depth_; ++level) {
-      const Scalar *s = row(level - 1, -1), *m = row(level - 1, 0), *n = row(level - 1, 1);
-      if (level > 1) {
-        const int size = 1 << (level - 1);
-        refine_odd_quads<N>(s, m, size, row(level, -1));
-        refine_even_quads<N>(s, m, n, size, sharp(kAB), row(level, 0));
-        refine_odd_quads<N>(m, n, size, row(level, 1));
-      }
-      for (int j = -1; j <= 1; ++j) take_bottom(level, j);
-    }
-    limit(row(depth_, -1), row(depth_, 0), row(depth_, 1), 0);
+    if (depth_ > 0 && (batch_.some_polynomial & 1)) curve(kAB);
+    run_first_side();
   }
 
  private:
-  Scalar* block(int corner) const { return batch_.input + corner * quad_block_size(depth_) * L; }
-  const Scalar* limit_of(int corner) const { return block(corner) + Block::kLimit * L; }
-  const Scalar* mask(int offset, unsigned sides, int side) const {
-    return sides >> side & 1 ? batch_.input + (offset + side) * L : nullptr;
+  QuadCorner<N> corner(int k) const { return {batch_, k}; }
+  QuadSideLimit<N> limit_next_to(int side) const {
+    return {batch_, side, placement_, curve_of(side), centre_};
   }
-  const Scalar* sharp(int side) const { return mask(quad_sharp_offset(depth_), batch_.sharp, side); }
+  Scalar* curve_of(int side) const { return curves_ + side * QuadCurve::kSize * L; }
+  const Scalar* sharp(int side) const {
+    return batch_.sharp >> side & 1 ? batch_.input + (quad_sharp_offset(depth_) + side) * L : nullptr;
+  }
 
-  // Entry `core` of a corner's ring, 0 for e- up to 7 for f''.
-  const Scalar* ring(int corner, int core) const {
-    const int period = batch_.period[corner];
-    const int t = period == 0 ? 2 * depth_ + core : core >= period ? core - period : core;
-    return block(corner) + (Block::kWindow + 3 * t) * L;
+  HWY_ATTR void run_first_side() {
+    const QuadSideStream<N> first(batch_, kAB, placement_, curve_of(kAB), side_work_);
+    first.scatter(target_.lane, target_.row_offset(0));
+    if (target_.row) target_.row(target_.context, 0);
+  }
+
+  // The sides before the inside: A B is row 0, the others are kept until their rows come. Then the quad from
+  // an origin on its diagonal.
+  HWY_ATTR void move_origin() {
+    run_first_side();
+    for (const int side : {kBC, kCD, kDA}) {
+      const QuadSideStream<N> stream(batch_, side, placement_, curve_of(side), side_work_);
+      stream.store(strip(side, 0));
+    }
+    V origin[3];
+    choose_middle<N>(corner(kA).centre(), corner(kC).centre(), origin);
+    for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
+    for (int k = 0; k < 4; ++k) {
+      QuadCorner<N> at = corner(k);
+      at.move(origin, batch_.input + k * quad_block_size(depth_) * L);
+    }
+  }
+  // Point k of a side that has an origin of its own.
+  Scalar* strip(int side, int k) const {
+    return strips_ + ((side - kBC) * quad_strip_size(depth_) + 6 * k) * L;
   }
 
   HWY_ATTR void corners(int first, int last, int j) {
     Vertex<N> a, b;
-    a.load(limit_of(first)), b.load(limit_of(last));
+    a.load(corner(first).limit()), b.load(corner(last).limit());
     N::scatter_couple(a, b, target_.lane, target_.row_offset(j));
     if (target_.row) target_.row(target_.context, j);
   }
 
   // The 12 points around a side, before the rings are overwritten.
   HWY_ATTR void curve(int side) {
-    const int p = side, q = (side + 1) % 4;
-    const Scalar* const at[3][4] = {
-        {ring(p, 7), ring(p, 0), ring(q, 6), ring(q, 7)},
-        {ring(p, 6), block(p) + Block::kCentre * L, block(q) + Block::kCentre * L, ring(q, 0)},
-        {ring(p, 5), ring(p, 4), ring(q, 2), ring(q, 1)}};
-    make_curve<N>(at, placement_, curves_ + side * QuadCurve::kSize * L);
+    const QuadCorner<N> p = corner(side), q = corner((side + 1) % 4);
+    const Scalar* const at[3][4] = {{p.ring(7), p.ring(0), q.ring(6), q.ring(7)},
+                                    {p.ring(6), p.centre(), q.centre(), q.ring(0)},
+                                    {p.ring(5), p.ring(4), q.ring(2), q.ring(1)}};
+    make_curve<N>(at, placement_, curve_of(side));
   }
 
   // One corner through all levels; what the rows of each level take from it is kept.
-  HWY_ATTR void refine_corner(int corner) {
-    const int period = batch_.period[corner];
-    for (int level = 0; level < depth_; ++level) {
-      // A ring that is there as a whole stays whole.
-      const int first = period > 0 ? 0 : 2 * level;
-      const int end = period > 0 ? period : quad_window_width(depth_) - 2 * level;
-      if (batch_.open >> corner & 1) {
-        refine_quad_ring<N, false, true>(block(corner), first, end);
-      } else if (period > 0) {
-        refine_quad_ring<N, true, false>(block(corner), first, end);
-      } else {
-        refine_quad_ring<N, false, false>(block(corner), first, end);
-      }
-      if (batch_.darts >> corner & 1) {
-        const Scalar* dart = batch_.input + (quad_dart_offset(depth_) + corner * quad_dart_size(depth_)) * L;
-        Scalar* centre = block(corner) + Block::kCentre * L;
-        for (int c = 0; c < 3; ++c) {
-          const V given = N::load(dart + (1 + 3 * level + c) * L);
-          N::store(N::select(N::load(dart), given, N::load(centre + c * L)), centre + c * L);
-        }
-      }
-      Scalar* kept = border(level + 1, corner);
-      for (int c = 0; c < 3 * L; c += L) N::store(N::load(block(corner) + Block::kCentre * L + c), kept + c);
-      for (int k = 0; k < kQuadCore; ++k) {
-        for (int c = 0; c < 3 * L; c += L) N::store(N::load(ring(corner, k) + c), kept + 3 * (k + 1) * L + c);
+  HWY_ATTR void refine_corner(int k) {
+    QuadCorner<N> at = corner(k);
+    for (int level = 1; level <= depth_; ++level) {
+      at.refine(level - 1);
+      Scalar* kept = border(level, k);
+      for (int p = 0; p <= kQuadCore; ++p) {
+        const Scalar* from = at.point(static_cast<RingPoint>(p));
+        for (int c = 0; c < 3 * L; c += L) N::store(N::load(from + c), kept + 3 * p * L + c);
       }
     }
   }
@@ -239,29 +234,6 @@ class QuadStream {
     refine_odd_column<N>(m + right, n + right, sharp(kBC), odd + 3 * (2 * size - 1) * L);
   }
 
-  // Point k of a side counted from its beginning; at: its 3 x 3 neighbours seen along the row or column.
-  HWY_ATTR HWY_INLINE void side_point(int side, int k, const Scalar* const (&at)[3][3],
-                                      Vertex<N>& out) const {
-    const bool all = batch_.all_polynomial >> side & 1;
-    const Scalar* curve = curves_ + side * QuadCurve::kSize * L;
-    if (all) {
-      curve_point<N>(curve, k, depth_, N::splat(curve_unit_), out);
-    } else {
-      const int inner = side == kAB || side == kBC ? 2 : 0;
-      side_limit<N>(at, sharp(side), inner, centre_, N::splat(unit_), out);
-      if (const Scalar* some = mask(quad_polynomial_offset(depth_), batch_.some_polynomial, side)) {
-        const V polynomial = N::load(some);
-        Vertex<N> other;
-        curve_point<N>(curve, k, depth_, N::splat(curve_unit_), other);
-        for (int c = 0; c < 3; ++c) {
-          out.position[c] = N::select(polynomial, other.position[c], out.position[c]);
-          out.normal[c] = N::select(polynomial, other.normal[c], out.normal[c]);
-        }
-      }
-    }
-    out.finish();
-  }
-
   // The ends of row j inside the grid: seen up the column, its right is the right.
   HWY_ATTR HWY_INLINE void column_point(int side, const Scalar* s, const Scalar* m, const Scalar* n, int i,
                                         int j, Vertex<N>& out) const {
@@ -269,51 +241,64 @@ class QuadStream {
     const Scalar* const at[3][3] = {{s + k + step, m + k + step, n + k + step},
                                     {s + k, m + k, n + k},
                                     {s + k - step, m + k - step, n + k - step}};
-    side_point(side, side == kBC ? j : (1 << depth_) - j, at, out);
+    limit_next_to(side).point(side == kBC ? j : (1 << depth_) - j, at, side == kBC ? 2 : 0, out);
   }
-
-  // A row that is a side.
-  struct SideRow {
-    const QuadStream& stream;
-    int side;
-    const Scalar *s, *m, *n;
-    int i = 1;
-    HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
-      const int k = 3 * i * L, step = 3 * L;
-      const Scalar* const at[3][3] = {{s + k - step, s + k, s + k + step},
-                                      {m + k - step, m + k, m + k + step},
-                                      {n + k - step, n + k, n + k + step}};
-      stream.side_point(side, side == kAB ? i : (1 << stream.depth_) - i, at, v);
-      ++i;
-    }
-  };
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
     const std::ptrdiff_t offset = target_.row_offset(j);
-    Vertex<N> first, last;
-    if (j == 0 || j == size) {
-      first.load(limit_of(j == 0 ? kA : kD)), last.load(limit_of(j == 0 ? kB : kC));
-      const int side = j == 0 ? kAB : kCD;
-      if (((batch_.sharp | batch_.some_polynomial) >> side & 1) == 0) {
-        QuadLimitRow<N> row(s, m, n, 1, centre_, unit_);
-        scatter_row<N>(row, size, first, last, target_.lane, offset);
-      } else {
-        SideRow row{*this, side, s, m, n};
-        Vertex<N> a = first, b;
-        for (int i = 0; i < size; i += 2) {
-          row.begin(b);
-          N::scatter_couple(a, b, target_.lane, offset + 6 * i);
-          if (i + 2 < size) row.begin(a);
-        }
-        N::scatter_vertex(last, target_.lane, offset + 6 * size);
-      }
+    if (local_ && j == 0) return;
+    if (local_ && j == size) {
+      last_row(offset);
+    } else if (j == 0 || j == size) {
+      side_row(j == 0 ? kAB : kCD, s, m, n, offset);
     } else {
-      column_point(kDA, s, m, n, 0, j, first);
-      column_point(kBC, s, m, n, size, j, last);
+      Vertex<N> first, last;
+      if (local_) {
+        first.load(strip(kDA, size - j)), last.load(strip(kBC, j));
+      } else {
+        column_point(kDA, s, m, n, 0, j, first), column_point(kBC, s, m, n, size, j, last);
+      }
       inside(s, m, n, j, first, last);
     }
     if (target_.row) target_.row(target_.context, j);
+  }
+
+  // The points of C D, from the last.
+  HWY_ATTR void last_row(std::ptrdiff_t offset) const {
+    const int size = 1 << depth_;
+    Vertex<N> a, b;
+    for (int i = 0; i < size; i += 2) {
+      a.load(strip(kCD, size - i)), b.load(strip(kCD, size - i - 1));
+      N::scatter_couple(a, b, target_.lane, offset + 6 * i);
+    }
+    a.load(strip(kCD, 0));
+    N::scatter_vertex(a, target_.lane, offset + 6 * size);
+  }
+
+  // A row that is a side.
+  HWY_ATTR void side_row(int side, const Scalar* s, const Scalar* m, const Scalar* n, std::ptrdiff_t offset) {
+    const int size = 1 << depth_, step = 3 * L;
+    const QuadSideLimit<N> limits = limit_next_to(side);
+    Vertex<N> a, b, last;
+    a.load(corner(side == kAB ? kA : kD).limit()), last.load(corner(side == kAB ? kB : kC).limit());
+    if (limits.plain()) {
+      QuadLimitRow<N> row(s, m, n, 1, centre_, unit_);
+      return scatter_row<N>(row, size, a, last, target_.lane, offset);
+    }
+    const auto point = [&](int i, Vertex<N>& v) HWY_ATTR {
+      const int k = 3 * i * L;
+      const Scalar* const at[3][3] = {{s + k - step, s + k, s + k + step},
+                                      {m + k - step, m + k, m + k + step},
+                                      {n + k - step, n + k, n + k + step}};
+      limits.point(side == kAB ? i : size - i, at, side == kAB ? 2 : 0, v);
+    };
+    for (int i = 0; i < size; i += 2) {
+      if (i > 0) point(i, a);
+      point(i + 1, b);
+      N::scatter_couple(a, b, target_.lane, offset + 6 * i);
+    }
+    N::scatter_vertex(last, target_.lane, offset + 6 * size);
   }
 
   HWY_ATTR void inside(const Scalar* s, const Scalar* m, const Scalar* n, int j, const Vertex<N>& first,
@@ -337,12 +322,12 @@ class QuadStream {
 
   QuadBatch<Scalar> batch_;
   int depth_;
-  bool fused_;
-  Scalar *border_, *curves_;
+  bool fused_, local_;
+  Scalar *side_work_, *border_, *curves_, *strips_;
   std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
   KernelPlacement<Scalar> placement_;
   V centre_[3];
-  Scalar unit_, curve_unit_;
+  Scalar unit_;
   QuadTarget<Scalar> target_;
 };
 

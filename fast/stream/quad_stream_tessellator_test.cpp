@@ -140,13 +140,13 @@ TEST(QuadStreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
   }
 }
 
-TEST(QuadStreamFrame, NeedsTwoHundredKilobytesPerThreadAtDepthFive) {
+TEST(QuadStreamFrame, NeedsAQuarterOfAMegabytePerThreadAtDepthFive) {
   for (const int size : {5, 20}) {
     const auto mesh = data::quad_torus(size, size);
     StreamTessellator tessellator(mesh, quad_options(Repair::kFan));
     IndexedMesh<float> out;
     tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), 5), out);
-    EXPECT_LE(tessellator.worker_bytes(), 200'000u);
+    EXPECT_LE(tessellator.worker_bytes(), 256u << 10);
     RecordProperty("bytes", std::to_string(tessellator.worker_bytes()));
   }
 }

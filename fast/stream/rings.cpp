@@ -5,30 +5,10 @@
 #include <cmath>
 
 #include "fast/mesh/box.h"
+#include "fast/stream/local_origin.h"
 #include "fast/stream/rings_impl.h"
 
 namespace limitcheck::fast::row_stream {
-
-namespace {
-
-/// Whether a mesh of many vertices has a triangle that is lower than kNeedle of its size, though not flat.
-bool has_needles(const data::ControlMesh& mesh) {
-  if (mesh.positions.size() < kManyVertices) return false;
-  const double height = kNeedle * Box(mesh).size();
-  const auto vertex = [&](std::int32_t v) {
-    const auto& p = mesh.positions[v];
-    return Vec3<double>{p[0], p[1], p[2]};
-  };
-  const data::Triangles triangles = triangles_of(mesh);
-  return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-    const Vec3<double> a = vertex(t[0]), e = vertex(t[1]) - a, f = vertex(t[2]) - a, g = f - e;
-    const Vec3<double> c = cross(e, f);
-    const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), dot(g, g)});
-    return area > 0 && area < height * height * longest;
-  });
-}
-
-}  // namespace
 
 template <class T>
 PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions) {
@@ -58,7 +38,14 @@ PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions) {
 template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh) {
   PlacedPoints<T> placed = place_points<T>(mesh.positions);
-  if (has_needles(mesh)) placed.placement.local_from = 1;
+  const data::Triangles triangles = triangles_of(mesh);
+  placed.placement.local_from = local_origins_from(mesh.positions, triangles.size(), [&](std::size_t t) {
+    const auto vertex = [&](std::size_t k) {
+      const auto& p = mesh.positions[triangles[t][k]];
+      return Vec3<double>{p[0], p[1], p[2]};
+    };
+    return std::array{vertex(0), vertex(1), vertex(2)};
+  });
   return placed;
 }
 

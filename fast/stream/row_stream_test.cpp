@@ -163,6 +163,22 @@ TEST(RowStreamTargets, EachRunsTheCodeItNames) {
   }
 }
 
+TEST(LocalOrigins, BeginTheSoonerTheLowerATriangleIs) {
+  const auto from = [](double height, double size = 1) {
+    data::ControlMesh mesh;
+    mesh.positions = {{0, 0, 0}, {size, 0, 0}, {size / 2, size * height, 0}};
+    mesh.faces.push_back({0, 1, 2});
+    return place<float>(mesh).placement.local_from;
+  };
+  EXPECT_EQ(from(.5), 4);
+  EXPECT_EQ(from(1. / 127), 4);
+  EXPECT_EQ(from(1. / 129), 3);
+  EXPECT_EQ(from(1. / 129, 1e-30), 3);
+  EXPECT_EQ(from(1. / 257), 2);
+  EXPECT_EQ(from(1. / 513), 1);
+  EXPECT_EQ(from(0), 4) << "flat: it has no normal to lose";
+}
+
 /// A sheet of 92 x 91 vertices, of size 1, with a column of needles: 1e-4 wide.
 data::ControlMesh sheet_with_needles() {
   data::ControlMesh mesh = grid_sheet(90, 91);

@@ -97,7 +97,7 @@ def audit(shop):
 
 def proofs(shop):
     for scheme, output in (("loop", "proofs.json"), ("catmull-clark", "proofs-quads.json")):
-        shop.run([shop.limitcheck, "prove", "--scheme", scheme, *(["--depth", "1", "--valences", "3:5"] if shop.quick else []), "--json"],
+        shop.run([shop.limitcheck, "prove", "--scheme", scheme, *(["--set", "sample"] if shop.quick else []), "--json"],
                  output, (0, 1))
 
 
@@ -105,7 +105,7 @@ def benchmark(shop, program, output, cases, *arguments):
     """The JSON of a benchmark's cases."""
     partial = shop.folder / f"{output}.partial"
     try:
-        shop.run([shop.bench / program, f"--benchmark_filter={cases}", *(["--benchmark_min_time=0.03"] if shop.quick else []),
+        shop.run([shop.bench / program, f"--benchmark_filter={cases}", *(["--benchmark_min_time=0.01"] if shop.quick else []),
                   f"--benchmark_out={partial}", "--benchmark_out_format=json", *arguments])
         partial.replace(shop.folder / output)
     finally:
@@ -114,7 +114,7 @@ def benchmark(shop, program, output, cases, *arguments):
 
 def throughput(shop):
     of_loop = "faces:1000/depth:3/threads:1" if shop.quick else "faces:4000/depth:[35]/threads:1|100000/depth:5"
-    of_quads = "depth:3/threads:1" if shop.quick else "depth:[35]/threads:1"
+    of_quads = "faces:400[028]/depth:3/threads:1" if shop.quick else "depth:[35]/threads:1"
     benchmark(shop, "throughput_bench", "throughput.json", f"{of_loop}|write-only|set-up/bumpy/faces:4000", "--scheme=loop")
     benchmark(shop, "throughput_bench", "throughput-quads.json", f"{of_quads}|write-only", "--scheme=catmull-clark")
 

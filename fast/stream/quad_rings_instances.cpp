@@ -8,13 +8,13 @@ template <class T>
 PlacedPoints<T> place(const QuadMesh& mesh) {
   PlacedPoints<T> placed = place_points<T>(mesh.positions);
   const QuadAdjacency& adjacency = mesh.adjacency;
-  const auto sides = 4 * static_cast<std::size_t>(adjacency.face_count());
-  placed.placement.local_from = local_origins_from(mesh.positions, sides, [&](std::size_t t) {
+  const auto halves = 2 * static_cast<std::size_t>(adjacency.face_count());
+  placed.placement.local_from = local_origins_from(mesh.positions, halves, [&](std::size_t t) {
     const auto vertex = [&](std::int32_t v) {
       const auto& p = mesh.positions[v];
       return Vec3<double>{p[0], p[1], p[2]};
     };
-    const auto h = static_cast<std::int32_t>(t);
+    const auto h = static_cast<std::int32_t>(2 * t);  // at corners 0 and 2
     return std::array{vertex(adjacency.origin(h)), vertex(adjacency.target(h)),
                       vertex(adjacency.origin(QuadAdjacency::prev(h)))};
   });

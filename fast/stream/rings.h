@@ -38,7 +38,7 @@ struct PlacedPoints {
 template <class T>
 PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions);
 
-/// The same for triangles, with local origins sooner where they are low.
+/// The same for triangles, with local origins sooner where some are low.
 template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh);
 

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "data/generators/bumpy_sphere.h"
 
@@ -84,9 +87,20 @@ double estimated_seconds(const ProofTask& task) {
   return seconds;
 }
 
+ProofSet sample_of(ProofRequest request) {
+  request.size = ProofSize::kStandard;
+  ProofSet set = proof_set(request);
+  std::map<std::pair<std::string, Arithmetic>, int> seen;
+  std::erase_if(set.tasks, [&](const ProofTask& task) {
+    return seen[{task.group, task.options.arithmetic}]++ % 10 != 0;
+  });
+  return set;
+}
+
 }  // namespace
 
 ProofSet proof_set(const ProofRequest& request) {
+  if (request.size == ProofSize::kSample) return sample_of(request);
   if (request.scheme == data::Scheme::kCatmullClark) return quad_proof_set(request);
   ProofSet set;
   const bool full = request.size == ProofSize::kFull;

@@ -12,6 +12,7 @@
 namespace limitcheck::verify {
 
 enum class ProofSize : std::uint8_t {
+  kSample,    ///< every tenth topology of each group and arithmetic of the standard set: a first look
   kStandard,  ///< every kind of topology; two minutes on two cores
   kFull       ///< deeper, and of Loop's scheme all bumpy spheres; some twenty minutes
 };

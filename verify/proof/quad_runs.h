@@ -101,14 +101,16 @@ class QuadStreamRuns {
 
   bool is_regular() const { return first_.kind(0) == fast::row_stream::QuadClass::kRegular; }
 
-  /// Face 0 row by row, streamed.
+  /// Face 0 row by row, streamed. At depths at which only some meshes have origins near their sides, without
+  /// and with these, one after the other.
   template <class Visit>
   void quad(int depth, Visit&& visit) const {
-    whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
-      const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input.data());
-      fast::row_stream::generic::QuadStream<decltype(lane)>(batch, rings.placement(), work.data(), target)
-          .run();
-    });
+    for (const auto& placement : placements(depth)) {
+      whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
+        const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input.data());
+        fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), target).run();
+      });
+    }
   }
   /// The same as a polynomial: a regular quad alone.
   template <class Visit>
@@ -119,25 +121,37 @@ class QuadStreamRuns {
           .run();
     });
   }
-  /// The sides by themselves, each from its corner on.
+  /// The sides by themselves, each from its corner on; with and without origins, too.
   template <class Visit>
   void sides(int depth, Visit&& visit) const {
     const int size = 1 << depth;
-    for (std::int32_t side = 0; side < 4; ++side) {
-      const auto run = [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
-        const auto batch = fast::row_stream::gather_sides<T>(rings, {&side, 1}, depth, 1, input.data());
-        fast::row_stream::generic::QuadStream<decltype(lane)>(batch, rings.placement(), work.data(), target)
-            .run_side();
-      };
-      const auto first = evaluate<Lane<0>>(first_, depth, 1, run),
-                 second = evaluate<Lane<1>>(second_, depth, 1, run);
-      for (int t = 0; t <= size; ++t) visit(on_side(side, t, size), frame(first, second, t));
+    for (const auto& placement : placements(depth)) {
+      for (std::int32_t side = 0; side < 4; ++side) {
+        const auto run = [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
+          const auto batch = fast::row_stream::gather_sides<T>(rings, {&side, 1}, depth, 1, input.data());
+          fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), target)
+              .run_side();
+        };
+        const auto first = evaluate<Lane<0>>(first_, depth, 1, run),
+                   second = evaluate<Lane<1>>(second_, depth, 1, run);
+        for (int t = 0; t <= size; ++t) visit(on_side(side, t, size), frame(first, second, t));
+      }
     }
   }
 
  private:
   using Rings = fast::row_stream::BasicQuadRings<T>;
+  using Placement = fast::row_stream::KernelPlacement<T>;
   static constexpr std::array<std::int32_t, 1> kFace{0};
+
+  std::vector<Placement> placements(int depth) const {
+    std::vector<Placement> result{first_.placement()};
+    if (depth > 0 && !result[0].has_local_origin(depth)) {
+      result.push_back(result[0]);
+      result[1].local_from = 1;
+    }
+    return result;
+  }
 
   fast::row_stream::PlacedPoints<T> placed() const {
     fast::row_stream::PlacedPoints<T> result{{}, fast::row_stream::KernelPlacement<T>{}};

@@ -19,6 +19,14 @@ std::string line_of(const Json& json) {
 
 }  // namespace
 
+std::size_t Plan::size() const {
+  const std::size_t blocks = units / together + (units % together != 0 ? 1 : 0);
+  if (shard.index >= blocks) return 0;
+  const std::size_t mine = (blocks - 1 - shard.index) / shard.count + 1;
+  const bool last = shard.has(blocks - 1);  // which may be a smaller one
+  return last ? (mine - 1) * together + (units - (blocks - 1) * together) : mine * together;
+}
+
 std::string Journal::first_line() const {
   return line_of({{"program", plan_.program},
                   {"plan", plan_.what},
@@ -42,7 +50,8 @@ Journal::Journal(Plan plan, std::filesystem::path file, bool resume, bool rememb
                       file_.string()));
     while (std::getline(in, line) && !in.eof()) {
       Json json = Json::parse(line, nullptr, false);
-      if (!json.is_object()) break;
+      if (!json.is_object() || !json.contains("result") || !json.value("unit", Json()).is_number_unsigned())
+        break;
       results_[json.at("unit").get<std::size_t>()] = std::move(json.at("result"));
       kept += line + "\n";
     }

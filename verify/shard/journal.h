@@ -24,6 +24,8 @@ struct Plan {
   Shard shard = {};
 
   bool has(std::size_t unit) const { return shard.has(unit / together); }
+  /// How many units the shard has.
+  std::size_t size() const;
 };
 
 /// The results of units, by number; in a file of JSON lines, too, if there is one. The first line says what
@@ -33,8 +35,8 @@ class Journal {
  public:
   /// In memory only.
   explicit Journal(Plan plan) : plan_(std::move(plan)) {}
-  /// Begins a new file. With `resume`, reads the lines of an existing file and appends to them; an incomplete
-  /// last line is dropped. Throws data::ArgumentError: with `resume`, there is no such file, or it is of
+  /// Begins a new file. With `resume`, reads the lines of an existing file and appends to them; a line that
+  /// is incomplete is dropped with all behind it. Throws data::ArgumentError: with `resume`, there is no such file, or it is of
   /// another plan or shard.
   ///   remember   false: results() need not have what is kept from now on
   Journal(Plan plan, std::filesystem::path file, bool resume, bool remember = true);

@@ -18,7 +18,7 @@ struct PartReport {
   std::string containment, printed;  // as in Report (verify/audit/result.h)
   std::string incomplete;            // why not all of the shard is done; empty: all is
 
-  /// Whether each unit of the shard is there.
+  /// Whether each unit of the shard is there, and no other.
   bool is_complete() const;
 };
 

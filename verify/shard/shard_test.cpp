@@ -58,6 +58,27 @@ std::string why_not(const std::vector<PartReport>& parts) {
   return "joined";
 }
 
+TEST(Part, HasAsManyUnitsAsThePlanDealsToIt) {
+  for (std::uint64_t count = 1; count <= 6; ++count)
+    for (std::uint64_t k = 0; k < count; ++k)
+      for (Plan p = plan({k, count}); p.units <= 13; ++p.units)
+        for (p.together = 1; p.together <= 4; ++p.together) {
+          std::size_t units = 0;
+          for (std::size_t unit = 0; unit < p.units; ++unit) units += p.has(unit);
+          EXPECT_EQ(p.size(), units) << p.shard.text() << " " << p.units << " " << p.together;
+        }
+}
+
+// Of a file that somebody wrote: this must not take as long as the plan has units.
+TEST(Part, OfAnEndlessPlanIsIncomplete) {
+  PartReport endless = part({1, 2});
+  endless.plan.units = endless.plan.together = std::size_t{1} << 60;
+  endless.results.clear();
+  PartReport first = endless;
+  first.plan.shard.index = 0;
+  EXPECT_EQ(why_not({endless, first}), "shard 1/2 is incomplete");
+}
+
 TEST(Part, IsRefusedWhereTheWholeWouldBeWrong) {
   EXPECT_EQ(why_not({}), "there is nothing to merge");
   EXPECT_EQ(why_not({part({0, 2})}), "shard 2/2 is missing");
@@ -70,6 +91,10 @@ TEST(Part, IsRefusedWhereTheWholeWouldBeWrong) {
   EXPECT_EQ(why_not({part({0, 2}), other}), "shard 2/2 is incomplete: interrupted by SIGINT");
   other = part({1, 2}), other.results.erase(3);
   EXPECT_EQ(why_not({part({0, 2}), other}), "shard 2/2 is incomplete");
+  other.results[7] = 70;  // as many as it should have
+  EXPECT_EQ(why_not({part({0, 2}), other}), "shard 2/2 is incomplete") << "there is no unit 7";
+  other.results.erase(7), other.results[3] = 30, other.results[4] = 40;
+  EXPECT_EQ(why_not({part({0, 2}), other}), "shard 2/2 is incomplete") << "unit 4 is of the other shard";
   for (const char* text : {"", "[]", "{}", "{\"program\": \"limitcheck audit\", \"results\": []}"})
     EXPECT_THROW(read_part(text), data::ArgumentError) << text;
 }
@@ -102,6 +127,7 @@ TEST_F(JournalTest, KnowsWhatWasDoneBeforeTheProgramEnded) {
     EXPECT_EQ(again.recall(4), nullptr);
     again.keep(4, "y");
   }
+  std::ofstream(file_, std::ios::app) << "{\"nothing\": 1}\n";
   Journal third(plan({}), file_, true);
   EXPECT_EQ(third.results().size(), 3U);
   EXPECT_THROW(Journal(plan({}, 2), file_, true), data::ArgumentError) << "of another plan";

@@ -102,7 +102,8 @@ class QuadSideStream {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
     if (placement.has_local_origin(depth_)) {
       choose_middle<N>(p_.centre(), q_.centre(), origin);
-      if (!limit_.all_polynomial()) p_.move(origin, work), q_.move(origin, work + quad_block_size(depth_) * L);
+      if (!limit_.all_polynomial())
+        p_.move(origin, work), q_.move(origin, work + quad_block_size(depth_) * L);
     }
     for (int c = 0; c < 3; ++c)
       centre_[c] = N::fma(origin[c], N::splat(placement.unit), N::splat(placement.centre[c]));

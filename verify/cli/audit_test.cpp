@@ -102,6 +102,17 @@ TEST_F(AuditCommand, OurEngineHoldsAtRandomAndAtViewDependentDepths) {
   }
 }
 
+// Hunts found these: from an origin common to the mesh, normals of faces that are small beside it were off.
+TEST_F(AuditCommand, RowStreamingHoldsOnFacesFarFromTheOrigin) {
+  for (const char* arguments :
+       {"stretched:3:random:721344855:149 --depth 3 --level quick --depths random:219857:visible",
+        "turned:222828:mixed-creased:110777438:172 --depth 4 --scheme catmull-clark --level thorough "
+        "--depths random:502895:visible"}) {
+    const Outcome o = run(std::string("audit row-stream ") + arguments);
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+  }
+}
+
 TEST_F(AuditCommand, WithoutMeshesAndDepthsFollowsThePlanAndWithDepthsAsksJustThose) {
   const auto depths = [&](const std::string& arguments) {
     const Outcome o = run("audit null --level quick --json - " + arguments);

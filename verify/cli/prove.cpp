@@ -124,8 +124,8 @@ void certify(const verify::ProofRequest& what, verify::Journal& journal) {
   if (what.sliding_window) kernels.push_back(verify::FloatKernel::kSlidingWindow);
   if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
   const int points = what.size == verify::ProofSize::kSample ? 1 : 12;
-  journal.keep(unit, verify::certified_json(
-                         verify::certify_stock_shapes(kernels, std::min(what.depth, 4), points, what.scheme)));
+  journal.keep(unit, verify::certified_json(verify::certify_stock_shapes(kernels, std::min(what.depth, 4),
+                                                                         points, what.scheme)));
 }
 
 // The results as they are in a journal or in parts.
@@ -211,9 +211,10 @@ void add_prove(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"sliding-window", "row-stream", "all"}))
       ->capture_default_str();
   command
-      ->add_option("--set", request->set,
-                   "How much: standard takes three minutes on two cores, full some twenty, sample, a tenth of "
-                   "the standard set, a quarter of one")
+      ->add_option(
+          "--set", request->set,
+          "How much: standard takes three minutes on two cores, full some twenty, sample, a tenth of "
+          "the standard set, a quarter of one")
       ->check(CLI::IsMember({"sample", "standard", "full"}))
       ->capture_default_str();
   command->add_flag("--each", request->each, "A line for every topology, not for every group of them");

@@ -145,16 +145,36 @@ class EmbreeSubject {
     }
   }
 
+  // Its rings are arrays of 64 faces and 128 points; Debian's library asserts that they suffice. A face of n
+  // corners adds n - 2 points, and the boundary one more and a face with a point that stand for the outside.
   void refuse_beyond_its_arrays() const {
-    constexpr int kMostCorners = 15, kMostFaces = 64;
-    std::vector<int> faces(static_cast<std::size_t>(mesh_.vertex_count));
-    for (std::int64_t k = 0; k < mesh_.corner_count; ++k) {
-      if (++faces[static_cast<std::size_t>(mesh_.corners[k])] > kMostFaces)
-        throw SubjectError(LC_NOT_SUPPORTED, "Embree has no vertices of more than 64 faces");
-    }
-    for (std::int64_t f = 0; f < mesh_.face_count; ++f)
-      if (mesh_.face_sizes[f] > kMostCorners)
+    constexpr int kMostCorners = 15, kMostFaces = 64, kMostPoints = 128;
+    struct Ring {
+      int faces = 0, points = 0;
+      std::vector<std::uint32_t> after,
+          before;  // neighbours, by the faces that have the edge to and from them
+    };
+    std::vector<Ring> rings(static_cast<std::size_t>(mesh_.vertex_count));
+    for (std::int64_t f = 0, first = 0; f < mesh_.face_count; first += mesh_.face_sizes[f++]) {
+      const int n = mesh_.face_sizes[f];
+      if (n > kMostCorners)
         throw SubjectError(LC_NOT_SUPPORTED, "Embree has no faces of more than 15 corners");
+      for (int k = 0; k < n; ++k) {
+        Ring& ring = rings[static_cast<std::size_t>(mesh_.corners[first + k])];
+        ring.faces += 1, ring.points += n - 2;
+        ring.after.push_back(static_cast<std::uint32_t>(mesh_.corners[first + (k + 1) % n]));
+        ring.before.push_back(static_cast<std::uint32_t>(mesh_.corners[first + (k + n - 1) % n]));
+      }
+    }
+    for (Ring& ring : rings) {
+      std::sort(ring.after.begin(), ring.after.end());
+      std::sort(ring.before.begin(), ring.before.end());
+      if (ring.after != ring.before) ring.faces += 1, ring.points += 2;
+      if (ring.faces > kMostFaces || ring.points > kMostPoints)
+        throw SubjectError(
+            LC_NOT_SUPPORTED,
+            "Embree has no rings of more than 64 faces, with one for the boundary, or 128 points");
+    }
   }
 
   const lc_mesh mesh_;

@@ -16,8 +16,9 @@
 namespace limitcheck::fast::row_stream {
 
 /// Seen from an origin common to the mesh, normals at depth d lose 2^d s / h roundings or more, where s is the
-/// size of the mesh and h the height of a triangle. So many are let pass before depth 4.
-inline constexpr double kMostRoundings = 1024;
+/// size of the mesh and h the height of a triangle. So many are let pass before depth 4: not a power of two,
+/// for meshes in which s / h is one, where rounding would decide differently for each way to write them.
+inline constexpr double kMostRoundings = 1023;
 /// Meshes of so many vertices have low triangles anyway, and time to lose: origins of their own cost 40 to
 /// 60 % at the least depths. They have them only if there are needles: triangles so low beside the mesh.
 inline constexpr std::size_t kManyVertices = 8192;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <span>
 
 #include "fast/mesh/box.h"
@@ -24,26 +22,21 @@ inline constexpr double kMostRoundings = 1023;
 inline constexpr std::size_t kManyVertices = 8192;
 inline constexpr double kNeedle = 0x1p-11;
 
-/// The square of the least height of the triangles that are not flat; infinity if there is none. `triangle`:
-/// three points of number t.
-template <class Triangle>
-double least_squared_height(std::size_t triangles, const Triangle& triangle) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < triangles; ++t) {
-    const std::array<Vec3<double>, 3> p = triangle(t);
-    const Vec3<double> e = p[1] - p[0], f = p[2] - p[0], g = f - e, c = cross(e, f);
-    const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), dot(g, g)});
-    if (area > 0 && area < least * longest) least = area / longest;
-  }
-  return least;
+/// The square of the height of the triangle between e and f over the longest of these and `third`, if that is
+/// less than `least`. 0 is none: a flat triangle has no normal to lose.
+inline double lesser_squared_height(const Vec3<double>& e, const Vec3<double>& f, double third,
+                                    double least) {
+  const Vec3<double> c = cross(e, f);
+  const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), third});
+  return area > 0 && area < least * longest ? area / longest : least;
 }
 
 /// A value for KernelPlacement::local_from.
-template <class Triangle>
-int local_origins_from(std::span<const std::array<double, 3>> positions, std::size_t triangles,
-                       const Triangle& triangle) {
+///   least   the square of the least height that is not 0; infinity if there is none. It must not depend on how
+///           the mesh is written down, or its bits would.
+inline int local_origins_from(std::span<const std::array<double, 3>> positions, double least) {
   if (positions.empty()) return kLocalFrom;
-  const double size = Box(positions).size(), least = least_squared_height(triangles, triangle);
+  const double size = Box(positions).size();
   const auto lower_than = [&](double share) { return least < share * share * size * size; };
   if (positions.size() >= kManyVertices) return lower_than(kNeedle) ? 1 : kLocalFrom;
   int depth = 1;

@@ -30,7 +30,7 @@ enum class QuadClass : std::uint8_t {
   kSemiSharp  ///< some vertex in semi_sharp.h's steps: not for the kernels
 };
 
-/// place_points, with local origins sooner where a half of some quad is low.
+/// place_points, with local origins sooner where two sides of a quad span a low triangle.
 template <class T>
 PlacedPoints<T> place(const QuadMesh& mesh);
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <array>
+#include <limits>
+
 #include "fast/stream/local_origin.h"
 #include "fast/stream/quad_rings_impl.h"
 
@@ -8,16 +11,18 @@ template <class T>
 PlacedPoints<T> place(const QuadMesh& mesh) {
   PlacedPoints<T> placed = place_points<T>(mesh.positions);
   const QuadAdjacency& adjacency = mesh.adjacency;
-  const auto halves = 2 * static_cast<std::size_t>(adjacency.face_count());
-  placed.placement.local_from = local_origins_from(mesh.positions, halves, [&](std::size_t t) {
-    const auto vertex = [&](std::int32_t v) {
-      const auto& p = mesh.positions[v];
-      return Vec3<double>{p[0], p[1], p[2]};
-    };
-    const auto h = static_cast<std::int32_t>(2 * t);  // at corners 0 and 2
-    return std::array{vertex(adjacency.origin(h)), vertex(adjacency.target(h)),
-                      vertex(adjacency.origin(QuadAdjacency::prev(h)))};
-  });
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
+    std::array<Vec3<double>, 4> side;
+    for (int k = 0; k < 4; ++k) {
+      const auto &p = mesh.positions[adjacency.corner(f, k)],
+                 &q = mesh.positions[adjacency.corner(f, (k + 1) % 4)];
+      side[k] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+    }
+    // At every corner: which is the first is a matter of writing.
+    for (std::size_t k = 0; k < 4; ++k) least = lesser_squared_height(side[k], side[(k + 1) % 4], 0, least);
+  }
+  placed.placement.local_from = local_origins_from(mesh.positions, least);
   return placed;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fast/mesh/box.h"
 #include "fast/stream/local_origin.h"
@@ -38,14 +39,14 @@ PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions) {
 template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh) {
   PlacedPoints<T> placed = place_points<T>(mesh.positions);
-  const data::Triangles triangles = triangles_of(mesh);
-  placed.placement.local_from = local_origins_from(mesh.positions, triangles.size(), [&](std::size_t t) {
-    const auto vertex = [&](std::size_t k) {
-      const auto& p = mesh.positions[triangles[t][k]];
-      return Vec3<double>{p[0], p[1], p[2]};
-    };
-    return std::array{vertex(0), vertex(1), vertex(2)};
-  });
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& t : triangles_of(mesh)) {
+    const auto &p = mesh.positions[t[0]], &q = mesh.positions[t[1]], &r = mesh.positions[t[2]];
+    const Vec3<double> e{q[0] - p[0], q[1] - p[1], q[2] - p[2]}, f{r[0] - p[0], r[1] - p[1], r[2] - p[2]},
+        g = f - e;
+    least = lesser_squared_height(e, f, dot(g, g), least);
+  }
+  placed.placement.local_from = local_origins_from(mesh.positions, least);
   return placed;
 }
 

@@ -119,6 +119,12 @@ Constant as_constant(const BoundForm& form) {
   return {value, error, form.slop};
 }
 
+// Whether b is a constant, too, and better known: then a's errors are kept apart, as they may leave again. The
+// middle of a straight side, seen from an origin there, is such a constant: 0, and the error of the origin.
+bool is_worse_factor(const BoundForm& a, const BoundForm& b) {
+  return b.is_constant() && as_constant(b).error < as_constant(a).error;
+}
+
 // k x + sign c without rounding; what the error of k adds is in `extra`.
 BoundForm times(const Constant& k, const BoundForm& x, double sign, const BoundForm& c, double& magnitude,
                 double& extra) {
@@ -206,6 +212,7 @@ BoundForm BoundForm::product(const BoundForm& a, const BoundForm& b, bool single
   if (!a.bounded() || !b.bounded()) return unbounded();
   if (a.is_zero() || b.is_zero()) return {};
   if (!a.is_constant()) return b.is_constant() ? product(b, a, single) : unbounded();
+  if (is_worse_factor(a, b)) return product(b, a, single);
   const Constant k = as_constant(a);
   if (k.exact() && is_power_of_two(k.value)) {
     BoundForm out = b;
@@ -243,6 +250,7 @@ BoundForm BoundForm::fused(const BoundForm& a, const BoundForm& b, double sign, 
   if (!a.bounded() || !b.bounded() || !c.bounded()) return unbounded();
   if (a.is_zero() || b.is_zero()) return sign > 0 ? c : negated(c);
   if (!a.is_constant()) return b.is_constant() ? fused(b, a, sign, c) : unbounded();
+  if (is_worse_factor(a, b)) return fused(b, a, sign, c);
   const Constant k = as_constant(a);
   if (k.exact() && is_power_of_two(k.value) && c.is_zero()) return product(a, b, true);
   double magnitude = 0, extra = 0;

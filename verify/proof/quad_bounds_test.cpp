@@ -47,6 +47,19 @@ TEST(Proof_QuadBounds, HoldAtBoundariesCutsAndSemiSharpEdges) {
   expect_bounded(BoundedKernel::kSlidingWindow, semi_sharp_quads({4, 5, 3, 6})[40], 2);
 }
 
+// Both ends of D A are held, so it is straight, and its middle is 0 as seen from the side's own origin: what
+// that origin was rounded by must leave the bound again.
+TEST(Proof_QuadBounds, HoldOnAStraightSide) {
+  int found = 0;
+  for (const Neighbourhood& quad : creased_quads({4, 4, 4, 4})) {
+    if (quad.name != "4 4 4 4 AB CD DA A+ D+") continue;
+    ++found;
+    for (const BoundedKernel kernel : {BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge})
+      expect_bounded(kernel, quad, 2);
+  }
+  EXPECT_EQ(found, 1);
+}
+
 // A kernel whose sums, products or constants are taken as exact has smaller bounds: each counts.
 TEST(Proof_QuadBounds, CountEveryKindOfRounding) {
   const Neighbourhood quad = interior_quad({3, 5, 4, 8});

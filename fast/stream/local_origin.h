@@ -17,8 +17,8 @@ namespace limitcheck::fast::row_stream {
 /// size of the mesh and h the height of a triangle. So many are let pass before depth 4: not a power of two,
 /// for meshes in which s / h is one, where rounding would decide differently for each way to write them.
 inline constexpr double kMostRoundings = 1023;
-/// Meshes of so many vertices have low triangles anyway, and time to lose: origins of their own cost 40 to
-/// 60 % at the least depths. They have them only if there are needles: triangles so low beside the mesh.
+/// Meshes of so many vertices have low triangles anyway, and origins of their own cost 40 to 60 % of the time at
+/// the least depths. So they have them only if there are needles: triangles lower than this beside the mesh.
 inline constexpr std::size_t kManyVertices = 8192;
 inline constexpr double kNeedle = 0x1p-11;
 

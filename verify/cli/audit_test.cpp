@@ -113,6 +113,18 @@ TEST_F(AuditCommand, RowStreamingHoldsOnFacesFarFromTheOrigin) {
   }
 }
 
+// Beyond Embree's arrays an assertion of the library would end the audit.
+TEST_F(AuditCommand, EmbreeIsNotHandedRingsBeyondItsArrays) {
+  const std::string rest = " --depth 0 --level quick --details";
+  const Outcome most = run("audit embree quad-fan:63 quad-wheel:64" + rest);
+  EXPECT_EQ(most.out.find("Embree has no rings"), std::string::npos) << most.out;
+  const Outcome more = run("audit embree quad-fan:64 quad-wheel:65" + rest);
+  EXPECT_EQ(more.code, 1) << more.out << more.err;
+  EXPECT_NE(more.out.find("Embree has no rings of more than 64 faces"), std::string::npos) << more.out;
+  for (const Outcome* o : {&most, &more})
+    EXPECT_NE(o->out.find("not supported or not run"), std::string::npos) << "came to its end: " << o->err;
+}
+
 TEST_F(AuditCommand, WithoutMeshesAndDepthsFollowsThePlanAndWithDepthsAsksJustThose) {
   const auto depths = [&](const std::string& arguments) {
     const Outcome o = run("audit null --level quick --json - " + arguments);

@@ -213,8 +213,8 @@ void add_prove(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--set", request->set,
-          "How much: standard takes three minutes on two cores, full some twenty, sample, a tenth of "
-          "the standard set, a quarter of one")
+          "How much: standard takes three minutes on two cores, full some twenty; sample, every tenth "
+          "topology of the standard set, takes ten seconds")
       ->check(CLI::IsMember({"sample", "standard", "full"}))
       ->capture_default_str();
   command->add_flag("--each", request->each, "A line for every topology, not for every group of them");

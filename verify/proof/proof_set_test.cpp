@@ -121,6 +121,26 @@ TEST(Proof_Set, HoldsEveryWayToTakeFacesAwayAroundTheRegularPair) {
   EXPECT_TRUE(names.empty()) << "the shallow group holds them, too";
 }
 
+TEST(Proof_Set, OfASampleHasEveryTenthOfEachGroupAndArithmetic) {
+  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+    ProofRequest request;
+    request.scheme = scheme;
+    request.valences = {3, 4, 5};
+    std::map<std::pair<std::string, Arithmetic>, std::vector<std::string>> standard, sample;
+    for (const ProofTask& task : proof_set(request).tasks)
+      standard[{task.group, task.options.arithmetic}].push_back(task.neighbourhood.name);
+    request.size = ProofSize::kSample;
+    for (const ProofTask& task : proof_set(request).tasks)
+      sample[{task.group, task.options.arithmetic}].push_back(task.neighbourhood.name);
+    ASSERT_EQ(sample.size(), standard.size()) << "no group is left out";
+    for (const auto& [group, names] : standard) {
+      std::vector<std::string> expected;
+      for (std::size_t k = 0; k < names.size(); k += 10) expected.push_back(names[k]);
+      EXPECT_EQ(sample[group], expected) << group.first;
+    }
+  }
+}
+
 TEST(Proof_Set, HoldsHighValencesAndTheFaceAlone) {
   const ProofSet& set = full_set();
   EXPECT_EQ(tasks_of(set, "high", Arithmetic::kResidues).size(), 3U * 4);

@@ -68,20 +68,22 @@ class EdgeStream {
       N::store(N::load(end_limit(0) + k), out + k);
       N::store(N::load(end_limit(1) + k), out + 6 * size * L + k);
     }
-    row(nullptr, 0).store(1, size, out);
+    row(LaneRow<N>{nullptr, 0}).store(1, size, out);
   }
-  /// or to each lane's own memory.
-  HWY_ATTR void scatter(Scalar* out, std::ptrdiff_t lane_stride) const {
-    row(out, lane_stride).run(1 << depth_, end_limit(0), 0, nullptr, end_limit(1));
+  /// or as a row.
+  template <class Row>
+  HWY_ATTR void scatter(const Row& to) const {
+    row(to).run(1 << depth_, end_limit(0), 0, nullptr, end_limit(1));
   }
 
  private:
   const Scalar* end_limit(int end) const { return block_[end] + CornerBlock::kLimit * L; }
 
   // Seen as rows of a grid: up begins half an edge further right there.
-  HWY_ATTR LimitRow<N> row(Scalar* out, std::ptrdiff_t lane_stride) const {
+  template <class Row>
+  HWY_ATTR LimitRow<N, Row> row(const Row& to) const {
     const int k = depth_ % 2;
-    return LimitRow<N>(down_[k], line_[k], up_[k] - 3 * L, centre_, unit_, out, lane_stride);
+    return LimitRow<N, Row>(down_[k], line_[k], up_[k] - 3 * L, centre_, unit_, to);
   }
 
   // Window of an end at a level: three entries, the middle one along the edge, and more on either side.

@@ -59,7 +59,7 @@ class NumberStream {
     for (std::size_t p = 0; p < grids.size(); ++p, out += 6 * side * side) {
       gather(adjacency_, rings_, grids.subspan(p, 1), depth, 1, input.data());
       const Target<T> target{out, 0, 6 * side, nullptr, nullptr};
-      generic::Stream<N>(input.data(), depth, rings_.placement(), work.data(), target).run();
+      generic::Stream<N>(input.data(), depth, rings_.placement(), work.data(), {target}).run();
     }
   }
 

@@ -30,10 +30,10 @@ std::vector<double> evaluate(const BasicQuadRings<double>& rings, std::int32_t f
   const QuadTarget<double> target{&lane, 6 * n, nullptr, nullptr};
   if (as_patch) {
     const auto batch = gather_patches<double>(rings, {&face, 1}, depth, 1, input.data());
-    generic::QuadPatch<Number>(batch, rings.placement(), work.data(), target).run();
+    generic::QuadPatch<Number>(batch, rings.placement(), work.data(), {target}).run();
   } else {
     const auto batch = gather_quads<double>(rings, {&face, 1}, depth, 1, input.data());
-    generic::QuadStream<Number>(batch, rings.placement(), work.data(), target).run();
+    generic::QuadStream<Number>(batch, rings.placement(), work.data(), {target}).run();
   }
   return out;
 }

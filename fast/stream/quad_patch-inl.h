@@ -19,7 +19,7 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 /// `lanes` quads of one depth whose four vertices are interior and of four quads each. Differences are formed
 /// on the control net, seen from an origin of the quad's own, so the normals are as good at every depth.
-template <class N>
+template <class N, class To = QuadLaneTarget<N>>
 class QuadPatch {
  public:
   using Scalar = typename N::Scalar;
@@ -28,7 +28,7 @@ class QuadPatch {
 
   /// input: kPatchSize * lanes numbers, left alone; work as for QuadStream.
   HWY_ATTR QuadPatch(const QuadBatch<Scalar>& batch, const KernelPlacement<Scalar>& placement, Scalar* work,
-                     const QuadTarget<Scalar>& target)
+                     const To& target)
       : input_(batch.input),
         depth_(batch.depth),
         curves_(work + quad_curves_offset(batch.depth) * L),
@@ -43,19 +43,19 @@ class QuadPatch {
     prepare();
     const int size = 1 << depth_;
     for (int j = 0; j <= size; ++j) {
-      const std::ptrdiff_t offset = target_.row_offset(j);
+      const auto to = target_.row(j);
       Vertex<N> first, last;
       if (j == 0 || j == size) {
         first.load(limit_of(j == 0 ? 0 : 3)), last.load(limit_of(j == 0 ? 1 : 2));
-        side_row(j == 0 ? kAB : kCD, first, last, offset);
+        side_row(j == 0 ? kAB : kCD, first, last, to);
       } else {
         curve(kDA, size - j, first), curve(kBC, j, last);
         first.finish(), last.finish();
         make_row(j);
         Inside row(row_, centre_, unit_, 1. / size);
-        scatter_row<N>(row, size, first, last, target_.lane, offset);
+        scatter_row<N>(row, size, first, last, to);
       }
-      if (target_.row) target_.row(target_.context, j);
+      target_.done(j);
     }
   }
 
@@ -169,19 +169,20 @@ class QuadPatch {
     V centre_[3], unit_, t_, step_;
   };
 
-  HWY_ATTR void side_row(int side, const Vertex<N>& first, const Vertex<N>& last, std::ptrdiff_t offset) {
+  HWY_ATTR void side_row(int side, const Vertex<N>& first, const Vertex<N>& last,
+                         const typename To::Row& to) {
     const int size = 1 << depth_;
-    if (size == 1) return N::scatter_couple(first, last, target_.lane, offset);
+    if (size == 1) return to.couple(0, first, last);
     Vertex<N> a = first, b;
     for (int i = 0; i < size; i += 2) {
       curve(side, side == kAB ? i + 1 : size - i - 1, b);
       b.finish();
-      N::scatter_couple(a, b, target_.lane, offset + 6 * i);
+      to.couple(i, a, b);
       if (i + 2 == size) break;
       curve(side, side == kAB ? i + 2 : size - i - 2, a);
       a.finish();
     }
-    N::scatter_vertex(last, target_.lane, offset + 6 * size);
+    to.vertex(size, last);
   }
 
   const Scalar* input_;
@@ -190,7 +191,7 @@ class QuadPatch {
   KernelPlacement<Scalar> placement_;
   V centre_[3];
   Scalar unit_;
-  QuadTarget<Scalar> target_;
+  To target_;
 };
 
 }  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE

@@ -79,17 +79,24 @@ struct Evaluation {
 
   void run(QuadClass kind, std::span<const std::uint32_t> index, const QuadTarget<float>& target) {
     if (kind == QuadClass::kSemiSharp) return run_alone(faces[index.front()], target);
-    std::array<std::int32_t, kMaxLanes> face;
-    for (std::size_t k = 0; k < index.size(); ++k) face[k] = faces[index[k]];
-    const std::span<const std::int32_t> some(face.data(), index.size());
-    const bool regular = kind == QuadClass::kRegular;
-    const auto batch =
-        (regular ? gather_patches<float> : gather_quads<float>)(rings, some, depth, kernel.lanes,
-                                                                workspace.input.data(), order);
-    (regular ? kernel.patches : kernel.quads)(batch, rings.placement(), workspace.work.data(), target);
+    (kind == QuadClass::kRegular ? kernel.patches : kernel.quads)(gathered(kind, index), rings.placement(),
+                                                                  workspace.work.data(), target);
+  }
+  /// Past the caches; nothing semi-sharp.
+  void run_lines(QuadClass kind, std::span<const std::uint32_t> index, float* const* lane) {
+    (kind == QuadClass::kRegular ? kernel.patch_lines : kernel.quad_lines)(
+        gathered(kind, index), rings.placement(), workspace.work.data(), lane);
   }
 
  private:
+  QuadBatch<float> gathered(QuadClass kind, std::span<const std::uint32_t> index) {
+    std::array<std::int32_t, kMaxLanes> face;
+    for (std::size_t k = 0; k < index.size(); ++k) face[k] = faces[index[k]];
+    const std::span<const std::int32_t> some(face.data(), index.size());
+    const auto gather = kind == QuadClass::kRegular ? gather_patches<float> : gather_quads<float>;
+    return gather(rings, some, depth, kernel.lanes, workspace.input.data(), order);
+  }
+
   void run_alone(std::int32_t face, const QuadTarget<float>& target) {
     if (!alone) alone.emplace(*semi_sharp, rings, depth);
     const auto n = static_cast<std::size_t>(side(depth));
@@ -113,6 +120,26 @@ void visit_row(void* context, int j) {
   Rows& rows = *static_cast<Rows*>(context);
   rows.view.j = j;
   rows.visit(rows.context, rows.view);
+}
+
+// Rows of whole quads past the caches.
+void write_runs(const QuadRowStream& stream, std::span<const std::int32_t> faces, int depth,
+                Workspace& workspace, Vertex* out) {
+  struct Runs {
+    std::array<LineStream, kMaxLanes> lane;
+    Vertex* out;
+    static void visit(void* context, const QuadRowView& view) {
+      auto& runs = *static_cast<Runs*>(context);
+      const auto n = static_cast<std::size_t>(side(view.depth));
+      for (std::size_t k = 0; k < view.index.size(); ++k) {
+        if (view.j == 0) runs.lane[k].start(reinterpret_cast<std::byte*>(runs.out + n * n * view.index[k]));
+        runs.lane[k].append(reinterpret_cast<const std::byte*>(view.vertices(k)), n * sizeof(Vertex));
+        if (view.j + 1 == static_cast<int>(n)) runs.lane[k].finish();
+      }
+    }
+  } runs;
+  runs.out = out;
+  stream.rows(faces, depth, workspace, &Runs::visit, &runs);
 }
 
 }  // namespace
@@ -179,21 +206,23 @@ void QuadRowStream::whole(std::span<const std::int32_t> faces, int depth, Worksp
 
 void QuadRowStream::streamed(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
                              Vertex* out) const {
-  struct Lines {
-    std::array<LineStream, kMaxLanes> lane;
-    Vertex* out;
-    static void visit(void* context, const QuadRowView& view) {
-      auto& lines = *static_cast<Lines*>(context);
-      const auto n = static_cast<std::size_t>(side(view.depth));
-      for (std::size_t k = 0; k < view.index.size(); ++k) {
-        if (view.j == 0) lines.lane[k].start(reinterpret_cast<std::byte*>(lines.out + n * n * view.index[k]));
-        lines.lane[k].append(reinterpret_cast<const std::byte*>(view.vertices(k)), n * sizeof(Vertex));
-        if (view.j + 1 == static_cast<int>(n)) lines.lane[k].finish();
+  if (kernel_.quad_lines == nullptr) {
+    write_runs(*this, faces, depth, workspace, out);
+  } else {
+    prepare(workspace, depth, kernel_.lanes);
+    Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace};
+    const auto size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
+    Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
+      if (kind == QuadClass::kSemiSharp) {
+        const std::size_t k = index.front();
+        return write_runs(*this, faces.subspan(k, 1), depth, workspace, out + size * k);
       }
-    }
-  } lines;
-  lines.out = out;
-  rows(faces, depth, workspace, &Lines::visit, &lines);
+      std::array<float*, kMaxLanes> lane;
+      for (std::size_t k = 0; k < lane.size(); ++k)
+        lane[k] = out[size * index[std::min(k, index.size() - 1)]].position;
+      evaluation.run_lines(kind, index, lane.data());
+    });
+  }
   fence_streams();
 }
 

@@ -134,7 +134,7 @@ TEST(QuadStreamOrigins, KeepNormalsToAHundredThousandthAtDepthsFourAndFive) {
     const QuadTarget<double> target{&lane, static_cast<std::ptrdiff_t>(6 * n), nullptr, nullptr};
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const auto batch = gather_quads<double>(rings, {&faces[f], 1}, depth, 1, input.data());
-      generic::QuadStream<ScalarNumber<double>>(batch, rings.placement(), work.data(), target).run();
+      generic::QuadStream<ScalarNumber<double>>(batch, rings.placement(), work.data(), {target}).run();
       for (std::size_t v = 0; v < n * n; ++v) {
         double square = 0;
         for (std::size_t c = 0; c < 3; ++c) {

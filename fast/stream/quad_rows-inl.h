@@ -272,46 +272,69 @@ class FusedLimitRow {
   V p_[3][3], q_[3][3], centre_[3], even_unit_, odd_unit_;
 };
 
-/// The inside of a row, points 1 .. size - 1, with its ends given; size even. `row` gives the points from 1
-/// on in turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of
-/// the next: it is one chain of dependent steps. far: the rows leave no room for the output in the
-/// first-level cache.
-template <class N, bool far = false, class Row>
-HWY_ATTR HWY_INLINE void scatter_row(Row& row, int size, const Vertex<N>& first, const Vertex<N>& last,
-                                     typename N::Scalar* const* out, std::ptrdiff_t offset) {
+/// A row to memory of each lane's own, see LaneRow.
+template <class N>
+struct QuadLaneRow {
+  typename N::Scalar* const* lane;
+  std::ptrdiff_t offset;
+  HWY_ATTR HWY_INLINE void couple(int i, const Vertex<N>& a, const Vertex<N>& b) const {
+    N::scatter_couple(a, b, lane, offset + 6 * i);
+  }
+  HWY_ATTR HWY_INLINE void vertex(int i, const Vertex<N>& a) const {
+    N::scatter_vertex(a, lane, offset + 6 * i);
+  }
+  /// Point i will be written soon.
+  HWY_ATTR HWY_INLINE void expect(int i) const { N::expect(lane, offset + 6 * i); }
+};
+template <class N>
+struct QuadLaneTarget {
+  using Row = QuadLaneRow<N>;
+  QuadTarget<typename N::Scalar> to;
+  HWY_ATTR HWY_INLINE Row row(int j) const { return {to.lane, to.row_offset(j)}; }
+  HWY_ATTR HWY_INLINE void done(int j) const {
+    if (to.row) to.row(to.context, j);
+  }
+};
+
+/// The inside of a row, points 1 .. size - 1, with its ends given; size even. `points` gives them from 1 on in
+/// turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of the
+/// next: it is one chain of dependent steps. far: the rows leave no room for the output in the first-level
+/// cache.
+template <class N, bool far = false, class Points, class Row>
+HWY_ATTR HWY_INLINE void scatter_row(Points& points, int size, const Vertex<N>& first, const Vertex<N>& last,
+                                     const Row& to) {
   Vertex<N> a, b;
-  row.template begin<true>(b);
+  points.template begin<true>(b);
   if (size == 2) {
     b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
-    N::scatter_couple(first, b, out, offset);
+    to.couple(0, first, b);
   } else {
-    row.template begin<false>(a, b);
-    N::scatter_couple(first, b, out, offset);
+    points.template begin<false>(a, b);
+    to.couple(0, first, b);
     for (int i = 2;; i += 2) {
-      offset += 12;
-      row.template begin<true>(b, a);
+      points.template begin<true>(b, a);
       if (i + 2 == size) break;
       Vertex<N> next;
-      row.template begin<false>(next, b);
-      if constexpr (far) N::expect(out, offset + 48);
-      N::scatter_couple(a, b, out, offset);
+      points.template begin<false>(next, b);
+      if constexpr (far) to.expect(i + 8);
+      to.couple(i, a, b);
       a = next;
     }
     b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
-    N::scatter_couple(a, b, out, offset);
+    to.couple(size - 2, a, b);
   }
-  N::scatter_vertex(last, out, offset + 12);
+  to.vertex(size, last);
 }
 
 /// The same to memory of one's own: points 1 .. size - 1, six vectors each, that of point i to out[6 i].
-template <class N, class Row>
-HWY_ATTR HWY_INLINE void store_row(Row& row, int size, typename N::Scalar* out) {
+template <class N, class Points>
+HWY_ATTR HWY_INLINE void store_row(Points& points, int size, typename N::Scalar* out) {
   constexpr int step = 6 * N::lanes;
   Vertex<N> a, b;
-  row.template begin<true>(a);
+  points.template begin<true>(a);
   for (int i = 2; i < size; ++i) {
     out += step;
-    row.template begin<false>(b, a);
+    points.template begin<false>(b, a);
     a.store(out);
     a = b;
   }

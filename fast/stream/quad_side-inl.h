@@ -125,23 +125,24 @@ class QuadSideStream {
       for (int k = 1; k < size; ++k) point(k, v), v.store(out + 6 * k * L);
     }
   }
-  /// or to each lane's own memory.
-  HWY_ATTR void scatter(Scalar* const* out, std::ptrdiff_t offset) const {
+  /// or as a row.
+  template <class Row>
+  HWY_ATTR void scatter(const Row& to) const {
     const int size = 1 << depth_;
     Vertex<N> a, b;
     a.load(p_.limit()), b.load(q_.limit());
-    if (size == 1) return N::scatter_couple(a, b, out, offset);
+    if (size == 1) return to.couple(0, a, b);
     if (limit_.plain()) {
       QuadLimitRow<N> points(row(depth_, -1), row(depth_, 0), row(depth_, 1), 1, centre_, limit_.unit());
-      return scatter_row<N>(points, size, a, b, out, offset);
+      return scatter_row<N>(points, size, a, b, to);
     }
     const Vertex<N> last = b;
     for (int k = 0; k < size; k += 2) {
       if (k > 0) point(k, a);
       point(k + 1, b);
-      N::scatter_couple(a, b, out, offset + 6 * k);
+      to.couple(k, a, b);
     }
-    N::scatter_vertex(last, out, offset + 6 * size);
+    to.vertex(size, last);
   }
 
  private:

@@ -23,7 +23,9 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 /// `lanes` quads of one depth, of any valences, from their control points to their limit points, a row at a
 /// time. A level keeps a window of three rows, so memory is O(2^depth) whatever the mesh; nothing is
 /// allocated. Level 1 comes from the rings of the corners alone.
-template <class N>
+///
+/// To: where they go, see LaneTarget.
+template <class N, class To = QuadLaneTarget<N>>
 class QuadStream {
  public:
   using Scalar = typename N::Scalar;
@@ -33,7 +35,7 @@ class QuadStream {
   /// work: quad_work_size(depth) * lanes. It and the input are aligned to 64 bytes and hold finite numbers;
   /// the input's rings are overwritten.
   HWY_ATTR QuadStream(const QuadBatch<Scalar>& batch, const KernelPlacement<Scalar>& placement, Scalar* work,
-                      const QuadTarget<Scalar>& target)
+                      const To& target)
       : batch_(batch),
         depth_(batch.depth),
         fused_(batch.depth >= kFusedFrom),
@@ -82,8 +84,8 @@ class QuadStream {
 
   HWY_ATTR void run_first_side() {
     const QuadSideStream<N> first(batch_, kAB, placement_, curve_of(kAB), side_work_);
-    first.scatter(target_.lane, target_.row_offset(0));
-    if (target_.row) target_.row(target_.context, 0);
+    first.scatter(target_.row(0));
+    target_.done(0);
   }
 
   // The sides before the inside: A B is row 0, the others are kept until their rows come. Then the quad from
@@ -110,8 +112,8 @@ class QuadStream {
   HWY_ATTR void corners(int first, int last, int j) {
     Vertex<N> a, b;
     a.load(corner(first).limit()), b.load(corner(last).limit());
-    N::scatter_couple(a, b, target_.lane, target_.row_offset(j));
-    if (target_.row) target_.row(target_.context, j);
+    target_.row(j).couple(0, a, b);
+    target_.done(j);
   }
 
   // The 12 points around a side, before the rings are overwritten.
@@ -246,12 +248,11 @@ class QuadStream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    const std::ptrdiff_t offset = target_.row_offset(j);
     if (local_ && j == 0) return;
     if (local_ && j == size) {
-      last_row(offset);
+      last_row();
     } else if (j == 0 || j == size) {
-      side_row(j == 0 ? kAB : kCD, s, m, n, offset);
+      side_row(j == 0 ? kAB : kCD, s, m, n);
     } else {
       Vertex<N> first, last;
       if (local_) {
@@ -261,30 +262,32 @@ class QuadStream {
       }
       inside(s, m, n, j, first, last);
     }
-    if (target_.row) target_.row(target_.context, j);
+    target_.done(j);
   }
 
   // The points of C D, from the last.
-  HWY_ATTR void last_row(std::ptrdiff_t offset) const {
+  HWY_ATTR void last_row() const {
     const int size = 1 << depth_;
+    const auto to = target_.row(size);
     Vertex<N> a, b;
     for (int i = 0; i < size; i += 2) {
       a.load(strip(kCD, size - i)), b.load(strip(kCD, size - i - 1));
-      N::scatter_couple(a, b, target_.lane, offset + 6 * i);
+      to.couple(i, a, b);
     }
     a.load(strip(kCD, 0));
-    N::scatter_vertex(a, target_.lane, offset + 6 * size);
+    to.vertex(size, a);
   }
 
   // A row that is a side.
-  HWY_ATTR void side_row(int side, const Scalar* s, const Scalar* m, const Scalar* n, std::ptrdiff_t offset) {
+  HWY_ATTR void side_row(int side, const Scalar* s, const Scalar* m, const Scalar* n) {
     const int size = 1 << depth_, step = 3 * L;
+    const auto to = target_.row(side == kAB ? 0 : size);
     const QuadSideLimit<N> limits = limit_next_to(side);
     Vertex<N> a, b, last;
     a.load(corner(side == kAB ? kA : kD).limit()), last.load(corner(side == kAB ? kB : kC).limit());
     if (limits.plain()) {
       QuadLimitRow<N> row(s, m, n, 1, centre_, unit_);
-      return scatter_row<N>(row, size, a, last, target_.lane, offset);
+      return scatter_row<N>(row, size, a, last, to);
     }
     const auto point = [&](int i, Vertex<N>& v) HWY_ATTR {
       const int k = 3 * i * L;
@@ -296,27 +299,27 @@ class QuadStream {
     for (int i = 0; i < size; i += 2) {
       if (i > 0) point(i, a);
       point(i + 1, b);
-      N::scatter_couple(a, b, target_.lane, offset + 6 * i);
+      to.couple(i, a, b);
     }
-    N::scatter_vertex(last, target_.lane, offset + 6 * size);
+    to.vertex(size, last);
   }
 
   HWY_ATTR void inside(const Scalar* s, const Scalar* m, const Scalar* n, int j, const Vertex<N>& first,
                        const Vertex<N>& last) const {
     const int size = 1 << depth_, q = j / 2;
-    const std::ptrdiff_t offset = target_.row_offset(j);
+    const auto to = target_.row(j);
     if (!fused_ || j == 1 || j == size - 1) {
       QuadLimitRow<N> points(s, m, n, 1, centre_, unit_);
-      return scatter_row<N>(points, size, first, last, target_.lane, offset);
+      return scatter_row<N>(points, size, first, last, to);
     }
     const auto before = [&](int i) { return row(depth_ - 1, i); };
     const Scalar unit = quad_unit(placement_.unit, depth_ - 1);
     if (j % 2 == 0) {
       FusedLimitRow<N, false> points(before(q - 1), before(q), before(q + 1), before(q + 1), centre_, unit);
-      scatter_row<N, true>(points, size, first, last, target_.lane, offset);
+      scatter_row<N, true>(points, size, first, last, to);
     } else {
       FusedLimitRow<N, true> points(before(q - 1), before(q), before(q + 1), before(q + 2), centre_, unit);
-      scatter_row<N, true>(points, size, first, last, target_.lane, offset);
+      scatter_row<N, true>(points, size, first, last, to);
     }
   }
 
@@ -328,7 +331,7 @@ class QuadStream {
   KernelPlacement<Scalar> placement_;
   V centre_[3];
   Scalar unit_;
-  QuadTarget<Scalar> target_;
+  To target_;
 };
 
 }  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "fast/stream/lanes-inl.h"
+#include "fast/stream/line_runs-inl.h"
 #include "fast/stream/quad_patch-inl.h"
 #include "fast/stream/quad_stream-inl.h"
 
@@ -28,26 +29,49 @@ using QuadLanes = LaneNumber<hn::CappedTag<float, lanes>>;
 template <int lanes>
 HWY_ATTR const char* run_quads(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                float* work, const QuadTarget<float>& target) {
-  QuadStream<QuadLanes<lanes>>(batch, placement, work, target).run();
+  QuadStream<QuadLanes<lanes>>(batch, placement, work, {target}).run();
   return target_name(lanes);
 }
 template <int lanes>
 HWY_ATTR const char* run_patches(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                  float* work, const QuadTarget<float>& target) {
-  QuadPatch<QuadLanes<lanes>>(batch, placement, work, target).run();
+  QuadPatch<QuadLanes<lanes>>(batch, placement, work, {target}).run();
   return target_name(lanes);
 }
 template <int lanes>
 HWY_ATTR const char* run_sides(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                float* work, const QuadTarget<float>& target) {
-  QuadStream<QuadLanes<lanes>>(batch, placement, work, target).run_side();
+  QuadStream<QuadLanes<lanes>>(batch, placement, work, {target}).run_side();
   return target_name(lanes);
 }
 
+#if HWY_TARGET == HWY_AVX3
+template <template <class, class> class Engine>
+HWY_ATTR void run_in_lines(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
+                           float* work, float* const* lane) {
+  LineRuns<QuadLanes<16>> runs(lane);
+  Engine<QuadLanes<16>, LineTarget<QuadLanes<16>>>(batch, placement, work, {&runs}).run();
+  runs.finish();
+}
+#endif
+
 template <int lanes>
 void add_quad_kernel(std::vector<QuadKernel>& list) {
-  list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_quads<lanes>, &run_patches<lanes>,
-                  &run_sides<lanes>});
+  QuadKernel kernel{target_name(lanes),
+                    lanes,
+                    HWY_NATIVE_FMA != 0,
+                    &run_quads<lanes>,
+                    &run_patches<lanes>,
+                    &run_sides<lanes>,
+                    nullptr,
+                    nullptr};
+#if HWY_TARGET == HWY_AVX3
+  if (lanes == 16) {
+    kernel.quad_lines = &run_in_lines<QuadStream>;
+    kernel.patch_lines = &run_in_lines<QuadPatch>;
+  }
+#endif
+  list.push_back(kernel);
 }
 
 #endif  // not the baseline
@@ -79,17 +103,17 @@ using ScalarPatch = generic::QuadPatch<ScalarNumber<float>>;
 
 const char* run_scalar_quads(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                              float* work, const QuadTarget<float>& target) {
-  ScalarStream(batch, placement, work, target).run();
+  ScalarStream(batch, placement, work, {target}).run();
   return "scalar";
 }
 const char* run_scalar_patches(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                float* work, const QuadTarget<float>& target) {
-  ScalarPatch(batch, placement, work, target).run();
+  ScalarPatch(batch, placement, work, {target}).run();
   return "scalar";
 }
 const char* run_scalar_sides(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                              float* work, const QuadTarget<float>& target) {
-  ScalarStream(batch, placement, work, target).run_side();
+  ScalarStream(batch, placement, work, {target}).run_side();
   return "scalar";
 }
 
@@ -103,7 +127,8 @@ std::vector<QuadKernel> find_quad_kernels() {
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  list.push_back({"scalar", 1, false, &run_scalar_quads, &run_scalar_patches, &run_scalar_sides});
+  list.push_back(
+      {"scalar", 1, false, &run_scalar_quads, &run_scalar_patches, &run_scalar_sides, nullptr, nullptr});
   return list;
 }
 

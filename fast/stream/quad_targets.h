@@ -20,6 +20,11 @@ struct QuadKernel {
   Run* quads;    // QuadStream
   Run* patches;  // QuadPatch
   Run* sides;    // QuadStream, row 0 only
+  /// Quads and regular quads to memory past the caches, see Kernel::run_lines. Null: rows alone.
+  using Lines = void(const QuadBatch<float>& batch, const KernelPlacement<float>& placement, float* work,
+                     float* const* lane);
+  Lines* quad_lines;
+  Lines* patch_lines;
 };
 
 /// The variants that this machine can run, best first; the last is plain scalar code and always there.

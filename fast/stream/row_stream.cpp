@@ -22,12 +22,6 @@ int checked(int depth) {
   return depth;
 }
 
-void prepare(Workspace& workspace, int depth, int lanes) {
-  const auto n = static_cast<std::size_t>(lanes);
-  workspace.input.grow(n * static_cast<std::size_t>(input_size(checked(depth))));
-  workspace.work.grow(n * static_cast<std::size_t>(work_size(depth)));
-}
-
 struct Rows {
   RowView view;
   void (*visit)(void*, const RowView&);
@@ -56,6 +50,12 @@ void AlignedFloats::grow(std::size_t count) {
   size_ = count;
 }
 
+void Workspace::prepare(int depth, int lanes) {
+  const auto n = static_cast<std::size_t>(lanes);
+  input.grow(n * static_cast<std::size_t>(input_size(checked(depth))));
+  work.grow(n * static_cast<std::size_t>(work_size(depth)));
+}
+
 RowBuffer RowBuffer::in(AlignedFloats& memory, int depth, int lanes, Kept kept) {
   // A whole number of cache lines.
   const std::size_t pitch = (6 * static_cast<std::size_t>(side(depth)) + 15) / 16 * 16;
@@ -82,6 +82,8 @@ std::size_t RowStream::together(std::span<const T> list, std::size_t most) const
   return std::max<std::ptrdiff_t>(1, std::find_if(list.begin(), list.begin() + count, alone) - list.begin());
 }
 
+template std::size_t RowStream::together(std::span<const Grid> list, std::size_t most) const;
+
 void RowStream::move_points(const TriangleMesh& mesh) {
   rings_.move_points(adjacency_, place<float>(mesh.points()));
   if (cut_) cut_ = std::make_shared<const CutGrids>(mesh);
@@ -95,7 +97,7 @@ void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspac
 void RowStream::batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
                         void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
-  prepare(workspace, depth, kernel.lanes);
+  workspace.prepare(depth, kernel.lanes);
   Rows rows{{{}, depth, 0, RowBuffer::in(workspace.row, depth, kernel.lanes, kept)}, visit, context};
   const RowBuffer& buffer = rows.view.rows;
   const Target<float> target{buffer.base, buffer.pitch, buffer.stride, visit ? &visit_row : nullptr,
@@ -125,7 +127,7 @@ void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspa
   const Kernel& kernel = other != nullptr ? *other : kernel_;
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   const auto grid_size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
-  prepare(workspace, depth, kernel.lanes);
+  workspace.prepare(depth, kernel.lanes);
 
   const std::size_t full = cut_ ? 0 : grids.size() / lanes * lanes;
   for (std::size_t first = 0; first < full; first += lanes) {

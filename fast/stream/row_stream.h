@@ -41,6 +41,8 @@ class AlignedFloats {
 /// 143 040 bytes at depth 5 with 16 lanes, whatever the mesh; 156 352 if two rows are kept.
 struct Workspace {
   AlignedFloats input, work, row;
+  /// Input and work for grids of a depth. Throws data::ArgumentError: depth is 0 to 10.
+  void prepare(int depth, int lanes);
   std::size_t bytes() const { return 4 * (input.size() + work.size() + row.size()); }
 };
 
@@ -118,8 +120,9 @@ class RowStream {
   void whole(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out,
              const Kernel* kernel = nullptr) const;
 
-  /// The same bytes as whole(), written past the caches row after row: for output that is much larger than
-  /// they are and that nobody reads soon. Nothing beyond the grids is touched. Other threads see the output
+  /// The same bytes as whole(), written past the caches, with AVX-512 straight from registers and elsewhere row
+  /// after row: for output that is much larger than they are and that nobody reads soon. Nothing beyond the
+  /// grids is touched. Other threads see the output
   /// when they see what this thread writes afterwards.
   void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const;
   /// The same in 16 bytes per vertex, see compact_vertex.h.

@@ -143,23 +143,49 @@ struct Tangents {
   }
 };
 
-/// Points 0 .. size, six vectors each, to each lane's own memory.
+/// Where a row goes. Here to the lanes' memory, which lies at equal distances; a row has
+///   couple(i, a, b)   its points i and i + 1,
+///   vertex(i, a)      its point i alone, the last.
+/// They come in their order.
 template <class N>
-HWY_ATTR void scatter_kept(const typename N::Scalar* from, int size, typename N::Scalar* out,
-                           std::ptrdiff_t lane_stride) {
+struct LaneRow {
+  typename N::Scalar* out;
+  std::ptrdiff_t lane_stride;
+  HWY_ATTR HWY_INLINE void couple(int i, const Vertex<N>& a, const Vertex<N>& b) const {
+    N::scatter_couple(a, b, out + 6 * i, lane_stride);
+  }
+  HWY_ATTR HWY_INLINE void vertex(int i, const Vertex<N>& a) const {
+    N::scatter_vertex(a, out + 6 * i, lane_stride);
+  }
+};
+
+/// Where a batch goes: row(j), and done(j) when it is there.
+template <class N>
+struct LaneTarget {
+  using Row = LaneRow<N>;
+  Target<typename N::Scalar> to;
+  HWY_ATTR HWY_INLINE Row row(int j) const { return {to.base + to.row_offset(j), to.lane_stride}; }
+  HWY_ATTR HWY_INLINE void done(int j) const {
+    if (to.row) to.row(to.context, j);
+  }
+};
+
+/// Points 0 .. size, six vectors each.
+template <class N, class Row>
+HWY_ATTR void scatter_kept(const typename N::Scalar* from, int size, const Row& to) {
   constexpr int L = N::lanes;
   Vertex<N> a, b;
-  for (int i = 0; i < size; i += 2, from += 12 * L, out += 12) {
+  for (int i = 0; i < size; i += 2, from += 12 * L) {
     a.load(from), b.load(from + 6 * L);
-    N::scatter_couple(a, b, out, lane_stride);
+    to.couple(i, a, b);
   }
   a.load(from);
-  N::scatter_vertex(a, out, lane_stride);
+  to.vertex(size, a);
 }
 
 /// One row of a level to its limit, two points at a time. centre: of each lane in the caller's coordinates;
 /// unit: from the scaled placement.
-template <class N>
+template <class N, class Row = LaneRow<N>>
 class LimitRow {
  public:
   using Scalar = typename N::Scalar;
@@ -167,8 +193,8 @@ class LimitRow {
   static constexpr int L = N::lanes;
 
   HWY_ATTR LimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre, Scalar unit,
-                    Scalar* out, std::ptrdiff_t lane_stride)
-      : s_(s), m_(m), n_(n), out_(out), lane_stride_(lane_stride), unit_(N::splat(unit)) {
+                    const Row& to)
+      : s_(s), m_(m), n_(n), to_(to), unit_(N::splat(unit)) {
     for (int c = 0; c < 3; ++c) centre_[c] = centre[c];
   }
 
@@ -184,7 +210,7 @@ class LimitRow {
     if (size % 2 == 0) {
       Vertex<N> v;
       v.load(last);
-      N::scatter_vertex(v, out_ + 6 * size, lane_stride_);
+      to_.vertex(size, v);
     }
   }
 
@@ -239,15 +265,14 @@ class LimitRow {
         point<Axis::kRow>(i + k, v[k]);
       }
     }
-    N::scatter_couple(v[0], v[1], out_ + 6 * i, lane_stride_);
+    to_.couple(i, v[0], v[1]);
   }
 
   // Points from even `first` to before even `end`. The tangents of a point go with the normalisation of the
   // point before, its own normalisation with the tangents of the next.
   HWY_ATTR void plain(int first, int end) const {
     const Scalar *s = s_ + 3 * first * L, *m = m_ + 3 * first * L, *n = n_ + 3 * first * L;
-    Scalar* out = out_ + 6 * first;
-    const std::ptrdiff_t lane_stride = lane_stride_;
+    const Row to = to_;
     const V unit = unit_, centre[3] = {centre_[0], centre_[1], centre_[2]};
     constexpr int step = 3 * L;
     Vertex<N> a, b;
@@ -259,12 +284,11 @@ class LimitRow {
       if (i + 2 == end) break;
       Vertex<N> next;
       along(s, m, n, centre, unit, next, b);
-      N::scatter_couple(a, b, out, lane_stride);
+      to.couple(i, a, b);
       a = next;
-      out += 12;
     }
     b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
-    N::scatter_couple(a, b, out, lane_stride);
+    to.couple(end - 2, a, b);
   }
 
   HWY_ATTR static HWY_INLINE void begin(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre,
@@ -292,8 +316,7 @@ class LimitRow {
   }
 
   const Scalar *s_, *m_, *n_;
-  Scalar* out_;
-  std::ptrdiff_t lane_stride_;
+  Row to_;
   V centre_[3], unit_;
 };
 

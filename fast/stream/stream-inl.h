@@ -21,7 +21,9 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
 /// `lanes` grids of one depth, from their control points to their limit points, a row at a time. A level
 /// keeps a window of three rows, so memory is O(2^depth) whatever the mesh; nothing is allocated.
-template <class N>
+///
+/// To: where they go, see LaneTarget.
+template <class N, class To = LaneTarget<N>>
 class Stream {
  public:
   using Scalar = typename N::Scalar;
@@ -31,7 +33,7 @@ class Stream {
   /// input: input_size(depth) * lanes numbers, windows are overwritten; work: work_size(depth) * lanes.
   /// Both aligned to 64 bytes; work holds finite numbers.
   HWY_ATTR Stream(Scalar* input, int depth, const KernelPlacement<Scalar>& placement, Scalar* work,
-                  const Target<Scalar>& target)
+                  const To& target)
       : input_(input),
         border_(work + border_offset(depth) * L),
         strip_work_(work),
@@ -74,8 +76,8 @@ class Stream {
   // grid from an origin on its diagonal.
   HWY_ATTR void move_origin() {
     refine_edge(kAB);
-    edge_.scatter(target_.base, target_.lane_stride);
-    if (target_.row) target_.row(target_.context, 0);
+    edge_.scatter(target_.row(0));
+    target_.done(0);
     for (const Edge edge : {kAD, kBC, kAC, kDC}) {
       refine_edge(edge);
       edge_.store(strips_ + edge * edge_output_size(depth_) * L);
@@ -150,11 +152,12 @@ class Stream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    const LimitRow<N> row(s, m, n, centre_, unit_, target_.base + target_.row_offset(j), target_.lane_stride);
+    const auto to = target_.row(j);
+    const LimitRow<N, typename To::Row> row(s, m, n, centre_, unit_, to);
     if (placement_.has_local_origin(depth_)) {
       if (j == 0) return;
       if (j == size) {
-        scatter_kept<N>(strip(kDC, 0), size, target_.base + target_.row_offset(j), target_.lane_stride);
+        scatter_kept<N>(strip(kDC, 0), size, to);
       } else {
         row.run(size, strip(kAD, j), j, strip(kAC, j), strip(kBC, j));
       }
@@ -169,7 +172,7 @@ class Stream {
       row.template special<Axis::kColumn>(size, special[2]);
       row.run(size, special[0], j, special[1], special[2]);
     }
-    if (target_.row) target_.row(target_.context, j);
+    target_.done(j);
   }
 
   const Scalar* corner_limit(int corner) const {
@@ -183,7 +186,7 @@ class Stream {
   KernelPlacement<Scalar> placement_;
   V centre_[3];
   Scalar unit_;
-  Target<Scalar> target_;
+  To target_;
   EdgeStream<N> edge_;
 };
 

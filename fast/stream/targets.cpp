@@ -16,6 +16,7 @@
 #include <hwy/highway.h>
 
 #include "fast/stream/lanes-inl.h"
+#include "fast/stream/line_runs-inl.h"
 #include "fast/stream/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,21 +28,37 @@ template <int lanes>
 HWY_ATTR const char* run_lanes(float* input, int depth, const KernelPlacement<float>& placement, float* work,
                                const Target<float>& target) {
   using Number = LaneNumber<hn::CappedTag<float, lanes>>;
-  Stream<Number>(input, depth, placement, work, target).run();
+  Stream<Number>(input, depth, placement, work, {target}).run();
   return target_name(Number::lanes);
 }
 
 template <int lanes>
 HWY_ATTR void run_edge_lanes(const float* input, int depth, const KernelPlacement<float>& placement,
                              float* work, float* out, std::ptrdiff_t lane_stride) {
-  EdgeStream<LaneNumber<hn::CappedTag<float, lanes>>> strip(depth, placement, work);
+  using Number = LaneNumber<hn::CappedTag<float, lanes>>;
+  EdgeStream<Number> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
-  strip.scatter(out, lane_stride);
+  strip.scatter(LaneRow<Number>{out, lane_stride});
 }
+
+#if HWY_TARGET == HWY_AVX3
+HWY_ATTR void run_lines(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                        float* const* lane) {
+  using Number = LaneNumber<hn::CappedTag<float, 16>>;
+  LineRuns<Number> runs(lane);
+  Stream<Number, LineTarget<Number>>(input, depth, placement, work, {&runs}).run();
+  runs.finish();
+}
+#endif
 
 template <int lanes>
 void add(std::vector<Kernel>& list) {
-  list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_lanes<lanes>, &run_edge_lanes<lanes>});
+  Kernel kernel{target_name(lanes),     lanes,  HWY_NATIVE_FMA != 0, &run_lanes<lanes>,
+                &run_edge_lanes<lanes>, nullptr};
+#if HWY_TARGET == HWY_AVX3
+  if (lanes == 16) kernel.run_lines = &run_lines;
+#endif
+  list.push_back(kernel);
 }
 
 #endif  // not the baseline
@@ -70,7 +87,7 @@ HWY_EXPORT(list_kernels);
 
 const char* run_scalar(float* input, int depth, const KernelPlacement<float>& placement, float* work,
                        const Target<float>& target) {
-  generic::Stream<ScalarNumber<float>>(input, depth, placement, work, target).run();
+  generic::Stream<ScalarNumber<float>>(input, depth, placement, work, {target}).run();
   return "scalar";
 }
 
@@ -78,7 +95,7 @@ void run_edge_scalar(const float* input, int depth, const KernelPlacement<float>
                      float* out, std::ptrdiff_t lane_stride) {
   generic::EdgeStream<ScalarNumber<float>> strip(depth, placement, work);
   strip.refine(input, 0, input + edge_block_size(depth), 0);
-  strip.scatter(out, lane_stride);
+  strip.scatter(generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
 }
 
 std::vector<Kernel> find_kernels() {
@@ -91,7 +108,7 @@ std::vector<Kernel> find_kernels() {
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  list.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar});
+  list.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar, nullptr});
   return list;
 }
 

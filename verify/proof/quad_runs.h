@@ -108,7 +108,7 @@ class QuadStreamRuns {
     for (const auto& placement : placements(depth)) {
       whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
         const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input.data());
-        fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), target).run();
+        fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), {target}).run();
       });
     }
   }
@@ -117,7 +117,7 @@ class QuadStreamRuns {
   void patch(int depth, Visit&& visit) const {
     whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
       const auto batch = fast::row_stream::gather_patches<T>(rings, kFace, depth, 1, input.data());
-      fast::row_stream::generic::QuadPatch<decltype(lane)>(batch, rings.placement(), work.data(), target)
+      fast::row_stream::generic::QuadPatch<decltype(lane)>(batch, rings.placement(), work.data(), {target})
           .run();
     });
   }
@@ -129,7 +129,7 @@ class QuadStreamRuns {
       for (std::int32_t side = 0; side < 4; ++side) {
         const auto run = [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
           const auto batch = fast::row_stream::gather_sides<T>(rings, {&side, 1}, depth, 1, input.data());
-          fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), target)
+          fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), {target})
               .run_side();
         };
         const auto first = evaluate<Lane<0>>(first_, depth, 1, run),

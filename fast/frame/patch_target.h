@@ -21,6 +21,9 @@ struct PatchTarget {
   LatticePoint* provenance = nullptr;
   CompactRow compact_row = &fast::compact_row;  // or one that gives the same bits sooner
 
+  /// Whether whole vertices alone are wanted, so that who computes them may put them there.
+  bool takes_vertices() const { return vertices != nullptr && compact == nullptr && provenance == nullptr; }
+
   PatchTarget from(std::int64_t first) const {
     return {vertices != nullptr ? vertices + first : nullptr, compact != nullptr ? compact + first : nullptr,
             provenance != nullptr ? provenance + first : nullptr, compact_row};

@@ -88,6 +88,9 @@ class PatchWriter {
               const PatchTarget<Real>& out)
       : patch_(patch), plan_(plan), placement_(placement), out_(out), k_(1 << patch.depth) {}
 
+  /// Where the points of a patch of two displayed faces lie, row by row from corner C.
+  Vertex* grid() const { return out_.vertices; }
+
   template <class At>
   void whole_strip(int row, const At& at) {
     const auto lattice = [&](int r, int c) {

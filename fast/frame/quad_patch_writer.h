@@ -84,6 +84,9 @@ class QuadPatchWriter {
   /// Strips know where they go.
   void skip(std::int64_t /*strips*/) {}
 
+  /// Where the points of a part lie, row by row from the top, each from right to left.
+  Vertex* grid(int part) const { return out_.vertices + part * block_.size(); }
+
   template <class At>
   void strip(int part, int row, const At& at) {
     const int m = block_.cells;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Limit points of sixteen lanes to memory past the caches, a cache line at a time, straight from the
-// registers of the transposes.
+// Limit points of sixteen lanes to memory, a cache line at a time, straight from the registers of the
+// transposes.
 
 #if defined(LIMITCHECK_FAST_STREAM_LINE_RUNS_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
 #ifdef LIMITCHECK_FAST_STREAM_LINE_RUNS_INL_H_
@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fast/frame/vertex_copy.h"
 #include "fast/stream/lanes-inl.h"
 #include "fast/stream/rules-inl.h"
 
@@ -33,7 +34,7 @@ class LineRuns {
   static constexpr int L = 16;
 
   /// lane[0 .. 15]: where the runs begin, aligned to 4 bytes. Several may be the same if their vertices are.
-  HWY_ATTR explicit LineRuns(float* const* lane) {
+  HWY_ATTR LineRuns(float* const* lane, Stores stores) : stores_(stores) {
     const __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     for (int k = 0; k < L; ++k) {
       before_[k] = static_cast<int>(reinterpret_cast<std::uintptr_t>(lane[k]) % 64 / 4);
@@ -102,20 +103,24 @@ class LineRuns {
     const __m512 line =
         _mm512_permutex2var_ps(_mm512_load_ps(kept_[lane]), _mm512_load_si512(index_[lane]), now);
     _mm512_store_ps(kept_[lane], now);
-    if (written_ > 0) {
-      _mm512_stream_ps(line_[lane] + written_, line);
+    float* const to = line_[lane] + written_;
+    if (written_ == 0) {
+      _mm512_mask_storeu_ps(to, static_cast<__mmask16>(0xffffu << before_[lane]), line);
+    } else if (stores_ == Stores::kPastCaches) {
+      _mm512_stream_ps(to, line);
     } else {
-      _mm512_mask_storeu_ps(line_[lane], static_cast<__mmask16>(0xffffu << before_[lane]), line);
+      _mm512_store_ps(to, line);
     }
   }
 
   alignas(64) float numbers_[6 * kVertices * L];  // of the vertices that wait, as vectors of lanes
   alignas(64) float kept_[L][16];                 // the last sixteen numbers of each run that left
   alignas(64) std::int32_t index_[L][16];         // which of them, and of the next, make a line
-  float* line_[L];                                // the line in which each run begins,
-  int before_[L];                                 // and so many numbers of it before
-  int vertices_ = 0, lines_ = 0;                  // that wait; of them the lines that have left
-  std::ptrdiff_t written_ = 0;                    // numbers of each run that have left
+  Stores stores_;
+  float* line_[L];                // the line in which each run begins,
+  int before_[L];                 // and so many numbers of it before
+  int vertices_ = 0, lines_ = 0;  // that wait; of them the lines that have left
+  std::ptrdiff_t written_ = 0;    // numbers of each run that have left
 };
 
 /// The rows of a batch, one after the other, as a kernel wants them.

@@ -82,10 +82,19 @@ struct Evaluation {
     (kind == QuadClass::kRegular ? kernel.patches : kernel.quads)(gathered(kind, index), rings.placement(),
                                                                   workspace.work.data(), target);
   }
-  /// Past the caches; nothing semi-sharp.
-  void run_lines(QuadClass kind, std::span<const std::uint32_t> index, float* const* lane) {
-    (kind == QuadClass::kRegular ? kernel.patch_lines : kernel.quad_lines)(
-        gathered(kind, index), rings.placement(), workspace.work.data(), lane);
+  /// Each quad to its place at(i), in whole cache lines if the kernel has them and `stores` is given.
+  template <class At>
+  void to_places(const At& at, std::optional<Stores> stores) {
+    const auto n = static_cast<std::ptrdiff_t>(side(depth));
+    std::array<float*, kMaxLanes> lane;  // those beyond the last quad repeat it, place and all
+    const QuadTarget<float> target{lane.data(), 6 * n, nullptr, nullptr};
+    Queue::go(rings, faces, kernel.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
+      for (std::size_t k = 0; k < lane.size(); ++k)
+        lane[k] = at(index[std::min(k, index.size() - 1)])->position;
+      if (!stores || !kernel.quad_lines || kind == QuadClass::kSemiSharp) return run(kind, index, target);
+      (kind == QuadClass::kRegular ? kernel.patch_lines : kernel.quad_lines)(
+          gathered(kind, index), rings.placement(), workspace.work.data(), lane.data(), *stores);
+    });
   }
 
  private:
@@ -122,24 +131,30 @@ void visit_row(void* context, int j) {
   rows.visit(rows.context, rows.view);
 }
 
-// Rows of whole quads past the caches.
+// Where quad i begins.
+auto one_after_the_other(Vertex* out, int depth) {
+  const auto n = static_cast<std::size_t>(side(depth));
+  return [out, size = n * n](std::size_t i) { return out + i * size; };
+}
+
+// Rows of whole quads past the caches, each from its place at(i) on.
+template <class At>
 void write_runs(const QuadRowStream& stream, std::span<const std::int32_t> faces, int depth,
-                Workspace& workspace, Vertex* out) {
+                Workspace& workspace, const At& at, Order order) {
   struct Runs {
     std::array<LineStream, kMaxLanes> lane;
-    Vertex* out;
+    const At& at;
     static void visit(void* context, const QuadRowView& view) {
       auto& runs = *static_cast<Runs*>(context);
       const auto n = static_cast<std::size_t>(side(view.depth));
       for (std::size_t k = 0; k < view.index.size(); ++k) {
-        if (view.j == 0) runs.lane[k].start(reinterpret_cast<std::byte*>(runs.out + n * n * view.index[k]));
+        if (view.j == 0) runs.lane[k].start(reinterpret_cast<std::byte*>(runs.at(view.index[k])));
         runs.lane[k].append(reinterpret_cast<const std::byte*>(view.vertices(k)), n * sizeof(Vertex));
         if (view.j + 1 == static_cast<int>(n)) runs.lane[k].finish();
       }
     }
-  } runs;
-  runs.out = out;
-  stream.rows(faces, depth, workspace, &Runs::visit, &runs);
+  } runs{{}, at};
+  stream.rows(faces, depth, workspace, &Runs::visit, &runs, order);
 }
 
 }  // namespace
@@ -193,37 +208,30 @@ void QuadRowStream::whole(std::span<const std::int32_t> faces, int depth, Worksp
                           const QuadKernel* other) const {
   const QuadKernel& kernel = other != nullptr ? *other : kernel_;
   prepare(workspace, depth, kernel.lanes);
-  const auto n = static_cast<std::size_t>(side(depth));
-  std::array<float*, kMaxLanes> lane;
-  const QuadTarget<float> target{lane.data(), 6 * static_cast<std::ptrdiff_t>(n), nullptr, nullptr};
   Evaluation evaluation{rings_, semi_sharp_.get(), kernel, faces, depth, workspace};
-  Queue::go(rings_, faces, kernel.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(kMaxLanes); ++k)
-      lane[k] = out[n * n * index[std::min(k, index.size() - 1)]].position;
-    evaluation.run(kind, index, target);
-  });
+  evaluation.to_places(one_after_the_other(out, depth), std::nullopt);
+}
+
+void QuadRowStream::put(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                        Vertex* const* places, Order order, Stores stores) const {
+  put_at([&](std::size_t i) { return places[i]; }, faces, depth, workspace, order, stores);
 }
 
 void QuadRowStream::streamed(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
                              Vertex* out) const {
-  if (kernel_.quad_lines == nullptr) {
-    write_runs(*this, faces, depth, workspace, out);
-  } else {
-    prepare(workspace, depth, kernel_.lanes);
-    Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace};
-    const auto size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
-    Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
-      if (kind == QuadClass::kSemiSharp) {
-        const std::size_t k = index.front();
-        return write_runs(*this, faces.subspan(k, 1), depth, workspace, out + size * k);
-      }
-      std::array<float*, kMaxLanes> lane;
-      for (std::size_t k = 0; k < lane.size(); ++k)
-        lane[k] = out[size * index[std::min(k, index.size() - 1)]].position;
-      evaluation.run_lines(kind, index, lane.data());
-    });
-  }
+  prepare(workspace, depth, kernel_.lanes);
+  put_at(one_after_the_other(out, depth), faces, depth, workspace, Order::kFromA, Stores::kPastCaches);
   fence_streams();
+}
+
+template <class At>
+void QuadRowStream::put_at(const At& at, std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                           Order order, Stores stores) const {
+  if (stores == Stores::kPastCaches && !kernel_.quad_lines)
+    return write_runs(*this, faces, depth, workspace, at, order);
+  prepare(workspace, depth, kernel_.lanes);
+  Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace, order};
+  evaluation.to_places(at, stores);
 }
 
 void QuadRowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,

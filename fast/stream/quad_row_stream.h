@@ -79,6 +79,10 @@ class QuadRowStream {
   void whole(std::span<const std::int32_t> faces, int depth, Workspace& workspace, Vertex* out,
              const QuadKernel* kernel = nullptr) const;
 
+  /// The same vertices, those of faces[p] from places[p] on, as RowStream::put() does it.
+  void put(std::span<const std::int32_t> faces, int depth, Workspace& workspace, Vertex* const* places,
+           Order order, Stores stores) const;
+
   /// The same bytes as whole(), written past the caches as RowStream does it. Nothing beyond the quads is touched.
   /// Other threads see the output when they see what this thread writes afterwards.
   void streamed(std::span<const std::int32_t> faces, int depth, Workspace& workspace, Vertex* out) const;
@@ -89,6 +93,10 @@ class QuadRowStream {
              const QuadKernel* kernel = nullptr) const;
 
  private:
+  template <class At>
+  void put_at(const At& at, std::span<const std::int32_t> faces, int depth, Workspace& workspace, Order order,
+              Stores stores) const;
+
   const QuadKernel& kernel_;
   QuadRings rings_;
   std::shared_ptr<const SemiSharpQuads> semi_sharp_;  // null: nothing is

@@ -51,13 +51,20 @@ void QuadStreamState::index(const QuadIndexLayout& layout, IndexedMesh<float>& o
 void QuadStreamState::write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) {
   PatchTarget<float> target = out;
   target.compact_row = &compact;
-  stores = Stores::kOrdinary;
+  const bool placed = target.takes_vertices() && placement.is_identity();
+  std::size_t points = 0;  // of quads that are placed
+  for (std::size_t i = 0; i < places.size() && placed; ++i) {
+    if (!places[i].fresh || patches[i].display != Display::kStrips) continue;
+    const int size = PartBlock{faces.part_size(patches[i].depth)}.size();
+    points += static_cast<std::size_t>(faces.parts(patches[i].face) * size);
+  }
+  stores = stores_for(sizeof(Vertex) * points);
   run(
       0, patches.size(),
       [&](std::size_t i) {
         return QuadPatchWriter<float>(patches[i], faces, plan, placement, target.from(places[i].first));
       },
-      [&](std::size_t i) { return !places[i].fresh; });
+      [&](std::size_t i) { return !places[i].fresh; }, placed);
 }
 
 // Quads of the patches that are not skipped, of one depth and of like valences side by side, whatever faces they are parts of. In a fixed order.
@@ -95,11 +102,12 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last, Skip&& s
 }
 
 // Evaluates patches first .. last - 1 but those skipped in parallel, each into make_writer(i); a writer must not care about the
-// order of patches.
+// order of patches. placed: it has a place for each quad.
 template <class MakeWriter, class Skip>
-void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip) {
+void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip,
+                          bool placed) {
   make_batches(first, last, skip);
-  const QuadStreamFrame frame{*stream, narrow, faces, plan, patches, options.cracks.centre};
+  const QuadStreamFrame frame{*stream, narrow, faces, plan, patches, options.cracks.centre, placed, stores};
   run_batches(arena, workers, batches.size(), parts.size(), [&](QuadStreamWorker& worker, std::size_t b) {
     worker.run(frame, batches[b], make_writer);
     fence(stores);

@@ -29,7 +29,7 @@ struct QuadStreamState final : QuadEngineState<float>, StreamHooks {
   template <class Skip>
   void make_batches(std::size_t first, std::size_t last, Skip&& skip);
   template <class MakeWriter, class Skip>
-  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip);
+  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip, bool placed = false);
 
   std::optional<QuadRowStream> stream;
   const QuadKernel& narrow;

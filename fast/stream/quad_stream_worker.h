@@ -35,8 +35,9 @@ struct QuadStreamFrame {
   const QuadFaces& faces;
   const CrackPlan& plan;
   std::span<const QuadPatch> patches;
-
   FanCentre centre;
+  bool placed;    // quads that go together have a place each
+  Stores stores;  // there
 };
 
 class QuadStreamWorker {
@@ -60,6 +61,14 @@ class QuadStreamWorker {
       writers.push_back(make_writer(part.patch));
       writers.back().skip(std::int64_t{part.part} * frame.faces.part_size(patch.depth));
       quads_.push_back(frame.faces.quad(patch.face, part.part));
+    }
+    if constexpr (requires(Writer writer) { writer.grid(0); }) {
+      if (frame.placed) {
+        std::array<Vertex*, kMaxLanes> places;
+        for (std::size_t i = 0; i < writers.size(); ++i)
+          places[i] = reinterpret_cast<Vertex*>(writers[i].grid(batch.parts[i].part));
+        return frame.stream.put(quads_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
+      }
     }
     struct Context {
       const QuadFrameBatch& batch;

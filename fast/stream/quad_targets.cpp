@@ -48,8 +48,8 @@ HWY_ATTR const char* run_sides(const QuadBatch<float>& batch, const KernelPlacem
 #if HWY_TARGET == HWY_AVX3
 template <template <class, class> class Engine>
 HWY_ATTR void run_in_lines(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                           float* work, float* const* lane) {
-  LineRuns<QuadLanes<16>> runs(lane);
+                           float* work, float* const* lane, Stores stores) {
+  LineRuns<QuadLanes<16>> runs(lane, stores);
   Engine<QuadLanes<16>, LineTarget<QuadLanes<16>>>(batch, placement, work, {&runs}).run();
   runs.finish();
 }

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "fast/frame/vertex_copy.h"
 #include "fast/stream/quad_layout.h"
 
 namespace limitcheck::fast::row_stream {
@@ -20,9 +21,9 @@ struct QuadKernel {
   Run* quads;    // QuadStream
   Run* patches;  // QuadPatch
   Run* sides;    // QuadStream, row 0 only
-  /// Quads and regular quads to memory past the caches, see Kernel::run_lines. Null: rows alone.
+  /// Quads and regular quads in whole cache lines, see Kernel::run_lines. Null: this variant has none.
   using Lines = void(const QuadBatch<float>& batch, const KernelPlacement<float>& placement, float* work,
-                     float* const* lane);
+                     float* const* lane, Stores stores);
   Lines* quad_lines;
   Lines* patch_lines;
 };

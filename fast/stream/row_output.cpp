@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The forms of RowStream that write to memory past the caches.
+// The forms of RowStream that give each grid a place of its own, and those that write past the caches.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <span>
 
 #include "fast/stream/compact_vertex.h"
@@ -13,11 +14,12 @@ namespace limitcheck::fast::row_stream {
 
 namespace {
 
-// Rows of whole grids, in the order in which they lie in memory, as runs of `Out`.
+// Rows of at most kMaxLanes whole grids, each as a run of `Out` from its place on.
 template <class Out>
 struct Runs {
   const Grid* first;
-  Out* out;
+  Out* const* places;
+  Stores stores;
   std::array<LineStream, kMaxLanes> lines;
   std::array<Out, side(kMaxDepth)> converted;
 
@@ -35,10 +37,15 @@ struct Runs {
     const auto length = static_cast<std::size_t>(side(view.depth));
     const auto first_grid = static_cast<std::size_t>(view.grids.data() - runs.first);
     for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
+      Out* const to = runs.places[first_grid + lane];
+      const std::byte* const row = runs.convert({view.vertices(lane), length});
+      if (runs.stores == Stores::kOrdinary) {
+        std::memcpy(to + static_cast<std::size_t>(view.j) * length, row, length * sizeof(Out));
+        continue;
+      }
       LineStream& lines = runs.lines[lane];
-      if (view.j == 0)
-        lines.start(reinterpret_cast<std::byte*>(runs.out + (first_grid + lane) * length * length));
-      lines.append(runs.convert({view.vertices(lane), length}), length * sizeof(Out));
+      if (view.j == 0) lines.start(reinterpret_cast<std::byte*>(to));
+      lines.append(row, length * sizeof(Out));
       if (view.j + 1 == side(view.depth)) lines.finish();
     }
   }
@@ -46,40 +53,63 @@ struct Runs {
 
 template <class Out>
 void write_runs(const RowStream& stream, std::span<const Grid> grids, int depth, Workspace& workspace,
-                Out* out) {
+                Out* const* places, Order order, Stores stores) {
   Runs<Out> runs;
   runs.first = grids.data();
-  runs.out = out;
-  stream.rows(grids, depth, workspace, &Runs<Out>::visit, &runs);
+  runs.places = places;
+  runs.stores = stores;
+  stream.rows(grids, depth, workspace, &Runs<Out>::visit, &runs, order);
+}
+
+// write(grids, places) for at most kMaxLanes grids at a time, which lie one after the other.
+template <class Out, class Write>
+void one_after_the_other(std::span<const Grid> grids, int depth, Out* out, const Write& write) {
+  const auto length = static_cast<std::size_t>(side(depth)), size = length * length;
+  std::array<Out*, kMaxLanes> places;
+  while (!grids.empty()) {
+    const std::size_t count = std::min(grids.size(), places.size());
+    for (std::size_t k = 0; k < count; ++k) places[k] = out + k * size;
+    write(grids.first(count), places.data());
+    grids = grids.subspan(count), out += count * size;
+  }
 }
 
 }  // namespace
 
-void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const {
-  if (kernel_.run_lines == nullptr) {
-    write_runs(*this, grids, depth, workspace, out);
-    return fence_streams();
-  }
+void RowStream::put(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* const* places,
+                    Order order, Stores stores) const {
   workspace.prepare(depth, kernel_.lanes);
-  const auto size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
+  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
   std::size_t count = 0;
-  for (; !grids.empty(); grids = grids.subspan(count), out += count * size) {
-    count = together(grids, static_cast<std::size_t>(kernel_.lanes));
-    if (cut_ && cut_->touches(grids.front())) {
-      write_runs(*this, grids.first(count), depth, workspace, out);
+  for (; !grids.empty(); grids = grids.subspan(count), places += count) {
+    count = together(grids, lanes);
+    const std::span<const Grid> batch = grids.first(count);
+    if (kernel_.run_lines == nullptr || (cut_ && cut_->touches(batch.front()))) {
+      write_runs(*this, batch, depth, workspace, places, order, stores);
       continue;
     }
-    std::array<float*, kMaxLanes> lane;
-    for (std::size_t k = 0; k < lane.size(); ++k) lane[k] = out[std::min(k, count - 1) * size].position;
-    gather(adjacency_, rings_, grids.first(count), depth, kernel_.lanes, workspace.input.data());
-    kernel_.run_lines(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), lane.data());
+    std::array<float*, kMaxLanes> lane;  // those beyond the last grid repeat it, place and all
+    for (std::size_t k = 0; k < lanes; ++k) lane[k] = places[std::min(k, count - 1)]->position;
+    gather(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data(), order);
+    kernel_.run_lines(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), lane.data(),
+                      stores);
   }
+}
+
+void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const {
+  workspace.prepare(depth, kernel_.lanes);
+  one_after_the_other(grids, depth, out, [&](std::span<const Grid> some, Vertex* const* places) {
+    put(some, depth, workspace, places, Order::kFromA, Stores::kPastCaches);
+  });
   fence_streams();
 }
 
 void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace,
                          CompactVertex* out) const {
-  write_runs(*this, grids, depth, workspace, out);
+  workspace.prepare(depth, kernel_.lanes);
+  one_after_the_other(grids, depth, out, [&](std::span<const Grid> some, CompactVertex* const* places) {
+    write_runs(*this, some, depth, workspace, places, Order::kFromA, Stores::kPastCaches);
+  });
   fence_streams();
 }
 

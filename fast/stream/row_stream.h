@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "fast/frame/vertex_copy.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/triangle_mesh.h"
 #include "fast/plan/pairing.h"
@@ -120,8 +121,13 @@ class RowStream {
   void whole(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out,
              const Kernel* kernel = nullptr) const;
 
-  /// The same bytes as whole(), written past the caches, with AVX-512 straight from registers and elsewhere row
-  /// after row: for output that is much larger than they are and that nobody reads soon. Nothing beyond the
+  /// The same vertices, those of grids[p] from places[p] on: with AVX-512 in whole cache lines straight from
+  /// registers, elsewhere row after row. From C they come in the opposite order. Nothing beyond the grids is
+  /// touched. Past the caches they are seen by other threads after fence(stores).
+  void put(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* const* places, Order order,
+           Stores stores) const;
+
+  /// The same bytes as whole(), written past the caches, as put() does it: for output that is much larger than they are and that nobody reads soon. Nothing beyond the
   /// grids is touched. Other threads see the output
   /// when they see what this thread writes afterwards.
   void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fast/frame/engine_state.h"
+#include "fast/stream/grid_indices.h"
 #include "fast/stream/quad_stream_state.h"
 #include "fast/stream/stream_batches.h"
 #include "fast/stream/stream_hooks.h"
@@ -80,17 +81,22 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   void write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) override {
     PatchTarget<float> target = out;
     target.compact_row = &compact;
+    std::size_t bytes = 0;  // of patches that are placed
     fresh_grids.clear(), fresh_patches.clear(), firsts.clear();
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i].fresh) continue;
       fresh_grids.push_back(pairing.grids[i]);
       fresh_patches.push_back(patches[i]);
       firsts.push_back(places[i].first);
+      if (patches[i].full()) bytes += sizeof(Vertex) * base_vertex(1, patches[i].depth);
     }
-    stores = Stores::kOrdinary;
-    run(fresh_grids, fresh_patches, [&](std::size_t i, StreamWorker&) {
-      return PatchWriter<float>(fresh_patches[i], plan, placement, target.from(firsts[i]));
-    });
+    stores = stores_for(bytes);
+    run(
+        fresh_grids, fresh_patches,
+        [&](std::size_t i, StreamWorker&) {
+          return PatchWriter<float>(fresh_patches[i], plan, placement, target.from(firsts[i]));
+        },
+        target.takes_vertices() && placement.is_identity());
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
@@ -101,12 +107,13 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
 
   // Evaluates patches in parallel, shown[i] into make_writer(i, worker); a writer must not care about the
-  // order of patches.
+  // order of patches. placed: it has a place for each patch of two displayed faces.
   template <class MakeWriter>
-  void run(std::span<const Grid> grids, std::span<const Patch> shown, MakeWriter&& make_writer) {
+  void run(std::span<const Grid> grids, std::span<const Patch> shown, MakeWriter&& make_writer,
+           bool placed = false) {
     const std::size_t total = shown.size();
     batches.make(shown, static_cast<std::size_t>(stream.kernel().lanes),
-                 static_cast<std::size_t>(narrow.lanes));
+                 static_cast<std::size_t>(narrow.lanes), placed);
     const StreamFrame frame{adjacency,
                             stream,
                             narrow,
@@ -115,7 +122,8 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
                             shown,
                             control ? &*control : nullptr,
                             centres,
-                            options.cracks.centre};
+                            options.cracks.centre,
+                            stores};
     run_batches(arena, workers, batches.list().size(), total, [&](StreamWorker& worker, std::size_t b) {
       const Batch& batch = batches.list()[b];
       if (worker.scratch().stride < std::size_t{1} << max_depth) worker.scratch().reserve(max_depth);

@@ -2,6 +2,7 @@
 // One thread's part of a frame: evaluates a batch and hands its points to the patches' writers.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -33,6 +34,7 @@ struct StreamFrame {
   const PreparedMesh<float>* control;  // for the centres of fans; null if there are none
   std::span<CachedCentre> centres;     // one per face, or none likewise
   FanCentre centre;
+  Stores stores;  // of the patches that have a place each
 };
 
 class StreamWorker {
@@ -45,6 +47,9 @@ class StreamWorker {
   template <class MakeWriter>
   void run(const StreamFrame& frame, const Batch& batch, MakeWriter&& make_writer) {
     using Writer = decltype(make_writer(std::size_t{}, *this));
+    if constexpr (requires(Writer writer) { writer.grid(); }) {
+      if (batch.delivery == Delivery::kPlaced) return place(frame, batch, make_writer);
+    }
     border_.evaluate(frame.stream, frame.narrow, frame.patches, frame.plan, batch.patches, workspace_);
     if (batch.delivery == Delivery::kRowsFromA || batch.delivery == Delivery::kRowsFromC) {
       std::vector<Writer> writers;
@@ -71,6 +76,15 @@ class StreamWorker {
   void collect(const StreamFrame& frame, const Batch& batch) {
     grids_.clear();
     for (const std::size_t i : batch.patches) grids_.push_back(frame.grids[i]);
+  }
+
+  template <class MakeWriter>
+  void place(const StreamFrame& frame, const Batch& batch, MakeWriter&& make_writer) {
+    collect(frame, batch);
+    std::array<Vertex*, kMaxLanes> places;
+    for (std::size_t lane = 0; lane < batch.patches.size(); ++lane)
+      places[lane] = reinterpret_cast<Vertex*>(make_writer(batch.patches[lane], *this).grid());
+    frame.stream.put(grids_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
   }
 
   // Two rows make a strip. Frames count columns from D's side, the kernel from the other.

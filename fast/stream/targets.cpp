@@ -43,9 +43,9 @@ HWY_ATTR void run_edge_lanes(const float* input, int depth, const KernelPlacemen
 
 #if HWY_TARGET == HWY_AVX3
 HWY_ATTR void run_lines(float* input, int depth, const KernelPlacement<float>& placement, float* work,
-                        float* const* lane) {
+                        float* const* lane, Stores stores) {
   using Number = LaneNumber<hn::CappedTag<float, 16>>;
-  LineRuns<Number> runs(lane);
+  LineRuns<Number> runs(lane, stores);
   Stream<Number, LineTarget<Number>>(input, depth, placement, work, {&runs}).run();
   runs.finish();
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "fast/frame/vertex_copy.h"
 #include "fast/stream/layout.h"
 
 namespace limitcheck::fast::row_stream {
@@ -21,10 +22,10 @@ struct Kernel {
   /// `lanes` control edges, see EdgeStream: the vertices of edge e from out + e * lane_stride, in numbers.
   void (*run_edges)(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
                     float* out, std::ptrdiff_t lane_stride);
-  /// A batch whose grids go to memory past the caches, that of lane k, row by row, from lane[k] on, and no
-  /// byte beyond; a fence of streams follows the last. Null: this variant has rows alone.
+  /// A batch to memory that each grid has for itself, in whole cache lines: that of lane k, row by row, from
+  /// lane[k] on, and no byte beyond. Past the caches the caller fences. Null: this variant has rows alone.
   void (*run_lines)(float* input, int depth, const KernelPlacement<float>& placement, float* work,
-                    float* const* lane);
+                    float* const* lane, Stores stores);
 };
 
 /// The variants that this machine can run, best first; the last is plain scalar code and always there.

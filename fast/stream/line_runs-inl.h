@@ -127,6 +127,7 @@ class LineRuns {
 template <class N>
 struct LineRow {
   LineRuns<N>* runs;
+  HWY_ATTR HWY_INLINE LineRow from(int /*i*/) const { return *this; }
   HWY_ATTR HWY_INLINE void couple(int /*i*/, const Vertex<N>& a, const Vertex<N>& b) const {
     runs->add(a);
     runs->add(b);

@@ -58,7 +58,8 @@ void QuadStreamState::write_patches(std::span<const PatchPlace> places, const Pa
     const int size = PartBlock{faces.part_size(patches[i].depth)}.size();
     points += static_cast<std::size_t>(faces.parts(patches[i].face) * size);
   }
-  stores = stores_for(sizeof(Vertex) * points);
+  // Past the caches row by row is slower than through them.
+  stores = stream->kernel().quad_lines != nullptr ? stores_for(sizeof(Vertex) * points) : Stores::kOrdinary;
   run(
       0, patches.size(),
       [&](std::size_t i) {

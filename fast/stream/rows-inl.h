@@ -145,12 +145,14 @@ struct Tangents {
 
 /// Where a row goes. Here to the lanes' memory, which lies at equal distances; a row has
 ///   couple(i, a, b)   its points i and i + 1,
-///   vertex(i, a)      its point i alone, the last.
+///   vertex(i, a)      its point i alone, the last,
+///   from(i)           the row from point i on.
 /// They come in their order.
 template <class N>
 struct LaneRow {
   typename N::Scalar* out;
   std::ptrdiff_t lane_stride;
+  HWY_ATTR HWY_INLINE LaneRow from(int i) const { return {out + 6 * i, lane_stride}; }
   HWY_ATTR HWY_INLINE void couple(int i, const Vertex<N>& a, const Vertex<N>& b) const {
     N::scatter_couple(a, b, out + 6 * i, lane_stride);
   }
@@ -272,7 +274,7 @@ class LimitRow {
   // point before, its own normalisation with the tangents of the next.
   HWY_ATTR void plain(int first, int end) const {
     const Scalar *s = s_ + 3 * first * L, *m = m_ + 3 * first * L, *n = n_ + 3 * first * L;
-    const Row to = to_;
+    Row to = to_.from(first);
     const V unit = unit_, centre[3] = {centre_[0], centre_[1], centre_[2]};
     constexpr int step = 3 * L;
     Vertex<N> a, b;
@@ -284,11 +286,12 @@ class LimitRow {
       if (i + 2 == end) break;
       Vertex<N> next;
       along(s, m, n, centre, unit, next, b);
-      to.couple(i, a, b);
+      to.couple(0, a, b);
+      to = to.from(2);
       a = next;
     }
     b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
-    to.couple(end - 2, a, b);
+    to.couple(0, a, b);
   }
 
   HWY_ATTR static HWY_INLINE void begin(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre,

@@ -90,7 +90,8 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
       firsts.push_back(places[i].first);
       if (patches[i].full()) bytes += sizeof(Vertex) * base_vertex(1, patches[i].depth);
     }
-    stores = stores_for(bytes);
+    // Past the caches row by row is slower than through them.
+    stores = stream.kernel().run_lines != nullptr ? stores_for(bytes) : Stores::kOrdinary;
     run(
         fresh_grids, fresh_patches,
         [&](std::size_t i, StreamWorker&) {

@@ -53,7 +53,7 @@ AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place&
                    truth,
                    std::move(points),
                    std::move(uses),
-                   data::box_diagonal(session.mesh()),
+                   unit_of_length(data::box_diagonal(session.mesh()), magnitude),
                    magnitude};
 
   AtPoint result;

@@ -14,6 +14,7 @@
 
 #include "data/bounding_box.h"
 #include "verify/audit/ask_earlier.h"
+#include "verify/audit/bounds.h"
 #include "verify/audit/checks.h"
 #include "verify/audit/clock.h"
 #include "verify/audit/recognise.h"
@@ -265,7 +266,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   std::vector<Use> uses = find_uses(*tessellation, points, truth.lattice(), truth.sides());
   double magnitude = 0;  // of the whole
   for (const Vector& p : session->mesh().positions) magnitude = std::max(magnitude, largest(p));
-  const double diagonal = data::box_diagonal(session->mesh());
+  const double diagonal = unit_of_length(data::box_diagonal(session->mesh()), magnitude);
   const Evidence evidence{
       rows.subject,    mesh.name, capabilities,      judged,          asked,    *tessellation,
       truth.lattice(), truth,     std::move(points), std::move(uses), diagonal, magnitude};

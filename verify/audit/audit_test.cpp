@@ -69,6 +69,23 @@ TEST(Audit, HolesAreNotShownAndShapeTheirNeighbours) {
             Status::kNotSupported);
 }
 
+// Its box has no diagonal: errors are fractions of the coordinates, or as they are.
+TEST(Audit, AMeshThatIsOnePointBlamesNoSoundSubjectAndSeesAWrongMask) {
+  AuditMesh mesh{"one point", data::named_mesh("bumpy:20")};
+  for (const Vector& point : {Vector{0, 0, 0}, Vector{5, -3, .1}}) {
+    for (Vector& p : mesh.mesh.positions) p = point;
+    for (const char* subject : {"row-stream", "sliding-window", "naive"}) {
+      const auto results = Auditor(3, 1).run({find_subject(subject), ""}, mesh);
+      EXPECT_TRUE(red(results).empty()) << subject << '\n' << describe(results);
+      for (const char* check : {"positions", "continuity"})
+        EXPECT_EQ(row(results, check).status, Status::kHeld) << subject << ' ' << check;
+    }
+  }
+  const auto results =
+      Auditor(3, 1).run({lc_subject_faulty(), faulty_options("wrong_edge_mask", kBase, kBaseOptions)}, mesh);
+  EXPECT_EQ(row(results, "positions").status, Status::kFinding) << describe(results);
+}
+
 struct Planted {
   const char* fault;
   std::vector<const char*> seen_by;  // these at least

@@ -22,6 +22,12 @@ inline double ulp_at(double magnitude, lc_precision precision) {
   return std::ldexp(1.0, exponent - (single ? 23 : 52));
 }
 
+/// What errors of positions are fractions of: the diagonal of the bounding box of the control mesh; of a mesh
+/// whose points are all one, their largest coordinate; of a mesh that is the origin, 1.
+inline double unit_of_length(double diagonal, double magnitude) {
+  return diagonal > 0 ? diagonal : magnitude > 0 ? magnitude : 1;
+}
+
 /// How far a position may be from the exact one, in fractions of the bounding-box diagonal.
 ///
 /// Every point of a subdivision is a convex combination of the level before: errors are not amplified, each

@@ -24,8 +24,10 @@ std::vector<Result> check_continuity(const Evidence& e) {
   std::unordered_map<Sides::Id, std::int64_t> of_side;
   const auto jump_in_position = [&](const Use& use) {
     const std::int64_t first = at_point.at(e.reference.sides().point(use.side));
-    return first == use.vertex ? -1
-                               : norm(t.position(use.vertex) - t.position(first)) / e.diagonal / position;
+    if (first == use.vertex) return -1.0;
+    const double distance = norm(t.position(use.vertex) - t.position(first));
+    return distance > 0 ? distance / e.diagonal / position
+                        : distance;  // of a mesh that is the origin the bound is 0
   };
   std::vector<double> jump(e.uses.size(), -1);
   for (std::size_t k = 0; k < e.uses.size(); ++k) {

@@ -67,7 +67,7 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
   truth.prepare(wanted);
   double magnitude = 0;
   for (const Vector& p : session.mesh().positions) magnitude = std::max(magnitude, largest(p));
-  const double diagonal = data::box_diagonal(session.mesh());
+  const double diagonal = unit_of_length(data::box_diagonal(session.mesh()), magnitude);
   const bool normals = row.unit == "degrees" || row.check == "finite";
   const double bound = normals ? normal_bound(c.precision, truth.steps())
                                : position_bound(c.precision, truth.steps(), magnitude, diagonal);

@@ -31,7 +31,7 @@ struct Evidence {
   const ReferenceSurface& reference;  // evaluated at every point named below
   std::vector<Lattice::Id> point;     // of each vertex, by its provenance; kNone: no lattice point
   std::vector<Use> uses;              // in the order of the vertices, each with one side or more
-  double diagonal = 0;                // of the bounding box of the control mesh
+  double diagonal = 0;                // of the bounding box of the control mesh, see unit_of_length()
   double magnitude = 0;               // largest absolute coordinate of the control mesh
 
   /// A result of this subject and mesh, held and with nothing in it.

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fast/frame/vertex_copy.h"
+#include "fast/frame/stores.h"
 #include "fast/stream/lanes-inl.h"
 #include "fast/stream/rules-inl.h"
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "fast/frame/vertex_copy.h"
+#include "fast/frame/stores.h"
 #include "fast/stream/quad_layout.h"
 
 namespace limitcheck::fast::row_stream {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/frame/vertex_copy.h"
+#include "fast/frame/stores.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/triangle_mesh.h"
 #include "fast/plan/pairing.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "fast/frame/vertex_copy.h"
+#include "fast/frame/stores.h"
 #include "fast/stream/layout.h"
 
 namespace limitcheck::fast::row_stream {

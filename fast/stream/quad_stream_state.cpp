@@ -25,17 +25,17 @@ constexpr auto none = [](std::size_t) { return false; };
 
 QuadStreamState::QuadStreamState(const data::ControlMesh& given, const TessellatorOptions& with,
                                  const QuadKernel& kernel)
-    : QuadEngineState<float>(given, with), stream(std::in_place, quads, kernel), narrow(narrow_of(kernel)) {
+    : QuadEngineState<float>(given, with), stream_(std::in_place, quads, kernel), narrow_(narrow_of(kernel)) {
   std::vector<std::int32_t> all(static_cast<std::size_t>(quads.adjacency.face_count()));
   std::iota(all.begin(), all.end(), 0);
-  rank.resize(all.size());
+  rank_.resize(all.size());
   std::int32_t place = 0;
-  for (const std::int32_t quad : stream->sorted(all)) rank[quad] = place++;
+  for (const std::int32_t quad : stream_->sorted(all)) rank_[quad] = place++;
 }
 
 void QuadStreamState::points_moved() {
   QuadEngineState<float>::points_moved();
-  stream.emplace(quads, stream->kernel());
+  stream_.emplace(quads, stream_->kernel());
 }
 
 void QuadStreamState::draw(std::size_t first, std::size_t last, DrawList<float>& out) {
@@ -59,7 +59,7 @@ void QuadStreamState::write_patches(std::span<const PatchPlace> places, const Pa
     points += static_cast<std::size_t>(faces.parts(patches[i].face) * size);
   }
   // Past the caches row by row is slower than through them.
-  stores = stream->kernel().quad_lines != nullptr ? stores_for(sizeof(Vertex) * points) : Stores::kOrdinary;
+  stores = stream_->kernel().quad_lines != nullptr ? stores_for(sizeof(Vertex) * points) : Stores::kOrdinary;
   run(
       0, patches.size(),
       [&](std::size_t i) {
@@ -76,29 +76,29 @@ void QuadStreamState::make_batches(std::size_t first, std::size_t last, Skip&& s
     return patches[i].display == Display::kStrips && !corners_only(patches[i], faces) ? patches[i].depth - cut
                                                                                       : -1;
   };
-  parts.clear();
+  parts_.clear();
   for (std::size_t i = first; i < last; ++i) {
     if (skip(i)) continue;
     const int count = depth_of(i) < 0 ? 1 : faces.parts(patches[i].face);
-    for (int k = 0; k < count; ++k) parts.push_back({i, k});
+    for (int k = 0; k < count; ++k) parts_.push_back({i, k});
   }
   const auto key = [&](const QuadPart& p) {
-    return std::tuple(depth_of(p.patch), rank[faces.quad(patches[p.patch].face, p.part)]);
+    return std::tuple(depth_of(p.patch), rank_[faces.quad(patches[p.patch].face, p.part)]);
   };
-  std::sort(parts.begin(), parts.end(),
+  std::sort(parts_.begin(), parts_.end(),
             [&](const QuadPart& a, const QuadPart& b) { return key(a) < key(b); });
   const auto kind_of = [&](const QuadPart& p) {
-    return stream->rings().kind(faces.quad(patches[p.patch].face, p.part));
+    return stream_->rings().kind(faces.quad(patches[p.patch].face, p.part));
   };
-  batches.clear();
-  const auto lanes = static_cast<std::size_t>(stream->kernel().lanes);
-  for (std::size_t at = 0, end; at < parts.size(); at = end) {
-    const int depth = depth_of(parts[at].patch);
-    const QuadClass kind = kind_of(parts[at]);
-    const std::size_t most = std::min(parts.size(), at + (depth < 0 ? 1 : lanes));
+  batches_.clear();
+  const auto lanes = static_cast<std::size_t>(stream_->kernel().lanes);
+  for (std::size_t at = 0, end; at < parts_.size(); at = end) {
+    const int depth = depth_of(parts_[at].patch);
+    const QuadClass kind = kind_of(parts_[at]);
+    const std::size_t most = std::min(parts_.size(), at + (depth < 0 ? 1 : lanes));
     end = at + 1;
-    while (end < most && depth_of(parts[end].patch) == depth && kind_of(parts[end]) == kind) ++end;
-    batches.push_back({depth, std::span<const QuadPart>(parts).subspan(at, end - at)});
+    while (end < most && depth_of(parts_[end].patch) == depth && kind_of(parts_[end]) == kind) ++end;
+    batches_.push_back({depth, std::span<const QuadPart>(parts_).subspan(at, end - at)});
   }
 }
 
@@ -108,11 +108,11 @@ template <class MakeWriter, class Skip>
 void QuadStreamState::run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip,
                           bool placed) {
   make_batches(first, last, skip);
-  const QuadStreamFrame frame{*stream, narrow, faces, plan, patches, options.cracks.centre, placed, stores};
-  run_batches(arena, workers, batches.size(), parts.size(), [&](QuadStreamWorker& worker, std::size_t b) {
-    worker.run(frame, batches[b], make_writer);
+  const QuadStreamFrame frame{*stream_, narrow_, faces, plan, patches, options.cracks.centre, placed, stores};
+  run_batches(arena, workers_, batches_.size(), parts_.size(), [&](QuadStreamWorker& worker, std::size_t b) {
+    worker.run(frame, batches_[b], make_writer);
     fence(stores);
-    return batches[b].parts.size();
+    return batches_[b].parts.size();
   });
 }
 

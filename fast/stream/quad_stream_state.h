@@ -22,8 +22,8 @@ struct QuadStreamState final : QuadEngineState<float>, StreamHooks {
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override;
   void index(const QuadIndexLayout& layout, IndexedMesh<float>& out) override;
   void write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) override;
-  SurfaceVertex<float> limit(std::int32_t v) const override { return stream->limit(v); }
-  std::int64_t zero_normals() const override { return stream->rings().degenerate_normals(); }
+  SurfaceVertex<float> limit(std::int32_t v) const override { return stream_->limit(v); }
+  std::int64_t zero_normals() const override { return stream_->rings().degenerate_normals(); }
 
  private:
   template <class Skip>
@@ -31,13 +31,13 @@ struct QuadStreamState final : QuadEngineState<float>, StreamHooks {
   template <class MakeWriter, class Skip>
   void run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip, bool placed = false);
 
-  std::optional<QuadRowStream> stream;
-  const QuadKernel& narrow;
-  std::vector<std::int32_t> rank;  // of each quad, in the order that is best for the lanes
+  std::optional<QuadRowStream> stream_;
+  const QuadKernel& narrow_;
+  std::vector<std::int32_t> rank_;  // of each quad, in the order that is best for the lanes
 
-  std::vector<QuadStreamWorker> workers;
-  std::vector<QuadPart> parts;
-  std::vector<QuadFrameBatch> batches;
+  std::vector<QuadStreamWorker> workers_;
+  std::vector<QuadPart> parts_;
+  std::vector<QuadFrameBatch> batches_;
 };
 
 }  // namespace limitcheck::fast::row_stream

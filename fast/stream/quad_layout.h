@@ -111,7 +111,7 @@ constexpr int kFusedFrom = 5;
 /// rows begin, what a side needs by itself (two corners, and three rows of two levels in turn); what the
 /// levels take from the corners; the curves of the sides.
 constexpr int quad_row_size(int level) {
-  return 3 * ((1 << level) + 3);
+  return 3 * ((1 << level) + 3);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
 }
 constexpr int quad_rows_offset(int level) {
   int offset = 0;

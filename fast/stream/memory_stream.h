@@ -9,11 +9,8 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// `lines` times 64 bytes by non-temporal stores. to: aligned to 64 bytes; from: to 4.
+/// `lines` times 64 bytes by non-temporal stores, see fence(). to: aligned to 64 bytes; from: to 4.
 void stream_lines(const std::byte* from, std::size_t lines, std::byte* to);
-
-/// Makes the non-temporal stores of this thread visible before anything that it writes afterwards.
-void fence_streams();
 
 /// One contiguous run of output that arrives in pieces. Whole cache lines are streamed; the piece of a line
 /// at either end of the run, and nothing else, is written by ordinary stores. Pieces: multiples of 4 bytes.

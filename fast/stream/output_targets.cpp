@@ -9,7 +9,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/stream/output_targets.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -84,10 +83,6 @@ HWY_EXPORT(compact_vectors);
 void stream_lines(const std::byte* from, std::size_t lines, std::byte* to) {
   HWY_DYNAMIC_DISPATCH(stream_floats)
   (reinterpret_cast<const float*>(from), 16 * lines, reinterpret_cast<float*>(to));
-}
-
-void fence_streams() {
-  hwy::FlushStream();
 }
 
 void compact(std::span<const Vertex> vertices, CompactVertex* out) {

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "data/error.h"
+#include "fast/frame/stores.h"
 #include "fast/stream/compact_vertex.h"
 #include "fast/stream/grid_indices.h"
 #include "fast/stream/memory_stream.h"
@@ -39,7 +40,7 @@ TEST(LineStream, WritesItsBytesAndNoOthersWhateverTheAlignment) {
         done += piece;
       }
       lines.finish();
-      fence_streams();
+      fence(Stores::kPastCaches);
       ASSERT_EQ(std::memcmp(memory.data() + offset, source.data(), size), 0) << offset << " " << size;
       for (std::size_t k = 0; k < memory.size(); ++k) {
         if (k < offset || k >= offset + size) {

@@ -221,7 +221,7 @@ void QuadRowStream::streamed(std::span<const std::int32_t> faces, int depth, Wor
                              Vertex* out) const {
   prepare(workspace, depth, kernel_.lanes);
   put_at(one_after_the_other(out, depth), faces, depth, workspace, Order::kFromA, Stores::kPastCaches);
-  fence_streams();
+  fence(Stores::kPastCaches);
 }
 
 template <class At>

@@ -101,7 +101,7 @@ void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& work
   one_after_the_other(grids, depth, out, [&](std::span<const Grid> some, Vertex* const* places) {
     put(some, depth, workspace, places, Order::kFromA, Stores::kPastCaches);
   });
-  fence_streams();
+  fence(Stores::kPastCaches);
 }
 
 void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace,
@@ -110,7 +110,7 @@ void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& work
   one_after_the_other(grids, depth, out, [&](std::span<const Grid> some, CompactVertex* const* places) {
     write_runs(*this, some, depth, workspace, places, Order::kFromA, Stores::kPastCaches);
   });
-  fence_streams();
+  fence(Stores::kPastCaches);
 }
 
 }  // namespace limitcheck::fast::row_stream

@@ -127,8 +127,8 @@ class RowStream {
   void put(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* const* places, Order order,
            Stores stores) const;
 
-  /// The same bytes as whole(), written past the caches, as put() does it: for output that is much larger than they are and that nobody reads soon. Nothing beyond the
-  /// grids is touched. Other threads see the output
+  /// The same bytes as whole(), written past the caches as put() does it: for output that is much larger than
+  /// the caches and that nobody reads soon. Nothing beyond the grids is touched. Other threads see the output
   /// when they see what this thread writes afterwards.
   void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const;
   /// The same in 16 bytes per vertex, see compact_vertex.h.

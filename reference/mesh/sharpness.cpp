@@ -175,7 +175,7 @@ SharpTags Sharpness::tags(const Topology& topology) const {
       result.edges.push_back({topology.edges()[e].a, topology.edges()[e].b, exact(edge_[e])});
   for (std::size_t v = 0; v < vertex_.size(); ++v)
     if (!vertex_.is_zero(v)) result.vertices.push_back({static_cast<std::int32_t>(v), exact(vertex_[v])});
-  if (chaikin_) result.creasing = data::Creasing::kChaikin;
+  result.creasing = creasing();
   return result;
 }
 

@@ -5,11 +5,11 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_set>
 #include <vector>
 
 #include "data/cut_out.h"
 #include "reference/mesh/sharp_tags.h"
+#include "reference/mesh/support.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/number_exact.h"
 #include "reference/number/sparse_rationals.h"
@@ -40,7 +40,7 @@ class Sharpness {
   Sharpness(const Topology& topology, const SharpTags& tags);
 
   const Rational& edge(std::int32_t e) const { return edge_[static_cast<std::size_t>(e)]; }
-  bool is_chaikin() const { return chaikin_; }
+  data::Creasing creasing() const { return chaikin_ ? data::Creasing::kChaikin : data::Creasing::kUniform; }
   /// Whether an edge is smooth, and a vertex with all its edges.
   bool is_smooth(std::int32_t e) const { return edge_.is_zero(static_cast<std::size_t>(e)); }
   bool is_smooth_around(const Topology& topology, std::int32_t v) const;
@@ -142,15 +142,9 @@ struct TaggedMesh {
   std::vector<Vec3<N>> positions;
   Sharpness sharpness;
 
-  /// Some faces, which come first, and the faces that touch their corners: all that their surface depends on.
-  /// By Chaikin's creasing it depends on the sharpness of the edges at the far ends of edges, too.
+  /// Some faces, which come first, and all that their surface depends on.
   TaggedMesh around(std::vector<std::int32_t> faces) const {
-    std::unordered_set<std::int32_t> known(faces.begin(), faces.end());
-    for (int ring = 0; ring < (sharpness.is_chaikin() ? 2 : 1); ++ring)
-      for (std::size_t k = 0, count = faces.size(); k < count; ++k)
-        for (const std::int32_t v : topology.faces()[static_cast<std::size_t>(faces[k])])
-          for (const std::int32_t f : topology.sector(v).faces)
-            if (known.insert(f).second) faces.push_back(f);
+    faces = support_of(std::move(faces), topology, sharpness.creasing());
     const data::CutOut part = data::cut_out(topology.faces(), faces);
     Topology local(part.vertices.size(), part.faces);
     Sharpness sharp = sharpness.of_part(topology, local, faces, part.vertices);

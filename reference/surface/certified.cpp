@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 
 #include "data/cut_out.h"
@@ -16,6 +15,7 @@
 #include "reference/catmull_clark/stam.h"
 #include "reference/loop/stam.h"
 #include "reference/mesh/sharpness.h"
+#include "reference/mesh/support.h"
 #include "reference/number/ball.h"
 #include "reference/point/parameter_exact.h"
 
@@ -72,16 +72,6 @@ struct CertifiedEvaluator::Data {
 };
 
 namespace {
-
-/// The faces that touch the corners of one face, itself first: all that its surface depends on.
-std::vector<std::int32_t> faces_near(const Topology& topology, std::int32_t face) {
-  std::vector<std::int32_t> faces{face};
-  std::unordered_set<std::int32_t> known{face};
-  for (const std::int32_t v : topology.faces()[face])
-    for (const std::int32_t f : topology.sector(v).faces)
-      if (known.insert(f).second) faces.push_back(f);
-  return faces;
-}
 
 /// Whether the control vertex at which the parameters lie is on the boundary. (The middle of a face is not.)
 bool corner_on_boundary(const Topology& topology, data::Scheme scheme, std::int32_t face, int corner,
@@ -258,7 +248,8 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
   if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.faces().size())
     throw data::ArgumentError("no face " + std::to_string(face));
-  const std::vector<std::int32_t> near = faces_near(data_->topology, face);
+  const std::vector<std::int32_t> near = support_of(
+      {face}, data_->topology, data_->sharpness ? data_->sharpness->creasing() : data::Creasing::kUniform);
   const data::CutOut local = data::cut_out(data_->topology.faces(), near);
   const SharpTags tags = data_->tags_of(local, near);
   std::vector<Data::Position> exact;

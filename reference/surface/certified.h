@@ -56,7 +56,8 @@ class CertifiedEvaluator {
                      data::Scheme scheme, const SharpTags& tags = {});
   ~CertifiedEvaluator();
 
-  /// Evaluates a mesh of only the faces that touch the face, so that it is quick on large meshes.
+  /// Evaluates a mesh of only the faces that the surface depends on (mesh/support.h), so that it is quick on
+  /// large meshes.
   ///   digits   1..10000 significant digits of the largest coordinate of each vector; each printed value is
   ///            within one unit of its last decimal. Precision rises until that is certain. A vector that
   ///            cannot be told from zero at eight times the digits (and more near a corner, where digits are

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "data/generators/random_mesh.h"
 #include "data/shapes.h"
@@ -91,6 +92,45 @@ TEST(Certified, EveryFaceOfATightMeshHasTheSurfaceOfTheWhole) {
         check(p.d1, s.d1);
         check(p.normal, s.normal);
       }
+  }
+}
+
+// Two strips of faces over a tent, its ridge semi-sharp: 5, 1/2, 5 by Chaikin's creasing. The sharpness of the
+// middle edge lasts by what lies at its ends, one face farther than the points of a face at the other end see.
+TEST(Certified, ChaikinsCreasingReadsTheFarEndsOfEdges) {
+  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+    data::ControlMesh tent;
+    for (int row = 0; row < 3; ++row)
+      for (int i = 0; i < 5; ++i) tent.positions.push_back({double(i), double(row), row == 1 ? 1. : 0.});
+    for (std::int32_t row = 0; row < 2; ++row)
+      for (std::int32_t i = 0; i < 4; ++i) {
+        const std::int32_t a = 5 * row + i;
+        if (scheme == data::Scheme::kCatmullClark) {
+          tent.faces.push_back({a, a + 1, a + 6, a + 5});
+        } else {
+          tent.faces.push_back({a, a + 1, a + 6});
+          tent.faces.push_back({a, a + 6, a + 5});
+        }
+      }
+    tent.sharpness.edges = {{5, 6, 5}, {6, 7, .5}, {7, 8, 5}};
+    tent.sharpness.creasing = data::Creasing::kChaikin;
+    const CertifiedEvaluator certified(tent, scheme);
+    for (const std::int32_t v : {6, 7}) {
+      std::vector<Enclosure> heights;
+      for (std::size_t f = 0; f < tent.faces.size(); ++f)
+        for (std::size_t k = 0; k < tent.faces[f].size(); ++k)
+          if (std::as_const(tent).faces[f][k] == v) {
+            const bool far = k == 2 && scheme == data::Scheme::kCatmullClark;
+            heights.push_back(
+                certified
+                    .evaluate(static_cast<int>(f), k == 1 || far ? 1. : 0., k == 2 || k == 3 ? 1. : 0., 20)
+                    .position[2]);
+          }
+      ASSERT_GE(heights.size(), 4U);
+      for (const Enclosure& h : heights)
+        EXPECT_LE(abs(Big(h.value) - Big(heights[0].value)), Big(h.radius) + Big(heights[0].radius))
+            << data::name_of(scheme) << " vertex " << v << ": " << h.value << ", " << heights[0].value;
+    }
   }
 }
 

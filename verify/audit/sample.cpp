@@ -8,6 +8,7 @@
 
 #include "data/cut_out.h"
 #include "data/splitmix64.h"
+#include "reference/mesh/support.h"
 #include "verify/audit/faces_around.h"
 
 namespace limitcheck::verify {
@@ -29,16 +30,12 @@ MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_
     }
   }
 
-  std::vector<bool> in_part(whole.faces.size(), false);
   for (std::size_t f = 0; f < in_patch_.size(); ++f)
-    if (in_patch_[f])
-      for (const std::int32_t v : whole.faces[f])
-        for (const std::int32_t g : around.of(v)) in_part[g] = true;
-  for (std::size_t f = 0; f < in_part.size(); ++f)
-    if (in_part[f]) {
-      part_of_[f] = static_cast<std::int32_t>(faces_.size());
-      faces_.push_back(static_cast<std::int32_t>(f));
-    }
+    if (in_patch_[f]) faces_.push_back(static_cast<std::int32_t>(f));
+  faces_ = reference::support_of(
+      std::move(faces_), whole.faces, [&](std::int32_t v) { return around.of(v); }, whole.sharpness.creasing);
+  std::sort(faces_.begin(), faces_.end());
+  for (std::size_t p = 0; p < faces_.size(); ++p) part_of_[faces_[p]] = static_cast<std::int32_t>(p);
   data::CutOut cut = data::cut_out(whole.faces, faces_);
   part_ = {cut.of(whole.positions), {}, cut.of(whole.sharpness)};
   part_.faces = std::move(cut.faces);

@@ -12,10 +12,9 @@
 
 namespace limitcheck::verify {
 
-/// Patches of faces of a control mesh (all faces around some vertices) and the faces that touch them. The
-/// limit surface of a face depends on no other vertices than those of the faces that touch it, so over the
-/// patches the part has the same surface as the whole. The subject gets the whole, with every face outside
-/// the patches culled.
+/// Patches of faces of a control mesh (all faces around some vertices) and the faces on which their limit
+/// surface depends (reference/mesh/support.h), so over the patches the part has the same surface as the whole.
+/// The subject gets the whole, with every face outside the patches culled.
 class MeshSample {
  public:
   /// At least `faces` faces (or all), around vertices drawn at random. `whole` is valid (data/validate.h).

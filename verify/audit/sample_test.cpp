@@ -10,6 +10,8 @@
 #include <set>
 
 #include "data/generators/named_mesh.h"
+#include "data/generators/sharp_meshes.h"
+#include "data/splitmix64.h"
 #include "data/validate.h"
 #include "reference/loop/stam.h"
 #include "verify/audit/audit.h"
@@ -58,6 +60,30 @@ TEST(MeshSample, HasTheSurfaceOfTheWholeOverItsPatches) {
     // Rings may start elsewhere, so sums run in another order: some roundings of coordinates below 8.
     EXPECT_LE(worst, 64 * 0x1p-53 * 8) << name;
     RecordProperty(fmt::format("worst_{}", name), fmt::format("{:.2e}", worst));
+  }
+}
+
+TEST(MeshSample, HasTheSurfaceOfTheWholeByChaikinsCreasingToo) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    data::ControlMesh whole = data::named_mesh("torus");
+    data::SplitMix64 random(seed);
+    for (const data::SharpEdge& e : data::with_random_sharpness(whole, seed).sharpness.edges)
+      whole.sharpness.edges.push_back({e.a, e.b, static_cast<float>(random.next() % 96) / 16});
+    whole.sharpness.creasing = data::Creasing::kChaikin;
+    const MeshSample sample(whole, 1, seed);
+    const auto depth = sample.cull(std::vector<std::int32_t>(whole.faces.size(), 0));
+    const reference::StamEvaluator<double> of_whole(whole), of_part(sample.part());
+    for (std::size_t p = 0; p < sample.faces().size(); ++p)
+      for (const auto& [l1, l2] : {std::pair(0., 0.), {1., 0.}, {0., 1.}, {.5, .5}, {.25, .125}}) {
+        const std::int32_t f = sample.faces()[p];
+        if (depth[f] < 0) continue;
+        const auto a = of_whole.evaluate(f, l1, l2, reference::Order::kPosition).position;
+        const auto b = of_part.evaluate(static_cast<int>(p), l1, l2, reference::Order::kPosition).position;
+        // As above; each of at most 7 steps before the evaluation adds as much again.
+        EXPECT_LE(std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}),
+                  8 * 64 * 0x1p-53 * 8)
+            << "seed " << seed << " face " << f;
+      }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "data/cut_out.h"
+#include "reference/mesh/support.h"
 #include "verify/audit/faces_around.h"
 
 namespace limitcheck::verify {
@@ -35,23 +36,11 @@ WorstFaces::WorstFaces(const Evidence& e, std::size_t most) : whole_(e.mesh) {
     of_these += of_face[worst[enough]];
   worst.resize(enough);
 
-  // Chaikin's way of creasing looks beyond the faces around.
-  const int rings = whole_.sharpness.creasing == data::Creasing::kChaikin ? 2 : 1;
+  worst_ = worst.size();
   const FacesAround around(whole_.faces, whole_.positions.size());
-  std::vector<bool> taken(whole_.faces.size());
-  for (const std::int32_t f : worst) taken[f] = true;
-  std::vector<std::int32_t> last = worst;
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<std::int32_t> next;
-    for (const std::int32_t f : last)
-      for (const std::int32_t v : whole_.faces[f])
-        for (const std::int32_t g : around.of(v))
-          if (!taken[g]) taken[g] = true, next.push_back(g);
-    faces_.insert(faces_.end(), next.begin(), next.end());
-    last = std::move(next);
-  }
-  first_ = faces_.size();
-  faces_.insert(faces_.end(), worst.begin(), worst.end());
+  faces_ = reference::support_of(
+      std::move(worst), whole_.faces, [&](std::int32_t v) { return around.of(v); },
+      whole_.sharpness.creasing);
   data::CutOut cut = data::cut_out(whole_.faces, faces_);
   part_ = {cut.of(whole_.positions), {}, cut.of(whole_.sharpness)};
   part_.faces = std::move(cut.faces);
@@ -67,10 +56,10 @@ SchemePoints WorstFaces::points(bool tags, Scheme scheme, int steps, bool limit,
   for (Place& p : points.place) {
     if (p.denominator == 0) continue;
     const auto face = static_cast<std::size_t>(p.face);
-    if (face < first_)
-      p.denominator = 0;
-    else
+    if (face < worst_)
       p.face = faces_[face];
+    else
+      p.denominator = 0;
   }
   return points;
 }

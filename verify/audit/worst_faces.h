@@ -28,8 +28,8 @@ class WorstFaces {
  private:
   const data::ControlMesh& whole_;
   double squares_ = 0;
-  std::vector<std::int32_t> faces_;  // of the part: those around first, then the worst
-  std::size_t first_ = 0;            // of the worst
+  std::vector<std::int32_t> faces_;  // of the part: the worst first, then what their surface depends on
+  std::size_t worst_ = 0;            // how many
   data::ControlMesh part_;
 };
 

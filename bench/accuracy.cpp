@@ -20,9 +20,9 @@
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "reference/surface/surface.h"
-#include "verify/audit/vector.h"
+#include "verify/evidence/vector.h"
+#include "verify/host/host.h"
 #include "verify/subject/face_domain.h"
-#include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace {

@@ -23,7 +23,7 @@
 #include "fast/stream/row_stream.h"
 #include "fast/window/quad_window.h"
 #include "fast/window/sliding_window.h"
-#include "verify/proof/operation_count.h"
+#include "verify/proof/numbers/operation_count.h"
 
 namespace {
 

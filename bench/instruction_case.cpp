@@ -21,8 +21,8 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "fast/stream/kernel/targets.h"
 #include "fast/stream/stream_tessellator.h"
-#include "fast/stream/targets.h"
 #include "fast/window/tessellator.h"
 
 namespace {

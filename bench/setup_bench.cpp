@@ -15,7 +15,7 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/depth.h"
 #include "fast/plan/printed_rules.h"
-#include "fast/stream/rings.h"
+#include "fast/stream/gather/rings.h"
 
 namespace {
 

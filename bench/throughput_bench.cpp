@@ -26,7 +26,7 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/scheme.h"
-#include "fast/stream/targets.h"
+#include "fast/stream/kernel/targets.h"
 
 namespace {
 

@@ -59,7 +59,7 @@ case $kind in
     tests_of "build/$kind" 'Hostile.*/wild_write' "$@"
     ;;
   program)
-    folders=(data reference fast verify/cli verify/files verify/subject/isolation)
+    folders=(data reference fast verify/cli verify/files verify/host/isolation)
     cmake --preset asan-ubsan -DLIMITCHECK_VERIFY=ON -DBUILD_TESTING=ON >/dev/null
     cmake --build --preset asan-ubsan --target limitcheck "${folders[@]/%//all}" >&2
     # Programs that crash on purpose are to end by the signal.

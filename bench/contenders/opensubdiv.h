@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/scheme.h"
-#include "verify/subject/opensubdiv_mesh.h"
+#include "verify/peers/opensubdiv_mesh.h"
 
 namespace limitcheck::bench {
 

@@ -7,7 +7,7 @@
 
 #include "bench/contenders/contender.h"
 #include "bench/contenders/pool.h"
-#include "fast/stream/compact_vertex.h"
+#include "fast/stream/kernel/compact_vertex.h"
 #include "fast/stream/row_stream.h"
 #include "fast/window/sliding_window.h"
 #include "reference/loop/naive.h"

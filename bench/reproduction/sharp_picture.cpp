@@ -8,8 +8,8 @@
 #include "bench/reproduction/studio.h"
 #include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
-#include "verify/audit/evidence.h"
-#include "verify/subject/host.h"
+#include "verify/evidence/evidence.h"
+#include "verify/host/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::bench {

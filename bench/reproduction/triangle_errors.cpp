@@ -6,7 +6,7 @@
 
 #include "fast/mesh/point3.h"
 #include "reference/loop/stam.h"
-#include "verify/audit/lattice.h"
+#include "verify/evidence/lattice.h"
 
 namespace limitcheck::bench {
 

@@ -15,8 +15,8 @@
 #include "data/splitmix64.h"
 #include "fast/rules/prepared_mesh.h"
 #include "fast/rules/ring.h"
-#include "fast/stream/number_stream.h"
-#include "fast/stream/rings.h"
+#include "fast/stream/gather/rings.h"
+#include "fast/stream/host/number_stream.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast::row_stream {

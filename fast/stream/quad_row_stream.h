@@ -9,8 +9,8 @@
 
 #include "fast/mesh/quad_mesh.h"
 #include "fast/rules/surface_vertex.h"
-#include "fast/stream/quad_rings.h"
-#include "fast/stream/quad_targets.h"
+#include "fast/stream/gather/quad_rings.h"
+#include "fast/stream/kernel/quad_targets.h"
 #include "fast/stream/row_stream.h"
 
 namespace limitcheck::fast::row_stream {

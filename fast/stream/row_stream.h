@@ -13,11 +13,11 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/triangle_mesh.h"
 #include "fast/plan/pairing.h"
-#include "fast/stream/batch.h"
-#include "fast/stream/compact_vertex.h"
-#include "fast/stream/rings.h"
-#include "fast/stream/targets.h"
-#include "fast/stream/vertex.h"
+#include "fast/stream/gather/batch.h"
+#include "fast/stream/gather/rings.h"
+#include "fast/stream/kernel/compact_vertex.h"
+#include "fast/stream/kernel/targets.h"
+#include "fast/stream/kernel/vertex.h"
 
 namespace limitcheck::fast::row_stream {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/audit/face_depths.h"
+#include "verify/evidence/face_depths.h"
 
 namespace limitcheck::verify {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "verify/audit/audit_case.h"
-#include "verify/subject/host.h"
+#include "verify/evidence/audit_case.h"
+#include "verify/host/host.h"
 
 namespace limitcheck::verify {
 

@@ -10,8 +10,8 @@
 #include "data/bounding_box.h"
 #include "data/error.h"
 #include "verify/audit/ask_earlier.h"
-#include "verify/audit/bounds.h"
-#include "verify/audit/evidence.h"
+#include "verify/evidence/evidence.h"
+#include "verify/row/bounds.h"
 #include "verify/subject/weights_option.h"
 
 namespace limitcheck::verify {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "verify/audit/audit_case.h"
-#include "verify/audit/vector.h"
+#include "verify/evidence/audit_case.h"
+#include "verify/evidence/vector.h"
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "verify/audit/audit_case.h"
-#include "verify/audit/evidence.h"
-#include "verify/audit/reference_surface.h"
-#include "verify/audit/refusal.h"
-#include "verify/audit/result.h"
+#include "verify/evidence/audit_case.h"
+#include "verify/evidence/evidence.h"
+#include "verify/evidence/reference_surface.h"
+#include "verify/relations/refusal.h"
+#include "verify/row/result.h"
 #include "verify/shard/journal.h"
 
 namespace limitcheck::verify {

@@ -14,11 +14,11 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
-#include "verify/audit/checks.h"
-#include "verify/audit/reproduce.h"
-#include "verify/audit/test_rows.h"
+#include "verify/checks/checks.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/subject/faulty_subjects.h"
+#include "verify/mutants/faulty_subjects.h"
+#include "verify/row/reproduce.h"
+#include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

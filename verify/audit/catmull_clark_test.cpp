@@ -9,9 +9,9 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "verify/audit/audit.h"
-#include "verify/audit/face_depths.h"
-#include "verify/audit/relations.h"
-#include "verify/subject/quad_model_rules.h"
+#include "verify/evidence/face_depths.h"
+#include "verify/mutants/quad_models/quad_model_rules.h"
+#include "verify/relations/relations.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -7,10 +7,10 @@
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
-#include "verify/audit/judged.h"
-#include "verify/audit/table.h"
-#include "verify/audit/test_rows.h"
-#include "verify/subject/host.h"
+#include "verify/host/host.h"
+#include "verify/report/judged.h"
+#include "verify/report/table.h"
+#include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

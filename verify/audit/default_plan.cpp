@@ -7,8 +7,8 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/worst_cases.h"
-#include "verify/audit/face_depths.h"
-#include "verify/subject/host.h"
+#include "verify/evidence/face_depths.h"
+#include "verify/host/host.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -12,7 +12,7 @@
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
-#include "verify/audit/face_depths.h"
+#include "verify/evidence/face_depths.h"
 
 namespace limitcheck::verify {
 namespace {

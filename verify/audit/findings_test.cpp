@@ -9,7 +9,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
-#include "verify/audit/test_rows.h"
+#include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

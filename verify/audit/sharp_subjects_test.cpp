@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "verify/audit/audit.h"
-#include "verify/audit/test_rows.h"
+#include "verify/peers/test_sharp_shapes.h"
+#include "verify/row/test_rows.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"
-#include "verify/subject/test_sharp_shapes.h"
 
 namespace limitcheck::verify {
 namespace {

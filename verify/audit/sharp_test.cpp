@@ -9,9 +9,9 @@
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
-#include "verify/audit/face_depths.h"
-#include "verify/audit/test_rows.h"
-#include "verify/subject/host.h"
+#include "verify/evidence/face_depths.h"
+#include "verify/host/host.h"
+#include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -9,9 +9,9 @@
 #include "data/cut_out.h"
 #include "data/validate.h"
 #include "verify/audit/audit.h"
-#include "verify/audit/face_depths.h"
-#include "verify/audit/relations.h"
+#include "verify/evidence/face_depths.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/relations/relations.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "verify/audit/audit_case.h"
-#include "verify/audit/result.h"
+#include "verify/evidence/audit_case.h"
+#include "verify/row/result.h"
 
 namespace limitcheck::verify {
 

@@ -16,8 +16,8 @@
 #include "data/shapes.h"
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
+#include "verify/host/host.h"
 #include "verify/picture/canvas.h"
-#include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

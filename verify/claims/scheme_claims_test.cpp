@@ -20,7 +20,7 @@
 #include "reference/loop/stam.h"
 #include "reference/number/number_exact.h"
 #include "verify/audit/audit.h"
-#include "verify/subject/host.h"
+#include "verify/host/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -90,7 +90,7 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
 }
 
 // Runs a subject with each scheme's rules: no point beyond a few roundings of the exact surface, of which it
-// knows nothing. (The audit's bounds: verify/audit/bounds.h.)
+// knows nothing. (The audit's bounds: verify/row/bounds.h.)
 void expect_both_schemes(const lc_subject* subject) {
   struct Case {
     const char* mesh;

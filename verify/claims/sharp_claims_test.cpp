@@ -12,8 +12,8 @@
 #include "data/generators/named_mesh.h"
 #include "data/scheme.h"
 #include "reference/surface/surface.h"
-#include "verify/audit/lattice.h"
-#include "verify/audit/vector.h"
+#include "verify/evidence/lattice.h"
+#include "verify/evidence/vector.h"
 
 namespace limitcheck::verify {
 namespace {

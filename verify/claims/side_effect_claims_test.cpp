@@ -13,7 +13,7 @@
 #include "data/splitmix64.h"
 #include "fast/frame/crack_centre.h"
 #include "reference/loop/refine.h"
-#include "verify/subject/host.h"
+#include "verify/host/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -2,7 +2,7 @@
 // Whether an audit fits into the memory of this machine.
 #pragma once
 
-#include "verify/audit/audit_case.h"
+#include "verify/evidence/audit_case.h"
 
 namespace limitcheck::cli {
 

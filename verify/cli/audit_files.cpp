@@ -10,15 +10,15 @@
 #include <cstdlib>
 #include <exception>
 
-#include "verify/audit/json.h"
-#include "verify/audit/table.h"
 #include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/finite.h"
 #include "verify/cli/progress.h"
 #include "verify/files/audit_files.h"
+#include "verify/host/coordinate_range.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/subject/coordinate_range.h"
+#include "verify/report/json.h"
+#include "verify/report/table.h"
 
 namespace limitcheck::cli {
 

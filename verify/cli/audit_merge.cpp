@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 
-#include "verify/audit/json.h"
-#include "verify/audit/overview.h"
-#include "verify/audit/result_json.h"
 #include "verify/cli/merge.h"
+#include "verify/report/json.h"
+#include "verify/report/overview.h"
+#include "verify/report/result_json.h"
 
 namespace limitcheck::cli {
 

@@ -15,10 +15,10 @@
 #include "data/generators/named_mesh.h"
 #include "data/worst_cases.h"
 #include "verify/audit/default_plan.h"
-#include "verify/audit/refusal.h"
 #include "verify/cli/audit_depths.h"
-#include "verify/subject/coordinate_range.h"
-#include "verify/subject/host.h"
+#include "verify/host/coordinate_range.h"
+#include "verify/host/host.h"
+#include "verify/relations/refusal.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "verify/audit/audit.h"
-#include "verify/audit/face_depths.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/progress.h"
+#include "verify/evidence/face_depths.h"
 
 namespace limitcheck::cli {
 

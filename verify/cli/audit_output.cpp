@@ -12,19 +12,19 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
-#include "verify/audit/baseline.h"
-#include "verify/audit/explain.h"
-#include "verify/audit/html_report.h"
-#include "verify/audit/json.h"
-#include "verify/audit/judged.h"
-#include "verify/audit/junit.h"
 #include "verify/audit/shrink.h"
-#include "verify/audit/waivers.h"
-#include "verify/audit/witness_files.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/finite.h"
 #include "verify/cli/subject_output.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/baseline.h"
+#include "verify/report/html_report.h"
+#include "verify/report/json.h"
+#include "verify/report/judged.h"
+#include "verify/report/junit.h"
+#include "verify/report/waivers.h"
+#include "verify/report/witness_files.h"
+#include "verify/row/explain.h"
 
 namespace limitcheck::cli {
 

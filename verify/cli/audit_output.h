@@ -34,7 +34,7 @@ void waive(const OutputArguments& arguments, verify::Report& report);
 /// Compares the report with --baseline. Throws data::ArgumentError: the file cannot be read or understood.
 void compare(const OutputArguments& arguments, verify::Report& report);
 
-/// Writes each finding of the report as files (verify/audit/witness_files.h), if --witnesses or --shrink says
+/// Writes each finding of the report as files (verify/report/witness_files.h), if --witnesses or --shrink says
 /// so; with --shrink one for each subject and check, on a smaller mesh. Says so on standard error. `subjects`
 /// in the order of report.subjects. Throws std::runtime_error, data::InputError: a file cannot be written.
 void write_witnesses(const OutputArguments& arguments, const std::vector<verify::AuditSubject>& subjects,

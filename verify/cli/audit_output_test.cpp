@@ -27,12 +27,12 @@ TEST_F(AuditOutput, IsValidByThePublishedSchema) {
         "audit --program 'kill -SEGV $$' tetrahedron",
         "audit --program 'sleep 1000' tetrahedron --timeout 0.3"}) {
     ASSERT_LE(run(std::string(arguments) + " --json report.json").code, 1) << arguments;
-    EXPECT_EQ(
-        python("import json, jsonschema\n"
-               "schema = json.load(open('" LIMITCHECK_SOURCE_DIR "/verify/audit/schema/audit.schema.json'))\n"
-               "jsonschema.Draft7Validator.check_schema(schema)\n"
-               "jsonschema.validate(json.load(open('report.json')), schema)\n"),
-        0)
+    EXPECT_EQ(python("import json, jsonschema\n"
+                     "schema = json.load(open('" LIMITCHECK_SOURCE_DIR
+                     "/verify/report/schema/audit.schema.json'))\n"
+                     "jsonschema.Draft7Validator.check_schema(schema)\n"
+                     "jsonschema.validate(json.load(open('report.json')), schema)\n"),
+              0)
         << arguments << "\n"
         << read("python.txt");
   }

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "verify/audit/result_json.h"
+#include "verify/report/result_json.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "verify/audit/audit_case.h"
-#include "verify/audit/result.h"
+#include "verify/evidence/audit_case.h"
+#include "verify/row/result.h"
 #include "verify/shard/journal.h"
 
 namespace limitcheck::cli {

@@ -12,10 +12,10 @@
 
 #include "data/error.h"
 #include "verify/audit/at_point.h"
-#include "verify/audit/face_depths.h"
 #include "verify/cli/audit_depths.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/subject_loader.h"
+#include "verify/evidence/face_depths.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -14,7 +14,6 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
-#include "verify/audit/json.h"
 #include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/hunt_jobs.h"
@@ -22,6 +21,7 @@
 #include "verify/cli/subject_loader.h"
 #include "verify/cli/subject_output.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/json.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
-#include "verify/audit/json.h"
 #include "verify/cli/commands.h"
 #include "verify/hunt/hunt_report.h"
+#include "verify/report/json.h"
 
 namespace limitcheck::cli {
 namespace {

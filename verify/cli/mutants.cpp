@@ -9,12 +9,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "verify/audit/json.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/merge.h"
 #include "verify/cli/progress.h"
 #include "verify/cli/shard_options.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/json.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -14,7 +14,6 @@
 
 #include "data/error.h"
 #include "data/scheme.h"
-#include "verify/audit/json.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/merge.h"
 #include "verify/cli/progress.h"
@@ -23,6 +22,7 @@
 #include "verify/proof/proof_json.h"
 #include "verify/proof/proof_report.h"
 #include "verify/proof/prove.h"
+#include "verify/report/json.h"
 
 namespace limitcheck::cli {
 namespace {

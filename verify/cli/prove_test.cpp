@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck prove` as a user meets it. That a fault is found is the business of
-// verify/proof/fault_test.cpp.
+// verify/proof/maps/fault_test.cpp.
 #include <gtest/gtest.h>
 
 #include <map>

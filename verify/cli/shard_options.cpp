@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "data/error.h"
-#include "verify/audit/json.h"
+#include "verify/report/json.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -15,8 +15,8 @@
 #include "data/generators/named_mesh.h"
 #include "data/io/whole_content.h"
 #include "verify/cli/finite.h"
-#include "verify/subject/host.h"
-#include "verify/subject/isolation/witness.h"
+#include "verify/host/host.h"
+#include "verify/host/isolation/witness.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::cli {
@@ -56,7 +56,7 @@ void add_subject_options(CLI::App& command, SubjectArguments& a) {
       .add_option(
           "--program", a.program,
           "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
-          "of verify/subject/isolation/PROTOCOL.md")
+          "of verify/host/isolation/PROTOCOL.md")
       ->type_name("COMMAND")
       ->group(group);
   command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too")

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/audit/audit_case.h"
-#include "verify/subject/isolation/remote_subject.h"
+#include "verify/evidence/audit_case.h"
+#include "verify/host/isolation/remote_subject.h"
 
 namespace limitcheck::cli {
 

@@ -21,8 +21,8 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/progress.h"
+#include "verify/host/coordinate_range.h"
 #include "verify/mesh_output/mesh_output.h"
-#include "verify/subject/coordinate_range.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "verify/cli/commands.h"
-#include "verify/subject/in_turns.h"
-#include "verify/subject/isolation/worker.h"
+#include "verify/host/in_turns.h"
+#include "verify/host/isolation/worker.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/subject_error.h"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "verify/files/blind_spots.h"
-#include "verify/files/diagnosis.h"
-#include "verify/files/hausdorff.h"
+#include "verify/files/checks/blind_spots.h"
+#include "verify/files/checks/diagnosis.h"
+#include "verify/files/checks/hausdorff.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "verify/audit/result.h"
-#include "verify/files/file_evidence.h"
-#include "verify/files/fit.h"
+#include "verify/files/checks/file_evidence.h"
+#include "verify/files/checks/fit.h"
+#include "verify/row/result.h"
 
 namespace limitcheck::verify {
 

@@ -10,11 +10,11 @@
 
 #include "data/generators/named_mesh.h"
 #include "reference/loop/refine.h"
-#include "verify/audit/explain.h"
-#include "verify/audit/schemes.h"
 #include "verify/files/audit_files.h"
-#include "verify/files/hausdorff.h"
+#include "verify/files/checks/hausdorff.h"
 #include "verify/files/test_files.h"
+#include "verify/recognise/schemes.h"
+#include "verify/row/explain.h"
 
 namespace limitcheck::verify {
 namespace {

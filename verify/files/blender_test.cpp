@@ -31,7 +31,7 @@ class Blender : public testing::Test {
   }
   void TearDown() override { fs::remove(out_); }
 
-  static fs::path cage(const std::string& name) { return kRoot / "verify/subject/peers/meshes" / name; }
+  static fs::path cage(const std::string& name) { return kRoot / "verify/peers/findings/meshes" / name; }
   int subdivide(const std::string& name) const {
     return code_of("blender -b -P '" + (kRoot / "verify/files/examples/blender_subdivide.py").string() +
                    "' -- '" + cage(name).string() + "' '" + out_.string() + "' 3");

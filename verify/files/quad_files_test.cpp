@@ -7,11 +7,11 @@
 #include <string>
 
 #include "data/generators/named_mesh.h"
-#include "verify/audit/schemes.h"
-#include "verify/files/hausdorff.h"
+#include "verify/files/checks/hausdorff.h"
+#include "verify/files/read/test_quad_files.h"
 #include "verify/files/test_files.h"
-#include "verify/files/test_quad_files.h"
 #include "verify/projection/test_quad_meshes.h"
+#include "verify/recognise/schemes.h"
 
 namespace limitcheck::verify {
 namespace {

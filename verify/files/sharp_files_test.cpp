@@ -8,8 +8,8 @@
 #include "data/generators/mixed_mesh.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "verify/files/read/test_sharp_files.h"
 #include "verify/files/test_files.h"
-#include "verify/files/test_sharp_files.h"
 #include "verify/projection/test_sharp_meshes.h"
 
 namespace limitcheck::verify {

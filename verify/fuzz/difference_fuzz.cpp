@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "data/validate.h"
+#include "fast/stream/kernel/targets.h"
 #include "fast/stream/stream_tessellator.h"
-#include "fast/stream/targets.h"
 #include "reference/loop/stam.h"
-#include "verify/audit/bounds.h"
 #include "verify/fuzz/mesh_from_bytes.h"
+#include "verify/row/bounds.h"
 
 using namespace limitcheck;
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "data/error.h"
-#include "verify/files/provenance.h"
+#include "verify/files/read/provenance.h"
 
 using namespace limitcheck;
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "data/error.h"
-#include "verify/audit/waivers.h"
+#include "verify/report/waivers.h"
 
 using namespace limitcheck::verify;
 

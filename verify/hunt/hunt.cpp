@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "data/bounding_box.h"
-#include "verify/audit/causes.h"
-#include "verify/audit/face_depths.h"
-#include "verify/audit/reproduce.h"
 #include "verify/audit/shrink.h"
-#include "verify/audit/witness_files.h"
+#include "verify/causes/causes.h"
+#include "verify/evidence/face_depths.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/witness_files.h"
+#include "verify/row/reproduce.h"
 
 namespace limitcheck::verify {
 

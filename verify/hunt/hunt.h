@@ -20,7 +20,7 @@ struct HuntOptions {
   std::filesystem::path witnesses;  // folder for the small meshes; empty: none is written
 };
 
-/// Audits cases of a plan. What follows from another row of the case (verify/audit/causes.h) is no finding;
+/// Audits cases of a plan. What follows from another row of the case (verify/causes/causes.h) is no finding;
 /// findings with one signature are one: the first counts.
 class Hunt {
  public:

@@ -14,8 +14,8 @@
 #include "data/generators/named_mesh.h"
 #include "data/splitmix64.h"
 #include "data/validate.h"
-#include "verify/audit/face_depths.h"
-#include "verify/subject/host.h"
+#include "verify/evidence/face_depths.h"
+#include "verify/host/host.h"
 #include "verify/subject/lent_mesh.h"
 
 namespace limitcheck::verify {

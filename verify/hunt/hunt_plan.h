@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/scheme.h"
-#include "verify/audit/audit_case.h"
+#include "verify/evidence/audit_case.h"
 
 namespace limitcheck::verify {
 

@@ -10,7 +10,7 @@
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
-#include "verify/audit/face_depths.h"
+#include "verify/evidence/face_depths.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "verify/audit/junit.h"
 #include "verify/hunt/hunt_report.h"
+#include "verify/report/junit.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/audit/faces_around.h"
-#include "verify/audit/relations.h"
+#include "verify/evidence/faces_around.h"
+#include "verify/relations/relations.h"
 
 namespace limitcheck::verify {
 namespace {

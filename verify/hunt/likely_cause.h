@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "verify/audit/audit_case.h"
-#include "verify/audit/result.h"
+#include "verify/evidence/audit_case.h"
+#include "verify/row/result.h"
 
 namespace limitcheck::verify {
 

@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "verify/audit/audit.h"
-#include "verify/audit/checks.h"
 #include "verify/audit/default_plan.h"
-#include "verify/audit/relations.h"
-#include "verify/subject/faulty_subjects.h"
-#include "verify/subject/model_rules.h"
-#include "verify/subject/quad_model_rules.h"
+#include "verify/checks/checks.h"
+#include "verify/mutants/faulty_subjects.h"
+#include "verify/mutants/models/model_rules.h"
+#include "verify/mutants/quad_models/quad_model_rules.h"
+#include "verify/relations/relations.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

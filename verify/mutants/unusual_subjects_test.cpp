@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Subjects that are right and unlike others: the default audit blames none of them.
-#include "verify/subject/unusual_subjects.h"
+#include "verify/mutants/unusual_subjects.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
-#include "verify/subject/isolation/remote_subject.h"
+#include "verify/host/isolation/remote_subject.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

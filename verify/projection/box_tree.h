@@ -11,7 +11,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "verify/audit/vector.h"
+#include "verify/evidence/vector.h"
 
 namespace limitcheck::verify {
 

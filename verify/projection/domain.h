@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "reference/mesh/sharp_tags.h"
-#include "verify/audit/faces_around.h"
-#include "verify/audit/lattice.h"
+#include "verify/evidence/faces_around.h"
+#include "verify/evidence/lattice.h"
 #include "verify/projection/chart.h"
 
 namespace limitcheck::verify {

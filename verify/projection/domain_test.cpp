@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "data/shapes.h"
-#include "verify/audit/vector.h"
+#include "verify/evidence/vector.h"
 #include "verify/projection/domain.h"
 
 namespace limitcheck::verify {

@@ -10,7 +10,7 @@
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
-#include "verify/audit/vector.h"
+#include "verify/evidence/vector.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {

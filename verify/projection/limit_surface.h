@@ -10,7 +10,7 @@
 #include "data/scheme.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/surface/surface.h"
-#include "verify/audit/vector.h"
+#include "verify/evidence/vector.h"
 #include "verify/projection/domain.h"
 #include "verify/projection/hub.h"
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "verify/audit/vector.h"
+#include "verify/evidence/vector.h"
 
 namespace limitcheck::verify {
 

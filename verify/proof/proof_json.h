@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "verify/proof/certified_comparison.h"
-#include "verify/proof/proof_row.h"
+#include "verify/proof/topologies/proof_row.h"
 
 namespace limitcheck::verify {
 

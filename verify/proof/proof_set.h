@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "data/scheme.h"
-#include "verify/proof/prove_map.h"
+#include "verify/proof/maps/prove_map.h"
 
 namespace limitcheck::verify {
 

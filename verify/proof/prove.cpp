@@ -9,9 +9,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "verify/proof/bounds.h"
-#include "verify/proof/operation_count.h"
-#include "verify/proof/thread_clock.h"
+#include "verify/proof/bounds/bounds.h"
+#include "verify/proof/maps/thread_clock.h"
+#include "verify/proof/numbers/operation_count.h"
 
 namespace limitcheck::verify {
 namespace {

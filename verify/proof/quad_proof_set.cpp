@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "verify/proof/proof_set.h"
-#include "verify/proof/quad_neighbourhood.h"
+#include "verify/proof/topologies/quad_neighbourhood.h"
 
 namespace limitcheck::verify {
 namespace {

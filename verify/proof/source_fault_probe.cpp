@@ -5,7 +5,7 @@
 
 #include <exception>
 
-#include "verify/proof/prove_map.h"
+#include "verify/proof/maps/prove_map.h"
 
 int main() {
   using namespace limitcheck::verify;

@@ -17,12 +17,12 @@ flags=(-std=c++20 -O1 -I "$copy" -ffp-contract=off)
 g++ "${flags[@]}" -c "$copy/verify/proof/source_fault_probe.cpp" -o "$copy/probe.o" || exit 1
 
 ask() {
-  g++ "${flags[@]}" -c "$copy/verify/proof/prove_map_residues.cpp" -o "$copy/mutant.o" 2> "$copy/log" || return 2
+  g++ "${flags[@]}" -c "$copy/verify/proof/maps/prove_map_residues.cpp" -o "$copy/mutant.o" 2> "$copy/log" || return 2
   g++ "$copy/probe.o" "$copy/mutant.o" -Wl,--start-group "${libraries[@]}" -Wl,--end-group -o "$copy/probe" || return 2
   timeout 300 "$copy/probe"
 }
 
-quad_sources=(verify/proof/quad_map_test.cpp fast/mesh/adjacency.cpp fast/mesh/quad_mesh.cpp
+quad_sources=(verify/proof/maps/quad_map_test.cpp fast/mesh/adjacency.cpp fast/mesh/quad_mesh.cpp
   fast/mesh/sharp_polygons.cpp fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp)
 ask_quads() {
   (cd "$copy" && g++ "${flags[@]}" "${quad_sources[@]}" -o probe -Wl,--start-group "${libraries[@]}" \

@@ -15,7 +15,7 @@ struct PartReport {
   Plan plan;
   std::map<std::size_t, nlohmann::json> results;  // by unit
   double seconds = 0;
-  std::string containment, printed;  // as in Report (verify/audit/result.h)
+  std::string containment, printed;  // as in Report (verify/row/result.h)
   std::string incomplete;            // why not all of the shard is done; empty: all is
 
   /// Whether each unit of the shard is there, and no other.

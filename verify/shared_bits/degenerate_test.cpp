@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "data/generators/named_mesh.h"
+#include "fast/stream/kernel/targets.h"
 #include "fast/stream/stream_tessellator.h"
-#include "fast/stream/targets.h"
 #include "verify/audit/audit.h"
 #include "verify/shared_bits/evaluate.h"
 #include "verify/subject/registry.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "fast/stream/lattice.h"
+#include "fast/stream/kernel/lattice.h"
 #include "fast/stream/row_stream.h"
 
 namespace limitcheck::verify {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "fast/stream/targets.h"
+#include "fast/stream/kernel/targets.h"
 #include "verify/shared_bits/rewritten.h"
 #include "verify/shared_bits/shared_bits.h"
 

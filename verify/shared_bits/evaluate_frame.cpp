@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fast/stream/row_stream.h"
+#include "verify/host/host.h"
 #include "verify/shared_bits/evaluate.h"
-#include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

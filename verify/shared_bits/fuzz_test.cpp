@@ -12,10 +12,10 @@
 #include "data/generators/random_mesh.h"
 #include "data/splitmix64.h"
 #include "data/validate.h"
-#include "fast/stream/targets.h"
+#include "fast/stream/kernel/targets.h"
 #include "verify/audit/audit.h"
+#include "verify/host/host.h"
 #include "verify/shared_bits/evaluate.h"
-#include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

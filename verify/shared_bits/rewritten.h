@@ -8,8 +8,8 @@
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/pairing.h"
-#include "verify/audit/face_depths.h"
-#include "verify/audit/rewriting.h"
+#include "verify/evidence/face_depths.h"
+#include "verify/relations/rewriting.h"
 
 namespace limitcheck::verify {
 

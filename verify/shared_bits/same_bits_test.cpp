@@ -7,7 +7,7 @@
 #include <string>
 
 #include "data/generators/named_mesh.h"
-#include "fast/stream/targets.h"
+#include "fast/stream/kernel/targets.h"
 #include "verify/shared_bits/evaluate.h"
 
 namespace limitcheck::verify {

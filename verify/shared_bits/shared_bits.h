@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "verify/audit/lattice.h"
+#include "verify/evidence/lattice.h"
 
 namespace limitcheck::verify {
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "data/generators/named_mesh.h"
+#include "fast/stream/kernel/targets.h"
 #include "fast/stream/row_stream.h"
-#include "fast/stream/targets.h"
+#include "verify/host/host.h"
 #include "verify/shared_bits/profile.h"
 #include "verify/shared_bits/rewritten.h"
-#include "verify/subject/host.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -22,9 +22,9 @@ const lc_subject* lc_subject_vtk();  // nullptr: this build has none
 const lc_subject* lc_subject_null();
 const lc_subject* lc_subject_model();          // right, or wrong in one stated way: model_rules.h
 const lc_subject* lc_subject_quad_model();     // the same of Catmull-Clark's surfaces: quad_model_rules.h
-const lc_subject* lc_subject_faulty();         // options: verify/subject/faulty_subjects.h
+const lc_subject* lc_subject_faulty();         // options: verify/mutants/faulty_subjects.h
 const lc_subject* lc_subject_faulty_frames();  // options: the same
-const lc_subject* lc_subject_unusual();        // options: verify/subject/unusual_subjects.h
+const lc_subject* lc_subject_unusual();        // options: verify/mutants/unusual_subjects.h
 }
 
 namespace limitcheck::verify {

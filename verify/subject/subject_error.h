@@ -11,7 +11,7 @@ namespace limitcheck::verify {
 /// A subject refuses or fails, or the host does not call it (depths beyond its capabilities, another
 /// interface).
 ///   status   LC_NOT_SUPPORTED, LC_INVALID_INPUT or LC_FAILED, never LC_OK
-/// Thrown by the host (verify/subject/host.h); an adapter
+/// Thrown by the host (verify/host/host.h); an adapter
 /// that throws it makes the interface return status and text.
 class SubjectError : public std::runtime_error {
  public:
@@ -29,7 +29,7 @@ class NotAsked : public SubjectError {
   explicit NotAsked(const std::string& message) : SubjectError(LC_NOT_SUPPORTED, message) {}
 };
 
-/// A subject that runs in a process of its own (verify/subject/isolation/) has broken down there. what()
+/// A subject that runs in a process of its own (verify/host/isolation/) has broken down there. what()
 /// tells how, what it last wrote on standard error, and the command that repeats it.
 class SubjectDied : public SubjectError {
  public:

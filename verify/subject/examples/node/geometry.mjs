@@ -58,7 +58,7 @@ function fault({ position, index }) {
   return null;
 }
 
-// The protocol: verify/subject/isolation/PROTOCOL.md, version 1.
+// The protocol: verify/host/isolation/PROTOCOL.md, version 1.
 let kept = Buffer.alloc(0);
 function bytes(enough) {
   for (let end = enough(kept); ; end = enough(kept)) {

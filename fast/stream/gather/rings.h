@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// What the grids around a control vertex need of it, computed once per vertex in an order that does not
+// depend on the grid.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/mesh/vertex_kind.h"
+#include "fast/rules/sharp_limit.h"
+#include "fast/rules/vertex_limit.h"
+#include "fast/stream/kernel/layout.h"
+#include "fast/stream/kernel/number.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// x y z 0
+template <class T>
+using ControlPoint = std::array<T, 4>;
+
+/// A control mesh in the kernel's coordinates.
+template <class T>
+struct PlacedPoints {
+  std::vector<ControlPoint<T>> points;
+  KernelPlacement<T> placement;
+};
+
+/// A mesh of size 1 about the origin, T float or double. The centre is one for the whole mesh, or shared
+/// points would differ: the middle of its box, rounded to float, in each coordinate in which the middle is
+/// farther than a quarter of the size from 0; else 0, so that the coordinates are not rounded again. (The
+/// sliding window has a rule of its own, by which representable control points stay exact; it would change
+/// the bits of this engine.)
+template <class T>
+PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions);
+
+/// The same for triangles, with local origins sooner where some are low.
+template <class T>
+PlacedPoints<T> place(const data::ControlMesh& mesh);
+
+/// Rings and limits of all control vertices, for a number N of the kernel (see number.h). Needs
+/// NumberTraits<Scalar> of fast/rules/masks.h: Wide, Scalar, widen, narrow; and of NumberTraits of that
+/// Scalar cosine(1, n), or cosine(k, n) and sine(k, n). Topology alone decides which operations are done, but
+/// for the start of the rings in floating point and for degenerate normals.
+///
+/// Order in floating point: an interior ring starts at its lexicographically smallest neighbour (position,
+/// then the positions that follow it), a boundary ring at the first boundary edge. So what is computed here
+/// depends on positions alone: not on the numbering of vertices and faces nor on the rotation of corners.
+/// Numbers without rounding start at adjacency.outgoing. [claim D14]
+///
+/// Boundary: the open ring r_0 .. r_K goes on at both ends so that the interior rules, applied to it, give
+/// the B-spline boundary curve: r_{-k} = q_k - r_k with q = 2 r_0, v + r_0, v + r_K, 2 r_K, v + r_K, v + r_0
+/// (period 6), and likewise from r_K. r_{-1} = v + r_0 - r_1 is the ghost of claim D10; the others follow
+/// from its being invariant at every level. At a vertex that is held
+/// q = 2 v + 2 cos(k pi / 3) (r_0 - v): 2 r_0, v + r_0, 3 v - r_0, 4 v - 2 r_0, 3 v - r_0, v + r_0.
+template <class N>
+class BasicRings {
+ public:
+  using T = typename N::Scalar;
+  using Wide = typename NumberTraits<T>::Wide;
+
+  /// One point per vertex of the adjacency; throws data::ArgumentError otherwise. Of darts only the limits are
+  /// right: what becomes of their rings is not what the kernel knows of a corner. Keeps a reference to the
+  /// kinds, which must outlive it.
+  BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds = {});
+  BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency, VertexKinds kinds = {})
+      : BasicRings(adjacency, place<T>(mesh), kinds) {}
+
+  /// Other points, for the same adjacency: what depends on the topology alone stays.
+  ///   throws   data::ArgumentError: not one point per vertex
+  void move_points(const Adjacency& adjacency, PlacedPoints<T> points);
+
+  /// Ring of a vertex as indices into points(). Entry k of an interior ring is at (k mod n) of `first`; a
+  /// boundary ring has kReach further entries at either end and does not wrap.
+  struct Ring {
+    std::int32_t first;   // into entries()
+    std::int32_t period;  // n; kOpen for a boundary ring
+  };
+  static constexpr std::int32_t kOpen = std::numeric_limits<std::int32_t>::max();
+  static constexpr int kReach = kMaxDepth + 3;
+
+  const std::vector<ControlPoint<T>>& points() const { return points_; }
+  const std::vector<std::int32_t>& entries() const { return entries_; }
+  Ring ring(std::int32_t v) const { return rings_[v]; }
+  /// Index in the ring of its origin of the vertex a half-edge points to.
+  std::int32_t slot(std::int32_t h) const { return slot_[h]; }
+
+  /// k0, k1, c, d, limit position, limit normal (or N::tangent): the head of a CornerBlock.
+  struct CornerHead {
+    std::array<T, CornerBlock::kWindow> head;
+  };
+  const CornerHead& corner(std::int32_t v) const { return corners_[v]; }
+
+  const KernelPlacement<T>& placement() const { return placement_; }
+  /// The number of vertices whose two limit tangents are parallel or vanish. [D12]
+  std::int64_t degenerate_normals() const { return degenerate_normals_; }
+
+ private:
+  using Weight = typename NumberTraits<Wide>::Scalar;
+  struct Scratch {
+    std::vector<std::int32_t> vertices;
+    std::vector<Vec3<Wide>> points, continued;
+  };
+
+  void lay_out(const Adjacency& adjacency);
+  void make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind, Scratch& scratch);
+  void continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, Ring ring,
+                     Scratch& scratch);
+  void put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0, const Weight& k1,
+                  const VertexLimit<Wide>& limit, const Vec3<Wide>& normal);
+
+  std::vector<ControlPoint<T>> points_;  // control vertices, then ghosts
+  VertexKinds kinds_;
+  std::size_t ghosts_ = 0;
+  std::vector<std::int32_t> entries_;
+  std::vector<Ring> rings_;
+  std::vector<std::int32_t> slot_;
+  std::vector<CornerHead> corners_;
+  KernelPlacement<T> placement_;
+  RingWeightTable<Weight> weights_;
+  DartWeightTable<Weight> darts_;
+  std::int64_t degenerate_normals_ = 0;
+};
+
+using Rings = BasicRings<ScalarNumber<float>>;
+
+}  // namespace limitcheck::fast::row_stream

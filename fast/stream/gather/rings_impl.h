@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// BasicRings for any number; rings.cpp instantiates it for float and double.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "data/error.h"
+#include "fast/rules/vertex_normal.h"
+#include "fast/stream/gather/rings.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// Where a closed ring, read from there on, is lexicographically smallest.
+template <class W>
+std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
+  std::size_t best = 0;
+  bool unique = true;
+  for (std::size_t k = 1; k < n; ++k) {
+    const bool less = ring[k].x < ring[best].x;
+    unique = less | (unique & (ring[k].x != ring[best].x));
+    best = less ? k : best;
+  }
+  if (unique) return best;
+  best = 0;
+  for (std::size_t k = 1; k < n; ++k) {
+    for (std::size_t t = 0; t < n; ++t) {
+      const Vec3<W>&a = ring[(k + t) % n], &b = ring[(best + t) % n];
+      if (a == b) continue;
+      if (a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z) best = k;
+      break;
+    }
+  }
+  return best;
+}
+
+template <class N>
+BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
+    : kinds_(kinds), weights_(adjacency.max_valence()) {
+  lay_out(adjacency);
+  move_points(adjacency, std::move(points));
+}
+
+template <class N>
+void BasicRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> points) {
+  if (points.points.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
+    throw data::ArgumentError("rings: " + std::to_string(points.points.size()) + " points for " +
+                              std::to_string(adjacency.vertex_count()) + " vertices");
+  }
+  points_ = std::move(points.points);
+  points_.reserve(points_.size() + ghosts_);
+  placement_ = points.placement;
+  degenerate_normals_ = 0;
+  const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());
+  Scratch scratch{std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(most), {}};
+  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
+    if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, kinds_[v], scratch);
+}
+
+// Where each vertex' entries and ghosts go, and the weights of the valences there are.
+template <class N>
+void BasicRings<N>::lay_out(const Adjacency& adjacency) {
+  const auto vertices = static_cast<std::size_t>(adjacency.vertex_count());
+  rings_.resize(vertices);
+  corners_.resize(vertices);
+  slot_.resize(3 * static_cast<std::size_t>(adjacency.face_count()));
+  std::int32_t entries = 0;
+  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
+    Ring& ring = rings_[v];
+    const int n = adjacency.valence(v);
+    ring = {0, 1};
+    if (n == 0) continue;
+    const bool open = adjacency.on_boundary(v);
+    ring = {entries + (open ? kReach : 0), open ? kOpen : n};
+    entries += n + (open ? 2 * kReach : 0);
+    ghosts_ += open ? std::size_t{2 * kReach} : 0;
+    weights_.make(static_cast<std::size_t>(n), open);
+  }
+  entries_.resize(static_cast<std::size_t>(entries));
+}
+
+template <class N>
+void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind,
+                                Scratch& scratch) {
+  // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
+  const std::span<const std::int32_t> fan = adjacency.fan(v);
+  const Ring ring = rings_[v];
+  const bool open = ring.period == kOpen, held = kind == VertexKind::kHeld;
+  const std::size_t faces = fan.size(), n = faces + (open ? 1 : 0);
+  const auto position = [&](std::int32_t at) {
+    const auto& p = points_[at];
+    return widen<T>(Vec3<T>{p[0], p[1], p[2]});
+  };
+  std::int32_t* vertex = scratch.vertices.data();
+  Vec3<Wide>* points = scratch.points.data();
+  for (std::size_t k = 0; k < faces; ++k) {
+    vertex[k] = adjacency.target(fan[k]);
+    points[k] = position(vertex[k]);
+  }
+  if (open) {
+    vertex[faces] = adjacency.origin(Adjacency::prev(fan.back()));
+    points[faces] = position(vertex[faces]);
+  }
+  std::size_t start = 0;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (!open) start = canonical_start(points, n);
+  }
+  for (std::size_t k = 0; k < start; ++k) vertex[n + k] = vertex[k], points[n + k] = points[k];
+  const std::span<const Vec3<Wide>> around(points + start, n);
+
+  std::copy_n(vertex + start, n, entries_.data() + ring.first);
+  for (std::size_t k = 0; k < faces; ++k)
+    slot_[fan[k]] = static_cast<std::int32_t>(k < start ? k + n - start : k - start);
+
+  const Vec3<Wide> centre = position(v);
+  if (open) continue_ring(centre, held, around, ring, scratch);
+  const auto& weights = weights_.of(n, open);
+  const auto limit = limit_of_kind(centre, around, open, kind, weights, darts_);
+  Vec3<Wide> normal;
+  if constexpr (N::kLinear) {
+    normal = {N::tangent(limit.du.x, limit.dv.x), N::tangent(limit.du.y, limit.dv.y),
+              N::tangent(limit.du.z, limit.dv.z)};
+  } else {
+    constexpr double kFarthest = 4;  // in a mesh of size 1, see `place`
+    bool degenerate = false;
+    normal = vertex_normal<Wide>(limit, centre, around, open, degenerate, kFarthest, kind);
+    if (degenerate) ++degenerate_normals_;
+  }
+  // What is held moves by nothing, and the sum of its differences halves or, at a closed ring, becomes 5/8.
+  if (held)
+    put_corner(v, centre, Weight(0), Weight(open ? 4 : 5), limit, normal);
+  else
+    put_corner(v, centre, weights.k0, weights.k1, limit, normal);
+}
+
+// The open ring continued by kReach entries at either end: index k of the ring is at [k + kReach].
+template <class N>
+void BasicRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, Ring ring,
+                                  Scratch& scratch) {
+  const int last = static_cast<int>(r.size()) - 1;
+  auto& all = scratch.continued;
+  all.resize(r.size() + 2 * kReach);
+  const auto at = [&](int k) -> Vec3<Wide>& { return all[k + kReach]; };
+  std::copy(r.begin(), r.end(), all.begin() + kReach);
+  const auto sum = [&](int k, const Vec3<Wide>& near, const Vec3<Wide>& far) {
+    switch (k % 6) {
+      case 0:
+        return near + near;
+      case 3:
+        return far + far;
+      case 1:
+      case 5:
+        return v + near;
+      default:
+        return v + far;
+    }
+  };
+  // Half a turn about a vertex that is held: the far end is the near one's image.
+  const Vec3<Wide> front = r.front(), back = r.back();
+  const Vec3<Wide> beyond_front = held ? (v + v) - front : back, beyond_back = held ? (v + v) - back : front;
+  for (int k = 1; k <= kReach; ++k) {
+    at(-k) = sum(k, front, beyond_front) - at(k);
+    at(last + k) = sum(k, back, beyond_back) - at(last - k);
+  }
+  for (int k = -kReach; k <= last + kReach; ++k) {
+    if (k >= 0 && k <= last) continue;
+    entries_[ring.first + k] = static_cast<std::int32_t>(points_.size());
+    const Vec3<T> ghost = narrow<T>(at(k));
+    points_.push_back({ghost.x, ghost.y, ghost.z, T(0)});
+  }
+}
+
+template <class N>
+void BasicRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0, const Weight& k1,
+                               const VertexLimit<Wide>& limit, const Vec3<Wide>& normal) {
+  auto& head = corners_[v].head;
+  const auto put = [&](std::size_t at, const Vec3<Wide>& wide) {
+    const Vec3<T> x = narrow<T>(wide);
+    head[at] = x.x, head[at + 1] = x.y, head[at + 2] = x.z;
+  };
+  head[0] = static_cast<T>(k0);
+  head[1] = static_cast<T>(k1);
+  put(CornerBlock::kCentre, centre);
+  put(CornerBlock::kDifference, limit.difference);
+  const Vec3<Wide> origin =
+      widen<T>(Vec3<T>{placement_.centre[0], placement_.centre[1], placement_.centre[2]});
+  put(CornerBlock::kLimit, NumberTraits<T>::widen(placement_.unit) * limit.position + origin);
+  put(CornerBlock::kLimit + 3, normal);
+  for (int c = 3; c < 6; ++c) head[CornerBlock::kLimit + c] = head[CornerBlock::kLimit + c] + T(0);  // no -0
+}
+
+}  // namespace limitcheck::fast::row_stream

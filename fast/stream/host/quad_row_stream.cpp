@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/quad_row_stream.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "data/error.h"
+#include "fast/stream/gather/quad_batch.h"
+#include "fast/stream/gather/semi_sharp_quads.h"
+#include "fast/stream/kernel/memory_stream.h"
+
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+int checked(int depth) {
+  if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
+  return depth;
+}
+
+void prepare(Workspace& workspace, int depth, int lanes) {
+  const auto n = static_cast<std::size_t>(lanes);
+  workspace.input.grow(n * static_cast<std::size_t>(quad_input_size(checked(depth))));
+  workspace.work.grow(n * static_cast<std::size_t>(quad_work_size(depth)));
+}
+
+/// The quads of a list that wait for others of their class.
+class Queue {
+ public:
+  /// run(kind, indices) for batches of up to `lanes` quads of one class; those next to something semi-sharp
+  /// come one by one.
+  template <class Run>
+  static void go(const QuadRings& rings, std::span<const std::int32_t> faces, int lanes, const Run& run) {
+    std::array<Queue, 4> queues;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const QuadClass kind = rings.kind(faces[i]);
+      Queue& queue = queues[static_cast<std::size_t>(kind)];
+      queue.index_[queue.count_++] = static_cast<std::uint32_t>(i);
+      if (queue.count_ == static_cast<std::size_t>(kind == QuadClass::kSemiSharp ? 1 : lanes))
+        queue.empty(kind, run);
+    }
+    for (const QuadClass kind : {QuadClass::kRegular, QuadClass::kClosed, QuadClass::kOpen}) {
+      Queue& queue = queues[static_cast<std::size_t>(kind)];
+      if (queue.count_ > 0) queue.empty(kind, run);
+    }
+  }
+
+ private:
+  template <class Run>
+  void empty(QuadClass kind, const Run& run) {
+    run(kind, std::span<const std::uint32_t>(index_.data(), count_));
+    count_ = 0;
+  }
+  std::array<std::uint32_t, kMaxLanes> index_;
+  std::size_t count_ = 0;
+};
+
+// The points of some sides, those of half_edges[e] to out[e].
+void evaluate_sides(const QuadRings& rings, const QuadKernel& kernel,
+                    std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
+                    Vertex* const* out) {
+  std::array<float*, kMaxLanes> lane;
+  for (std::size_t k = 0; k < lane.size(); ++k) lane[k] = out[std::min(k, half_edges.size() - 1)]->position;
+  const auto batch = gather_sides<float>(rings, half_edges, depth, kernel.lanes, workspace.input.data());
+  kernel.sides(batch, rings.placement(), workspace.work.data(), {lane.data(), 0, nullptr, nullptr});
+}
+
+struct Evaluation {
+  const QuadRings& rings;
+  const SemiSharpQuads* semi_sharp;
+  const QuadKernel& kernel;
+  std::span<const std::int32_t> faces;
+  int depth;
+  Workspace& workspace;
+  Order order = Order::kFromA;
+  std::optional<SemiSharpEvaluator> alone = {};
+  std::vector<Vertex> sides = {};
+
+  void run(QuadClass kind, std::span<const std::uint32_t> index, const QuadTarget<float>& target) {
+    if (kind == QuadClass::kSemiSharp) return run_alone(faces[index.front()], target);
+    (kind == QuadClass::kRegular ? kernel.patches : kernel.quads)(gathered(kind, index), rings.placement(),
+                                                                  workspace.work.data(), target);
+  }
+  /// Each quad to its place at(i), in whole cache lines if the kernel has them and `stores` is given.
+  template <class At>
+  void to_places(const At& at, std::optional<Stores> stores) {
+    const auto n = static_cast<std::ptrdiff_t>(side(depth));
+    std::array<float*, kMaxLanes> lane;  // those beyond the last quad repeat it, place and all
+    const QuadTarget<float> target{lane.data(), 6 * n, nullptr, nullptr};
+    Queue::go(rings, faces, kernel.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
+      for (std::size_t k = 0; k < lane.size(); ++k)
+        lane[k] = at(index[std::min(k, index.size() - 1)])->position;
+      if (!stores || !kernel.quad_lines || kind == QuadClass::kSemiSharp) return run(kind, index, target);
+      (kind == QuadClass::kRegular ? kernel.patch_lines : kernel.quad_lines)(
+          gathered(kind, index), rings.placement(), workspace.work.data(), lane.data(), *stores);
+    });
+  }
+
+ private:
+  QuadBatch<float> gathered(QuadClass kind, std::span<const std::uint32_t> index) {
+    std::array<std::int32_t, kMaxLanes> face;
+    for (std::size_t k = 0; k < index.size(); ++k) face[k] = faces[index[k]];
+    const std::span<const std::int32_t> some(face.data(), index.size());
+    const auto gather = kind == QuadClass::kRegular ? gather_patches<float> : gather_quads<float>;
+    return gather(rings, some, depth, kernel.lanes, workspace.input.data(), order);
+  }
+
+  void run_alone(std::int32_t face, const QuadTarget<float>& target) {
+    if (!alone) alone.emplace(*semi_sharp, rings, depth);
+    const auto n = static_cast<std::size_t>(side(depth));
+    sides.resize(4 * n);
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t h = 4 * face + (k + static_cast<int>(order)) % 4;
+      Vertex* const out = sides.data() + static_cast<std::size_t>(k) * n;
+      if (!rings.touches_semi_sharp(h)) evaluate_sides(rings, kernel, {&h, 1}, depth, workspace, &out);
+    }
+    alone->quad(4 * face + static_cast<int>(order), sides.data(), target);
+  }
+};
+
+struct Rows {
+  QuadRowView view;
+  void (*visit)(void*, const QuadRowView&);
+  void* context;
+};
+
+void visit_row(void* context, int j) {
+  Rows& rows = *static_cast<Rows*>(context);
+  rows.view.j = j;
+  rows.visit(rows.context, rows.view);
+}
+
+// Where quad i begins.
+auto one_after_the_other(Vertex* out, int depth) {
+  const auto n = static_cast<std::size_t>(side(depth));
+  return [out, size = n * n](std::size_t i) { return out + i * size; };
+}
+
+// Rows of whole quads past the caches, each from its place at(i) on.
+template <class At>
+void write_runs(const QuadRowStream& stream, std::span<const std::int32_t> faces, int depth,
+                Workspace& workspace, const At& at, Order order) {
+  struct Runs {
+    std::array<LineStream, kMaxLanes> lane;
+    const At& at;
+    static void visit(void* context, const QuadRowView& view) {
+      auto& runs = *static_cast<Runs*>(context);
+      const auto n = static_cast<std::size_t>(side(view.depth));
+      for (std::size_t k = 0; k < view.index.size(); ++k) {
+        if (view.j == 0) runs.lane[k].start(reinterpret_cast<std::byte*>(runs.at(view.index[k])));
+        runs.lane[k].append(reinterpret_cast<const std::byte*>(view.vertices(k)), n * sizeof(Vertex));
+        if (view.j + 1 == static_cast<int>(n)) runs.lane[k].finish();
+      }
+    }
+  } runs{{}, at};
+  stream.rows(faces, depth, workspace, &Runs::visit, &runs, order);
+}
+
+}  // namespace
+
+QuadRowStream::QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel)
+    : kernel_(kernel),
+      rings_(mesh),
+      semi_sharp_(mesh.semi_sharp() ? std::make_shared<const SemiSharpQuads>(mesh) : nullptr) {}
+
+std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
+  struct Key {
+    std::uint64_t valences;
+    std::int32_t face;
+  };
+  std::vector<Key> keys;
+  keys.reserve(faces.size());
+  for (const std::int32_t f : faces) {
+    std::uint64_t key = static_cast<std::uint64_t>(rings_.kind(f));
+    for (int k = 0; k < 4; ++k) {
+      const auto entries = static_cast<std::uint64_t>(rings_.corner(4 * f + k).entries);
+      key = key << 12 | std::min<std::uint64_t>(entries, 4095);
+    }
+    keys.push_back({key, f});
+  }
+  std::stable_sort(keys.begin(), keys.end(),
+                   [](const Key& a, const Key& b) { return a.valences < b.valences; });
+  std::vector<std::int32_t> order;
+  order.reserve(faces.size());
+  for (const Key& key : keys) order.push_back(key.face);
+  return order;
+}
+
+void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                         void (*visit)(void*, const QuadRowView&), void* context, Order order,
+                         Kept kept) const {
+  prepare(workspace, depth, kernel_.lanes);
+  Rows rows{{{}, depth, 0, RowBuffer::in(workspace.row, depth, kernel_.lanes, kept)}, visit, context};
+  const RowBuffer& buffer = rows.view.rows;
+  std::array<float*, kMaxLanes> lane;
+  for (int k = 0; k < kMaxLanes; ++k) lane[k] = buffer.base + std::min(k, kernel_.lanes - 1) * buffer.pitch;
+  const QuadTarget<float> target{lane.data(), buffer.stride, visit ? &visit_row : nullptr, &rows,
+                                 buffer.mask};
+  Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace, order};
+  Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
+    rows.view.index = index;
+    evaluation.run(kind, index, target);
+  });
+}
+
+void QuadRowStream::whole(std::span<const std::int32_t> faces, int depth, Workspace& workspace, Vertex* out,
+                          const QuadKernel* other) const {
+  const QuadKernel& kernel = other != nullptr ? *other : kernel_;
+  prepare(workspace, depth, kernel.lanes);
+  Evaluation evaluation{rings_, semi_sharp_.get(), kernel, faces, depth, workspace};
+  evaluation.to_places(one_after_the_other(out, depth), std::nullopt);
+}
+
+void QuadRowStream::put(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                        Vertex* const* places, Order order, Stores stores) const {
+  put_at([&](std::size_t i) { return places[i]; }, faces, depth, workspace, order, stores);
+}
+
+void QuadRowStream::streamed(std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                             Vertex* out) const {
+  prepare(workspace, depth, kernel_.lanes);
+  put_at(one_after_the_other(out, depth), faces, depth, workspace, Order::kFromA, Stores::kPastCaches);
+  fence(Stores::kPastCaches);
+}
+
+template <class At>
+void QuadRowStream::put_at(const At& at, std::span<const std::int32_t> faces, int depth, Workspace& workspace,
+                           Order order, Stores stores) const {
+  if (stores == Stores::kPastCaches && !kernel_.quad_lines)
+    return write_runs(*this, faces, depth, workspace, at, order);
+  prepare(workspace, depth, kernel_.lanes);
+  Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace, order};
+  evaluation.to_places(at, stores);
+}
+
+void QuadRowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
+                          Vertex* out, const QuadKernel* other) const {
+  const QuadKernel& kernel = other != nullptr ? *other : kernel_;
+  prepare(workspace, depth, kernel.lanes);
+  const auto lanes = static_cast<std::size_t>(kernel.lanes), n = static_cast<std::size_t>(side(depth));
+  std::optional<SemiSharpEvaluator> alone;
+  std::array<std::int32_t, kMaxLanes> some;
+  std::array<Vertex*, kMaxLanes> to;
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < half_edges.size(); ++e) {
+    const std::int32_t h = half_edges[e];
+    if (rings_.touches_semi_sharp(h)) {
+      if (!alone) alone.emplace(*semi_sharp_, rings_, depth);
+      alone->side(h, out + n * e);
+    } else {
+      some[count] = h, to[count] = out + n * e, ++count;
+    }
+    if (count == lanes || (count > 0 && e + 1 == half_edges.size())) {
+      evaluate_sides(rings_, kernel, {some.data(), count}, depth, workspace, to.data());
+      count = 0;
+    }
+  }
+}
+
+}  // namespace limitcheck::fast::row_stream

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The row-streaming kernel for any number type, one grid at a time, in namespace generic.
+#pragma once
+
+#include "fast/stream/kernel/layout.h"
+#include "fast/stream/kernel/number.h"
+
+// The kernel's text is shared with the vector targets. Here it is compiled for a target without Highway.
+#if defined(HWY_NAMESPACE) || defined(HWY_INLINE)
+#error "fast/stream/kernel/kernel.h comes before Highway's headers"
+#endif
+#define HWY_NAMESPACE generic
+#define HWY_BEFORE_NAMESPACE() static_assert(true)
+#define HWY_AFTER_NAMESPACE() static_assert(true)
+#define HWY_ATTR
+#define HWY_INLINE inline
+
+#include "fast/stream/kernel/stream-inl.h"
+
+#undef HWY_NAMESPACE
+#undef HWY_BEFORE_NAMESPACE
+#undef HWY_AFTER_NAMESPACE
+#undef HWY_ATTR
+#undef HWY_INLINE
+// The vector targets include the same files anew.
+#undef LIMITCHECK_FAST_STREAM_EDGE_INL_H_
+#undef LIMITCHECK_FAST_STREAM_ROWS_INL_H_
+#undef LIMITCHECK_FAST_STREAM_RULES_INL_H_
+#undef LIMITCHECK_FAST_STREAM_STREAM_INL_H_

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// One row of a level of quads to the two rows of the next that it begins, and to its limit.
+
+#if defined(LIMITCHECK_FAST_STREAM_QUAD_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
+#ifdef LIMITCHECK_FAST_STREAM_QUAD_ROWS_INL_H_
+#undef LIMITCHECK_FAST_STREAM_QUAD_ROWS_INL_H_
+#else
+#define LIMITCHECK_FAST_STREAM_QUAD_ROWS_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "fast/stream/kernel/quad_rules-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
+
+/// The children of a line that has been refined across, in points 2 .. 2 size - 2: across(k) is number k of
+/// it.
+template <class N, class Across>
+HWY_ATTR HWY_INLINE void refine_along(const Across& across, int size, typename N::Scalar* child) {
+  using V = typename N::V;
+  constexpr int L = N::lanes, step = 3 * L;
+  V here[3], before[3];  // point i, and the sum of points i - 1 and i
+  for (int c = 0; c < 3; ++c) {
+    here[c] = across(step + c * L);
+    before[c] = across(c * L) + here[c];
+  }
+  child += 2 * step;
+  for (int k = 2 * step;; k += step, child += 2 * step) {
+    const bool end = k == size * step;
+    for (int c = 0; c < 3; ++c) {
+      const V next = across(k + c * L), after = here[c] + next;
+      N::store(N::fma(N::splat(.25), before[c] + after, here[c]), child + c * L);
+      if (!end) N::store(after, child + step + c * L);
+      here[c] = next, before[c] = after;
+    }
+    if (end) return;
+  }
+}
+
+/// Row 2j of the next level from rows s, m, n = j-1, j, j+1 of a level of size = 2^level >= 2, points 2 .. 2
+/// size - 2. sharp: null, or 1 in the lanes where row j is a sharp side.
+template <class N>
+HWY_ATTR void refine_even_quads(const typename N::Scalar* s, const typename N::Scalar* m,
+                                const typename N::Scalar* n, int size, const typename N::Scalar* sharp,
+                                typename N::Scalar* even) {
+  using V = typename N::V;
+  if (sharp) {
+    const V mask = N::load(sharp);
+    const auto across = [&](int k) HWY_ATTR {
+      const V v = N::load(m + k);
+      return N::select(mask, v + v, even_rule<N>(N::load(s + k), v, N::load(n + k)));
+    };
+    refine_along<N>(across, size, even);
+  } else {
+    const auto across = [&](int k)
+                            HWY_ATTR { return even_rule<N>(N::load(s + k), N::load(m + k), N::load(n + k)); };
+    refine_along<N>(across, size, even);
+  }
+}
+
+/// Row 2j+1, between rows m = j and n = j+1.
+template <class N>
+HWY_ATTR void refine_odd_quads(const typename N::Scalar* m, const typename N::Scalar* n, int size,
+                               typename N::Scalar* odd) {
+  refine_along<N>([&](int k) HWY_ATTR { return N::load(m + k) + N::load(n + k); }, size, odd);
+}
+
+/// A column's side, whose points -1, 0 and 1 of a row begin at `at`: refined across it. The three children.
+template <class N>
+HWY_ATTR HWY_INLINE void refine_across(const typename N::Scalar* at, const typename N::Scalar* sharp,
+                                       typename N::V (&out)[3]) {
+  using V = typename N::V;
+  constexpr int step = 3 * N::lanes;
+  const V a = N::load(at), b = N::load(at + step), c = N::load(at + 2 * step);
+  out[0] = a + b;
+  out[2] = b + c;
+  out[1] = N::fma(N::splat(.25), out[0] + out[2], b);
+  if (sharp) out[1] = N::select(N::load(sharp), b + b, out[1]);
+}
+
+/// The three children of a column's side in an even row; `from` leads to the parents in row m, `to` to the
+/// children.
+template <class N>
+HWY_ATTR HWY_INLINE void refine_even_column(const typename N::Scalar* s, const typename N::Scalar* m,
+                                            const typename N::Scalar* n, const typename N::Scalar* sharp,
+                                            typename N::Scalar* to) {
+  constexpr int L = N::lanes;
+  for (int c = 0; c < 3; ++c) {
+    typename N::V below[3], here[3], above[3];
+    refine_across<N>(s + c * L, sharp, below);
+    refine_across<N>(m + c * L, sharp, here);
+    refine_across<N>(n + c * L, sharp, above);
+    for (int k = 0; k < 3; ++k) N::store(even_rule<N>(below[k], here[k], above[k]), to + (3 * k + c) * L);
+  }
+}
+template <class N>
+HWY_ATTR HWY_INLINE void refine_odd_column(const typename N::Scalar* m, const typename N::Scalar* n,
+                                           const typename N::Scalar* sharp, typename N::Scalar* to) {
+  constexpr int L = N::lanes;
+  for (int c = 0; c < 3; ++c) {
+    typename N::V here[3], above[3];
+    refine_across<N>(m + c * L, sharp, here);
+    refine_across<N>(n + c * L, sharp, above);
+    for (int k = 0; k < 3; ++k) N::store(here[k] + above[k], to + (3 * k + c) * L);
+  }
+}
+
+/// One row to its limit, from left to right; the row's own line is the one that is filtered along.
+template <class N>
+class QuadLimitRow {
+ public:
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  static constexpr int L = N::lanes;
+
+  /// The first point to come is `first` >= 1.
+  HWY_ATTR HWY_INLINE QuadLimitRow(const Scalar* s, const Scalar* m, const Scalar* n, int first,
+                                   const V* centre, Scalar unit)
+      : s_(s + 3 * (first - 1) * L),
+        m_(m + 3 * (first - 1) * L),
+        n_(n + 3 * (first - 1) * L),
+        unit_(N::splat(unit)),
+        four_(N::splat(4)) {
+    for (int c = 0; c < 3; ++c) {
+      centre_[c] = centre[c];
+      filter(c * L, p0_[c], q0_[c]);
+    }
+    s_ += 3 * L, m_ += 3 * L, n_ += 3 * L;
+    for (int c = 0; c < 3; ++c) filter(c * L, p1_[c], q1_[c]);
+  }
+
+  /// Position and direction of the normal of the next point.
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
+    V along[3], across[3];
+    s_ += 3 * L, m_ += 3 * L, n_ += 3 * L;
+    coordinate(0, v, along, across);
+    coordinate(1, v, along, across);
+    coordinate(2, v, along, across);
+    v.set_normal(along, across);
+    v.set_square();
+  }
+  /// The same, and the end of another vertex.
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
+    V along[3], across[3];
+    s_ += 3 * L, m_ += 3 * L, n_ += 3 * L;
+    other.root_1();
+    coordinate(0, v, along, across);
+    other.root_2();
+    coordinate(1, v, along, across);
+    other.root_3();
+    coordinate(2, v, along, across);
+    other.root_4();
+    v.set_normal(along, across);
+    other.scale();
+    v.set_square();
+  }
+
+ private:
+  HWY_ATTR HWY_INLINE void filter(int k, V& p, V& q) const {
+    const V s = N::load(s_ + k), n = N::load(n_ + k);
+    p = N::fma(four_, N::load(m_ + k), s + n);
+    q = n - s;
+  }
+  HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) {
+    V p, q;
+    filter(c * L, p, q);
+    v.position[c] = N::fma(N::fma(four_, p1_[c], p0_[c] + p), unit_, centre_[c]);
+    along[c] = p - p0_[c];
+    across[c] = N::fma(four_, q1_[c], q0_[c] + q);
+    p0_[c] = p1_[c], p1_[c] = p;
+    q0_[c] = q1_[c], q1_[c] = q;
+  }
+
+  const Scalar *s_, *m_, *n_;
+  V p0_[3], p1_[3], q0_[3], q1_[3], centre_[3], unit_, four_;
+};
+
+/// One row of the last level to its limit without that level's points: from the level before, of which a
+/// point of the last level is a point or lies halfway between two. s, m, n, o: rows q-1 .. q+2 for row 2q+1;
+/// for row 2q o is not looked at.
+template <class N, bool odd_row>
+class FusedLimitRow {
+ public:
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  static constexpr int L = N::lanes;
+
+  /// unit: of limit points of the level before. The first point to come is 1.
+  HWY_ATTR HWY_INLINE FusedLimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const Scalar* o,
+                                    const V* centre, Scalar unit)
+      : s_(s - 3 * L),
+        m_(m - 3 * L),
+        n_(n - 3 * L),
+        o_(o - 3 * L),
+        even_unit_(N::splat(unit * Scalar(odd_row ? .125 : 1))),
+        odd_unit_(N::splat(unit * Scalar(odd_row ? 1. / 64 : .125))) {
+    for (int c = 0; c < 3; ++c) {
+      centre_[c] = centre[c];
+      filter(c * L, p_[c][0], q_[c][0]);
+    }
+    next();
+    for (int c = 0; c < 3; ++c) filter(c * L, p_[c][1], q_[c][1]);
+    next();
+    for (int c = 0; c < 3; ++c) filter(c * L, p_[c][2], q_[c][2]);
+  }
+
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
+    V along[3], across[3];
+    if constexpr (odd) next();
+    for (int c = 0; c < 3; ++c) coordinate<odd>(c, v, along, across);
+    v.set_normal(along, across);
+    v.set_square();
+  }
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
+    V along[3], across[3];
+    if constexpr (odd) next();
+    other.root_1();
+    coordinate<odd>(0, v, along, across);
+    other.root_2();
+    coordinate<odd>(1, v, along, across);
+    other.root_3();
+    coordinate<odd>(2, v, along, across);
+    other.root_4();
+    v.set_normal(along, across);
+    other.scale();
+    v.set_square();
+  }
+
+ private:
+  // Halfway: a + 23 b + 23 c + d, 48 times the value, and d + 5 (c - b) - a, 8 times the derivative.
+  HWY_ATTR HWY_INLINE static V halfway(V a, V b, V c, V d) { return N::fma(N::splat(23), b + c, a + d); }
+  HWY_ATTR HWY_INLINE static V slope_halfway(V a, V b, V c, V d) { return N::fma(N::splat(5), c - b, d - a); }
+
+  HWY_ATTR HWY_INLINE void filter(int k, V& p, V& q) const {
+    const V s = N::load(s_ + k), m = N::load(m_ + k), n = N::load(n_ + k);
+    if constexpr (odd_row) {
+      const V o = N::load(o_ + k);
+      p = halfway(s, m, n, o);
+      q = slope_halfway(s, m, n, o);
+    } else {
+      p = limit_filter<N>(s, m, n);
+      q = n - s;
+    }
+  }
+  HWY_ATTR HWY_INLINE void next() { s_ += 3 * L, m_ += 3 * L, n_ += 3 * L, o_ += 3 * L; }
+
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) {
+    V *p = p_[c], *q = q_[c];
+    if constexpr (odd) {
+      V p3, q3;
+      filter(c * L, p3, q3);
+      v.position[c] = N::fma(halfway(p[0], p[1], p[2], p3), odd_unit_, centre_[c]);
+      along[c] = slope_halfway(p[0], p[1], p[2], p3);
+      across[c] = halfway(q[0], q[1], q[2], q3);
+      p[0] = p[1], p[1] = p[2], p[2] = p3;
+      q[0] = q[1], q[1] = q[2], q[2] = q3;
+    } else {
+      v.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), even_unit_, centre_[c]);
+      along[c] = p[2] - p[0];
+      across[c] = limit_filter<N>(q[0], q[1], q[2]);
+    }
+  }
+
+  const Scalar *s_, *m_, *n_, *o_;
+  V p_[3][3], q_[3][3], centre_[3], even_unit_, odd_unit_;
+};
+
+/// A row to memory of each lane's own, see LaneRow.
+template <class N>
+struct QuadLaneRow {
+  typename N::Scalar* const* lane;
+  std::ptrdiff_t offset;
+  HWY_ATTR HWY_INLINE void couple(int i, const Vertex<N>& a, const Vertex<N>& b) const {
+    N::scatter_couple(a, b, lane, offset + 6 * i);
+  }
+  HWY_ATTR HWY_INLINE void vertex(int i, const Vertex<N>& a) const {
+    N::scatter_vertex(a, lane, offset + 6 * i);
+  }
+  /// Point i will be written soon.
+  HWY_ATTR HWY_INLINE void expect(int i) const { N::expect(lane, offset + 6 * i); }
+};
+template <class N>
+struct QuadLaneTarget {
+  using Row = QuadLaneRow<N>;
+  QuadTarget<typename N::Scalar> to;
+  HWY_ATTR HWY_INLINE Row row(int j) const { return {to.lane, to.row_offset(j)}; }
+  HWY_ATTR HWY_INLINE void done(int j) const {
+    if (to.row) to.row(to.context, j);
+  }
+};
+
+/// The inside of a row, points 1 .. size - 1, with its ends given; size even. `points` gives them from 1 on in
+/// turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of the
+/// next: it is one chain of dependent steps. far: the rows leave no room for the output in the first-level
+/// cache.
+template <class N, bool far = false, class Points, class Row>
+HWY_ATTR HWY_INLINE void scatter_row(Points& points, int size, const Vertex<N>& first, const Vertex<N>& last,
+                                     const Row& to) {
+  Vertex<N> a, b;
+  points.template begin<true>(b);
+  if (size == 2) {
+    b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
+    to.couple(0, first, b);
+  } else {
+    points.template begin<false>(a, b);
+    to.couple(0, first, b);
+    for (int i = 2;; i += 2) {
+      points.template begin<true>(b, a);
+      if (i + 2 == size) break;
+      Vertex<N> next;
+      points.template begin<false>(next, b);
+      if constexpr (far) to.expect(i + 8);
+      to.couple(i, a, b);
+      a = next;
+    }
+    b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
+    to.couple(size - 2, a, b);
+  }
+  to.vertex(size, last);
+}
+
+/// The same to memory of one's own: points 1 .. size - 1, six vectors each, that of point i to out[6 i].
+template <class N, class Points>
+HWY_ATTR HWY_INLINE void store_row(Points& points, int size, typename N::Scalar* out) {
+  constexpr int step = 6 * N::lanes;
+  Vertex<N> a, b;
+  points.template begin<true>(a);
+  for (int i = 2; i < size; ++i) {
+    out += step;
+    points.template begin<false>(b, a);
+    a.store(out);
+    a = b;
+  }
+  a.root_1(), a.root_2(), a.root_3(), a.root_4(), a.scale();
+  a.store(out + step);
+}
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

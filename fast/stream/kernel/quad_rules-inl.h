@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Catmull-Clark's rules on the regular lattice, times 4 per level, and at a ring.
+//
+// Bits: every rule is first applied across a line and then along it. A point on a side, or next to one, takes
+// the side for that line; half a turn about the point then swaps the operands of every addition and negates
+// every difference, so two quads that share the side compute the same bits from it. Next to a corner two
+// sides would disagree: those points come from the corner's ring, by rules that have no line. [claim D14]
+
+#if defined(LIMITCHECK_FAST_STREAM_QUAD_RULES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
+#ifdef LIMITCHECK_FAST_STREAM_QUAD_RULES_INL_H_
+#undef LIMITCHECK_FAST_STREAM_QUAD_RULES_INL_H_
+#else
+#define LIMITCHECK_FAST_STREAM_QUAD_RULES_INL_H_
+#endif
+
+#include "fast/stream/kernel/quad_layout.h"
+#include "fast/stream/kernel/rules-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
+
+/// 2 (a + 6 b + c) / 8: the child of b. The child between a and b is 2 (a + b) / 2 = a + b.
+template <class N, class V>
+HWY_ATTR HWY_INLINE V even_rule(V a, V b, V c) {
+  return N::fma(N::splat(.25), (a + b) + (b + c), b);
+}
+
+/// a + 4 b + c: six times the limit at b.
+template <class N, class V>
+HWY_ATTR HWY_INLINE V limit_filter(V a, V b, V c) {
+  return N::fma(N::splat(4), b, a + c);
+}
+
+/// 4 (c + e + f + e') / 4 of the quad between e and e'; by diagonals, so that all four of its corners agree.
+template <class V>
+HWY_ATTR HWY_INLINE V face_rule(V c, V e, V f, V after) {
+  return (c + f) + (e + after);
+}
+
+/// 4 (c + e + F + F') / 4, where f and g are 4 F and 4 F'.
+template <class N, class V>
+HWY_ATTR HWY_INLINE V ring_edge_rule(V c, V e, V f, V g) {
+  return N::fma(N::splat(.25), f + g, c + e);
+}
+
+/// Half the sum of p and q, with few enough digits that moving there and back costs hardly any. The same in
+/// either order. Numbers without rounding have no digits to save.
+template <class N, class V>
+HWY_ATTR HWY_INLINE void choose_middle(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
+  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12, a double at 2^-41
+  for (int c = 0; c < 3; ++c)
+    origin[c] = (N::splat(.5) * (N::load(p + c * N::lanes) + N::load(q + c * N::lanes)) + magic) - magic;
+}
+
+/// One level of a corner: its centre, the sums of differences to its ring, and the ring's entries e f e f ...
+/// from `first` to before `end`: a closed ring, or a window of it, which loses two entries at either end.
+/// open: in lane k the entries ends[0] and ends[1] are the ends of the ring, on sharp edges.
+template <class N, bool closed, bool open>
+HWY_ATTR void refine_quad_ring(typename N::Scalar* block, int first, int end) {
+  using V = typename N::V;
+  using Block = QuadCornerBlock;
+  constexpr int L = N::lanes;
+  const auto number = [&](int k) HWY_ATTR { return N::load(block + k * L); };
+  const V k0 = number(0), k1 = number(1), k2 = number(2), k3 = number(3), k4 = number(4);
+  const V start = number(Block::kEnds), stop = number(Block::kEnds + 1);
+  for (int c = 0; c < 3; ++c) {
+    typename N::Scalar* entry = block + (Block::kWindow + c) * L;
+    const auto at = [&](int t) { return entry + 3 * t * L; };
+    const V v = number(Block::kCentre + c), de = number(Block::kEdges + c), df = number(Block::kFaces + c);
+
+    V here = N::load(at(first));
+    for (int t = first + 1; t + 1 < end; t += 2) {
+      const V after = N::load(at(t + 1));
+      N::store(face_rule(v, here, N::load(at(t)), after), at(t));
+      here = after;
+    }
+    V before = N::load(at(first + 1));
+    if constexpr (closed) {
+      before = face_rule(v, here, N::load(at(end - 1)), N::load(at(first)));
+      N::store(before, at(end - 1));
+    }
+    for (int t = closed ? first : first + 2; t + 1 < end; t += 2) {
+      const V e = N::load(at(t)), f = N::load(at(t + 1));
+      V refined = ring_edge_rule<N>(v, e, before, f);
+      if constexpr (open) {
+        const V position = N::splat(t), sharp = N::equal(position, start) + N::equal(position, stop);
+        refined = N::select(sharp, N::splat(2) * (v + e), refined);
+      }
+      N::store(refined, at(t));
+      before = f;
+    }
+
+    N::store(N::fma(k1, df, N::fma(k0, de, N::splat(4) * v)), block + (Block::kCentre + c) * L);
+    const V both = k2 * de;
+    N::store(N::fma(k3, df, both), block + (Block::kEdges + c) * L);
+    N::store(N::fma(k4, df, both), block + (Block::kFaces + c) * L);
+  }
+}
+
+/// A point of a side from its 3 x 3 neighbours in the side's own frame: x along it, the right of it in row 0,
+/// the left in row 2. sharp: null, or 1 where the surface has nothing beyond; inner: the row of the inside, 0
+/// or 2. Normal of any length.
+template <class N>
+HWY_ATTR HWY_INLINE void side_limit(const typename N::Scalar* const (&at)[3][3],
+                                    const typename N::Scalar* sharp, int inner, const typename N::V* centre,
+                                    typename N::V unit, Vertex<N>& out) {
+  using V = typename N::V;
+  V along[3], across[3];
+  for (int c = 0; c < 3; ++c) {
+    V p[3], q[3];
+    for (int k = 0; k < 3; ++k) {
+      const int shift = c * N::lanes;
+      const V r = N::load(at[0][k] + shift), m = N::load(at[1][k] + shift), l = N::load(at[2][k] + shift);
+      p[k] = limit_filter<N>(r, m, l);
+      q[k] = l - r;
+      if (sharp) {
+        const V mask = N::load(sharp);
+        p[k] = N::select(mask, N::splat(6) * m, p[k]);
+        q[k] = N::select(mask, N::splat(2) * (inner == 2 ? l - m : m - r), q[k]);
+      }
+    }
+    out.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), unit, centre[c]);
+    along[c] = p[2] - p[0];
+    across[c] = limit_filter<N>(q[0], q[1], q[2]);
+  }
+  out.set_normal(along, across);
+}
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "fast/stream/kernel/targets.h"
+
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "fast/stream/kernel/kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/stream/kernel/targets.cpp"
+// The baseline of x86-64 comes last in the list and is the plain scalar kernel below. Vectors of SVE have no
+// size at compile time and cannot be members.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "fast/stream/kernel/lanes-inl.h"
+#include "fast/stream/kernel/line_runs-inl.h"
+#include "fast/stream/kernel/stream-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
+
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+
+template <int lanes>
+HWY_ATTR const char* run_lanes(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                               const Target<float>& target) {
+  using Number = LaneNumber<hn::CappedTag<float, lanes>>;
+  Stream<Number>(input, depth, placement, work, {target}).run();
+  return target_name(Number::lanes);
+}
+
+template <int lanes>
+HWY_ATTR void run_edge_lanes(const float* input, int depth, const KernelPlacement<float>& placement,
+                             float* work, float* out, std::ptrdiff_t lane_stride) {
+  using Number = LaneNumber<hn::CappedTag<float, lanes>>;
+  EdgeStream<Number> strip(depth, placement, work);
+  strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
+  strip.scatter(LaneRow<Number>{out, lane_stride});
+}
+
+#if HWY_TARGET == HWY_AVX3
+HWY_ATTR void run_lines(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                        float* const* lane, Stores stores) {
+  using Number = LaneNumber<hn::CappedTag<float, 16>>;
+  LineRuns<Number> runs(lane, stores);
+  Stream<Number, LineTarget<Number>>(input, depth, placement, work, {&runs}).run();
+  runs.finish();
+}
+#endif
+
+template <int lanes>
+void add(std::vector<Kernel>& list) {
+  Kernel kernel{target_name(lanes),     lanes,  HWY_NATIVE_FMA != 0, &run_lanes<lanes>,
+                &run_edge_lanes<lanes>, nullptr};
+#if HWY_TARGET == HWY_AVX3
+  if (lanes == 16) kernel.run_lines = &run_lines;
+#endif
+  list.push_back(kernel);
+}
+
+#endif  // not the baseline
+
+void list_kernels([[maybe_unused]] std::vector<Kernel>& list) {
+#if HWY_TARGET == HWY_AVX3
+  add<16>(list);
+#endif
+#if HWY_TARGET == HWY_AVX2
+  add<8>(list);
+#endif
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  add<4>(list);
+#endif
+}
+
+}  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace limitcheck::fast::row_stream {
+
+namespace {
+
+HWY_EXPORT(list_kernels);
+
+const char* run_scalar(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                       const Target<float>& target) {
+  generic::Stream<ScalarNumber<float>>(input, depth, placement, work, {target}).run();
+  return "scalar";
+}
+
+void run_edge_scalar(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                     float* out, std::ptrdiff_t lane_stride) {
+  generic::EdgeStream<ScalarNumber<float>> strip(depth, placement, work);
+  strip.refine(input, 0, input + edge_block_size(depth), 0);
+  strip.scatter(generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
+}
+
+std::vector<Kernel> find_kernels() {
+  std::vector<Kernel> list;
+  // Highway's own choice is the best target; the others are asked for one at a time.
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    HWY_DYNAMIC_DISPATCH(list_kernels)(list);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  list.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar, nullptr});
+  return list;
+}
+
+}  // namespace
+
+std::span<const Kernel> kernels() {
+  static const std::vector<Kernel> list = find_kernels();
+  return list;
+}
+
+const Kernel* find_kernel(const char* name) {
+  for (const Kernel& kernel : kernels()) {
+    if (std::strcmp(kernel.name, name) == 0) return &kernel;
+  }
+  return nullptr;
+}
+
+}  // namespace limitcheck::fast::row_stream
+#endif  // HWY_ONCE

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The compiled variants of the float kernel, and which of them this machine can run.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "fast/frame/stores.h"
+#include "fast/stream/kernel/layout.h"
+
+namespace limitcheck::fast::row_stream {
+
+/// One compiled variant of the float kernel. All give the same bits.
+struct Kernel {
+  const char* name;  // "avx512", "avx2", "avx2/4" (128-bit), "sse4", "neon", "scalar"
+  int lanes;         // grids per batch
+  bool fused;        // hardware multiply-add; without it the bits come from std::fma, slowly
+  /// A batch from input to target, see Stream. Returns `name` of the variant that really ran, as compiled
+  /// into it.
+  const char* (*run)(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                     const Target<float>& target);
+  /// `lanes` control edges, see EdgeStream: the vertices of edge e from out + e * lane_stride, in numbers.
+  void (*run_edges)(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                    float* out, std::ptrdiff_t lane_stride);
+  /// A batch to memory that each grid has for itself, in whole cache lines: that of lane k, row by row, from
+  /// lane[k] on, and no byte beyond. Past the caches the caller fences. Null: this variant has rows alone.
+  void (*run_lines)(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+                    float* const* lane, Stores stores);
+};
+
+/// The variants that this machine can run, best first; the last is plain scalar code and always there.
+std::span<const Kernel> kernels();
+
+/// The variant of that name, or nullptr if there is none or the machine cannot run it.
+const Kernel* find_kernel(const char* name);
+
+}  // namespace limitcheck::fast::row_stream

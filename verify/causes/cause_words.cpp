@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "verify/causes/cause_words.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace limitcheck::verify {
+namespace {
+
+// The worst of one check among the rows that show a cause.
+struct Worst {
+  double worst = 0, bound = 0;
+  std::int64_t bad = 0, of = 0;
+  const Result* row = nullptr;
+};
+
+std::map<std::string, Worst> worst_of(const Report& report, const Cause& cause) {
+  std::map<std::string, Worst> all;
+  for (const std::size_t k : cause.direct) {
+    const Result& r = report.results[k];
+    Worst& w = all[r.check];
+    w.bad += r.bad;
+    w.of += r.of;
+    if (w.row != nullptr && r.worst.value_or(0) <= w.worst) continue;
+    w = {r.worst.value_or(0), r.bound.value_or(0), w.bad, w.of, &r};
+  }
+  return all;
+}
+
+std::string percent(std::int64_t bad, std::int64_t of) {
+  const double share = of > 0 ? 100.0 * static_cast<double>(bad) / static_cast<double>(of) : 0;
+  return share >= 1 ? fmt::format("{:.0f} %", share) : fmt::format("{:.1g} %", share);
+}
+
+std::string degrees(double x) {
+  return x >= 10 ? fmt::format("{:.0f}°", x) : fmt::format("{:.2g}°", x);
+}
+
+void describe_surface(const Report& report, Cause& cause) {
+  std::vector<std::string> what, size;
+  double distance = 0, angle = 0;
+  for (const auto& [check, w] : worst_of(report, cause)) {
+    const bool normals = w.row->unit == "degrees";
+    what.emplace_back(normals ? "normals" : check == "refined-positions" ? "refined points" : "positions");
+    if (normals) {
+      angle = w.worst;
+      size.push_back(degrees(w.worst));
+    } else {
+      distance = std::max(distance, w.worst);
+      size.insert(size.begin(), fmt::format("{:.1e} diagonals", w.worst));
+    }
+  }
+  std::sort(what.rbegin(), what.rend());  // positions before normals
+  what.erase(std::unique(what.begin(), what.end()), what.end());
+  std::string title = fmt::format("{}", fmt::join(what, " and "));
+  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+  const std::string loop = where_wrong(cause.places[0]), quads = where_wrong(cause.places[1]);
+  const std::string where = loop.empty() || loop == quads ? quads
+                            : quads.empty()               ? loop
+                                                          : loop + " (Catmull-Clark: " + quads + ")";
+  const bool all = where.starts_with("everywhere");
+  cause.title = fmt::format("{} are off by up to {}{}{}", title, fmt::join(size, " and "),
+                            where.empty() ? ""
+                            : all         ? ", "
+                                          : ", only ",
+                            where);
+  if (what.size() == 1 && what[0] == "normals") cause.look = "the points are right: look at the tangents";
+  for (const std::size_t k : cause.direct) {
+    const std::string& message = report.results[k].message;
+    const std::size_t at = message.find("the points are those of");
+    if (at != std::string::npos) cause.look = message.substr(at, message.find(';', at) - at);
+  }
+  if (cause.look.empty())
+    cause.look = all             ? "rounding, or rules that every face has in common"
+                 : where.empty() ? ""
+                                 : "the rules and tables for just these places";
+  cause.size = distance >= 1e-3 || angle >= 5 ? 3 : distance >= 1e-5 || angle >= 0.5 ? 2 : 1;
+}
+
+void describe_not_finite(const Report& report, Cause& cause) {
+  const auto worst = worst_of(report, cause);
+  std::vector<std::string> when;
+  std::vector<PlaceCount> places;
+  for (const std::size_t k : cause.direct)
+    if (report.results[k].check == "finite") add(places, report.results[k].places);
+  if (const std::string where = where_wrong(places); !where.empty()) when.push_back(where);
+  if (worst.contains("degenerate-geometry"))
+    when.emplace_back("where all control points are on one line or are one point");
+  if (worst.contains("scaling")) when.emplace_back("on meshes 2^40 times smaller or larger");
+  cause.title = fmt::format("NaN, infinity or a normal of length 0{}{}", when.empty() ? "" : ": ",
+                            fmt::join(when, "; "));
+  cause.look =
+      "where a vector is divided by its length: the length is 0, or its square is too small or large";
+  cause.size = 3;
+}
+
+void describe_seams(const Report& report, Cause& cause) {
+  const auto worst = worst_of(report, cause);
+  const auto positions = worst.find("shared-positions"), normals = worst.find("shared-normals");
+  if (positions == worst.end() && normals == worst.end()) {
+    cause.title = worst.contains("t-vertices") || worst.contains("watertight")
+                      ? "Cracks: faces that meet do not end in the same vertices"
+                      : "Faces that meet differ at common points by more than rounding";
+    cause.look = "edges between faces of different depth";
+    cause.size = 2;
+    return;
+  }
+  std::vector<std::string> shares;
+  double gap = 0, turn = 0;
+  if (positions != worst.end()) {
+    shares.push_back(percent(positions->second.bad, positions->second.of) + " of the positions");
+    gap = positions->second.worst;
+  }
+  if (normals != worst.end()) {
+    shares.push_back(percent(normals->second.bad, normals->second.of) + " of the normals");
+    turn = normals->second.worst;
+  }
+  cause.title = fmt::format("Points that faces share differ in bits: {}, by up to {:.1e} diagonals{}",
+                            fmt::join(shares, " and "), gap, turn > 0 ? " and " + degrees(turn) : "");
+  cause.look = "sums whose order depends on the face; compute what is shared once, or in one order";
+  cause.size = 1;
+}
+
+// What a subject took that it should have refused, over all rows.
+void describe_accepts(const Report& report, Cause& cause) {
+  std::vector<std::string> taken;
+  constexpr std::string_view kAccepted = ": accepted";
+  for (const std::size_t k : cause.direct) {
+    const std::string& message = report.results[k].message;
+    for (std::size_t begin = 0; begin < message.size();) {
+      const std::size_t end = std::min(message.find(" / ", begin), message.size());
+      std::string part = message.substr(begin, end - begin);
+      if (part.ends_with(kAccepted)) part.resize(part.size() - kAccepted.size());
+      if (std::find(taken.begin(), taken.end(), part) == taken.end()) taken.push_back(part);
+      begin = end + 3;
+    }
+  }
+  std::string list = taken.empty() ? "" : ": " + fmt::format("{}", fmt::join(taken, ", "));
+  constexpr std::size_t kLongest = 160;
+  if (list.size() > kLongest) list = list.substr(0, list.rfind(' ', kLongest)) + " ...";
+  cause.title = "Broken meshes are accepted without a word" + list;
+  cause.look = "what is checked of a mesh before it is used";
+  cause.size = 1;
+}
+
+std::string first_sentence(const std::string& message) {
+  const std::string text = message.substr(0, message.find_first_of("\n;"));
+  return text.size() > 140 ? text.substr(0, 140) + " ..." : text;
+}
+
+}  // namespace
+
+void put_in_words(const Report& report, Cause& cause) {
+  const Result& example = report.results[cause.example];
+  switch (cause.kind) {
+    case CauseKind::kSurface:
+      return describe_surface(report, cause);
+    case CauseKind::kNotFinite:
+      return describe_not_finite(report, cause);
+    case CauseKind::kSeams:
+      return describe_seams(report, cause);
+    case CauseKind::kAccepts:
+      return describe_accepts(report, cause);
+    case CauseKind::kBreakdown:
+      cause.title = fmt::format("{}: {}",
+                                example.status == Status::kCrash     ? "Crashes"
+                                : example.status == Status::kTimeout ? "Does not answer in time"
+                                                                     : "Fails",
+                                first_sentence(example.message));
+      cause.size = 3;
+      return;
+    case CauseKind::kRefuses:
+      cause.title = "A valid mesh is refused: " + first_sentence(example.message);
+      cause.look = "say so in the capabilities, or take it";
+      cause.size = 2;
+      return;
+    case CauseKind::kUnwritten:
+      cause.title = "Arrays are not as announced: " + first_sentence(example.message);
+      cause.size = 3;
+      return;
+    case CauseKind::kTiling:
+      cause.title = fmt::format("Faces are not tiled once, or triangles face the wrong way: {}",
+                                first_sentence(example.message));
+      cause.size = 3;
+      return;
+    case CauseKind::kOrder:
+    case CauseKind::kOther: {
+      std::set<std::string> checks;
+      double worst = 0;
+      for (const std::size_t k : cause.direct) {
+        checks.insert(report.results[k].check);
+        worst = std::max(worst, report.results[k].worst.value_or(0));
+      }
+      cause.title =
+          cause.kind == CauseKind::kOrder
+              ? fmt::format("The answer depends on what it must not depend on ({})", fmt::join(checks, ", "))
+              : fmt::format("{}: {}", fmt::join(checks, ", "),
+                            example.message.empty() ? "beyond its bound" : first_sentence(example.message));
+      if (worst > 0 && example.unit == "bounds")
+        cause.title += fmt::format(", up to {:.2g} times what rounding explains", worst);
+      cause.look = cause.kind == CauseKind::kOrder ? first_sentence(example.message) : "";
+      cause.size = worst >= 100 ? 3 : 2;
+      return;
+    }
+  }
+}
+
+}  // namespace limitcheck::verify

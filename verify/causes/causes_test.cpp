@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Findings that share a cause are one, and none is lost.
+#include "verify/causes/causes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "data/generators/named_mesh.h"
+#include "verify/audit/audit.h"
+#include "verify/report/baseline.h"
+#include "verify/report/json.h"
+#include "verify/report/overview.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
+namespace {
+
+Result red(const std::string& subject, const std::string& mesh, const std::string& check, double worst) {
+  Result r;
+  r.subject = subject;
+  r.mesh = mesh;
+  r.check = check;
+  r.status = Status::kFinding;
+  r.bad = 1;
+  r.of = 10;
+  r.worst = worst;
+  r.bound = 1e-6;
+  r.unit = check == "normals" ? "degrees" : "diagonal";
+  return r;
+}
+
+Report report_of(std::vector<Result> rows) {
+  Report report;
+  for (const Result& r : rows) {
+    if (std::find(report.subjects.begin(), report.subjects.end(), r.subject) == report.subjects.end())
+      report.subjects.push_back(r.subject);
+    report.meshes.push_back({r.mesh, 4, 4});
+  }
+  report.results = std::move(rows);
+  return report;
+}
+
+// Every red row is in one cause, and every cause has one that shows it.
+void expect_partition(const Report& report, const std::vector<Cause>& all) {
+  std::multiset<std::size_t> rows;
+  for (const Cause& c : all) {
+    ASSERT_FALSE(c.rows.empty()) << c.title;
+    EXPECT_FALSE(c.title.empty());
+    EXPECT_TRUE(is_bad(report.results[c.example])) << c.title;
+    EXPECT_LE(c.cases, c.of) << c.title;
+    EXPECT_GE(c.cases, 1) << c.title;
+    for (const std::size_t k : c.rows) {
+      rows.insert(k);
+      EXPECT_NE(std::find(c.subjects.begin(), c.subjects.end(), report.results[k].subject), c.subjects.end());
+    }
+  }
+  for (std::size_t k = 0; k < report.results.size(); ++k)
+    EXPECT_EQ(rows.count(k), is_bad(report.results[k]) ? 1U : 0U)
+        << report.results[k].subject << " / " << report.results[k].check << " on " << report.results[k].mesh;
+}
+
+TEST(Causes, RowsThatFollowFromOthersAreTheirConsequences) {
+  Result positions = red("s", "m", "positions", 1e-2);
+  positions.places = {{PlaceKind::kRegularVertex, 0, 0, 5},
+                      {PlaceKind::kBoundaryVertex, 3, 0, 2},
+                      {PlaceKind::kBoundaryVertex, 4, 2, 2},
+                      {PlaceKind::kBoundaryVertex, 5, 1, 1}};
+  const Report report =
+      report_of({positions, red("s", "m", "mirror", 50), red("s", "m", "normals-against-positions", 3)});
+  const std::vector<Cause> all = causes(report);
+  expect_partition(report, all);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].title,
+            "Positions are off by up to 1.0e-02 diagonals, only at boundary vertices of 4 or more faces");
+  EXPECT_EQ(all[0].consequences, (std::vector<std::string>{"mirror", "normals-against-positions"}));
+}
+
+TEST(Causes, NumbersThatAreNoneAreOneCauseOfALibrary) {
+  Result finite = red("lib-a", "m", "finite", 0), line = red("lib-b", "m", "degenerate-geometry", 0);
+  Result scaled = red("lib-b", "m", "scaling", 0);
+  scaled.worst.reset();
+  scaled.message = "times 2^-40: 7 points are not finite, 0 in the original";
+  Report report = report_of({finite, line, scaled});
+  report.descriptions = {{"lib-a", "Lib 3.5 A: this"}, {"lib-b", "Lib 3.5 B: that"}};
+  const std::vector<Cause> all = causes(report);
+  expect_partition(report, all);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].kind, CauseKind::kNotFinite);
+  EXPECT_EQ(all[0].who, "Lib");
+}
+
+TEST(Causes, DifferentPlacesAreDifferentCauses) {
+  Result a = red("s", "a", "normals", 3), b = red("s", "b", "normals", 2), both = red("s", "c", "normals", 4);
+  a.places = {{PlaceKind::kDart, 0, 1, 1}};
+  b.places = {{PlaceKind::kExtraordinaryVertex, 5, 1, 1}};
+  both.places = {{PlaceKind::kExtraordinaryVertex, 5, 1, 1}, {PlaceKind::kDart, 0, 1, 1}};
+  const Report report = report_of({a, b, both});
+  const std::vector<Cause> all = causes(report);
+  expect_partition(report, all);
+  EXPECT_EQ(all.size(), 2U);
+}
+
+// The rule at the end of a sharp edge is one of its own; what is wrong along the edge is wrong at its end, too.
+TEST(Causes, OfDartsAreTheirOwnUnlessTheWholeEdgeIsWrong) {
+  Result dart = red("s", "a", "positions", 3), edge = red("s", "b", "positions", 2);
+  dart.places = {{PlaceKind::kSharpEdge, 0, 0, 5}, {PlaceKind::kDart, 0, 1, 1}};
+  edge.places = {{PlaceKind::kSharpEdge, 0, 2, 5}, {PlaceKind::kDart, 0, 1, 1}};
+  const Report report = report_of({dart, edge});
+  const std::vector<Cause> all = causes(report);
+  expect_partition(report, all);
+  ASSERT_EQ(all.size(), 2U);
+  for (const Cause& c : all) {
+    const bool along = c.title.find("on sharp edges") != std::string::npos;
+    EXPECT_EQ(report.results[c.rows[0]].mesh, along ? "b" : "a") << c.title;
+  }
+}
+
+TEST(Causes, CoverEveryRedRowOfRealSubjects) {
+  std::vector<AuditSubject> subjects;
+  for (const char* name : {"opensubdiv-far", "opensubdiv-bfr", "openmesh", "cgal"})
+    if (const lc_subject* s = find_subject(name)) subjects.push_back({s, ""});
+  std::vector<AuditMesh> meshes;
+  for (const char* name : {"fan:5", "quad-fan:3", "tetrahedron", "prism:5", "quad-dart:4"}) {
+    meshes.push_back({name, data::named_mesh(name)});
+    meshes.back().depth = 2;
+  }
+  Report report;
+  for (const AuditSubject& s : subjects) {
+    report.subjects.push_back(s.label());
+    report.descriptions[s.label()] = s.subject->description;
+  }
+  for (const AuditMesh& m : meshes)
+    report.meshes.push_back({m.name, 0, static_cast<std::int64_t>(m.mesh.faces.size()), m.scheme(), "", 1});
+  report.results = Auditor(2, 2, {}, Level::kStandard).run(subjects, meshes);
+  const std::vector<Cause> all = causes(report);
+  expect_partition(report, all);
+  EXPECT_GE(all.size(), 4U);
+  const std::string screen = to_overview(report, all, false, "scheme: both", "standard", "");
+  EXPECT_LE(std::count(screen.begin(), screen.end(), '\n'), kScreen) << screen;
+}
+
+TEST(Overview, HasEveryCheckOnceAndCountsCases) {
+  std::set<std::string_view> seen;
+  for (const CheckGroup& g : check_groups())
+    for (const std::string_view check : g.checks) EXPECT_TRUE(seen.insert(check).second) << check;
+  Report report = report_of({red("s", "a", "positions", 1), red("s", "b", "positions", 1)});
+  report.results[1].status = Status::kHeld;
+  EXPECT_EQ(verdict_of(report, "s", check_groups()[2]).text(), "1/2");
+  EXPECT_EQ(verdict_of(report, "s", check_groups()[3]).text(), "-");
+}
+
+TEST(Baseline, TellsNewFromWorseFromGone) {
+  Report before = report_of({red("s", "same", "positions", 1), red("s", "worse", "positions", 1),
+                             red("s", "gone", "positions", 1), red("s", "new", "positions", 1)});
+  before.results[3].status = Status::kHeld;
+  const std::string json = to_json(before);
+  Report now = before;
+  now.results[1].worst = 2;
+  now.results[2].status = Status::kHeld;
+  now.results[3].status = Status::kFinding;
+  compare_with_baseline(now, json, "old.json");
+  ASSERT_TRUE(now.changes);
+  EXPECT_EQ(now.changes->appeared, 1);
+  EXPECT_EQ(now.changes->worse, 1);
+  EXPECT_EQ(now.changes->gone, 1);
+  EXPECT_EQ(now.changes->same, 1);
+  EXPECT_FALSE(now.held());
+  Report again = before;
+  compare_with_baseline(again, json, "old.json");
+  EXPECT_TRUE(again.held()) << "all of it is known";
+  EXPECT_THROW(compare_with_baseline(again, "{}", "old.json"), std::exception);
+  EXPECT_THROW(compare_with_baseline(again, "no JSON", "old.json"), std::exception);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "verify/evidence/lattice.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include "data/error.h"
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr int kManyCorners = 16;  // of a face: then its corners are searched for, not gone through
+
+}  // namespace
+
+Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth)
+    : mesh_(mesh),
+      scheme_(scheme),
+      depth_(depth),
+      n_(std::int64_t{1} << depth),
+      first_edge_(static_cast<Id>(mesh.positions.size())) {
+  if (depth < 0 || depth > 15) throw data::ArgumentError("Lattice: depth must be 0..15");
+
+  // Edges: sort the sides of all faces by their vertices; the two sides of an edge come together.
+  struct Side {
+    std::int32_t a, b, face;
+    int corner;
+  };
+  std::vector<Side> sides;
+  sides.reserve(corner_count());
+  vertex_face_.assign(mesh.positions.size(), -1);
+  for (std::int32_t f = 0; f < face_count(); ++f)
+    for (int k = 0; k < domain(f).corners(); ++k) {
+      const std::int32_t from = vertex(f, k), to = vertex(f, domain(f).next(k));
+      sides.push_back({std::min(from, to), std::max(from, to), f, k});
+      if (vertex_face_[from] < 0) vertex_face_[from] = f;
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
+  });
+  corner_edge_.resize(corner_count());
+  for (const Side& s : sides) {
+    if (edges_.empty() || edges_.back().a != s.a || edges_.back().b != s.b)
+      edges_.push_back({s.a, s.b, {-1, -1}, {0, 0}});
+    Edge& edge = edges_.back();
+    const int slot = edge.face[0] < 0 ? 0 : 1;
+    edge.face[slot] = s.face;
+    edge.corner[slot] = s.corner;
+    corner_edge_[corner_number(s.face, s.corner)] = static_cast<std::int32_t>(edges_.size() - 1);
+  }
+
+  first_inner_.reserve(mesh.faces.size() + 1);
+  first_inner_.push_back(first_edge_ + (n_ - 1) * static_cast<Id>(edges_.size()));
+  for (std::int32_t f = 0; f < face_count(); ++f) {
+    const bool bare = n_ % domain(f).centre_denominator() != 0;
+    first_inner_.push_back(first_inner_.back() + domain(f).inner_count(n_) + bare);
+    if (domain(f).corners() > kManyCorners && vertex_corners_.empty()) list_corners_of_vertices();
+  }
+}
+
+Lattice::Id Lattice::id(const Place& p) const {
+  if (p.face < 0 || p.face >= face_count() || p.denominator == 0) return kNone;
+  return id(p.face, point_of(p), domain(p.face).steps(p.denominator));
+}
+
+Lattice::Id Lattice::id(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const {
+  const FaceDomain its = domain(face);
+  if (!its.contains(p, steps)) return kNone;
+  if ((p.i * n_) % steps != 0 || (p.j * n_) % steps != 0)
+    return its.is_centre(p, steps) ? first_inner_[face + 1] - 1 : kNone;
+  const Coordinates at{p.i * n_ / steps, p.j * n_ / steps, p.part};
+  const auto on_side = its.side_of(at, n_);
+  if (!on_side) return first_inner_[face] + its.inner_number(at, n_);
+  const auto [side, along] = *on_side;
+  const std::int32_t from = vertex(face, side), to = vertex(face, its.next(side));
+  if (along == 0) return from;
+  const std::int64_t from_smaller = from < to ? along : n_ - along;
+  return first_on_edge(corner_edge_[corner_number(face, side)]) + from_smaller - 1;
+}
+
+std::optional<int> Lattice::corner_of(std::int32_t face, Id id) const {
+  const int corners = domain(face).corners();
+  if (corners > kManyCorners) {
+    const auto begin = vertex_corners_.begin() + first_at_vertex_[id],
+               end = vertex_corners_.begin() + first_at_vertex_[id + 1];
+    const std::int32_t first = corner_number(face, 0);
+    const auto found = std::lower_bound(begin, end, first);
+    return found != end && *found < first + corners ? std::optional(*found - first) : std::nullopt;
+  }
+  for (int k = 0; k < corners; ++k)
+    if (vertex(face, k) == id) return k;
+  return std::nullopt;
+}
+
+void Lattice::list_corners_of_vertices() {
+  const std::span<const std::int32_t> corners = mesh_.faces.corners();
+  first_at_vertex_.assign(mesh_.positions.size() + 1, 0);
+  for (const std::int32_t v : corners) ++first_at_vertex_[v + 1];
+  std::partial_sum(first_at_vertex_.begin(), first_at_vertex_.end(), first_at_vertex_.begin());
+  vertex_corners_.resize(corners.size());
+  std::vector<std::int32_t> next(first_at_vertex_.begin(), first_at_vertex_.end() - 1);
+  for (std::int32_t c = 0; c < corner_count(); ++c) vertex_corners_[next[corners[c]]++] = c;
+}
+
+std::int32_t Lattice::face_of_inner(Id id) const {
+  return static_cast<std::int32_t>(std::upper_bound(first_inner_.begin(), first_inner_.end(), id) -
+                                   first_inner_.begin()) -
+         1;
+}
+
+bool Lattice::is_bare_centre(Id id) const {
+  if (is_shared(id)) return false;
+  const std::int32_t face = face_of_inner(id);
+  return id - first_inner_[face] == domain(face).inner_count(n_);
+}
+
+std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) const {
+  const FaceDomain its = domain(face);
+  const std::int64_t finer = scale() / n_;
+  const auto on_side = [&](int k, std::int64_t along) { return its.on_side(k, finer * along, scale()); };
+  if (is_vertex(id)) {
+    const auto k = corner_of(face, id);
+    return k ? std::optional(on_side(*k, 0)) : std::nullopt;
+  }
+  if (is_shared(id)) {
+    const Edge& edge = edges_[edge_of(id)];
+    const std::int64_t from_smaller = id - first_on_edge(edge_of(id)) + 1;
+    for (std::size_t s = 0; s < 2; ++s)
+      if (edge.face[s] == face)
+        return on_side(edge.corner[s],
+                       vertex(face, edge.corner[s]) == edge.a ? from_smaller : n_ - from_smaller);
+    return std::nullopt;
+  }
+  if (id < first_inner_[face] || id >= first_inner_[face + 1]) return std::nullopt;
+  const Id within = id - first_inner_[face];
+  if (within == its.inner_count(n_)) {
+    const std::int64_t middle = scale() / its.centre_denominator();
+    return Coordinates{middle, middle};
+  }
+  const FaceDomain::Point p = its.inner_point(within, n_);
+  return Coordinates{finer * p.i, finer * p.j, p.part};
+}
+
+Place Lattice::place(Id id) const {
+  const std::int32_t face = is_vertex(id)   ? vertex_face_[id]
+                            : is_shared(id) ? edges_[edge_of(id)].face[0]
+                                            : face_of_inner(id);
+  return place(face, *in_face(id, face));
+}
+
+Place Lattice::place(std::int32_t face, Coordinates at) const {
+  const std::int64_t whole = domain(face).denominator(scale()),
+                     divisor = std::gcd(std::gcd(at.i, at.j), whole);
+  const auto number = [&](std::int64_t k) { return static_cast<std::uint32_t>(k / divisor); };
+  return {face, number(at.i), number(at.j), number(whole), at.part};
+}
+
+std::string fraction(std::uint64_t numerator, std::uint64_t denominator) {
+  const std::uint64_t divisor = std::gcd(numerator, denominator);
+  if (numerator == 0 || divisor == 0) return "0";
+  if (numerator == denominator) return "1";
+  return fmt::format("{}/{}", numerator / divisor, denominator / divisor);
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "verify/evidence/reference_surface.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "reference/surface/surface.h"
+#include "verify/interrupt/interrupt.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// See normal_condition(). In units of the larger tangent, so that nothing overflows or vanishes.
+double condition(const reference::SurfacePoint<double>& p) {
+  const Vector t1 = vector_of(p.d1), t2 = vector_of(p.d2);
+  const double unit = std::max(largest(t1), largest(t2));
+  if (!(unit > 0)) return std::numeric_limits<double>::infinity();
+  const auto scaled = [&](const Vector& t) { return Vector{t[0] / unit, t[1] / unit, t[2] / unit}; };
+  const double area = norm(cross(scaled(t1), scaled(t2)));
+  return (norm(scaled(t1)) + norm(scaled(t2))) / area / unit;
+}
+
+// Of a triangle the middle of the side opposite a corner, in the lattice's triangle there; of other faces the
+// middle of the lattice's quad there.
+std::array<double, 2> beside_corner(const Lattice& lattice, const Place& corner, int k) {
+  const FaceDomain domain = lattice.domain(corner.face);
+  const std::int64_t n = lattice.scale(), step = std::min(n / lattice.n(), domain.denominator(n));
+  const FaceDomain::Point c = domain.corner_point(k, n), p = domain.on_side(k, step, n);
+  // The other neighbour, as the part of corner k names it.
+  const FaceDomain::Point q = *domain.in_part(domain.on_side(domain.previous(k), n - step, n), c.part, n);
+  const double whole = 2.0 * static_cast<double>(domain.denominator(n));
+  return {static_cast<double>(p.i + q.i) / whole, static_cast<double>(p.j + q.j) / whole};
+}
+
+int steps_of(const data::ControlMesh& mesh, int depth) {
+  float most = 0;
+  const auto look = [&](const auto& tags) {
+    for (const auto& tag : tags)
+      if (tag.sharpness < data::kInfiniteSharpness) most = std::max(most, tag.sharpness);
+  };
+  look(mesh.sharpness.edges);
+  look(mesh.sharpness.vertices);
+  return std::max(depth, static_cast<int>(std::ceil(most)));
+}
+
+}  // namespace
+
+// The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
+struct ReferenceSurface::Evaluator {
+  std::unique_ptr<reference::Surface> limit;
+  std::unique_ptr<reference::RefinedSurface> refined;
+};
+
+ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth,
+                                   lc_points points, reference::Weights weights)
+    : mesh_(mesh),
+      lattice_(mesh_, scheme, depth),
+      sides_(lattice_),
+      steps_(points == LC_POINTS_LIMIT ? steps_of(mesh, depth) : depth),
+      points_(points),
+      weights_(weights),
+      evaluator_(std::make_unique<Evaluator>()),
+      certified_(lattice_, sides_, weights) {
+  const auto size = static_cast<std::size_t>(lattice_.size());
+  const auto sides = static_cast<std::size_t>(sides_.size());
+  position_.resize(size);
+  if (points_ == LC_POINTS_LIMIT) {
+    normal_.resize(sides);
+    condition_.resize(sides);
+  }
+  state_.assign(sides, State::kMissing);
+}
+
+ReferenceSurface::~ReferenceSurface() = default;
+
+void ReferenceSurface::evaluate(Sides::Id side) {
+  const Lattice::Id point = sides_.point(side);
+  const Place p = sides_.place(side);
+  // Dyadic fractions are exact doubles; thirds are not.
+  const auto& limit = *evaluator_->limit;
+  const auto at =
+      std::has_single_bit(p.denominator)
+          ? limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
+                           static_cast<double>(p.j) / p.denominator, reference::Order::kFirst)
+          : limit.evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                           reference::Parameter::fraction(p.j, p.denominator), reference::Order::kFirst);
+  if (side == point) position_[point] = vector_of(at.position);
+  normal_[side] = vector_of(at.normal);
+  state_[side] = at.normal_kind == reference::NormalKind::kRegular ? State::kRegular : State::kNoNormal;
+  condition_[side] = condition(at);
+  if (!lattice_.is_vertex(point)) return;
+  const auto beside = beside_corner(lattice_, p, *lattice_.corner_of(p.face, point));
+  const double near =
+      condition(limit.evaluate(p.face, p.corner, beside[0], beside[1], reference::Order::kFirst));
+  condition_[side] = std::isfinite(condition_[side]) ? std::max(condition_[side], near) : near;
+}
+
+void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
+  // What is missing, each side of each point once.
+  const bool limit = points_ == LC_POINTS_LIMIT;
+  std::vector<Sides::Id> wanted;
+  const auto want = [&](Sides::Id side) {
+    state_[side] = State::kWanted;
+    wanted.push_back(side);
+  };
+  for (const Lattice::Id id : ids) {
+    if (id == Lattice::kNone || state_[id] != State::kMissing) continue;
+    if (limit)
+      sides_.for_each(id, want);
+    else
+      want(id);
+  }
+  if (wanted.empty()) return;
+
+  if (limit) {
+    if (!evaluator_->limit)
+      evaluator_->limit = std::make_unique<reference::Surface>(mesh_, lattice_.scheme(), weights_);
+    tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
+      end_if_interrupted();
+      evaluate(wanted[k]);
+    });
+    return;
+  }
+
+  if (!evaluator_->refined)
+    evaluator_->refined =
+        std::make_unique<reference::RefinedSurface>(mesh_, lattice_.scheme(), lattice_.depth(), weights_);
+  for (const Lattice::Id id : wanted) {
+    state_[id] = State::kNoNormal;
+    if (lattice_.is_bare_centre(id)) continue;  // which is no vertex of a refined mesh
+    if (lattice_.is_vertex(id) && lattice_.depth() == 0) {
+      position_[id] = mesh_.positions[id];
+      continue;
+    }
+    const Place p = lattice_.place(id);
+    const auto finer = lattice_.domain(p.face).denominator(lattice_.n()) / p.denominator;
+    position_[id] = vector_of(evaluator_->refined->position(p.face, p.corner, static_cast<int>(p.i * finer),
+                                                            static_cast<int>(p.j * finer)));
+  }
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What the checks of a tessellation file look at.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "verify/files/read/provenance.h"
+#include "verify/files/read/tessellation_file.h"
+#include "verify/projection/closest_point.h"
+#include "verify/row/result.h"
+#include "verify/watertight/watertight.h"
+
+namespace limitcheck::verify {
+
+/// A tessellation on the limit surface of its control mesh. Vertices at one place are one point.
+struct FileEvidence {
+  std::string control_name;
+  const data::ControlMesh& control;
+  const ClosestPoint& surface;
+  const FileTessellation& tessellation;
+  double tolerance;  // of positions, in diagonals
+
+  MergedPoints merged{};
+  std::vector<Foot> foot{};  // of each point: the closest, or where the provenance has it
+  /// Of each point: the foot as a point of the domain, put on an edge or a corner if it lies there within the
+  /// tolerance. Face -1: the point is not used.
+  std::vector<FacePoint> place{};
+  std::vector<char> quick{};         // of each point, whether its foot was found by Search::kQuick
+  std::vector<FacePoint> claimed{};  // of each vertex, by its provenance (face -1: none); empty without
+
+  std::int32_t point_of(std::int32_t vertex) const { return merged.point_of[vertex]; }
+  const Vector& position(std::int32_t point) const { return tessellation.positions[merged.vertex_of[point]]; }
+
+  data::Scheme scheme() const { return surface.surface().scheme(); }
+  Result result(std::string check) const;
+  Witness at_vertex(std::int32_t vertex) const;
+  Witness at_point(const FacePoint& at) const;
+};
+
+/// How feet are looked for.
+enum class Search {
+  kThorough,  ///< the whole surface for each
+  kQuick      ///< where one descent ends on the surface, within a quarter of the tolerance, that is the foot
+};
+
+/// Merges, projects and places all used vertices, in parallel. `on_step`: points done, of how many; from any
+/// thread, one at a time. Whoever would blame the file for feet that were found quickly is to search
+/// thoroughly first, because the surface may have come near itself; the other feet then stay as they are.
+void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance,
+                  const std::function<void(std::size_t, std::size_t)>& on_step,
+                  Search search = Search::kThorough);
+/// Whether any foot was found quickly.
+bool any_quick(const FileEvidence& evidence);
+
+/// A point of the domain in all faces that have it, evaluated in each: on an edge that stays sharp the normals
+/// of its sides differ. `p` is the point that projected there.
+std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const Vector& p);
+
+/// The three corners of a triangle in one face of the domain, unfolded across an edge if need be.
+struct PlacedTriangle {
+  std::int32_t face = -1;  // -1: not to be placed
+  bool crosses = false;    // some corner lies beyond an edge of the face
+  std::array<Chart::Affine, 3> l{};
+  double area = 0;  // signed; 1 is the whole face
+};
+PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points);
+
+/// The checks; each returns its rows.
+std::vector<Result> check_file_finite(const FileEvidence& e);
+std::vector<Result> check_file_distance(const FileEvidence& e);
+std::vector<Result> check_file_positions(const FileEvidence& e);  // at the provenance claimed
+std::vector<Result> check_file_normals(const FileEvidence& e);    // file-normals, file-normal-length
+std::vector<Result> check_file_unused(const FileEvidence& e);
+std::vector<Result> check_file_triangles(const FileEvidence& e);  // file-degenerate
+std::vector<Result> check_file_cover(const FileEvidence& e);      // file-orientation, file-coverage
+std::vector<Result> check_file_watertight(const FileEvidence& e);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "verify/files/checks/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr double kNoArea = 1e-14;  // of a face, in its parameters
+
+}  // namespace
+
+Overlay::Overlay(const FileEvidence& e) : e_(e), over_(e.surface.domain().face_count()) {
+  const auto& list = e.tessellation.triangles;
+  corners_.resize(list.size());
+  std::vector<BoxTree::Box> boxes;
+  for (std::size_t t = 0; t < list.size(); ++t) {
+    std::array<std::int32_t, 3> p{};
+    for (int c = 0; c < 3; ++c) p[c] = e.point_of(list[t][c]);
+    if (std::min({p[0], p[1], p[2]}) < 0) continue;
+    corners_[t] = {e.position(p[0]), e.position(p[1]), e.position(p[2])};
+    boxes.push_back(BoxTree::around({corners_[t][0], corners_[t][1], corners_[t][2]}));
+    boxed_.push_back(static_cast<std::int32_t>(t));
+    if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
+    lay(static_cast<std::int32_t>(t), place_triangle(e, p));
+  }
+  tree_ = std::make_unique<BoxTree>(boxes);
+}
+
+// Over its face, and over the faces beyond the edges it crosses.
+void Overlay::lay(std::int32_t triangle, const PlacedTriangle& placed) {
+  const bool flat = std::abs(placed.area) < kNoArea;
+  if (placed.face < 0 || placed.crosses || flat) loose_.push_back(triangle);
+  if (placed.face < 0 || flat) return;
+  over_[placed.face].push_back({triangle, placed.l});
+  if (!placed.crosses) return;
+  const Domain& domain = e_.surface.domain();
+  const Chart chart = domain.chart();
+  for (int k = 0; k < chart.corners(); ++k) {
+    const auto height = [&](int c) { return chart.height(k, placed.l[c]); };
+    if (std::min({height(0), height(1), height(2)}) >= 0) continue;
+    const std::int32_t next = domain.across(placed.face, k);
+    if (next < 0) continue;
+    Over there{triangle, {}};
+    for (int c = 0; c < 3; ++c) there.l[c] = domain.unfolded(placed.face, k, placed.l[c]);
+    over_[next].push_back(there);
+  }
+}
+
+// Those over the piece, judged by their extents.
+std::vector<Over> Overlay::near(const Piece& piece, const std::vector<Over>& all) {
+  std::vector<Over> some;
+  for (const Over& o : all) {
+    bool apart = false;
+    for (int k = 0; k < 3; ++k) {
+      const auto [o_low, o_high] = std::minmax({o.l[0][k], o.l[1][k], o.l[2][k]});
+      const auto [p_low, p_high] = std::minmax({piece.at[0][k], piece.at[1][k], piece.at[2][k]});
+      apart = apart || o_low >= p_high || o_high <= p_low;
+    }
+    if (!apart) some.push_back(o);
+  }
+  return some;
+}
+
+Bound Overlay::look(const Piece& piece, const std::vector<Over>& over) const {
+  Bound bound;
+  const double area = determinant(piece.at[0], piece.at[1], piece.at[2]);
+  double left = area;
+  for (const Over& o : over) {
+    const double o_area = determinant(o.l[0], o.l[1], o.l[2]);
+    if (std::abs(o_area) < kNoArea) continue;
+    const Part part = clip(o.l, piece.at);
+    if (part.size() < 3) continue;
+    left -= area_of(part);
+    const auto& triangle = corners_[o.triangle];
+    for (const Barycentric& u : part) {
+      const Barycentric on_piece = within(piece.at, area, u), on_triangle = within(o.l, o_area, u);
+      const Vector p = piece.flat(on_piece), t = mix(triangle, on_triangle);
+      const double from_surface = closest_on_triangle(p, triangle).distance + piece.deviation;
+      const double from_triangles = closest_on_triangle(t, piece.corner).distance + piece.deviation;
+      if (from_surface > bound.from_surface) {
+        bound.from_surface = from_surface;
+        bound.at_surface = {piece.face, piece.chart.clamp(u)};
+      }
+      if (from_triangles > bound.from_triangles) {
+        bound.from_triangles = from_triangles;
+        bound.at_triangles = {piece.face, piece.chart.clamp(u)};
+        bound.triangle = o.triangle;
+        bound.weight = on_triangle;
+      }
+    }
+  }
+  if (is_hole(piece.face)) {
+    bound.from_surface = 0;
+  } else if (left > 1e-6 * area) {  // not covered: the nearest triangle, wherever it is
+    // No point of the piece is farther from its middle than a corner is, and the distance to the triangles
+    // changes no faster than the place.
+    constexpr Barycentric kMiddle{1. / 3, 1. / 3, 1. / 3};
+    const Vector middle = piece.flat(kMiddle);
+    double reach = 0;
+    for (const Vector& corner : piece.corner) reach = std::max(reach, norm(corner - middle));
+    bound.bare = true;
+    bound.at_surface = piece.parameter(kMiddle);
+    bound.from_surface =
+        std::max(bound.from_surface, distance_to_triangles(middle) + reach + piece.deviation);
+  }
+  return bound;
+}
+
+double Overlay::distance_to_triangles(const Vector& p) const {
+  double least = std::numeric_limits<double>::infinity();
+  tree_->near(p, [&](std::size_t k) {
+    return least = std::min(least, closest_on_triangle(p, corners_[boxed_[k]]).distance);
+  });
+  return least;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include "verify/files/read/gltf.h"
+
+#include <fmt/core.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "data/error.h"
+#include "data/io/text_scanner.h"
+#include "data/io/whole_content.h"
+#include "data/json_nesting.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Matrix = std::array<double, 16>;  // by columns, as glTF has them
+constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+constexpr int kDeepest = 256;              // nodes above a mesh
+constexpr std::size_t kDeepestJson = 128;  // brackets: no glTF needs more than ten, and the parser recurses
+constexpr std::size_t kMost = 1 << 28;     // vertices, and corners: a small file may repeat a mesh very often
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// A GLB file is a header of 12 bytes, then the length and the kind of the first chunk, then that: the JSON.
+std::string_view json_of(std::string_view content, bool binary) {
+  if (!binary) return content;
+  if (content.size() < 20) return {};
+  std::uint32_t length = 0;
+  std::memcpy(&length, content.data() + 12, sizeof length);
+  return content.substr(20, length);
+}
+
+// Extensions that a viewer needs but that do not change the shape.
+bool is_about_looks(const std::string& extension) {
+  static constexpr std::array kLooks{"KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_"};
+  return std::any_of(kLooks.begin(), kLooks.end(),
+                     [&](const char* begin) { return extension.starts_with(begin); });
+}
+
+// Does not open the file, because opening a pipe would block.
+bool is_beside(const std::string& file, void*) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored);
+}
+
+// Buffers beside the file: regular files only, of a size that is read.
+bool read_beside(std::vector<unsigned char>* out, std::string* error, const std::string& file, void*) try {
+  const std::string content = data::io::whole_content(file);
+  out->assign(content.begin(), content.end());
+  return true;
+} catch (const data::InputError& refusal) {
+  *error += refusal.what();
+  return false;
+}
+
+Matrix operator*(const Matrix& a, const Matrix& b) {
+  Matrix c{};
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      for (int k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+  return c;
+}
+
+double determinant(const Matrix& m) {
+  return m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) +
+         m[8] * (m[1] * m[6] - m[5] * m[2]);
+}
+
+class Reader {
+ public:
+  Reader(std::string_view content, bool binary, const std::string& folder, std::string name)
+      : name_(std::move(name)) {
+    tinygltf::TinyGLTF loader;
+    // Pictures are of no interest, and must not fail.
+    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
+                             const unsigned char*, int, void*) { return true; },
+                          nullptr);
+    loader.SetFsCallbacks({&is_beside, &tinygltf::ExpandFilePath, &read_beside, nullptr, nullptr});
+    if (const std::size_t depth = data::json_nesting(json_of(content, binary)); depth > kDeepestJson)
+      refuse("FILE_UNSUPPORTED", fmt::format("its JSON nests {} deep; {} are read", depth, kDeepestJson));
+    if (content.size() > std::numeric_limits<unsigned>::max()) refuse("FILE_TOO_LARGE", "more than 4 GiB");
+    const auto size = static_cast<unsigned>(content.size());
+    std::string error, warning;
+    const bool read =
+        binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
+                                             reinterpret_cast<const unsigned char*>(content.data()), size,
+                                             folder)
+               : loader.LoadASCIIFromString(&model_, &error, &warning, content.data(), size, folder);
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    if (!read) refuse("FILE_SYNTAX", error.empty() ? "not glTF 2.0" : error);
+    for (const std::string& extension : model_.extensionsRequired)
+      if (!is_about_looks(extension))
+        refuse("FILE_UNSUPPORTED", fmt::format("it requires the extension {}", data::io::quoted(extension)));
+    visited_.resize(model_.nodes.size());
+  }
+
+  data::io::PolygonSoup run() {
+    if (model_.scenes.empty()) {
+      for (const tinygltf::Mesh& m : model_.meshes) add(m, kIdentity, -1);
+    } else {
+      const int scene = std::max(model_.defaultScene, 0);
+      for (const int node : element(model_.scenes, scene, "scene").nodes) visit(node, kIdentity, 0);
+    }
+    return std::move(soup_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const char* code, const std::string& why) const {
+    throw data::InputError(code, name_, 0, why);
+  }
+  template <class T>
+  const T& element(const std::vector<T>& list, int index, const char* what) const {
+    if (index < 0 || static_cast<std::size_t>(index) >= list.size())
+      refuse("FILE_SYNTAX", fmt::format("it names {} {}, which is not there", what, index));
+    return list[index];
+  }
+
+  Matrix local(const tinygltf::Node& node, int index) const {
+    const auto numbers = [&](const std::vector<double>& list, std::size_t count, const char* what) {
+      if (!list.empty() && list.size() != count)
+        refuse("FILE_SYNTAX",
+               fmt::format("the {} of node {} has {} numbers, not {}", what, index, list.size(), count));
+    };
+    numbers(node.matrix, 16, "matrix");
+    numbers(node.rotation, 4, "rotation");
+    numbers(node.scale, 3, "scale");
+    numbers(node.translation, 3, "translation");
+    Matrix m = kIdentity;
+    if (node.matrix.size() == 16) {
+      std::copy(node.matrix.begin(), node.matrix.end(), m.begin());
+      return m;
+    }
+    if (node.rotation.size() == 4) {
+      const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
+      m = {1 - 2 * (y * y + z * z),
+           2 * (x * y + z * w),
+           2 * (x * z - y * w),
+           0,
+           2 * (x * y - z * w),
+           1 - 2 * (x * x + z * z),
+           2 * (y * z + x * w),
+           0,
+           2 * (x * z + y * w),
+           2 * (y * z - x * w),
+           1 - 2 * (x * x + y * y),
+           0,
+           0,
+           0,
+           0,
+           1};
+    }
+    for (int column = 0; column < 3 && node.scale.size() == 3; ++column)
+      for (int row = 0; row < 3; ++row) m[4 * column + row] *= node.scale[column];
+    for (int row = 0; row < 3 && node.translation.size() == 3; ++row) m[12 + row] = node.translation[row];
+    return m;
+  }
+
+  void visit(int index, const Matrix& above, int depth) {
+    const tinygltf::Node& node = element(model_.nodes, index, "node");
+    if (depth > kDeepest)
+      refuse("FILE_UNSUPPORTED", fmt::format("more than {} nodes above each other", kDeepest));
+    if (visited_[index])
+      refuse("FILE_SYNTAX", fmt::format("node {} occurs twice: the nodes of a scene must be trees", index));
+    visited_[index] = true;
+    const Matrix m = above * local(node, index);
+    if (node.mesh >= 0) add(element(model_.meshes, node.mesh, "mesh"), m, index);
+    for (const int child : node.children) visit(child, m, depth + 1);
+  }
+
+  // The bytes of one element after another.
+  struct Bytes {
+    const unsigned char* first = nullptr;
+    std::size_t stride = 0, count = 0;
+    int component = 0;
+    const unsigned char* operator[](std::size_t k) const { return first + k * stride; }
+  };
+  Bytes bytes(int index, int type) const {
+    const tinygltf::Accessor& a = element(model_.accessors, index, "accessor");
+    if (a.sparse.isSparse || a.bufferView < 0) refuse("FILE_UNSUPPORTED", "a sparse or compressed accessor");
+    if (a.type != type)
+      refuse("FILE_SYNTAX", fmt::format("accessor {} has another type than it must", index));
+    const tinygltf::BufferView& view = element(model_.bufferViews, a.bufferView, "buffer view");
+    const tinygltf::Buffer& buffer = element(model_.buffers, view.buffer, "buffer");
+    const int stride = a.ByteStride(view), size = tinygltf::GetComponentSizeInBytes(a.componentType) *
+                                                  tinygltf::GetNumComponentsInType(type);
+    const std::size_t begin = view.byteOffset + a.byteOffset, end = view.byteOffset + view.byteLength;
+    if (stride < size || size <= 0 || end > buffer.data.size() || begin > end ||
+        (a.count > 0 &&
+         (end - begin < static_cast<std::size_t>(size) ||
+          (end - begin - static_cast<std::size_t>(size)) / static_cast<std::size_t>(stride) < a.count - 1)))
+      refuse("FILE_SYNTAX", fmt::format("accessor {} reaches beyond its buffer", index));
+    return {buffer.data.data() + begin, static_cast<std::size_t>(stride), a.count, a.componentType};
+  }
+  std::array<double, 3> vector(const Bytes& b, std::size_t k) const {
+    std::array<float, 3> v{};
+    std::memcpy(v.data(), b[k], sizeof v);
+    return {v[0], v[1], v[2]};
+  }
+  std::int64_t index(const Bytes& b, std::size_t k) const {
+    switch (b.component) {
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return *b[k];
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: {
+        std::uint16_t v = 0;
+        std::memcpy(&v, b[k], sizeof v);
+        return v;
+      }
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: {
+        std::uint32_t v = 0;
+        std::memcpy(&v, b[k], sizeof v);
+        return v;
+      }
+      default:
+        refuse("FILE_SYNTAX", "indices that are no unsigned integers");
+    }
+  }
+
+  void add(const tinygltf::Mesh& mesh, const Matrix& m, int node) {
+    for (const tinygltf::Primitive& p : mesh.primitives) {
+      const int mode = p.mode < 0 ? TINYGLTF_MODE_TRIANGLES : p.mode;
+      if (mode < TINYGLTF_MODE_TRIANGLES) continue;  // points and lines
+      const auto attribute = [&](const char* name) {
+        const auto found = p.attributes.find(name);
+        return found == p.attributes.end() ? -1 : found->second;
+      };
+      if (attribute("POSITION") < 0) continue;
+      const auto [first, vertex_count] = vertices(attribute("POSITION"), attribute("NORMAL"), m, node);
+      Bytes list;
+      if (p.indices >= 0) list = bytes(p.indices, TINYGLTF_TYPE_SCALAR);
+      if (soup_.positions.size() > kMost ||
+          (vertex_count + static_cast<std::int64_t>(list.count)) > static_cast<std::int64_t>(kMost) ||
+          soup_.corners.size() > kMost)
+        refuse("MESH_TOO_LARGE", fmt::format("more than {} vertices or corners", kMost));
+      const std::int64_t count = p.indices >= 0 ? static_cast<std::int64_t>(list.count) : vertex_count;
+      const auto corner = [&, begin = first, end = vertex_count](std::int64_t k) {
+        const std::int64_t v = p.indices >= 0 ? index(list, static_cast<std::size_t>(k)) : k;
+        return v < end ? begin + v : -1;  // the reader of tessellations counts what is out of range
+      };
+      const bool plain = mode == TINYGLTF_MODE_TRIANGLES, mirrored = determinant(m) < 0;
+      for (std::int64_t k = 0; k + 2 < count; k += plain ? 3 : 1) {
+        const bool odd = (mode == TINYGLTF_MODE_TRIANGLE_STRIP && k % 2 == 1) != mirrored;
+        const std::int64_t a = mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : k;
+        for (const std::int64_t c : {a, odd ? k + 2 : k + 1, odd ? k + 1 : k + 2})
+          soup_.corners.push_back(corner(c));
+        soup_.close_polygon();
+      }
+    }
+  }
+
+  // Where the vertices of these accessors begin, and how many there are; read once for each node.
+  std::pair<std::int64_t, std::int64_t> vertices(int positions, int normals, const Matrix& m, int node) {
+    const auto begin = static_cast<std::int64_t>(soup_.positions.size());
+    const auto [known, is_new] = seen_.try_emplace({positions, normals, node}, begin, 0);
+    if (!is_new) return known->second;
+    const Bytes p = bytes(positions, TINYGLTF_TYPE_VEC3);
+    Bytes n;
+    if (normals >= 0) n = bytes(normals, TINYGLTF_TYPE_VEC3);
+    if (p.component != TINYGLTF_COMPONENT_TYPE_FLOAT ||
+        (normals >= 0 && (n.component != TINYGLTF_COMPONENT_TYPE_FLOAT || n.count != p.count)))
+      refuse("FILE_UNSUPPORTED", "positions or normals that are not floats, one for each vertex");
+    without_normals_ = without_normals_ || normals < 0;
+    for (std::size_t k = 0; k < p.count; ++k) {
+      soup_.positions.push_back(m == kIdentity ? vector(p, k) : moved(m, vector(p, k)));
+      if (normals >= 0) soup_.normals.push_back(m == kIdentity ? vector(n, k) : turned(m, vector(n, k)));
+    }
+    if (without_normals_) soup_.normals.clear();  // not of all: as if of none
+    known->second.second = static_cast<std::int64_t>(p.count);
+    return known->second;
+  }
+
+  static std::array<double, 3> moved(const Matrix& m, const std::array<double, 3>& p) {
+    std::array<double, 3> q{m[12], m[13], m[14]};
+    for (int row = 0; row < 3; ++row)
+      for (int k = 0; k < 3; ++k) q[row] += m[4 * k + row] * p[k];
+    return q;
+  }
+  // Normals go with the cofactors: the transposed inverse, but for its length and, when mirrored, its sign.
+  static std::array<double, 3> turned(const Matrix& m, const std::array<double, 3>& n) {
+    const double sign = determinant(m) < 0 ? -1 : 1;
+    std::array<double, 3> q{};
+    for (int row = 0; row < 3; ++row)
+      for (int k = 0; k < 3; ++k) {
+        const int r1 = (row + 1) % 3, r2 = (row + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+        q[row] += sign * (m[4 * k1 + r1] * m[4 * k2 + r2] - m[4 * k2 + r1] * m[4 * k1 + r2]) * n[k];
+      }
+    return q;
+  }
+
+  std::string name_;
+  tinygltf::Model model_;
+  data::io::PolygonSoup soup_;
+  std::vector<bool> visited_;  // nodes
+  std::map<std::tuple<int, int, int>, std::pair<std::int64_t, std::int64_t>> seen_;
+  bool without_normals_ = false;
+};
+
+}  // namespace
+
+bool is_gltf(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  return extension == ".gltf" || extension == ".glb";
+}
+
+data::io::PolygonSoup read_gltf(std::string_view content, bool binary, const std::string& folder,
+                                const std::string& name) {
+  return Reader(content, binary, folder, name).run();
+}
+
+data::io::PolygonSoup read_gltf(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw data::InputError("FILE_CANNOT_OPEN", file.string(), 0, "there is no such file");
+  return read_gltf(data::io::whole_content(file), lower_extension(file) == ".glb",
+                   file.parent_path().string(), file.string());
+}
+
+}  // namespace limitcheck::verify

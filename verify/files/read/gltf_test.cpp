@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// glTF as exporters write it: nodes that move, shared and separate vertices, short indices, strips, mirrored
+// nodes; and files that are broken.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <tiny_gltf.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "data/error.h"
+#include "verify/files/read/tessellation_file.h"
+
+namespace limitcheck::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A square in the plane z = 0, normals up; as one strip or as two triangles, below a node.
+class Gltf : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / (std::string("limitcheck-gltf-") +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    model_.asset.version = "2.0";
+    const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},
+                normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    const std::uint16_t list[] = {0, 1, 2, 1, 3, 2}, strip[] = {0, 1, 2, 3};
+    buffer_.data.resize(48 + 48 + 12 + 8);
+    std::memcpy(&buffer_.data[0], positions, 48);
+    std::memcpy(&buffer_.data[48], normals, 48);
+    std::memcpy(&buffer_.data[96], list, 12);
+    std::memcpy(&buffer_.data[108], strip, 8);
+    for (const auto& [offset, length] : {std::pair{0, 48}, {48, 48}, {96, 12}, {108, 8}}) {
+      tinygltf::BufferView view;
+      view.buffer = 0;
+      view.byteOffset = static_cast<std::size_t>(offset);
+      view.byteLength = static_cast<std::size_t>(length);
+      model_.bufferViews.push_back(view);
+    }
+    const auto accessor = [&](int view, int component, int type, std::size_t count) {
+      tinygltf::Accessor a;
+      a.bufferView = view;
+      a.componentType = component;
+      a.type = type;
+      a.count = count;
+      model_.accessors.push_back(a);
+    };
+    accessor(0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, 4);
+    accessor(1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, 4);
+    accessor(2, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR, 6);
+    accessor(3, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR, 4);
+    tinygltf::Primitive p;
+    p.attributes = {{"POSITION", 0}, {"NORMAL", 1}};
+    p.indices = 2;
+    p.mode = TINYGLTF_MODE_TRIANGLES;
+    tinygltf::Mesh mesh;
+    mesh.primitives = {p};
+    model_.meshes = {mesh};
+    tinygltf::Node node;
+    node.mesh = 0;
+    model_.nodes = {node};
+    tinygltf::Scene scene;
+    scene.nodes = {0};
+    model_.scenes = {scene};
+    model_.defaultScene = 0;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  FileTessellation read(const std::string& name = "t.glb") {
+    model_.buffers = {buffer_};
+    const fs::path file = folder_ / name;
+    EXPECT_TRUE(tinygltf::TinyGLTF().WriteGltfSceneToFile(&model_, file.string(), false, false, false,
+                                                          name.ends_with(".glb")));
+    return read_tessellation(file);
+  }
+  std::string code() {
+    try {
+      read();
+    } catch (const data::InputError& error) {
+      const std::string what = error.what();
+      return what.find("FILE_SYNTAX") != std::string::npos        ? "FILE_SYNTAX"
+             : what.find("FILE_UNSUPPORTED") != std::string::npos ? "FILE_UNSUPPORTED"
+                                                                  : what;
+    }
+    return "none";
+  }
+
+  fs::path folder_;
+  tinygltf::Model model_;
+  tinygltf::Buffer buffer_;
+};
+
+using Triangles = std::vector<std::array<std::int32_t, 3>>;
+
+TEST_F(Gltf, ListsAndStripsAndPrimitivesThatShareVerticesAreTheSameSquare) {
+  for (const std::string name : {"t.glb", "t.gltf"}) {
+    const FileTessellation list = read(name);
+    EXPECT_EQ(list.triangles, (Triangles{{0, 1, 2}, {1, 3, 2}}));
+    EXPECT_EQ(list.positions[3], (Vector{1, 1, 0}));
+    ASSERT_EQ(list.normals.size(), 4U);
+    EXPECT_EQ(list.normals[2].direction, (Vector{0, 0, 1}));
+  }
+  model_.meshes[0].primitives[0].mode = TINYGLTF_MODE_TRIANGLE_STRIP;
+  model_.meshes[0].primitives[0].indices = 3;
+  EXPECT_EQ(read().triangles, (Triangles{{0, 1, 2}, {1, 3, 2}}));
+  model_.meshes[0].primitives.push_back(model_.meshes[0].primitives[0]);
+  EXPECT_EQ(read().positions.size(), 4U);
+}
+
+TEST_F(Gltf, NodesPutTheirMeshesWhereTheySay) {
+  tinygltf::Node above;
+  above.children = {0};
+  above.translation = {10, 0, 0};
+  above.rotation = {0, 0, std::sqrt(.5), std::sqrt(.5)};  // a quarter turn about z
+  above.scale = {2, 2, 2};
+  model_.nodes.push_back(above);
+  model_.nodes[0].translation = {0, 0, 1};
+  model_.scenes[0].nodes = {1};
+  const FileTessellation t = read();
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(t.positions[1][axis], (Vector{10, 2, 2})[axis], 1e-12);
+    EXPECT_NEAR(t.positions[2][axis], (Vector{8, 0, 2})[axis], 1e-12);
+  }
+  model_.nodes[1].scale = {-1, 1, 1};  // mirrored: the corners turn, so that the outside stays outside
+  const FileTessellation mirrored = read();
+  EXPECT_EQ(mirrored.triangles[0], (std::array<std::int32_t, 3>{0, 2, 1}));
+  EXPECT_GT(mirrored.normals[0].direction[2], 0);
+}
+
+TEST_F(Gltf, WithoutNormalsInOnePrimitiveThereAreNone) {
+  model_.meshes[0].primitives.push_back(model_.meshes[0].primitives[0]);
+  model_.meshes[0].primitives[1].attributes.erase("NORMAL");
+  const FileTessellation t = read();
+  EXPECT_TRUE(t.normals.empty());
+  EXPECT_EQ(t.positions.size(), 8U);
+  EXPECT_EQ(t.triangles.size(), 4U);
+}
+
+TEST_F(Gltf, BrokenFilesAreRefused) {
+  const tinygltf::Model good = model_;
+  const auto with = [&](auto&& fault) {
+    model_ = good;
+    fault(model_);
+    return code();
+  };
+  EXPECT_EQ(with([](auto& m) { m.accessors[0].count = 5; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.accessors[0].count = SIZE_MAX / 2; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.bufferViews[1].byteLength = 1000; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.meshes[0].primitives[0].attributes["POSITION"] = 17; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.accessors[0].componentType = TINYGLTF_COMPONENT_TYPE_SHORT; }),
+            "FILE_UNSUPPORTED");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].children = {0}; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.scenes[0].nodes = {0, 0}; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].matrix = std::vector<double>(15, 1); }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].rotation = {1, 0, 0}; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.nodes[0].scale = {1}; }), "FILE_SYNTAX");
+  EXPECT_EQ(with([](auto& m) { m.scenes[0].nodes = {9}; }), "FILE_SYNTAX");
+  std::ofstream(folder_ / "torn.glb") << "glTF";
+  EXPECT_THROW(read_tessellation(folder_ / "torn.glb"), data::InputError);
+  EXPECT_THROW(read_tessellation(folder_ / "absent.gltf"), data::InputError);
+}
+
+// Sixty nodes that each hold the next one twice are 2^60 paths to the last.
+TEST_F(Gltf, NodesThatAreNoTreeAreRefusedAtOnce) {
+  model_.scenes[0].nodes = {1};
+  for (int k = 1; k <= 60; ++k) {
+    tinygltf::Node node;
+    node.children = {k < 60 ? k + 1 : 0, k < 60 ? k + 1 : 0};
+    model_.nodes.push_back(node);
+  }
+  EXPECT_EQ(code(), "FILE_SYNTAX");
+}
+
+// The parser recurses into what it does not know.
+TEST_F(Gltf, JsonThatNestsTooDeepIsRefused) {
+  for (const int depth : {100, 20000, 2000000}) {
+    const std::string deep =
+        std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
+    const fs::path file = folder_ / "deep.gltf";
+    std::ofstream(file) << R"({"asset": {"version": "2.0", "extras": )" << deep << "}}";
+    try {
+      (void)read_tessellation(file);
+      ADD_FAILURE() << "accepted";
+    } catch (const data::InputError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.find("FILE_UNSUPPORTED: its JSON nests") != std::string::npos, depth > 100) << what;
+    }
+  }
+  // Brackets in texts do not nest.
+  const fs::path file = folder_ / "texts.gltf";
+  std::ofstream(file) << R"({"asset": {"version": "2.0", "generator": ")" << std::string(1000, '[')
+                      << R"(\"{[", "copyright": "\\"}})";
+  EXPECT_THROW(
+      try { (void)read_tessellation(file); } catch (const data::InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find("nests"), std::string::npos) << error.what();
+        throw;
+      },
+      data::InputError);
+}
+
+TEST_F(Gltf, WhatItRequiresAndIsNotReadIsRefused) {
+  model_.extensionsRequired = {"KHR_draco_mesh_compression"};
+  EXPECT_EQ(code(), "FILE_UNSUPPORTED");
+  model_.extensionsRequired = {"KHR_materials_unlit", "KHR_texture_transform"};
+  EXPECT_EQ(code(), "none") << "looks are of no interest";
+}
+
+TEST_F(Gltf, BuffersArePlainFiles) {
+  const std::string head = R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 8, "uri": ")";
+  ASSERT_EQ(mkfifo((folder_ / "pipe.bin").c_str(), 0600), 0);
+  for (const std::string uri : {"pipe.bin", "/dev/zero", ".", "absent.bin"}) {
+    std::ofstream(folder_ / "t.gltf") << head << uri << "\"}]}";
+    EXPECT_THROW((void)read_tessellation(folder_ / "t.gltf"), data::InputError) << uri;
+  }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "verify/host/host.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "data/error.h"
+#include "verify/host/coordinate_range.h"
+#include "verify/host/host_memory.h"
+#include "verify/host/subject_call.h"
+
+namespace limitcheck::verify {
+namespace {
+
+const char* text(const std::string& options) {
+  return options.empty() ? nullptr : options.c_str();
+}
+
+// What is wrong with the capabilities, or nothing. Enumerations are compared as numbers, because those of a
+// foreign library may hold any.
+std::string impossible(const lc_capabilities& c) {
+  const auto number = [](const auto& value) {
+    std::int32_t n = 0;
+    static_assert(sizeof value == sizeof n);
+    std::memcpy(&n, &value, sizeof n);
+    return n;
+  };
+  struct Choice {
+    const char* name;
+    std::int32_t value;
+  };
+  for (const Choice& choice : {Choice{"precision", number(c.precision)},
+                               {"weights", number(c.weights)},
+                               {"boundary", number(c.boundary)},
+                               {"points", number(c.points)},
+                               {"normals", c.normals},
+                               {"per_face_depth", c.per_face_depth},
+                               {"exact_lattice", c.exact_lattice},
+                               {"does_not_validate", c.does_not_validate}})
+    if (choice.value != 0 && choice.value != 1)
+      return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
+  if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
+    return fmt::format("schemes is {}", c.schemes);
+  if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_NO_DARTS) return fmt::format("sharp is {}", c.sharp);
+  if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
+  return {};
+}
+
+// "semi-sharp edges, sharp vertices".
+std::string name_of_kinds(std::int32_t kinds) {
+  std::string names;
+  for (const auto& [bit, name] : {std::pair{std::int32_t{LC_SHARP_CREASES}, "edges that stay sharp"},
+                                  {LC_SHARP_SEMI, "semi-sharp edges and vertices"},
+                                  {LC_SHARP_CHAIKIN, "Chaikin's creasing"},
+                                  {LC_SHARP_CORNERS, "sharp vertices"},
+                                  {LC_SHARP_SMOOTH_TRIANGLES, "the smooth rule for triangles"}})
+    if ((kinds & bit) != 0) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+// What a subject did to the mesh that it was lent.
+std::string changes(const LentMesh& before, const LentMesh& after) {
+  std::int64_t changed = 0;
+  const auto compare = [&](const auto& a, const auto& b, std::size_t begin, std::size_t count) {
+    const auto from = a.begin() + static_cast<std::ptrdiff_t>(begin);
+    return std::equal(from, from + static_cast<std::ptrdiff_t>(count),
+                      b.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  for (std::size_t k = 0; k < before.positions.size(); k += 3)
+    changed += !compare(before.positions, after.positions, k, 3);
+  std::size_t corner = 0;
+  for (std::size_t f = 0; f < before.face_sizes.size(); ++f) {
+    const auto size = static_cast<std::size_t>(before.face_sizes[f]);
+    changed +=
+        before.face_sizes[f] != after.face_sizes[f] || !compare(before.corners, after.corners, corner, size);
+    corner += size;
+  }
+  if (changed == 0) return "the subject changed the sharpness of edges or vertices";
+  return fmt::format("the subject changed {} vertices or faces of the control mesh", changed);
+}
+
+}  // namespace
+
+lc_capabilities capabilities(const lc_subject& subject, const std::string& options, data::Scheme scheme) {
+  if (subject.abi < 1 || subject.abi > LC_SUBJECT_ABI) {
+    throw NotAsked(fmt::format("the subject was built for interface {}, this program has {}", subject.abi,
+                               LC_SUBJECT_ABI));
+  }
+  lc_capabilities result{};
+  result.size = sizeof result;
+  result.scheme = scheme_of(scheme);
+  detail::call(subject, "capabilities",
+               [&](const char** message) { return subject.capabilities(text(options), &result, message); });
+  if (const std::string wrong = impossible(result); !wrong.empty())
+    throw SubjectDied(SubjectDied::Kind::kProtocol,
+                      fmt::format("{}: its capabilities are impossible: {}", subject.name, wrong));
+  return result;
+}
+
+Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options, Input input,
+                 std::optional<data::Scheme> asked)
+    : subject_(subject), options_(std::move(options)), mesh_(mesh) {
+  const data::Scheme scheme = asked.value_or(data::natural_scheme(mesh));
+  capabilities_ = verify::capabilities(subject, options_, scheme);
+  if (!does(capabilities_, scheme))
+    throw NotAsked(fmt::format("{}: does not subdivide by {}", subject.name, data::name_of(scheme)));
+  if (const std::int32_t beyond = sharp_kinds(mesh, scheme) & ~capabilities_.sharp; beyond != 0)
+    throw NotAsked(fmt::format("{}: does not do {}", subject.name, name_of_kinds(beyond)));
+  if (input == Input::kAsItIs && capabilities_.does_not_validate != 0)
+    throw NotAsked(fmt::format("{}: does not validate", subject.name));
+  if (input == Input::kValid && (capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
+    throw NotAsked(fmt::format("{}: does not do sharp edges that end inside the surface", subject.name));
+  const bool single = capabilities_.precision == LC_FLOAT32;
+  if (input == Input::kValid) {
+    for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
+      if (!std::ranges::all_of(mesh_.positions[v], [](double x) { return std::isfinite(x); }))
+        throw SubjectError(LC_INVALID_INPUT, fmt::format("vertex {} has no finite position", v));
+    if (const std::string reason = out_of_range(mesh_, !single); !reason.empty()) throw NotAsked(reason);
+  }
+  if (single)
+    for (auto& position : mesh_.positions)
+      for (double& x : position) x = static_cast<double>(static_cast<float>(x));
+  lent_ = LentMesh(mesh_, scheme);
+
+  const lc_mesh view = lent_.view();
+  detail::call(subject_, "create", [&](const char** message) {
+    return subject_.create(&view, text(options_), &instance_, message);
+  });
+}
+
+Session::~Session() {
+  try {
+    close();
+  } catch (...) {  // nothing left to report to
+  }
+}
+
+void Session::close() {
+  if (closed_) return;
+  closed_ = true;
+  detail::call(subject_, "destroy", [this](const char**) {
+    subject_.destroy(instance_);
+    return LC_OK;
+  });
+}
+
+std::string Session::label() const {
+  return options_.empty() ? std::string(subject_.name) : fmt::format("{}:{}", subject_.name, options_);
+}
+
+Tessellation Session::tessellate(int depth, int threads) {
+  const std::vector<std::int32_t> all(mesh_.faces.size(), depth);
+  return tessellate(all, threads);
+}
+
+Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int threads) {
+  if (face_depth.size() != mesh_.faces.size() || threads < 1 ||
+      std::any_of(face_depth.begin(), face_depth.end(), [](std::int32_t d) { return d < -1; })) {
+    throw data::ArgumentError("tessellate: one depth >= -1 for each face, and one thread or more");
+  }
+  if (!face_depth.empty()) {
+    const auto [least, most] = std::minmax_element(face_depth.begin(), face_depth.end());
+    if (*most > capabilities_.max_depth) {
+      throw NotAsked(fmt::format("{}: depth {} is beyond its largest, {}", subject_.name, *most,
+                                 capabilities_.max_depth));
+    }
+    if (capabilities_.per_face_depth == 0 && (*least != *most || *least == -1)) {
+      throw NotAsked(fmt::format("{}: takes one depth for the whole mesh, not one per face", subject_.name));
+    }
+  }
+
+  Tessellation result;
+  result.memory_ = std::make_shared<detail::Memory>();
+  result.precision_ = capabilities_.precision;
+  result.scheme_ = lent_.scheme;
+  result.face_sizes_ = lent_.face_sizes;
+  const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate,
+                           sizeof(lc_request)};
+  lc_tessellation out{};
+  out.size = sizeof out;
+  detail::call(subject_, "tessellate",
+               [&](const char** message) { return subject_.tessellate(instance_, &request, &out, message); });
+
+  // The arrays are the host's, so the subject can let go at once; a copy, because it may clear its own.
+  const lc_tessellation delivered = out;
+  try {
+    subject_.release(instance_, &out);
+  } catch (...) {
+    result.defects_.push_back({Defect::Kind::kThrew, "", 1, -1, "release() threw"});
+  }
+  result.inspect(delivered, capabilities_.normals != 0);
+
+  if (const LentMesh before(mesh_, lent_.scheme); !(before == lent_))
+    result.defects_.push_back({Defect::Kind::kMeshModified, "mesh", 1, -1, changes(before, lent_)});
+  return result;
+}
+
+}  // namespace limitcheck::verify

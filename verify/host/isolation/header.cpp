@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "verify/host/isolation/header.h"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "data/json_nesting.h"
+#include "verify/subject/subject_error.h"
+
+namespace limitcheck::verify::protocol {
+
+std::string to_line(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+constexpr std::size_t kDeepest = 32;  // no answer needs more, and what is deep is not safe to print
+
+}  // namespace
+
+Header::Header(const std::string& line) {
+  if (const std::size_t depth = data::json_nesting(line); depth > kDeepest)
+    throw Error(fmt::format("its JSON nests {} deep; {} are read", depth, kDeepest));
+  json_ = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+  if (!json_.is_object())
+    throw Error(fmt::format("where a line with a JSON object belongs it wrote \"{}\"", printable(line, 80)));
+}
+
+const nlohmann::json& Header::at(const char* key) const {
+  const auto found = json_.find(key);
+  if (found == json_.end()) throw Error(fmt::format("its answer has no \"{}\"", key));
+  return *found;
+}
+
+std::int64_t Header::integer(const char* key, std::int64_t least, std::int64_t most) const {
+  const nlohmann::json& value = at(key);
+  const bool beyond = value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t{INT64_MAX};
+  if (!value.is_number_integer() || beyond || value.get<std::int64_t>() < least ||
+      value.get<std::int64_t>() > most) {
+    throw Error(fmt::format(
+        "\"{}\": {} is not an integer from {} to {}", key,
+        printable(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), 80), least, most));
+  }
+  return value.get<std::int64_t>();
+}
+
+bool Header::flag(const char* key) const {
+  const nlohmann::json& value = at(key);
+  if (!value.is_boolean()) throw Error(fmt::format("\"{}\" is neither true nor false", key));
+  return value.get<bool>();
+}
+
+std::string Header::text(const char* key) const {
+  const nlohmann::json& value = at(key);
+  if (!value.is_string()) throw Error(fmt::format("\"{}\" is not a text", key));
+  return value.get<std::string>();
+}
+
+int Header::choice(const char* key, std::initializer_list<std::string_view> choices) const {
+  const std::string value = text(key);
+  const auto* const found = std::find(choices.begin(), choices.end(), value);
+  if (found == choices.end()) {
+    throw Error(fmt::format("\"{}\": \"{}\" is none of {}", key, printable(value, 40),
+                            fmt::join(choices.begin(), choices.end(), ", ")));
+  }
+  return static_cast<int>(found - choices.begin());
+}
+
+void Header::refuse_unless_ok() const {
+  // The order of lc_status.
+  const auto status =
+      static_cast<lc_status>(choice("status", {"ok", "not-supported", "invalid-input", "failed"}));
+  if (status == LC_OK) return;
+  const std::string message = has("message") ? text("message") : "";
+  throw SubjectError(status, message.empty() ? "no reason was given" : printable(message, 1000));
+}
+
+Header read_header(Source& source) {
+  return Header(source.line(kLongestHeader));
+}
+
+}  // namespace limitcheck::verify::protocol

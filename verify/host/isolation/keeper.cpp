@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+// All of this runs between fork and exec of a program with threads: nothing but async-signal-safe calls, no
+// heap.
+#include "verify/host/isolation/keeper.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/mount.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr std::array<int, 5> kIgnored{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE};  // by the keeper
+constexpr int kSweeps = 2000;                                                      // a millisecond apart
+
+struct Identity {
+  uid_t user;
+  gid_t group;
+};
+
+void tell(int news, News::Kind kind, int value) {
+  const News message{kind, value};
+  while (write(news, &message, sizeof message) < 0 && errno == EINTR) {
+  }
+}
+
+// Puts digits and a line end behind `text`, and writes that to a file.
+bool write_line(const char* file, const char* text, unsigned a, unsigned b) {
+  std::array<char, 64> line{};
+  char* end = line.data();
+  const auto number = [&end](unsigned value) {
+    char* const begin = end;
+    do {
+      *end++ = static_cast<char>('0' + value % 10);
+    } while ((value /= 10) != 0);
+    std::reverse(begin, end);
+    *end++ = ' ';
+  };
+  if (*text != '\0') {
+    end = stpcpy(end, text);
+  } else {
+    number(a), number(b), number(1);
+  }
+  const int fd = open(file, O_WRONLY | O_CLOEXEC);
+  const auto size = end - line.data();
+  const bool written = fd >= 0 && write(fd, line.data(), static_cast<std::size_t>(size)) == size;
+  if (fd >= 0) close(fd);
+  return written;
+}
+
+// In the new user namespace, user and group keep their numbers.
+bool keep_identity(const Identity& own) {
+  return write_line("/proc/self/setgroups", "deny", 0, 0) &&
+         write_line("/proc/self/uid_map", "", own.user, own.user) &&
+         write_line("/proc/self/gid_map", "", own.group, own.group);
+}
+
+// A /proc with the numbers of this namespace: interpreters and debuggers look for themselves there.
+bool mount_proc() {
+  return mount("", "/", nullptr, MS_PRIVATE | MS_REC, nullptr) == 0 &&
+         mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
+}
+
+// Takes the hexadecimal number that `text` begins with.
+std::uintptr_t hexadecimal(const char*& text) {
+  std::uintptr_t value = 0;
+  for (;; ++text) {
+    const char c = *text;
+    const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+    if (digit < 0) return value;
+    value = 16 * value + static_cast<std::uintptr_t>(digit);
+  }
+}
+
+// The keeper has this program's memory, copied as either of them writes to it. It gives back all that is
+// large and anonymous, the heap above all, but for its stack and its thread's variables.
+void shed_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr std::uintptr_t kWorthIt = 1 << 20;
+  struct Range {
+    std::uintptr_t begin, end;
+  };
+  std::array<Range, 512> found{};
+  std::size_t count = 0;
+  const std::array<std::uintptr_t, 2> needed{reinterpret_cast<std::uintptr_t>(&found),
+                                             reinterpret_cast<std::uintptr_t>(&errno)};
+  const int fd = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
+  std::array<char, 512> line{};
+  std::array<char, 4096> chunk{};
+  std::size_t length = 0;
+  for (ssize_t n = 0; fd >= 0 && (n = read(fd, chunk.data(), chunk.size())) > 0;)
+    for (const char c : std::string_view(chunk.data(), static_cast<std::size_t>(n))) {
+      if (c != '\n') {
+        if (length + 1 < line.size()) line[length++] = c;
+        continue;
+      }
+      line[length] = '\0';
+      length = 0;
+      // 7f0000000000-7f0000001000 rw-p 00000000 00:00 0    [heap]
+      const char* text = line.data();
+      Range range{};
+      range.begin = hexadecimal(text);
+      range.end = hexadecimal(++text);
+      const bool anonymous = std::strstr(text, " rw-p 00000000 00:00 0") == text;
+      const bool plain =
+          anonymous && (std::strchr(text, '[') == nullptr || std::strstr(text, "[heap]") != nullptr);
+      const bool mine = std::any_of(needed.begin(), needed.end(),
+                                    [&](std::uintptr_t p) { return range.begin <= p && p < range.end; });
+      if (plain && !mine && range.end - range.begin >= kWorthIt && count < found.size())
+        found[count++] = range;
+    }
+  if (fd >= 0) close(fd);
+  for (std::size_t k = 0; k < count; ++k)
+    madvise(reinterpret_cast<void*>(found[k].begin), found[k].end - found[k].begin, MADV_DONTNEED);
+#endif
+}
+
+[[noreturn]] void become_child(char* const* argv, const KeeperPipes& pipes) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  setpgid(0, 0);
+  for (int k = 0; k < 3; ++k)
+    if (dup2(pipes.standard[k], k) < 0) {
+      tell(pipes.news, News::kNotStarted, errno);
+      _exit(126);
+    }
+  fcntl(pipes.news, F_SETFD, FD_CLOEXEC);
+  const rlimit no_core{1, 1};  // 1, not 0: a program that takes core dumps from a pipe would get them with 0
+  setrlimit(RLIMIT_CORE, &no_core);
+  for (const int signal : kIgnored) std::signal(signal, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  execv(argv[0], argv);
+  tell(pipes.news, News::kNotStarted, errno);
+  _exit(127);
+}
+
+// The number that the text begins with, or -1.
+pid_t decimal(const char* text) {
+  pid_t value = -1;
+  for (; *text >= '0' && *text <= '9'; ++text) value = 10 * std::max(value, 0) + (*text - '0');
+  return *text == '\0' || *text == ' ' ? value : -1;
+}
+
+pid_t parent_of(const char* process) {
+  std::array<char, 300> file{}, stat{};
+  stpcpy(stpcpy(stpcpy(file.data(), "/proc/"), process), "/stat");
+  const int fd = open(file.data(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return -1;
+  const ssize_t n = read(fd, stat.data(), stat.size() - 1);
+  close(fd);
+  // 42 (its name) S 1 ...
+  const char* behind = n > 0 ? std::strrchr(stat.data(), ')') : nullptr;
+  return behind != nullptr && std::strlen(behind) > 4 ? decimal(behind + 4) : -1;
+}
+
+void kill_children(pid_t self) {
+  const int folder = open("/proc", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  alignas(dirent64) std::array<char, 8192> entries{};
+  for (long n = 0; (n = syscall(SYS_getdents64, folder, entries.data(), entries.size())) > 0;)
+    for (long at = 0; at < n;) {
+      const auto* const entry = reinterpret_cast<const dirent64*>(entries.data() + at);
+      at += entry->d_reclen;
+      const pid_t process = decimal(entry->d_name);
+      if (process > 0 && parent_of(entry->d_name) == self) kill(process, SIGKILL);
+    }
+  close(folder);
+}
+
+// Kills its children; theirs become its own and are next.
+void sweep(pid_t child) {
+  const pid_t self = getpid();
+  for (int k = 0; k < kSweeps; ++k) {
+    kill(-child, SIGKILL);
+    kill_children(self);
+    for (pid_t gone = 0; (gone = waitpid(-1, nullptr, WNOHANG)) != 0;)
+      if (gone < 0 && errno == ECHILD) return;
+    poll(nullptr, 0, 1);
+  }
+}
+
+[[noreturn]] void end() {
+  for (;;) syscall(SYS_exit_group, 0);
+}
+
+[[noreturn]] void keep(bool in_namespace, const Identity* mapped, char* const* argv, KeeperPipes pipes) {
+  // Without a namespace the keeper must live to kill its children: there only the lifeline ends it.
+  if (in_namespace) prctl(PR_SET_PDEATHSIG, SIGKILL);
+  setsid();
+  for (const int signal : kIgnored) std::signal(signal, SIG_IGN);
+  // It keeps no other descriptors: the lifeline of another child, if open here, would keep that child alive.
+  std::array<int, 5> own{pipes.standard[0], pipes.standard[1], pipes.standard[2], pipes.lifeline, pipes.news};
+  std::sort(own.begin(), own.end());
+  unsigned next = 3;
+  for (const int fd : own) {
+    if (fd >= 3 && static_cast<unsigned>(fd) > next) close_range(next, static_cast<unsigned>(fd) - 1, 0);
+    next = std::max(next, static_cast<unsigned>(fd) + 1);
+  }
+  close_range(next, ~0U, 0);
+
+  if (in_namespace && ((mapped != nullptr && !keep_identity(*mapped)) || !mount_proc())) {
+    tell(pipes.news, News::kGivesUp, errno);
+    end();
+  }
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  sigset_t ended;
+  sigemptyset(&ended);
+  sigaddset(&ended, SIGCHLD);
+  sigprocmask(SIG_SETMASK, &ended, nullptr);
+  std::signal(SIGCHLD, SIG_DFL);
+  const int signals = signalfd(-1, &ended, SFD_CLOEXEC | SFD_NONBLOCK);
+
+  const pid_t child = static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0));
+  if (child == 0) become_child(argv, pipes);
+  if (child < 0) {
+    tell(pipes.news, News::kGivesUp, errno);
+    end();
+  }
+  tell(pipes.news, News::kRunning, 0);
+  for (const int fd : pipes.standard) close(fd);
+  for (const int fd : {0, 1, 2}) close(fd);
+
+  for (bool host_lives = true, first = true; host_lives; first = false) {
+    int status = 0;
+    for (pid_t gone = 0; (gone = waitpid(-1, &status, WNOHANG)) > 0;) {
+      if (gone != child) continue;
+      if (!in_namespace) sweep(child);
+      tell(pipes.news, News::kEnded, status);
+      end();  // and with the first process of a namespace all others end
+    }
+    std::array<pollfd, 2> awaited{{{pipes.lifeline, POLLIN, 0}, {signals, POLLIN, 0}}};
+    poll(awaited.data(), awaited.size(), first ? 0 : signals < 0 ? 10 : -1);
+    std::array<signalfd_siginfo, 8> taken{};
+    if (read(signals, taken.data(), sizeof taken) < 0 && errno != EAGAIN && errno != EINTR) end();
+    host_lives = awaited[0].revents == 0;
+    if (!first) continue;
+    // After every function used below has been called once, because resolving a function for the first time
+    // uses the heap.
+    kill_children(std::numeric_limits<pid_t>::max());
+    kill(getpid(), 0);
+    shed_memory();
+  }
+  if (!in_namespace) sweep(child);
+  end();
+}
+
+}  // namespace
+
+pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes) {
+  const Identity own{geteuid(), getegid()};
+  if (containment == Containment::kSubreaper) {
+    const pid_t keeper = fork();
+    if (keeper == 0) keep(false, nullptr, argv, pipes);
+    return keeper;
+  }
+#if defined(__SANITIZE_THREAD__)  // knows of no process that it has not forked itself
+  errno = ENOSYS;
+  return -1;
+#else
+  constexpr long kNamespaces = CLONE_NEWPID | CLONE_NEWNS | SIGCHLD;
+  const auto clone = [](long flags) { return static_cast<pid_t>(syscall(SYS_clone, flags, 0, 0, 0, 0)); };
+  pid_t keeper = clone(kNamespaces);
+  if (keeper == 0) keep(true, nullptr, argv, pipes);
+  if (keeper > 0 || errno != EPERM) return keeper;
+  keeper = clone(kNamespaces | CLONE_NEWUSER);
+  if (keeper == 0) keep(true, &own, argv, pipes);
+  return keeper;
+#endif
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "verify/host/isolation/process_tree.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace limitcheck::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folders in `folder` whose names are numbers. Processes come and go meanwhile.
+std::vector<pid_t> numbers_in(const fs::path& folder) {
+  std::vector<pid_t> numbers;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    pid_t number = 0;
+    const auto [rest, wrong] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (wrong == std::errc{} && rest == name.data() + name.size()) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+bool lists_children(const fs::path& proc) {
+  std::error_code ignored;
+  return fs::exists(proc / "thread-self" / "children", ignored);
+}
+
+std::vector<pid_t> listed_descendants(pid_t process, const fs::path& proc) {
+  std::vector<pid_t> found;
+  std::size_t done = 0;
+  for (pid_t parent = process;; parent = found[done++]) {
+    const fs::path tasks = proc / std::to_string(parent) / "task";
+    for (const pid_t task : numbers_in(tasks)) {
+      std::ifstream list(tasks / std::to_string(task) / "children");
+      for (pid_t child = 0; list >> child;)
+        if (std::find(found.begin(), found.end(), child) == found.end()) found.push_back(child);
+    }
+    if (done == found.size()) return found;
+  }
+}
+
+std::vector<pid_t> searched_descendants(pid_t process, const fs::path& proc) {
+  std::multimap<pid_t, pid_t> child_of;
+  for (const pid_t p : numbers_in(proc)) {
+    std::ifstream in(proc / std::to_string(p) / "stat");
+    std::string stat;
+    std::getline(in, stat, '\0');
+    // 42 (its name) S 1 ...: the name may be anything.
+    const std::size_t name_end = stat.rfind(')');
+    if (name_end == std::string::npos || name_end + 4 >= stat.size()) continue;
+    pid_t parent = 0;
+    std::from_chars(stat.data() + name_end + 4, stat.data() + stat.size(), parent);
+    child_of.emplace(parent, p);
+  }
+  std::vector<pid_t> found;
+  std::size_t done = 0;
+  for (pid_t parent = process;; parent = found[done++]) {
+    const auto [first, last] = child_of.equal_range(parent);
+    for (auto child = first; child != last; ++child)
+      if (std::find(found.begin(), found.end(), child->second) == found.end()) found.push_back(child->second);
+    if (done == found.size()) return found;
+  }
+}
+
+std::uint64_t resident_bytes(pid_t process, const fs::path& proc) {
+  static const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  std::uint64_t size = 0, resident = 0;
+  std::ifstream(proc / std::to_string(process) / "statm") >> size >> resident;
+  return resident * page;
+}
+
+// Each page divided by the number of those who have it, if the system tells.
+std::uint64_t proportional_bytes(pid_t process, const fs::path& proc) {
+  std::ifstream in(proc / std::to_string(process) / "smaps_rollup");
+  for (std::string word; in >> word;)
+    if (std::uint64_t kib = 0; word == "Pss:" && in >> kib) return kib << 10;
+  return resident_bytes(process, proc);  // nothing if it has ended meanwhile
+}
+
+}  // namespace
+
+std::vector<pid_t> descendants(pid_t process, const fs::path& proc) {
+  return lists_children(proc) ? listed_descendants(process, proc) : searched_descendants(process, proc);
+}
+
+std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,
+                             const fs::path& proc) {
+  std::uint64_t sum = 0;
+  for (const pid_t p : processes) sum += resident_bytes(p, proc);
+  if (sum <= enough || processes.size() == 1) return sum;
+  sum = 0;
+  for (const pid_t p : processes) sum += proportional_bytes(p, proc);
+  return sum;
+}
+
+}  // namespace limitcheck::verify

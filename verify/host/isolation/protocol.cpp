@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "verify/host/isolation/protocol.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "verify/host/isolation/header.h"
+#include "verify/subject/lent_mesh.h"
+
+static_assert(std::endian::native == std::endian::little, "payloads are little-endian and sent as they lie");
+
+namespace limitcheck::verify::protocol {
+namespace {
+
+void append(std::string& text, const void* data, std::size_t bytes) {
+  text.append(static_cast<const char*>(data), bytes);
+}
+
+template <class T>
+void append_rows(std::string& text, const T* data, std::int64_t rows, int columns) {
+  for (std::int64_t row = 0; row < rows; ++row)
+    for (int c = 0; c < columns; ++c) text += fmt::format("{}{}", *data++, c + 1 < columns ? ' ' : '\n');
+}
+
+// One line of a text payload: numbers separated by blanks, exactly as many as are taken.
+class Row {
+ public:
+  Row(Source& source, const char* what, std::int64_t index)
+      : text_(source.line(kLongestLine)), left_(text_), what_(what), index_(index) {}
+
+  template <class T>
+  T next() {
+    skip_blanks();
+    T value{};
+    auto [end, error] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
+    if constexpr (std::is_floating_point_v<T>) {
+      // Beyond the range of its type a number is zero or infinite, as if it had been computed.
+      long double wide = 0;
+      if (error == std::errc::result_out_of_range)
+        error = std::from_chars(left_.data(), left_.data() + left_.size(), wide).ec;
+      if (wide != 0) value = static_cast<T>(wide);
+    }
+    if (error != std::errc{} || (end != left_.data() + left_.size() && *end != ' ' && *end != '\t')) refuse();
+    left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
+    return value;
+  }
+  void finish() {
+    skip_blanks();
+    if (!left_.empty()) refuse();
+  }
+
+ private:
+  void skip_blanks() {
+    const std::size_t begin = left_.find_first_not_of(" \t\r");
+    left_.remove_prefix(begin == std::string_view::npos ? left_.size() : begin);
+  }
+  [[noreturn]] void refuse() const {
+    throw Error(fmt::format("{} {} is \"{}\"", what_, index_, printable(text_, 80)));
+  }
+
+  const std::string text_;
+  std::string_view left_;
+  const char* what_;
+  std::int64_t index_;
+};
+
+template <class Real>
+void read_rows(Source& source, const lc_tessellation& out) {
+  auto* position = static_cast<Real*>(out.positions);
+  auto* normal = static_cast<Real*>(out.normals);
+  for (std::int64_t v = 0; v < out.vertex_count; ++v) {
+    Row row(source, "vertex", v);
+    for (int c = 0; c < 3; ++c) *position++ = row.next<Real>();
+    for (int c = 0; normal != nullptr && c < 3; ++c) *normal++ = row.next<Real>();
+    lc_provenance& p = out.provenance[v];
+    p.face = row.next<std::int32_t>();
+    p.i = row.next<std::uint32_t>();
+    p.j = row.next<std::uint32_t>();
+    p.denominator = row.next<std::uint32_t>();
+    if (out.corner != nullptr) out.corner[v] = row.next<std::int32_t>();
+    row.finish();
+  }
+  for (std::int64_t t = 0; t < out.triangle_count; ++t) {
+    Row row(source, "triangle", t);
+    for (int c = 0; c < 3; ++c) out.triangles[3 * t + c] = row.next<std::uint32_t>();
+    out.triangle_face[t] = row.next<std::int32_t>();
+    row.finish();
+  }
+}
+
+std::int32_t schemes_of(const Header& header) {
+  const nlohmann::json& list = header.at("schemes");
+  std::int32_t schemes = 0;
+  for (const auto& [name, bit] :
+       {std::pair{"loop", std::int32_t{LC_DOES_LOOP}}, {"catmull-clark", LC_DOES_CATMULL_CLARK}})
+    if (std::find(list.begin(), list.end(), name) != list.end()) schemes |= bit;
+  if (!list.is_array() || schemes == 0) throw Error(R"("schemes" is no list with "loop" or "catmull-clark")");
+  return schemes;
+}
+
+std::int32_t sharp_of(const Header& header) {
+  if (!header.has("sharp")) return 0;
+  const nlohmann::json& list = header.at("sharp");
+  if (!list.is_array()) throw Error(R"("sharp" is no list)");
+  std::int32_t kinds = 0;
+  for (const auto& [name, bit] : kSharpKinds)
+    if (std::find(list.begin(), list.end(), name) != list.end()) kinds |= bit;
+  return kinds;
+}
+
+std::size_t real_size(const Capabilities& capabilities) {
+  return capabilities.values.precision == LC_FLOAT32 ? sizeof(float) : sizeof(double);
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t longest) {
+  std::string out;
+  for (const char c : text.substr(0, longest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7F) {
+      out += c;
+    } else {
+      out += fmt::format("\\x{:02x}", byte);
+    }
+  }
+  return text.size() > longest ? out + "..." : out;
+}
+
+std::string_view name_of(lc_scheme scheme) {
+  return data::name_of(scheme_of(scheme));
+}
+
+// Each question says version 1, as programs of that version expect it, and which is the latest.
+std::string ask_capabilities(const std::string& options, lc_scheme scheme) {
+  return to_line({{"limitcheck", 1},
+                  {"latest", kVersion},
+                  {"request", "capabilities"},
+                  {"scheme", name_of(scheme)},
+                  {"options", options}});
+}
+
+std::string ask_create(const lc_mesh& mesh, const std::string& options, const Capabilities& capabilities) {
+  const bool polygons = capabilities.version > 1;
+  nlohmann::json question{{"request", "create"}, {"options", options}, {"vertices", mesh.vertex_count}};
+  if (polygons) {
+    question["scheme"] = name_of(mesh.scheme);
+    question["faces"] = mesh.face_count;
+    question["corners"] = mesh.corner_count;
+    question["sharp_edges"] = mesh.sharp_edge_count;
+    question["sharp_vertices"] = mesh.sharp_vertex_count;
+    question["creasing"] = mesh.creasing == LC_CREASING_CHAIKIN ? "chaikin" : "uniform";
+    question["corners_held"] = mesh.corners_held != 0;
+    question["smooth_triangles"] = mesh.smooth_triangles != 0;
+  } else {
+    question["triangles"] = mesh.triangle_count;
+  }
+  std::string text = to_line(question);
+  if (capabilities.payload == Payload::kText) {
+    append_rows(text, mesh.positions, mesh.vertex_count, 3);
+    const std::int32_t* corner = mesh.corners;
+    for (std::int64_t f = 0; f < mesh.face_count; corner += mesh.face_sizes[f++])
+      append_rows(text, corner, 1, mesh.face_sizes[f]);
+    for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k) {
+      const lc_sharp_edge& e = mesh.sharp_edges[k];
+      text += fmt::format("{} {} {}\n", e.a, e.b, e.sharpness);
+    }
+    for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k)
+      text += fmt::format("{} {}\n", mesh.sharp_vertices[k].vertex, mesh.sharp_vertices[k].sharpness);
+    return text;
+  }
+  const auto array = [&](const auto* data, std::int64_t count) {
+    append(text, data, sizeof(*data) * static_cast<std::size_t>(count));
+  };
+  array(mesh.positions, 3 * mesh.vertex_count);
+  if (polygons) array(mesh.face_sizes, mesh.face_count);
+  array(mesh.corners, mesh.corner_count);
+  if (polygons) {
+    array(mesh.sharp_edges, mesh.sharp_edge_count);
+    array(mesh.sharp_vertices, mesh.sharp_vertex_count);
+  }
+  return text;
+}
+
+std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads,
+                           const Capabilities& capabilities) {
+  std::string text = to_line({{"request", "tessellate"},
+                              {"threads", threads},
+                              {capabilities.version > 1 ? "faces" : "triangles", face_depth.size()}});
+  if (capabilities.payload == Payload::kText) {
+    append_rows(text, face_depth.data(), static_cast<std::int64_t>(face_depth.size()), 1);
+  } else {
+    append(text, face_depth.data(), face_depth.size_bytes());
+  }
+  return text;
+}
+
+std::string ask_end() {
+  return to_line({{"request", "end"}});
+}
+
+Capabilities read_capabilities(Source& source) {
+  const Header header = read_header(source);
+  if (!header.has("limitcheck")) throw Error(R"(the first answer does not say "limitcheck": 1)");
+  const std::int64_t version = header.integer("limitcheck", INT64_MIN, INT64_MAX);
+  if (version < 1 || version > kVersion)
+    throw Error(
+        fmt::format("it speaks version {} of the protocol, this program speaks 1 to {}", version, kVersion));
+  header.refuse_unless_ok();
+  if (header.has("impossible")) throw Error(header.text("impossible"));  // the worker has seen it
+
+  Capabilities result;
+  result.version = static_cast<int>(version);
+  lc_capabilities& c = result.values;
+  c.precision = header.choice("precision", {"float32", "float64"}) == 0 ? LC_FLOAT32 : LC_FLOAT64;
+  c.weights = header.choice("weights", {"loop", "warren"}) == 0 ? LC_WEIGHTS_LOOP : LC_WEIGHTS_WARREN;
+  c.boundary = header.choice("boundary", {"spline", "none"}) == 0 ? LC_BOUNDARY_SPLINE : LC_BOUNDARY_NONE;
+  c.points = header.choice("points", {"limit", "refined"}) == 0 ? LC_POINTS_LIMIT : LC_POINTS_REFINED;
+  c.max_depth = static_cast<std::int32_t>(header.integer("max_depth", 0, INT32_MAX));
+  c.normals = header.flag("normals");
+  c.per_face_depth = header.flag("per_face_depth");
+  c.exact_lattice = header.flag("exact_lattice");
+  c.schemes = version == 1 ? std::int32_t{LC_DOES_LOOP} : schemes_of(header);
+  c.sharp = version == 1 ? 0 : sharp_of(header);
+  if (header.has("does_not_validate")) c.does_not_validate = header.flag("does_not_validate");
+  if (header.has("options")) result.options = header.text("options");
+  if (header.has("payload"))
+    result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
+  return result;
+}
+
+void read_created(Source& source) {
+  read_header(source).refuse_unless_ok();
+}
+
+int read_ended(Source& source) {
+  const Header header = read_header(source);
+  header.refuse_unless_ok();
+  return static_cast<int>(header.integer("exit", 0, 255));
+}
+
+void read_tessellation(Source& source, const Capabilities& capabilities, std::uint64_t most_bytes,
+                       const lc_request& request, lc_tessellation& out) {
+  const Header header = read_header(source);
+  header.refuse_unless_ok();
+  const std::int64_t vertices = header.integer("vertices", 0, INT64_MAX);
+  const std::int64_t triangles = header.integer("triangles", 0, INT64_MAX);
+
+  // A count is checked before memory is allocated for it.
+  const std::size_t point = 3 * real_size(capabilities);
+  const bool normals = capabilities.values.normals != 0;
+  const double bytes =
+      static_cast<double>(vertices) *
+          static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance) + sizeof(std::int32_t)) +
+      static_cast<double>(triangles) * 16.0;
+  if (bytes > static_cast<double>(most_bytes))
+    throw Error(fmt::format("it announces {} vertices and {} triangles, {:.3g} MiB; {} MiB are allowed",
+                            vertices, triangles, bytes / 1048576, most_bytes >> 20));
+  const auto get = [&](std::int64_t count, std::size_t size) {
+    void* memory = request.allocate(request.host, static_cast<std::size_t>(count) * size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+  };
+  out.vertex_count = vertices;
+  out.triangle_count = triangles;
+  out.positions = get(vertices, point);
+  out.normals = normals ? get(vertices, point) : nullptr;
+  out.provenance = static_cast<lc_provenance*>(get(vertices, sizeof(lc_provenance)));
+  out.triangles = static_cast<std::uint32_t*>(get(triangles, 3 * sizeof(std::uint32_t)));
+  out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
+  if (capabilities.version > 1) out.corner = static_cast<std::int32_t*>(get(vertices, sizeof(std::int32_t)));
+
+  if (capabilities.payload == Payload::kText) {
+    if (capabilities.values.precision == LC_FLOAT32) {
+      read_rows<float>(source, out);
+    } else {
+      read_rows<double>(source, out);
+    }
+    return;
+  }
+  const auto fill = [&](void* array, std::int64_t count, std::size_t size) {
+    if (array != nullptr)
+      source.read({static_cast<std::byte*>(array), static_cast<std::size_t>(count) * size});
+  };
+  fill(out.positions, vertices, point);
+  fill(out.normals, vertices, point);
+  fill(out.provenance, vertices, sizeof(lc_provenance));
+  fill(out.corner, vertices, sizeof(std::int32_t));
+  fill(out.triangles, triangles, 3 * sizeof(std::uint32_t));
+  fill(out.triangle_face, triangles, sizeof(std::int32_t));
+}
+
+}  // namespace limitcheck::verify::protocol

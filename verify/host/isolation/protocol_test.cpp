@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// The protocol as PROTOCOL.md states it, answers read from memory.
+#include "verify/host/isolation/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verify/host/host_memory.h"
+#include "verify/host/isolation/memory_source.h"
+#include "verify/subject/subject_error.h"
+
+namespace {
+
+using namespace limitcheck::verify;
+using namespace limitcheck::verify::protocol;
+
+const std::string kHello =
+    R"("limitcheck": 1, "status": "ok", "precision": "float32", "weights": "loop", "boundary": "spline", )"
+    R"("points": "limit", "max_depth": 5, "normals": true, "per_face_depth": false, "exact_lattice": true)";
+
+Capabilities capabilities_of(const std::string& answer) {
+  MemorySource source(answer);
+  return read_capabilities(source);
+}
+
+TEST(Protocol, AsksInOneLineAndAPayload) {
+  EXPECT_EQ(ask_capabilities("a=\"b\"", LC_SCHEME_CATMULL_CLARK),
+            "{\"latest\":2,\"limitcheck\":1,\"options\":\"a=\\\"b\\\"\",\"request\":\"capabilities\","
+            "\"scheme\":\"catmull-clark\"}\n");
+  const double positions[] = {0.1, 0, 0, 1, 0, 0, 0, 1, 1e-300};
+  const std::int32_t triangles[] = {0, 1, 2};
+  const std::int32_t sizes[] = {3};
+  const lc_mesh mesh{positions, 3, triangles, 1, sizeof(lc_mesh), LC_SCHEME_LOOP, triangles, 3, sizes, 1};
+  const auto program = [](Payload payload, int version) {
+    Capabilities c;
+    c.payload = payload;
+    c.version = version;
+    return c;
+  };
+  const std::string header = "{\"options\":\"\",\"request\":\"create\",\"triangles\":1,\"vertices\":3}\n";
+  const std::string binary = ask_create(mesh, "", program(Payload::kBinary, 1));
+  ASSERT_EQ(binary.size(), header.size() + sizeof positions + sizeof triangles);
+  EXPECT_EQ(binary.substr(0, header.size()), header);
+  EXPECT_EQ(std::memcmp(binary.data() + header.size(), positions, sizeof positions), 0);
+  EXPECT_EQ(std::memcmp(binary.data() + header.size() + sizeof positions, triangles, sizeof triangles), 0);
+  EXPECT_EQ(ask_create(mesh, "", program(Payload::kText, 1)), header + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2\n");
+  EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, program(Payload::kText, 1)),
+            "{\"request\":\"tessellate\",\"threads\":2,\"triangles\":2}\n3\n-1\n");
+  // Version 2 has faces of any size, and says which scheme.
+  const std::int32_t quad[] = {0, 1, 2, 1}, four[] = {4};
+  const lc_sharp_edge edges[] = {{2, 1, 2.3F}};
+  const lc_sharp_vertex corners[] = {{1, INFINITY}};
+  const lc_mesh polygons{positions,
+                         3,
+                         nullptr,
+                         0,
+                         sizeof(lc_mesh),
+                         LC_SCHEME_CATMULL_CLARK,
+                         quad,
+                         4,
+                         four,
+                         1,
+                         edges,
+                         1,
+                         corners,
+                         1,
+                         LC_CREASING_CHAIKIN,
+                         1,
+                         0};
+  const std::string question =
+      "{\"corners\":4,\"corners_held\":true,\"creasing\":\"chaikin\",\"faces\":1,\"options\":\"\","
+      "\"request\":\"create\",\"scheme\":\"catmull-clark\",\"sharp_edges\":1,\"sharp_vertices\":1,"
+      "\"smooth_triangles\":false,\"vertices\":3}\n";
+  EXPECT_EQ(ask_create(polygons, "", program(Payload::kText, 2)),
+            question + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2 1\n2 1 2.3\n1 inf\n");
+  const std::string arrays = ask_create(polygons, "", program(Payload::kBinary, 2)).substr(question.size());
+  const std::size_t before = sizeof positions + sizeof four + sizeof quad;
+  ASSERT_EQ(arrays.size(), before + sizeof edges + sizeof corners);
+  EXPECT_EQ(std::memcmp(arrays.data() + before, edges, sizeof edges), 0);
+  EXPECT_EQ(std::memcmp(arrays.data() + before + sizeof edges, corners, sizeof corners), 0);
+  EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions, four, sizeof four), 0);
+  EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions + sizeof four, quad, sizeof quad), 0);
+  EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, program(Payload::kText, 2)),
+            "{\"faces\":2,\"request\":\"tessellate\",\"threads\":2}\n3\n-1\n");
+}
+
+TEST(Protocol, ReadsWhatASubjectSaysAboutItself) {
+  const Capabilities c = capabilities_of("{" + kHello + ", \"payload\": \"text\", \"unknown\": [1]}\n");
+  EXPECT_EQ(c.values.precision, LC_FLOAT32);
+  EXPECT_EQ(c.values.max_depth, 5);
+  EXPECT_EQ(c.values.normals, 1);
+  EXPECT_EQ(c.values.per_face_depth, 0);
+  EXPECT_EQ(c.payload, Payload::kText);
+  EXPECT_EQ(c.values.does_not_validate, 0);
+  EXPECT_EQ(capabilities_of("{" + kHello + ", \"does_not_validate\": true}\n").values.does_not_validate, 1);
+}
+
+TEST(Protocol, RefusesAnswersThatAreNone) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = "{" + kHello + "}\n";
+    return text.replace(text.find(from), from.size(), to);
+  };
+  for (const std::string& answer :
+       {std::string(), std::string("\n"), std::string("hello\n"), std::string("[1]\n"), "{" + kHello + "}",
+        with("\"limitcheck\": 1", "\"limitcheck\": 3"), with("\"limitcheck\": 1", "\"limitcheck\": 2"),
+        with("\"limitcheck\": 1", "\"limitcheck\": \"1\""), with("\"limitcheck\": 1, ", ""),
+        with("float32", "float16"), with("\"max_depth\": 5", "\"max_depth\": -1"),
+        with("\"max_depth\": 5", "\"max_depth\": 5.5"),
+        with("\"max_depth\": 5", "\"max_depth\": 18446744073709551615"),
+        with("\"normals\": true", "\"normals\": 1"),
+        with("\"normals\": true", "\"normals\": true, \"does_not_validate\": 1"), with("\"ok\"", "\"fine\""),
+        with("\"status\": \"ok\", ", ""), std::string(70000, '[') + "\n"}) {
+    EXPECT_THROW(capabilities_of(answer), Error) << answer.substr(0, 300);
+  }
+}
+
+TEST(Protocol, PassesRefusalsOn) {
+  try {
+    capabilities_of("{\"limitcheck\": 1, \"status\": \"invalid-input\", \"message\": \"no\\u0007\"}\n");
+    ADD_FAILURE();
+  } catch (const SubjectError& refusal) {
+    EXPECT_EQ(refusal.status(), LC_INVALID_INPUT);
+    EXPECT_STREQ(refusal.what(), "no\\x07");
+  }
+}
+
+struct Read {
+  detail::Memory memory;
+  lc_request request{nullptr, 1, &memory, &detail::Memory::allocate};
+  lc_tessellation out{};
+};
+
+void read(Read& r, const std::string& answer, Payload payload, std::uint64_t most = 1 << 20) {
+  Capabilities c = capabilities_of("{" + kHello + "}\n");
+  c.payload = payload;
+  MemorySource source(answer);
+  read_tessellation(source, c, most, r.request, r.out);
+}
+
+const std::string kText = "{\"status\": \"ok\", \"vertices\": 1, \"triangles\": 1}\n";
+
+TEST(Protocol, ReadsTextAndBinaryToTheSameArrays) {
+  Read text, binary;
+  read(text, kText + "0.1 2 -3e5\t0 0  1 7 1 2 4\n0 0 0 7\n", Payload::kText);
+  const float positions[] = {0.1F, 2, -3e5F}, normals[] = {0, 0, 1};
+  const lc_provenance provenance{7, 1, 2, 4};
+  const std::uint32_t corners[] = {0, 0, 0};
+  const std::int32_t face = 7;
+  std::string bytes = kText;
+  const auto add = [&](const auto& x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
+  add(positions), add(normals), add(provenance), add(corners), add(face);
+  read(binary, bytes, Payload::kBinary);
+  for (const Read* r : {&text, &binary}) {
+    EXPECT_EQ(r->out.vertex_count, 1);
+    EXPECT_EQ(r->out.triangle_count, 1);
+    EXPECT_EQ(std::memcmp(r->out.positions, positions, sizeof positions), 0);
+    EXPECT_EQ(std::memcmp(r->out.normals, normals, sizeof normals), 0);
+    EXPECT_EQ(std::memcmp(r->out.provenance, &provenance, sizeof provenance), 0);
+    EXPECT_EQ(std::memcmp(r->out.triangles, corners, sizeof corners), 0);
+    EXPECT_EQ(*r->out.triangle_face, face);
+  }
+  // Any byte less is too few.
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    Read r;
+    EXPECT_THROW(read(r, bytes.substr(0, k), Payload::kBinary), Error) << k;
+  }
+}
+
+TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
+  Capabilities c = capabilities_of(
+      R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
+      R"("weights": "loop", "boundary": "spline", "points": "refined", "max_depth": 5, "normals": false, )"
+      R"("per_face_depth": false, "exact_lattice": true})"
+      "\n");
+  EXPECT_EQ(c.values.schemes, LC_DOES_CATMULL_CLARK);
+  std::string bytes = kText;
+  const float position[] = {1, 2, 3};
+  const lc_provenance provenance{7, 1, 2, 4};
+  const std::int32_t corner = 5, face = 7;
+  const std::uint32_t corners[] = {0, 0, 0};
+  const auto add = [&](const auto& x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
+  add(position), add(provenance), add(corner), add(corners), add(face);
+  for (const auto& [payload, answer] :
+       {std::pair{Payload::kBinary, bytes}, {Payload::kText, kText + "1 2 3 7 1 2 4 5\n0 0 0 7\n"}}) {
+    c.payload = payload;
+    Read r;
+    MemorySource source(answer);
+    read_tessellation(source, c, 1 << 20, r.request, r.out);
+    EXPECT_EQ(std::memcmp(r.out.provenance, &provenance, sizeof provenance), 0);
+    ASSERT_NE(r.out.corner, nullptr);
+    EXPECT_EQ(*r.out.corner, 5);
+    EXPECT_EQ(*r.out.triangle_face, 7);
+  }
+}
+
+// The table of PROTOCOL.md: each question has the keys that are sent, the first answer is one that is read.
+TEST(Protocol, IsAsItsPageSays) {
+  std::ifstream in(LIMITCHECK_SOURCE_DIR "/verify/host/isolation/PROTOCOL.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  static const std::regex object("`(\\{[^`]*\\})`"), letter(": ([A-Zvt])([,}])");
+  std::vector<std::string> objects;
+  for (std::sregex_iterator m(page.begin(), page.end(), object), end; m != end; ++m)
+    objects.push_back(std::regex_replace((*m)[1].str(), letter, ": 0$2"));
+  ASSERT_GE(objects.size(), 6U);
+  const auto keys = [](const std::string& text) {
+    std::set<std::string> result;
+    const auto json = nlohmann::json::parse(text.substr(0, text.find('\n')));
+    for (const auto& [key, value] : json.items()) result.insert(key);
+    return result;
+  };
+  const Capabilities c = capabilities_of(objects[1] + "\n");
+  EXPECT_EQ(c.version, kVersion);
+  EXPECT_EQ(c.values.schemes, LC_DOES_LOOP | LC_DOES_CATMULL_CLARK);
+  const lc_mesh nothing{};
+  EXPECT_EQ(keys(objects[0]), keys(ask_capabilities("k=v", LC_SCHEME_CATMULL_CLARK)));
+  EXPECT_EQ(keys(objects[2]), keys(ask_create(nothing, "k=v", c)));
+  EXPECT_EQ(keys(objects[4]), keys(ask_tessellate({}, 1, c)));
+}
+
+TEST(Protocol, RefusesTextThatIsNotTheNumbersAnnounced) {
+  for (const char* payload :
+       {"", "0 0 0 0 0 1 7 1 2 4", "0 0 0 0 0 1 7 1 2\n", "0 0 0 0 0 1 7 1 2 4 5\n", "0 0 0 0 0 1 7 1 2 x\n",
+        "0 0 0 0 0 1 7 1 2 4x\n", "0 0 0 0 0 1 7 -1 2 4\n", "0 0 0 0 0 1 7 1.5 2 4\n",
+        "0,0 0 0 0 0 1 7 1 2 4\n", "0 0 0 0 0 1 99999999999 1 2 4\n", "0 0 0 0 0 1 7 1 2 4\n0 0 0\n"}) {
+    Read r;
+    EXPECT_THROW(read(r, kText + payload, Payload::kText), Error) << payload;
+  }
+  Read r;
+  EXPECT_THROW(read(r, kText + std::string(2000, '1') + "\n", Payload::kText), Error);
+}
+
+// Counts that cannot be meant, and sums of sizes that would overflow: nothing is allocated for them.
+TEST(Protocol, AllocatesNothingForAbsurdCounts) {
+  for (const char* counts :
+       {"\"vertices\": 1000000000000000000, \"triangles\": 1",
+        "\"vertices\": 9223372036854775807, \"triangles\": 1",
+        "\"vertices\": 1, \"triangles\": 9223372036854775807",
+        "\"vertices\": 18446744073709551615, \"triangles\": 1", "\"vertices\": -1, \"triangles\": 1",
+        "\"vertices\": 1e18, \"triangles\": 1", "\"vertices\": 30000, \"triangles\": 1",
+        "\"vertices\": [1], \"triangles\": 1", "\"vertices\": 1"}) {
+    Read r;
+    EXPECT_THROW(read(r, "{\"status\": \"ok\", " + std::string(counts) + "}\n", Payload::kBinary), Error)
+        << counts;
+    EXPECT_TRUE(r.memory.blocks().empty()) << counts;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "verify/host/isolation/worker.h"
+
+#include <fcntl.h>
+#include <sys/random.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "verify/host/host.h"
+#include "verify/host/host_memory.h"
+#include "verify/host/isolation/header.h"
+#include "verify/host/subject_call.h"
+#include "verify/subject/lent_mesh.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using detail::Memory;
+using protocol::Header;
+
+// The host has ended: nothing can be reported.
+struct HostGone {};
+
+class Connection final : public protocol::Source {
+ public:
+  Connection(int in, int out) : in_(in), out_(out) {}
+
+  void read(std::span<std::byte> to) override {
+    while (!to.empty()) {
+      const ssize_t n = ::read(in_, to.data(), to.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) throw HostGone{};
+      to = to.subspan(static_cast<std::size_t>(n));
+    }
+  }
+  std::string line(std::size_t longest) override {
+    std::string text;
+    for (std::byte b{}; text.size() <= longest; text += static_cast<char>(b)) {
+      read({&b, 1});
+      if (b == std::byte{'\n'}) return text;
+    }
+    throw HostGone{};
+  }
+  template <class T>
+  std::vector<T> array(std::int64_t count) {
+    std::vector<T> result(count);
+    read(std::as_writable_bytes(std::span(result)));
+    return result;
+  }
+
+  void write(std::span<const std::byte> bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t n = ::write(out_, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) throw HostGone{};
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+  }
+  void write(const nlohmann::json& header) const {
+    const std::string text = protocol::to_line(header);
+    write(std::as_bytes(std::span(text)));
+  }
+
+ private:
+  int in_, out_;
+};
+
+struct Loaded {
+  const lc_subject& subject;
+  std::string options;
+  LentMesh mesh;
+  void* instance = nullptr;
+
+  const char* option_text() const { return options.empty() ? nullptr : options.c_str(); }
+};
+
+data::Scheme asked_scheme(const Header& header) {
+  return header.choice("scheme", {"loop", "catmull-clark"}) == 0 ? data::Scheme::kLoop
+                                                                 : data::Scheme::kCatmullClark;
+}
+
+nlohmann::json scheme_names(const lc_capabilities& c) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+    if (does(c, scheme)) names.push_back(data::name_of(scheme));
+  return names;
+}
+
+nlohmann::json sharp_names(const lc_capabilities& c) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto& [name, bit] : protocol::kSharpKinds)
+    if ((c.sharp & bit) != 0) names.push_back(name);
+  return names;
+}
+
+nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options,
+                                   data::Scheme scheme) {
+  lc_capabilities c{};
+  try {
+    c = capabilities(subject, options, scheme);
+  } catch (const SubjectDied& wrong) {
+    return {{"limitcheck", protocol::kVersion}, {"status", "ok"}, {"impossible", wrong.what()}};
+  }
+  return {{"limitcheck", protocol::kVersion},
+          {"status", "ok"},
+          {"precision", c.precision == LC_FLOAT32 ? "float32" : "float64"},
+          {"weights", c.weights == LC_WEIGHTS_LOOP ? "loop" : "warren"},
+          {"boundary", c.boundary == LC_BOUNDARY_SPLINE ? "spline" : "none"},
+          {"points", c.points == LC_POINTS_LIMIT ? "limit" : "refined"},
+          {"schemes", scheme_names(c)},
+          {"sharp", sharp_names(c)},
+          {"max_depth", c.max_depth},
+          {"normals", c.normals != 0},
+          {"per_face_depth", c.per_face_depth != 0},
+          {"exact_lattice", c.exact_lattice != 0},
+          {"does_not_validate", c.does_not_validate != 0},
+          {"options", subject.options != nullptr ? subject.options : ""}};
+}
+
+// [block, offset], null, or [-1, 0]: see replay.cpp.
+nlohmann::json place(const Memory& memory, const void* pointer) {
+  if (pointer == nullptr) return nullptr;
+  const Memory::Block* block = memory.find(pointer);
+  if (block == nullptr) return {-1, 0};
+  return {block - memory.blocks().data(), static_cast<const std::byte*>(pointer) - block->data};
+}
+
+void tessellate(Loaded& loaded, const Header& header, Connection& host) {
+  const std::vector<std::int32_t> depth = host.array<std::int32_t>(header.integer("faces", 0, INT32_MAX));
+  const LentMesh before = loaded.mesh;
+
+  Memory memory;
+  const lc_request request{depth.data(), static_cast<std::int32_t>(header.integer("threads", 1, INT32_MAX)),
+                           &memory, &Memory::allocate, sizeof(lc_request)};
+  lc_tessellation out{};
+  out.size = sizeof out;
+  detail::call(loaded.subject, "tessellate", [&](const char** message) {
+    return loaded.subject.tessellate(loaded.instance, &request, &out, message);
+  });
+  const lc_tessellation delivered = out;  // release() may clear its own
+  bool release_threw = false;
+  try {
+    loaded.subject.release(loaded.instance, &out);
+  } catch (...) {
+    release_threw = true;
+  }
+
+  std::vector<std::array<std::int64_t, 3>> blocks;
+  for (const Memory::Block& b : memory.blocks())
+    blocks.push_back({static_cast<std::int64_t>(b.size), memory.written_before(b), memory.written_behind(b)});
+  const bool mesh_changed = !(before == loaded.mesh);
+  host.write({{"status", "ok"},
+              {"vertices", delivered.vertex_count},
+              {"triangles", delivered.triangle_count},
+              {"blocks", blocks.size()},
+              {"positions", place(memory, delivered.positions)},
+              {"normals", place(memory, delivered.normals)},
+              {"provenance", place(memory, delivered.provenance)},
+              {"triangle_corners", place(memory, delivered.triangles)},
+              {"triangle_face", place(memory, delivered.triangle_face)},
+              {"corner", place(memory, delivered.corner)},
+              {"mesh_changed", mesh_changed},
+              {"release_threw", release_threw}});
+  host.write(std::as_bytes(std::span(blocks)));
+  for (const Memory::Block& b : memory.blocks()) host.write({b.data, b.size});
+  if (mesh_changed) {
+    host.write(std::as_bytes(std::span(loaded.mesh.positions)));
+    host.write(std::as_bytes(std::span(loaded.mesh.corners)));
+    host.write(std::as_bytes(std::span(loaded.mesh.face_sizes)));
+    host.write(std::as_bytes(std::span(loaded.mesh.sharp_edges)));
+    host.write(std::as_bytes(std::span(loaded.mesh.sharp_vertices)));
+  }
+}
+
+// An exit status that no program ends with by chance: a library that ends the process while it is unloaded is
+// found out by its own.
+int unlikely_status() {
+  std::uint8_t random = 0;
+  if (getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random)
+    random = static_cast<std::uint8_t>(getpid());
+  return 100 + random % 100;
+}
+
+void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Header& header,
+            Connection& host) {
+  const std::string request = header.text("request");
+  if (request == "capabilities") {
+    host.write(capabilities_answer(subject, header.text("options"), asked_scheme(header)));
+  } else if (request == "create") {
+    loaded.emplace(Loaded{subject, header.text("options"), {}});
+    LentMesh& lent = loaded->mesh;
+    lent.scheme = asked_scheme(header);
+    lent.positions = host.array<double>(3 * header.integer("vertices", 0, INT32_MAX));
+    lent.face_sizes = host.array<std::int32_t>(header.integer("faces", 0, INT32_MAX));
+    lent.corners = host.array<std::int32_t>(header.integer("corners", 0, INT32_MAX));
+    lent.sharp_edges = host.array<lc_sharp_edge>(header.integer("sharp_edges", 0, INT32_MAX));
+    lent.sharp_vertices = host.array<lc_sharp_vertex>(header.integer("sharp_vertices", 0, INT32_MAX));
+    lent.creasing =
+        header.choice("creasing", {"uniform", "chaikin"}) == 0 ? LC_CREASING_UNIFORM : LC_CREASING_CHAIKIN;
+    lent.corners_held = header.flag("corners_held");
+    lent.smooth_triangles = header.flag("smooth_triangles");
+    const lc_mesh mesh = lent.view();
+    detail::call(subject, "create", [&](const char** message) {
+      return subject.create(&mesh, loaded->option_text(), &loaded->instance, message);
+    });
+    host.write({{"status", "ok"}});
+  } else if (request == "tessellate") {
+    tessellate(*loaded, header, host);
+  } else if (request == "end") {
+    if (loaded)
+      detail::call(subject, "destroy", [&](const char**) {
+        subject.destroy(loaded->instance);
+        return LC_OK;
+      });
+    const int status = unlikely_status();
+    host.write({{"status", "ok"}, {"exit", status}});
+    std::exit(status);  // the library's own destructors run in here
+  }
+}
+
+}  // namespace
+
+int serve(const std::function<const lc_subject&()>& load) {
+  // The protocol moves away from standard output, which becomes the subject's to print on.
+  const int out = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 10), in = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 10);
+  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  if (out < 0 || in < 0 || nothing < 0) return 1;
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  dup2(nothing, STDIN_FILENO);
+  setvbuf(stdout, nullptr, _IOLBF, 0);
+  // Sanitizers catch these to report and exit: the host wants to see the signal itself.
+  for (const int s : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(s, SIG_DFL);
+  Memory::note_overruns();
+
+  Connection host(in, out);
+  const lc_subject* subject = nullptr;
+  std::optional<Loaded> loaded;
+  for (;;) {
+    try {
+      const Header header = protocol::read_header(host);
+      try {
+        if (subject == nullptr) subject = &load();
+        answer(*subject, loaded, header, host);
+      } catch (const SubjectError& error) {
+        // In the order of lc_status.
+        static constexpr std::array<const char*, 4> kWords{"ok", "not-supported", "invalid-input", "failed"};
+        host.write({{"limitcheck", protocol::kVersion},
+                    {"status", kWords[error.status()]},
+                    {"message", error.what()}});
+        if (header.text("request") == "create") loaded.reset();
+      }
+    } catch (const HostGone&) {
+      break;
+    }
+  }
+  return 0;
+}
+
+}  // namespace limitcheck::verify

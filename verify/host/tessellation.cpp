@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "verify/host/host.h"
+#include "verify/host/host_memory.h"
+#include "verify/subject/face_domain.h"
+
+namespace limitcheck::verify {
+namespace {
+
+struct Array {
+  const char* name;
+  const void* data;
+  std::int64_t elements;
+  std::size_t element_size, alignment;
+  bool required;
+  const std::byte* begin() const { return static_cast<const std::byte*>(data); }
+  std::size_t bytes() const { return static_cast<std::size_t>(elements) * element_size; }
+};
+
+// How many elements fail `ok`, and the first.
+template <class Ok>
+void count_bad(std::vector<Defect>& defects, Defect::Kind kind, const char* array, std::int64_t elements,
+               Ok ok, const char* what) {
+  std::int64_t count = 0, first = -1;
+  for (std::int64_t k = 0; k < elements; ++k) {
+    if (ok(k)) continue;
+    if (count++ == 0) first = k;
+  }
+  if (count > 0) {
+    defects.push_back({kind, array, count, first,
+                       fmt::format("{} of {} {}, the first is {}", count, elements, what, first)});
+  }
+}
+
+using Arrays = std::array<Array, 6>;
+using Kind = Defect::Kind;
+
+void note(std::vector<Defect>& defects, Kind kind, const char* array, std::string message) {
+  defects.push_back({kind, array, 1, -1, std::move(message)});
+}
+
+// Finds writes to the guard zones of each block; a block is named by the array that begins in it.
+void find_overruns(const detail::Memory& memory, const Arrays& arrays, std::vector<Overrun>& overruns) {
+  for (const auto& block : memory.blocks()) {
+    const auto owner =
+        std::find_if(arrays.begin(), arrays.end(), [&](const Array& a) { return a.data == block.data; });
+    const std::string name =
+        owner != arrays.end() ? owner->name : fmt::format("block of {} bytes", block.size);
+    if (const auto far = memory.written_before(block)) overruns.push_back({name, true, far});
+    if (const auto far = memory.written_behind(block)) overruns.push_back({name, false, far});
+  }
+}
+
+// Neither negative nor so large that a size in bytes overflows.
+bool counts_usable(const lc_tessellation& out, std::vector<Defect>& defects) {
+  constexpr std::int64_t kMany = std::numeric_limits<std::int64_t>::max() / 64;
+  bool usable = true;
+  for (const auto& [name, count] :
+       {std::pair{"vertex_count", out.vertex_count}, {"triangle_count", out.triangle_count}}) {
+    if (count >= 0 && count <= kMany) continue;
+    note(defects, count < 0 ? Kind::kNegativeCount : Kind::kArrayTooSmall, "",
+         fmt::format("{} is {}", name, count));
+    usable = false;
+  }
+  return usable;
+}
+
+// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals and corners may
+// be missing.
+bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vector<Defect>& defects) {
+  bool usable = true;
+  for (const Array& a : arrays) {
+    if (a.data == nullptr) {
+      if (!a.required || a.elements <= 0) continue;
+      note(defects, Kind::kMissingArray, a.name,
+           fmt::format("{} is NULL, {} elements were announced", a.name, a.elements));
+      usable = usable && std::string_view(a.name) == "normals";
+      continue;
+    }
+    const auto* block = memory.find(a.data);
+    const bool aligned = reinterpret_cast<std::uintptr_t>(a.data) % a.alignment == 0;
+    if (block == nullptr || !aligned) {
+      note(
+          defects, Kind::kForeignPointer, a.name,
+          fmt::format("{} {}", a.name, block == nullptr ? "is not memory from allocate()" : "is misaligned"));
+      usable = false;
+    } else if (a.bytes() > static_cast<std::size_t>(block->data + block->size - a.begin())) {
+      note(defects, Kind::kArrayTooSmall, a.name,
+           fmt::format("{}: {} elements need {} bytes, {} were allocated", a.name, a.elements, a.bytes(),
+                       block->data + block->size - a.begin()));
+      usable = false;
+    }
+  }
+  return usable;
+}
+
+bool overlapping(const Arrays& arrays, std::vector<Defect>& defects) {
+  bool any = false;
+  for (const Array& a : arrays)
+    for (const Array& b : arrays)
+      if (&a < &b && a.bytes() > 0 && b.bytes() > 0 && a.data != nullptr && b.data != nullptr &&
+          a.begin() < b.begin() + b.bytes() && b.begin() < a.begin() + a.bytes()) {
+        note(defects, Kind::kOverlappingArrays, b.name,
+             fmt::format("{} and {} share memory", a.name, b.name));
+        any = true;
+      }
+  return any;
+}
+
+}  // namespace
+
+std::array<double, 3> Tessellation::read(const void* array, std::int64_t v) const {
+  const std::size_t k = 3 * static_cast<std::size_t>(v);
+  if (precision_ == LC_FLOAT32) {
+    const float* p = static_cast<const float*>(array) + k;
+    return {p[0], p[1], p[2]};
+  }
+  const double* p = static_cast<const double*>(array) + k;
+  return {p[0], p[1], p[2]};
+}
+
+std::span<const std::byte> Tessellation::bits(const void* array, std::int64_t v) const {
+  const std::size_t size = 3 * coordinate_size();
+  return {static_cast<const std::byte*>(array) + static_cast<std::size_t>(v) * size, size};
+}
+
+bool Tessellation::unwritten(const void* array, std::int64_t v) const {
+  const auto bytes = bits(array, v);
+  const std::size_t size = coordinate_size();
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto coordinate = bytes.subspan(c * size, size);
+    if (std::all_of(coordinate.begin(), coordinate.end(), [](std::byte b) { return b == std::byte{0xFF}; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Tessellation::indices_ok(std::int64_t t) const {
+  const auto& corners = indices_[t];
+  return std::all_of(corners.begin(), corners.end(), [this](std::uint32_t v) { return v < vertices_; });
+}
+
+bool Tessellation::face_ok(std::int64_t t) const {
+  return triangle_face_[t] >= 0 && triangle_face_[t] < std::ssize(face_sizes_);
+}
+
+bool Tessellation::triangle_ok(std::int64_t t) const {
+  return face_ok(t) && indices_ok(t);
+}
+
+void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t count) {
+  const auto renumber = [&](std::int32_t& face) {
+    face = face >= 0 && static_cast<std::size_t>(face) < to.size() ? to[face] : -1;
+  };
+  for (std::int64_t v = 0; v < vertices_; ++v) renumber(provenance_[v].face);
+  for (std::int64_t t = 0; t < triangles_; ++t) renumber(triangle_face_[t]);
+  std::vector<std::int32_t> sizes(static_cast<std::size_t>(count));
+  for (std::size_t f = 0; f < to.size(); ++f)
+    if (to[f] >= 0) sizes[to[f]] = face_sizes_[f];
+  face_sizes_ = std::move(sizes);
+}
+
+bool Tessellation::provenance_ok(std::int64_t v) const {
+  const Place p = place(v);
+  if (p.face < 0 || p.face >= std::ssize(face_sizes_) || p.denominator == 0) return false;
+  const FaceDomain domain(scheme_, face_sizes_[p.face]);
+  return domain.contains(point_of(p), domain.steps(p.denominator));
+}
+
+void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
+  const std::size_t real = coordinate_size();
+  const Arrays arrays{{
+      {"positions", out.positions, out.vertex_count, 3 * real, real, true},
+      {"normals", out.normals, out.vertex_count, 3 * real, real, promises_normals},
+      {"provenance", out.provenance, out.vertex_count, sizeof(lc_provenance), alignof(lc_provenance), true},
+      {"triangles", out.triangles, out.triangle_count, 3 * sizeof(std::uint32_t), alignof(std::uint32_t),
+       true},
+      {"triangle_face", out.triangle_face, out.triangle_count, sizeof(std::int32_t), alignof(std::int32_t),
+       true},
+      {"corner", out.corner, out.vertex_count, sizeof(std::int32_t), alignof(std::int32_t), false},
+  }};
+  find_overruns(*memory_, arrays, overruns_);  // they are meaningful whatever else is wrong
+  if (!counts_usable(out, defects_) || !memory_usable(*memory_, arrays, defects_) ||
+      overlapping(arrays, defects_))
+    return;
+
+  vertices_ = out.vertex_count;
+  triangles_ = out.triangle_count;
+  positions_ = out.positions;
+  normals_ = out.normals;
+  provenance_ = out.provenance;
+  indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
+  triangle_face_ = out.triangle_face;
+  corner_ = out.corner;
+  inspect_contents();
+}
+
+void Tessellation::inspect_contents() {
+  count_bad(
+      defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
+      [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");
+  count_bad(
+      defects_, Kind::kFaceOutOfRange, "triangle_face", triangles_,
+      [&](std::int64_t t) { return face_ok(t); }, "triangles name a control face that does not exist");
+  count_bad(
+      defects_, Kind::kProvenanceOutOfRange, "provenance", vertices_,
+      [&](std::int64_t v) { return provenance_ok(v); }, "vertices name a place outside the control mesh");
+}
+
+}  // namespace limitcheck::verify

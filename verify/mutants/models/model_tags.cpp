@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "verify/mutants/models/model_tags.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace limitcheck::verify {
+
+using reference::Edge;
+using reference::Sector;
+using reference::Topology;
+using V = ModelTags::V;
+
+namespace {
+
+bool is_semi_sharp(double sharpness) {
+  return sharpness > 0 && sharpness < ModelTags::kForEver;
+}
+
+}  // namespace
+
+ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology, std::string_view mutation)
+    : edge_(topology.edges().size(), 0.),
+      vertex_(topology.vertex_count(), 0.),
+      chaikin_((sharpness.creasing == data::Creasing::kChaikin && mutation != "chaikin_as_uniform") ||
+               mutation == "uniform_as_chaikin"),
+      smooth_triangles_(sharpness.triangles == data::TriangleRule::kSmooth),
+      mutation_(mutation) {
+  const auto value = [&](float given) -> double {
+    if (is("semi_as_infinite")) return kForEver;
+    if (is("infinite_is_4")) return std::min(given, 4.F);
+    if (is("infinite_is_9")) return std::min(given, 9.F);
+    if (is("sharpness_rounded_down")) return given >= data::kInfiniteSharpness ? kForEver : std::floor(given);
+    if (is("sharpness_rounded_up")) return given >= data::kInfiniteSharpness ? kForEver : std::ceil(given);
+    if (is("infinite_from_3") && given >= 3) return kForEver;
+    if (is("infinite_ends_after_10")) return std::min(given, data::kInfiniteSharpness);
+    if (is("ten_is_finite") && given == data::kInfiniteSharpness) return given;
+    if (given >= data::kInfiniteSharpness) return kForEver;
+    return is("sharpness_in_halves") ? std::round(2 * given) / 2 : given;
+  };
+
+  if (is("corners_always_held") ||
+      (sharpness.boundary == data::Boundary::kEdgeAndCorner && !is("corners_not_held"))) {
+    for (std::size_t v = 0; v < vertex_.size(); ++v) {
+      const Sector sector = topology.sector(static_cast<std::int32_t>(v));
+      if (!sector.closed && sector.faces.size() == 1) vertex_[v] = kForEver;
+    }
+  }
+  using Ends = std::pair<std::int32_t, std::int32_t>;
+  const auto ends = [&](const auto& e) {
+    return is("tags_by_direction") ? Ends(e.a, e.b) : Ends(std::min(e.a, e.b), std::max(e.a, e.b));
+  };
+  std::map<Ends, double> tags;
+  for (const data::SharpEdge& e : sharpness.edges) {
+    tags.emplace(ends(e), value(e.sharpness));
+    if (is("first_tag_only")) break;
+  }
+  for (std::size_t k = 0; k < edge_.size(); ++k) {
+    const Edge& e = topology.edges()[k];
+    const auto found = tags.find(ends(e));
+    if (found != tags.end()) edge_[k] = found->second;
+    if (found != tags.end() && e.on_boundary() && is("boundary_tags_hold"))
+      vertex_[e.a] = vertex_[e.b] = kForEver;
+    const auto left = topology.faces()[e.left_face];
+    // An edge from the last corner of the first of its faces to corner 0.
+    if (is("tags_lost_at_corner_0") && left.front() == e.b && left.back() == e.a) edge_[k] = 0;
+  }
+  for (const data::SharpVertex& v : sharpness.vertices)
+    if (!is("vertices_not_sharp"))
+      vertex_[v.vertex] =
+          std::max(vertex_[v.vertex], is("vertices_never_fall") ? kForEver : value(v.sharpness));
+}
+
+double ModelTags::edge(const Topology& topology, std::int32_t e) const {
+  return topology.edges()[e].on_boundary() ? kForEver : edge_[e];
+}
+
+bool ModelTags::plain(const Topology& topology, std::int32_t v) const {
+  const Sector sector = topology.sector(v);
+  return vertex_[v] == 0 && std::all_of(sector.edges.begin(), sector.edges.end(), [&](std::int32_t e) {
+           return topology.edges()[e].on_boundary() || edge_[e] == 0;
+         });
+}
+
+bool ModelTags::settled(const Topology& topology, std::int32_t v) const {
+  const auto open = [&](double sharpness) {
+    return is("last_sharp_step_missing") ? is_semi_sharp(sharpness) && sharpness > 1
+                                         : is_semi_sharp(sharpness);
+  };
+  const Sector sector = topology.sector(v);
+  return !open(vertex_[v]) && std::none_of(sector.edges.begin(), sector.edges.end(),
+                                           [&](std::int32_t e) { return open(edge_[e]); });
+}
+
+ModelTags::Rule ModelTags::rule(const Topology& topology, std::int32_t v) const {
+  return step(topology, v, false).rule;
+}
+
+ModelTags::Step ModelTags::step(const Topology& topology, std::int32_t v, bool next) const {
+  const Sector sector = topology.sector(v);
+  Step step{Rule::kCorner, {v, v}};
+  if ((next ? fallen(vertex_[v]) : vertex_[v]) > 0) return step;
+  int sharp = 0;
+  for (std::size_t i = 0; i < sector.edges.size(); ++i) {
+    const std::int32_t e = sector.edges[i];
+    const bool counts = !is("boundary_not_counted") || sector.closed || topology.edges()[e].on_boundary();
+    if (!counts || (next ? fallen(topology, e, v) : edge(topology, e)) <= 0) continue;
+    if (sharp < 2) step.ends[sharp] = sector.neighbours[i];
+    ++sharp;
+  }
+  if (is("three_edges_are_a_crease")) sharp = std::min(sharp, 2);
+  step.rule = sharp == 0   ? Rule::kSmooth
+              : sharp == 1 ? Rule::kDart
+              : sharp == 2 ? Rule::kCrease
+                           : Rule::kCorner;
+  if (is("dart_as_corner") && sharp == 1) step.rule = Rule::kCorner;
+  if (is("crease_as_corner") && sharp == 2 && sector.closed) step.rule = Rule::kCorner;
+  return step;
+}
+
+double ModelTags::fallen(double sharpness) const {
+  if (sharpness == kForEver) return kForEver;
+  return std::max(0., sharpness - (is("falls_by_2") ? 2 : 1));
+}
+
+double ModelTags::fallen(const Topology& topology, std::int32_t e, std::int32_t v) const {
+  const double own = edge(topology, e);
+  if (topology.edges()[e].on_boundary()) return kForEver;
+  if (!is_semi_sharp(own) || !chaikin_) return fallen(own);
+  const Edge& edge_of_mesh = topology.edges()[e];
+  const std::int32_t end =
+      is("chaikin_ends_exchanged") ? (edge_of_mesh.a == v ? edge_of_mesh.b : edge_of_mesh.a) : v;
+  double sum = 0;
+  int others = 0;
+  for (const std::int32_t other : topology.sector(end).edges) {
+    const double s = edge(topology, other);
+    if (other == e || s <= 0) continue;
+    if (s == kForEver && !is("chaikin_takes_infinite")) continue;
+    sum += std::min(s, 10.);
+    ++others;
+  }
+  if (others == 0) return fallen(own);
+  const double share = is("chaikin_takes_half") ? 1. / 2 : 3. / 4;
+  return fallen(share * own + (1 - share) * sum / others);
+}
+
+double ModelTags::edge_share(const Topology& topology, std::int32_t e) const {
+  const double s = edge(topology, e);
+  if (s <= 0 || (is("below_1_is_smooth") && s < 1)) return 0;
+  if (chaikin_ && is_semi_sharp(s)) {
+    const Edge& of = topology.edges()[e];
+    const bool both = fallen(topology, e, of.a) > 0 && fallen(topology, e, of.b) > 0;
+    if (both) return 1;
+    if (is("chaikin_without_clamp")) return s;
+  }
+  return std::min(s, 1.);
+}
+
+double ModelTags::old_share(const Topology& topology, std::int32_t v) const {
+  double sum = 0, most = 0;
+  int count = 0;
+  const auto add = [&](double s) {
+    sum += s;
+    most = std::max(most, s);
+    ++count;
+  };
+  if (is_semi_sharp(vertex_[v]) && fallen(vertex_[v]) <= 0) add(vertex_[v]);
+  for (const std::int32_t e : topology.sector(v).edges)
+    if (is_semi_sharp(edge(topology, e)) && fallen(topology, e, v) <= 0) add(edge(topology, e));
+  if (count == 0) return 1;
+  const double share = std::min(1., is("blend_by_the_sharpest") ? most : sum / count);
+  if (is("no_blend")) return 0;
+  return is("blend_reversed") ? 1 - share : share;
+}
+
+V ModelTags::point(const Step& step, const std::vector<V>& points, std::int32_t v, const V& smooth) const {
+  const V& c = points[v];
+  if (step.rule == Rule::kCorner) return c;
+  if (step.rule != Rule::kCrease) return smooth;
+  return c + ((points[step.ends[0]] - c) + (points[step.ends[1]] - c)) * (1. / 8);
+}
+
+void ModelTags::sharpen(const Topology& topology, const std::vector<V>& points,
+                        std::vector<V>& refined) const {
+  for (std::size_t k = 0; k < topology.edges().size(); ++k) {
+    const Edge& e = topology.edges()[k];
+    if (e.on_boundary()) continue;
+    const double share = edge_share(topology, static_cast<std::int32_t>(k));
+    if (share == 0) continue;
+    V& p = refined[points.size() + k];
+    const V middle = (points[e.a] + points[e.b]) * 0.5;
+    p = share == 1 ? middle : p + (middle - p) * share;
+  }
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto v = static_cast<std::int32_t>(k);
+    if (plain(topology, v)) continue;
+    const Step now = step(topology, v, false), next = step(topology, v, true);
+    const V smooth = refined[k];
+    refined[k] = point(now, points, v, smooth);
+    const bool was_smooth = now.rule == Rule::kSmooth || now.rule == Rule::kDart;
+    if (now.rule == next.rule || was_smooth) continue;
+    const double share = old_share(topology, v);
+    refined[k] = refined[k] * share + point(next, points, v, smooth) * (1 - share);
+  }
+}
+
+ModelTags ModelTags::refined(const Topology& topology, const Topology& finer) const {
+  if (none()) return {};
+  ModelTags next = *this;
+  next.control_ = false;
+  next.edge_.assign(finer.edges().size(), 0.);
+  next.vertex_.assign(finer.vertex_count(), 0.);
+  const auto vertices = static_cast<std::int32_t>(topology.vertex_count());
+  const auto edges = static_cast<std::int32_t>(topology.edges().size());
+  for (std::size_t k = 0; k < finer.edges().size(); ++k) {  // halves join a vertex to the point of its edge
+    const Edge& e = finer.edges()[k];
+    const std::int32_t end = std::min(e.a, e.b), middle = std::max(e.a, e.b);
+    if (end < vertices && middle >= vertices && middle < vertices + edges)
+      next.edge_[k] = fallen(topology, middle - vertices, end);
+    // Tags of control edges alone.
+    if (control_ && is("tags_for_one_step")) next.edge_[k] = 0;
+    if (control_ && is("tags_of_the_lower_end") && end < vertices && middle < vertices + edges) {
+      const Edge& whole = topology.edges()[middle - vertices];
+      if (end == std::max(whole.a, whole.b)) next.edge_[k] = 0;
+    }
+  }
+  for (std::size_t v = 0; v < vertex_.size(); ++v) next.vertex_[v] = fallen(vertex_[v]);
+  return next;
+}
+
+ModelTags ModelTags::of_part(const Topology& topology, const Topology& part,
+                             const std::vector<std::int32_t>& vertices) const {
+  ModelTags result = *this;
+  result.edge_.clear();
+  result.vertex_.clear();
+  for (const Edge& e : part.edges()) {
+    const Sector sector = topology.sector(vertices[e.a]);
+    const auto at = std::find(sector.neighbours.begin(), sector.neighbours.end(), vertices[e.b]);
+    result.edge_.push_back(edge_[sector.edges[static_cast<std::size_t>(at - sector.neighbours.begin())]]);
+  }
+  for (const std::int32_t v : vertices) result.vertex_.push_back(vertex_[v]);
+  return result;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The adapters deliver what their libraries compute, and say truly where each point lies.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "data/generators/named_mesh.h"
+#include "reference/loop/refine.h"
+#include "verify/host/host.h"
+#include "verify/peers/test_lattice.h"
+#include "verify/subject/registry.h"
+
+namespace {
+
+using namespace limitcheck;
+using namespace limitcheck::verify;
+using namespace limitcheck::verify::test;
+
+struct Named {
+  const char* subject;
+  const char* options;
+};
+const std::vector<Named> kAdapters{{"opensubdiv-far", ""},
+                                   {"opensubdiv-far", "precision=double"},
+                                   {"opensubdiv-bfr", ""},
+                                   {"opensubdiv-bfr", "precision=double,approx-level=4"},
+                                   {"opensubdiv-far-patches", ""},
+                                   {"opensubdiv-far-patches", "precision=double,level=4,end-cap=bspline"},
+                                   {"cgal", ""},
+                                   {"openmesh", ""}};
+
+// Each control face is covered by 4^d triangles of the lattice, each once, corners on the face,
+// counter-clockwise.
+void expect_full_lattice(const data::ControlMesh& mesh, const Tessellation& t,
+                         const std::vector<int>& depth) {
+  std::vector<std::set<std::array<std::int64_t, 3>>> cells(mesh.faces.size());
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
+    ASSERT_TRUE(t.triangle_ok(k));
+    const auto face = t.triangle_face()[k];
+    std::array<std::array<std::int64_t, 3>, 3> l{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& p = t.provenance()[t.triangles()[k][c]];
+      const auto at = on_face(mesh, p, face);
+      ASSERT_TRUE(at.has_value()) << "triangle " << k << " is not on face " << face;
+      EXPECT_EQ(p.denominator, std::uint32_t{1} << depth[face]);
+      l[c] = *at;
+    }
+    const auto turn = (l[1][1] - l[0][1]) * (l[2][2] - l[0][2]) - (l[2][1] - l[0][1]) * (l[1][2] - l[0][2]);
+    EXPECT_EQ(turn, 1) << "triangle " << k;
+    cells[face].insert(
+        {l[0][1] + l[1][1] + l[2][1], l[0][2] + l[1][2] + l[2][2], 0});  // its centre: no two cells share it
+  }
+  std::int64_t sum = 0;
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    const auto expected = depth[f] < 0 ? 0 : std::int64_t{1} << (2 * depth[f]);
+    EXPECT_EQ(static_cast<std::int64_t>(cells[f].size()), expected) << "face " << f;
+    sum += expected;
+  }
+  EXPECT_EQ(t.triangle_count(), sum);
+}
+
+TEST(Adapters, CoverEachFaceByItsLatticeOnceAndCounterClockwise) {
+  for (const Named& named : kAdapters) {
+    for (const auto& [name, mesh] : shapes()) {
+      for (const int depth : {0, 1, 3}) {
+        SCOPED_TRACE(std::string(named.subject) + " " + named.options + " on " + name);
+        Session session(*find_subject(named.subject), mesh, named.options);
+        const Tessellation t = session.tessellate(depth);
+        EXPECT_TRUE(t.defects().empty());
+        EXPECT_TRUE(t.overruns().empty());
+        EXPECT_EQ(t.has_normals(), session.capabilities().normals == 1);
+        expect_full_lattice(session.mesh(), t, std::vector<int>(mesh.faces.size(), depth));
+        for (std::int64_t v = 0; v < t.vertex_count(); ++v) EXPECT_FALSE(t.position_unwritten(v));
+      }
+    }
+  }
+}
+
+TEST(Adapters, TakeADepthForEachFaceWhereTheySaySo) {
+  const auto mesh = data::named_mesh("octahedron");
+  const std::vector<std::int32_t> depth{0, 3, -1, 1, 2, -1, 3, 0};
+  for (const Named& named : kAdapters) {
+    Session session(*find_subject(named.subject), mesh, named.options);
+    if (session.capabilities().per_face_depth == 0) continue;
+    SCOPED_TRACE(named.subject);
+    expect_full_lattice(mesh, session.tessellate(depth), depth);
+  }
+}
+
+TEST(Adapters, ThatRefineAWholeMeshShareEveryPoint) {
+  for (const char* subject : {"opensubdiv-far", "cgal", "openmesh"}) {
+    for (const auto& [name, mesh] : shapes()) {
+      Session session(*find_subject(subject), mesh);
+      for (const auto& [place, vertices] : places(mesh, session.tessellate(3))) {
+        EXPECT_EQ(vertices.size(), 1u) << subject << " on " << name;
+      }
+    }
+  }
+}
+
+// VTK's filter is there or not; where it is, it is one more of them, in float.
+TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
+  const lc_subject* vtk = find_subject("vtk");
+  if (vtk == nullptr) {
+    ASSERT_EQ(missing_subjects().size(), 1U);
+    EXPECT_EQ(missing_subjects()[0].name, "vtk");
+    EXPECT_NE(missing_subjects()[0].why.find("libvtk9-dev"), std::string::npos);
+    return;
+  }
+  EXPECT_TRUE(missing_subjects().empty());
+  for (const auto& [name, mesh] : shapes()) {
+    SCOPED_TRACE(name);
+    Session vtk_session(*vtk, mesh);
+    Session cgal_session(*lc_subject_cgal(), vtk_session.mesh());
+    const Tessellation in_float = vtk_session.tessellate(3), exact = cgal_session.tessellate(3);
+    expect_full_lattice(mesh, in_float, std::vector<int>(mesh.faces.size(), 3));
+    const auto expected = places(mesh, exact);
+    for (const auto& [place, vertices] : places(mesh, in_float)) {
+      EXPECT_EQ(vertices.size(), 1u);
+      // Three steps, each rounding to float once: 3 * sqrt(3) * 2^-24 of the largest coordinate.
+      EXPECT_LE(distance(in_float.position(vertices[0]), exact.position(expected.at(place)[0])),
+                1e-6 * data::box_diagonal(mesh));
+    }
+  }
+}
+
+// Decides that both libraries use Loop's weights (with Warren's the vertex of valence 4 would move by
+// 0.375 instead of 0.484 of the way) and the B-spline boundary.
+TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
+  double worst = 0;
+  for (const char* subject : {"cgal", "openmesh"}) {
+    for (const auto& [name, mesh] : shapes()) {
+      Session session(*find_subject(subject), mesh);
+      const Tessellation t = session.tessellate(1);
+      const auto expected = reference::refine<double>(mesh, 1);
+      for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+        const lc_provenance& p = t.provenance()[v];
+        const auto step = 2 / p.denominator;
+        const auto& at = expected.positions()[expected.vertex(
+            static_cast<std::size_t>(p.face), static_cast<int>(p.i * step), static_cast<int>(p.j * step))];
+        const double error = distance(t.position(v), vector_of(at));
+        EXPECT_LE(error, 1e-15) << subject << " on " << name;  // a dozen roundings of numbers near 1
+        worst = std::max(worst, error);
+      }
+    }
+  }
+  record("worst_distance", worst);
+}
+
+TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
+  const auto bytes = [](const Tessellation& t) {
+    std::string all;
+    for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+      for (const auto bits : {t.position_bits(v), t.has_normals() ? t.normal_bits(v) : t.position_bits(v)}) {
+        all.append(reinterpret_cast<const char*>(bits.data()), bits.size());
+      }
+    }
+    all.append(reinterpret_cast<const char*>(t.provenance().data()), t.provenance().size_bytes());
+    all.append(reinterpret_cast<const char*>(t.triangles().data()), t.triangles().size_bytes());
+    return all;
+  };
+  const tbb::global_control four(tbb::global_control::max_allowed_parallelism,
+                                 4);  // whatever this machine has
+  const auto mesh = data::named_mesh("bumpy:4000");
+  for (const Named& named : kAdapters) {
+    Session session(*find_subject(named.subject), mesh, named.options);
+    const std::string one = bytes(session.tessellate(2, 1));
+    EXPECT_EQ(one, bytes(session.tessellate(2, 4))) << named.subject;
+    EXPECT_EQ(one, bytes(session.tessellate(2, 1))) << named.subject << ", asked again";
+  }
+}
+
+TEST(Adapters, RefuseWhatDoesNotFitIn32BitIndices) {
+  const auto mesh = data::named_mesh("bumpy:11000");
+  for (const char* subject : {"opensubdiv-far", "cgal", "openmesh"}) {
+    Session session(*find_subject(subject), mesh);
+    try {
+      session.tessellate(8);
+      FAIL() << subject;
+    } catch (const SubjectError& error) {
+      EXPECT_EQ(error.status(), LC_NOT_SUPPORTED) << subject;
+    }
+  }
+}
+
+// OpenMesh reads beyond its weight table from valence 50 on: the adapter refuses in its place, and says why.
+TEST(OpenMesh, IsNotRunWhereItReadsOutOfBounds) {
+  EXPECT_NO_THROW(Session(*lc_subject_openmesh(), data::named_mesh("wheel:49")));
+  try {
+    Session(*lc_subject_openmesh(), data::named_mesh("wheel:50"));
+    FAIL() << "valence 50 was accepted";
+  } catch (const SubjectError& error) {
+    EXPECT_EQ(error.status(), LC_INVALID_INPUT);
+    EXPECT_NE(std::string(error.what()).find("50 weights"), std::string::npos) << error.what();
+  }
+}
+
+// 20000 faces of 4^10 triangles: 10^10 vertices, and 10^11 bytes that nobody asks for.
+TEST(SubjectAdapters, RefuseMoreVerticesThanIndicesNameBeforeTheyAllocate) {
+  const auto mesh = data::named_mesh("sheet:100:100");
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 10);
+  for (const lc_subject* subject : {lc_subject_row_stream(), lc_subject_sliding_window()}) {
+    for (const char* options : {"output=strips", "output=indexed"}) {
+      Session session(*subject, mesh, options);
+      try {
+        session.tessellate(depth, 1);
+        ADD_FAILURE() << options;
+      } catch (const SubjectError& error) {
+        EXPECT_NE(std::string(error.what()).find("32-bit indices"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Embree: rtcInterpolate on a subdivision geometry, a limit surface of Catmull-Clark's in float with its
+// first derivatives. Its documentation promises no accuracy; verify/subject/README.md says what was
+// measured.
+//
+// Debian's build asserts, and an assertion ends the process: on the fourth float of a vertex, which it
+// reads as 16 bytes, and on the sizes of its arrays. So vertices are padded, and what it has no room for is
+// refused.
+//
+// Sharp edges and vertices: an infinite sharpness is an infinite float. There is no choice of creasing: where
+// two sharp edges meet sharpness falls by Chaikin's rule, elsewhere by 1. We ask for it as uniform, which it
+// is for creases of one sharpness. There is no other rule for triangles.
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data/sharpness.h"
+#include "verify/peers/evaluated_faces.h"
+#include "verify/subject/registry.h"
+
+namespace {
+
+using namespace limitcheck::verify;
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+struct ReleaseGeometry {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using Scene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+using Geometry = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
+
+// One face after another.
+class FaceOfGeometry {
+ public:
+  FaceOfGeometry(RTCGeometry geometry, const std::int32_t* sizes) : geometry_(geometry), sizes_(sizes) {}
+  void begin(std::int32_t face) { face_ = face; }
+  // A face that is no quad has its parts in a square of squares of two units, four to a row, each from 1/2
+  // to 3/2.
+  void evaluate(std::int32_t part, const float* uv, float* position, float* du, float* dv) const {
+    const bool whole = sizes_[face_] == 4;
+    const float u = whole ? uv[0] : 2 * static_cast<float>(part % 4) + 0.5F + uv[0];
+    const float v = whole ? uv[1] : 2 * static_cast<float>(part / 4) + 0.5F + uv[1];
+    rtcInterpolate1(geometry_, static_cast<unsigned>(face_), u, v, RTC_BUFFER_TYPE_VERTEX, 0, position, du,
+                    dv, 3);
+  }
+
+ private:
+  RTCGeometry geometry_;
+  const std::int32_t* sizes_;
+  std::int32_t face_ = 0;
+};
+
+class EmbreeSubject {
+ public:
+  static constexpr std::int32_t kSchemes = LC_DOES_CATMULL_CLARK;
+  static constexpr std::int32_t kSharp = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CORNERS;
+
+  static lc_capabilities capabilities(Options&, lc_scheme) {
+    return {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 0};
+  }
+
+  EmbreeSubject(const lc_mesh& mesh, Options&) : mesh_(mesh) {
+    refuse_beyond_its_arrays();
+    device_.reset(rtcNewDevice("threads=1"));
+    if (device_ == nullptr) throw SubjectError(LC_FAILED, "Embree makes no device");
+    geometry_.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SUBDIVISION));
+    auto* const position =
+        buffer<float>(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 4 * sizeof(float), mesh.vertex_count);
+    for (std::size_t v = 0; v < static_cast<std::size_t>(mesh.vertex_count); ++v) {
+      for (std::size_t c = 0; c < 3; ++c) position[4 * v + c] = static_cast<float>(mesh.positions[3 * v + c]);
+      position[4 * v + 3] = 0;
+    }
+    auto* const corner = buffer<std::uint32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(std::uint32_t),
+                                               mesh.corner_count);
+    std::copy(mesh.corners, mesh.corners + mesh.corner_count, corner);
+    auto* const size =
+        buffer<std::uint32_t>(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, sizeof(std::uint32_t), mesh.face_count);
+    std::copy(mesh.face_sizes, mesh.face_sizes + mesh.face_count, size);
+    hand_over_sharpness();
+    rtcSetGeometrySubdivisionMode(
+        geometry_.get(), 0,
+        mesh.corners_held != 0 ? RTC_SUBDIVISION_MODE_PIN_CORNERS : RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY);
+    rtcCommitGeometry(geometry_.get());
+    // It joins the faces when a scene is committed.
+    scene_.reset(rtcNewScene(device_.get()));
+    rtcAttachGeometry(scene_.get(), geometry_.get());
+    rtcCommitScene(scene_.get());
+    if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
+      throw SubjectError(LC_FAILED, "Embree reports error " + std::to_string(error));
+  }
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    const FacePatterns patterns(mesh_, request, [](int) { return FacePattern{}; });
+    tessellate_faces<float>(mesh_, patterns, request, out,
+                            [&] { return FaceOfGeometry(geometry_.get(), mesh_.face_sizes); });
+  }
+
+ private:
+  template <class T>
+  T* buffer(RTCBufferType type, RTCFormat format, std::size_t stride, std::int64_t count) {
+    void* const memory =
+        rtcSetNewGeometryBuffer(geometry_.get(), type, 0, format, stride, static_cast<std::size_t>(count));
+    if (memory == nullptr) throw SubjectError(LC_FAILED, "Embree makes no buffer");
+    return static_cast<T*>(memory);
+  }
+
+  void hand_over_sharpness() {
+    const auto weight = [](float sharpness) {
+      return sharpness >= limitcheck::data::kInfiniteSharpness ? std::numeric_limits<float>::infinity()
+                                                               : sharpness;
+    };
+    if (mesh_.sharp_edge_count > 0) {
+      auto* const ends = buffer<std::uint32_t>(RTC_BUFFER_TYPE_EDGE_CREASE_INDEX, RTC_FORMAT_UINT2,
+                                               2 * sizeof(std::uint32_t), mesh_.sharp_edge_count);
+      auto* const weights = buffer<float>(RTC_BUFFER_TYPE_EDGE_CREASE_WEIGHT, RTC_FORMAT_FLOAT, sizeof(float),
+                                          mesh_.sharp_edge_count);
+      for (std::int64_t k = 0; k < mesh_.sharp_edge_count; ++k) {
+        const lc_sharp_edge& edge = mesh_.sharp_edges[k];
+        ends[2 * k] = static_cast<std::uint32_t>(edge.a);
+        ends[2 * k + 1] = static_cast<std::uint32_t>(edge.b);
+        weights[k] = weight(edge.sharpness);
+      }
+    }
+    if (mesh_.sharp_vertex_count > 0) {
+      auto* const vertices = buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT,
+                                                   sizeof(std::uint32_t), mesh_.sharp_vertex_count);
+      auto* const weights = buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT,
+                                          sizeof(float), mesh_.sharp_vertex_count);
+      for (std::int64_t k = 0; k < mesh_.sharp_vertex_count; ++k) {
+        vertices[k] = static_cast<std::uint32_t>(mesh_.sharp_vertices[k].vertex);
+        weights[k] = weight(mesh_.sharp_vertices[k].sharpness);
+      }
+    }
+  }
+
+  // Its rings are arrays of 64 faces and 128 points; Debian's library asserts that they suffice. A face of n
+  // corners adds n - 2 points, and the boundary one more and a face with a point that stand for the outside.
+  void refuse_beyond_its_arrays() const {
+    constexpr int kMostCorners = 15, kMostFaces = 64, kMostPoints = 128;
+    struct Ring {
+      int faces = 0, points = 0;
+      std::vector<std::uint32_t> after,
+          before;  // neighbours, by the faces that have the edge to and from them
+    };
+    std::vector<Ring> rings(static_cast<std::size_t>(mesh_.vertex_count));
+    for (std::int64_t f = 0, first = 0; f < mesh_.face_count; first += mesh_.face_sizes[f++]) {
+      const int n = mesh_.face_sizes[f];
+      if (n > kMostCorners)
+        throw SubjectError(LC_NOT_SUPPORTED, "Embree has no faces of more than 15 corners");
+      for (int k = 0; k < n; ++k) {
+        Ring& ring = rings[static_cast<std::size_t>(mesh_.corners[first + k])];
+        ring.faces += 1, ring.points += n - 2;
+        ring.after.push_back(static_cast<std::uint32_t>(mesh_.corners[first + (k + 1) % n]));
+        ring.before.push_back(static_cast<std::uint32_t>(mesh_.corners[first + (k + n - 1) % n]));
+      }
+    }
+    for (Ring& ring : rings) {
+      std::sort(ring.after.begin(), ring.after.end());
+      std::sort(ring.before.begin(), ring.before.end());
+      if (ring.after != ring.before) ring.faces += 1, ring.points += 2;
+      if (ring.faces > kMostFaces || ring.points > kMostPoints)
+        throw SubjectError(
+            LC_NOT_SUPPORTED,
+            "Embree has no rings of more than 64 faces, with one for the boundary, or 128 points");
+    }
+  }
+
+  const lc_mesh mesh_;
+  Device device_;
+  Geometry geometry_;
+  Scene scene_;
+};
+
+}  // namespace
+
+extern "C" const lc_subject* lc_subject_embree() {
+  static const lc_subject subject = make_subject<EmbreeSubject>(
+      "embree", "Embree 3 rtcInterpolate: Catmull-Clark's limit surface in float, evaluated");
+  return &subject;
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Shared by the subjects that ask a library for single points of its limit surface, face by face. Faces
+// share no vertices. The normal is d/du x d/dv as evaluated, NaN where the library's derivatives are
+// parallel or zero.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "verify/peers/faces_in_parallel.h"
+#include "verify/subject/adapter.h"
+#include "verify/subject/face_domain.h"
+
+namespace limitcheck::verify {
+
+/// The points of one kind of face at one depth, and their triangles.
+struct FacePattern {
+  std::uint32_t denominator;
+  std::vector<FaceDomain::Point> points;  // (i, j) over the denominator on their part
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Of a face of Catmull-Clark's: each lattice point once, each quad of the lattice cut along its diagonal
+/// from (0, 0).
+inline FacePattern quads_pattern(int corners, int depth) {
+  const FaceDomain domain(data::Scheme::kCatmullClark, corners);
+  const std::int64_t n = std::int64_t{1} << depth;
+  FacePattern pattern;
+  if (domain.parts() > 1 && depth == 0) {
+    pattern.denominator = 1;
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(corners); ++k) {
+      pattern.points.push_back({0, 0, static_cast<std::int32_t>(k)});
+      if (k > 1) pattern.triangles.push_back({0, k - 1, k});
+    }
+    return pattern;
+  }
+  pattern.denominator = static_cast<std::uint32_t>(domain.denominator(n));
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(domain.point_count(n)));
+  domain.for_each_point(n, [&](FaceDomain::Point p) {
+    number[static_cast<std::size_t>(domain.number(p, n))] = static_cast<std::uint32_t>(pattern.points.size());
+    pattern.points.push_back(p);
+  });
+  const auto at = [&](std::int64_t i, std::int64_t j, std::int32_t part) {
+    return number[static_cast<std::size_t>(domain.number({i, j, part}, n))];
+  };
+  for (std::int32_t part = 0; part < domain.parts(); ++part)
+    for (std::int64_t j = 0; j < pattern.denominator; ++j)
+      for (std::int64_t i = 0; i < pattern.denominator; ++i) {
+        pattern.triangles.push_back({at(i, j, part), at(i + 1, j, part), at(i + 1, j + 1, part)});
+        pattern.triangles.push_back({at(i, j, part), at(i + 1, j + 1, part), at(i, j + 1, part)});
+      }
+  return pattern;
+}
+
+/// The pattern of each face of a request, made once for each kind of face and depth.
+class FacePatterns {
+ public:
+  /// `triangle(depth)` makes that of Loop's triangles.
+  template <class Triangle>
+  FacePatterns(const lc_mesh& mesh, const lc_request& request, Triangle&& triangle) : of_(face_count(mesh)) {
+    first_vertex_.assign(of_.size() + 1, 0);
+    first_triangle_.assign(of_.size() + 1, 0);
+    for (std::size_t f = 0; f < of_.size(); ++f) {
+      first_vertex_[f + 1] = first_vertex_[f];
+      first_triangle_[f + 1] = first_triangle_[f];
+      const int depth = request.face_depth[f], corners = mesh.face_sizes[f];
+      if (depth < 0) continue;
+      auto place = patterns_.find({corners, depth});
+      if (place == patterns_.end())
+        place =
+            patterns_
+                .try_emplace({corners, depth},
+                             mesh.scheme == LC_SCHEME_LOOP ? triangle(depth) : quads_pattern(corners, depth))
+                .first;
+      of_[f] = &place->second;
+      first_vertex_[f + 1] += static_cast<std::int64_t>(of_[f]->points.size());
+      first_triangle_[f + 1] += static_cast<std::int64_t>(of_[f]->triangles.size());
+    }
+  }
+  std::int64_t faces() const { return static_cast<std::int64_t>(of_.size()); }
+  /// nullptr of a culled face.
+  const FacePattern* of(std::int64_t face) const { return of_[static_cast<std::size_t>(face)]; }
+  std::int64_t first_vertex(std::int64_t face) const { return first_vertex_[static_cast<std::size_t>(face)]; }
+  std::int64_t first_triangle(std::int64_t face) const {
+    return first_triangle_[static_cast<std::size_t>(face)];
+  }
+  std::int64_t vertices() const { return first_vertex_.back(); }
+  std::int64_t triangles() const { return first_triangle_.back(); }
+
+ private:
+  static std::size_t face_count(const lc_mesh& mesh) { return static_cast<std::size_t>(mesh.face_count); }
+
+  std::map<std::pair<int, int>, FacePattern> patterns_;  // by corners and depth
+  std::vector<const FacePattern*> of_;
+  std::vector<std::int64_t> first_vertex_, first_triangle_;
+};
+
+/// Tessellates each face by its pattern. `surface()` makes, once for each range of faces, what has
+///   void begin(std::int32_t face)
+///   void evaluate(std::int32_t part, const Real uv[2], Real position[3], Real du[3], Real dv[3])
+/// and is asked for all points of a face in the order of its pattern.
+template <class Real, class Make>
+void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const lc_request& request,
+                      lc_tessellation& out, Make&& surface) {
+  const auto output = allocate_output<Real>(request, out, patterns.vertices(), patterns.triangles(), true,
+                                            /*corners=*/mesh.scheme == LC_SCHEME_CATMULL_CLARK);
+  faces_in_parallel(patterns.faces(), request.threads, [&](std::int64_t begin, std::int64_t end) {
+    auto here = surface();
+    for (std::int64_t f = begin; f < end; ++f) {
+      const FacePattern* const pattern = patterns.of(f);
+      if (pattern == nullptr) continue;
+      const auto face = static_cast<std::int32_t>(f);
+      here.begin(face);
+      std::int64_t vertex = patterns.first_vertex(f), triangle = patterns.first_triangle(f);
+      const auto first = static_cast<std::uint32_t>(vertex);
+      const auto denominator = static_cast<Real>(pattern->denominator);
+      for (const FaceDomain::Point& p : pattern->points) {
+        const Real uv[2] = {static_cast<Real>(p.i) / denominator, static_cast<Real>(p.j) / denominator};
+        Real du[3], dv[3];
+        here.evaluate(p.part, uv, output.positions + 3 * vertex, du, dv);
+        const Real n[3] = {du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2],
+                           du[0] * dv[1] - du[1] * dv[0]};
+        const Real length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int c = 0; c < 3; ++c) output.normals[3 * vertex + c] = n[c] / length;
+        output.provenance[vertex] = {face, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
+                                     pattern->denominator};
+        if (output.corner != nullptr) output.corner[vertex] = p.part;
+        ++vertex;
+      }
+      for (const auto& corners : pattern->triangles) {
+        for (std::size_t c = 0; c < 3; ++c)
+          output.triangles[3 * triangle + static_cast<std::int64_t>(c)] = first + corners[c];
+        output.triangle_face[triangle++] = face;
+      }
+    }
+  });
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// The recursive subdivider of the paper's section 4 in double, with Loop's rules (reference/loop/naive.h) or
+// Catmull and Clark's (reference/catmull_clark/naive.h). It delivers single triangles and quads and rounds
+// differently in each. Of the values of one point the first in the order of their bits is taken, so that
+// neither the triangles of a face nor faces of one depth have cracks of one ulp. Faces share no vertices. A
+// quad is cut along its diagonal from (0, 0). [C18, C21]
+//
+//   options   weights=loop|warren (default loop)
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "reference/catmull_clark/naive.h"
+#include "reference/loop/naive.h"
+#include "reference/loop/refine.h"
+#include "reference/mesh/sharpness.h"
+#include "verify/peers/faces_in_parallel.h"
+#include "verify/subject/adapter.h"
+#include "verify/subject/control_mesh.h"
+#include "verify/subject/face_domain.h"
+#include "verify/subject/registry.h"
+#include "verify/subject/weights_option.h"
+
+namespace {
+
+using namespace limitcheck;
+using namespace limitcheck::verify;
+using Loop = reference::NaiveSubdivider<double>;
+using CatmullClark = reference::catmull_clark::NaiveSubdivider<double>;
+using Vec3 = reference::Vec3<double>;
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+struct Corner {
+  Vec3 position, normal;
+  FaceDomain::Point at;
+};
+
+// In the order of their bits.
+bool before(const Vec3& a, const Vec3& b) {
+  const auto bits = [](const Vec3& p) {
+    return std::array{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
+                      std::bit_cast<std::uint64_t>(p.z)};
+  };
+  return bits(a) < bits(b);
+}
+
+// Puts the lesser of both, by their bits, in place of the first.
+void agree(Vec3& a, const Vec3& b) {
+  if (before(b, a)) a = b;
+}
+
+// The vertices, one for each lattice point, and the triangles of one face.
+class Face {
+ public:
+  std::vector<Corner> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into vertices
+
+  Face(FaceDomain domain, int depth)
+      : domain_(domain), n_(std::int64_t{1} << depth), vertex_(domain.point_count(n_), kNone) {}
+
+  void subdivide(const Loop& subdivider, std::size_t face, int depth) {
+    subdivider.tessellate(face, depth, [&](const reference::LeafTriangle<double>& leaf) {
+      triangles.push_back({add(leaf[0]), add(leaf[1]), add(leaf[2])});
+    });
+  }
+  void subdivide(const CatmullClark& subdivider, std::size_t face, int depth) {
+    using Leaf = reference::catmull_clark::LeafQuad<double>;
+    const bool corners_only = domain_.parts() > 1 && depth == 0;
+    for (int part = 0; part < domain_.parts(); ++part)
+      subdivider.tessellate(face, static_cast<std::size_t>(part), corners_only ? 1 : depth,
+                            [&](const Leaf& leaf) {
+                              if (corners_only) {  // of its first quad
+                                add(leaf[0], part);
+                                return;
+                              }
+                              const std::array at{add(leaf[0], part), add(leaf[1], part), add(leaf[2], part),
+                                                  add(leaf[3], part)};
+                              triangles.push_back({at[0], at[1], at[2]});
+                              triangles.push_back({at[0], at[2], at[3]});
+                            });
+    for (std::uint32_t k = 1; corners_only && k + 1 < vertices.size(); ++k)
+      triangles.push_back({0, k, k + 1});
+  }
+
+ private:
+  std::uint32_t add(const auto& leaf, std::int32_t part = 0) {
+    const Corner corner{leaf.position, leaf.normal, domain_.canonical({leaf.i, leaf.j, part}, n_)};
+    std::uint32_t& at = vertex_[domain_.number(corner.at, n_)];
+    if (at == kNone) {
+      at = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(corner);
+    }
+    agree(vertices[at].position, corner.position);
+    agree(vertices[at].normal, corner.normal);
+    return at;
+  }
+
+  FaceDomain domain_;
+  std::int64_t n_;
+  std::vector<std::uint32_t> vertex_;  // of each lattice point
+};
+
+// A point on a control edge: its ends, the smaller number first, and the way from there in 2^-31 of it. A
+// control vertex is both ends of its edge.
+using BorderPoint = std::array<std::int64_t, 3>;
+
+// Sets `point` and returns the side of the face on which it lies, or -1 for a point inside.
+int on_border(std::span<const std::int32_t> face, FaceDomain domain, const Corner& corner, int depth,
+              BorderPoint& point) {
+  const std::int64_t n = std::int64_t{1} << depth, unit = std::int64_t{1} << (31 - depth);
+  const auto place = domain.side_of(corner.at, n);
+  if (!place) return -1;
+  std::int64_t a = face[place->side], b = face[domain.next(place->side)], way = place->along;
+  if (way == 0) b = a;
+  if (a > b) std::swap(a, b), way = n - way;
+  point = {a, b, way * unit};
+  return place->side;
+}
+
+// Which faces have a common normal at a point of a control edge: on an edge that stays sharp there is one for
+// each side, at its ends one for each sector between such edges.
+class Sides {
+ public:
+  explicit Sides(const data::ControlMesh& mesh) {
+    if (mesh.sharpness.empty()) return;
+    const reference::Topology topology(mesh.positions.size(), mesh.faces);
+    cut_ = reference::Sharpness(topology, mesh.sharpness).cut(topology).faces;
+    for (const data::SharpEdge& e : mesh.sharpness.edges)
+      if (e.sharpness >= data::kInfiniteSharpness) edges_.insert(std::minmax(e.a, e.b));
+  }
+  // The same number in all faces that do.
+  //   corner   of the face, where the point is a corner
+  std::int64_t number(const BorderPoint& point, std::size_t face, int corner) const {
+    const std::int64_t a = point[0], b = point[1];
+    if (cut_.size() > 0 && a == b) return cut_[face][static_cast<std::size_t>(corner)];
+    const bool sharp = edges_.count({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)}) > 0;
+    return sharp ? static_cast<std::int64_t>(face) : -1;
+  }
+
+ private:
+  data::Faces cut_;  // the faces with a copy of each vertex for each of its sectors
+  std::set<std::pair<std::int32_t, std::int32_t>> edges_;
+};
+
+class NaiveSubject {
+ public:
+  static lc_capabilities capabilities(Options& options, lc_scheme) {
+    lc_capabilities result{LC_FLOAT64, weights_option(options), LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1,
+                           1};
+    result.sharp =
+        LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+    return result;
+  }
+
+  NaiveSubject(const lc_mesh& mesh, Options& options)
+      : mesh_(control_mesh(mesh)),
+        scheme_(scheme_of(mesh.scheme)),
+        subdivider_(make_subdivider(mesh_, scheme_, family(weights_option(options)))),
+        sides_(mesh_) {}
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    const auto count = static_cast<std::int64_t>(mesh_.faces.size());
+    const std::span depth(request.face_depth, mesh_.faces.size());
+
+    // The number of vertices of a face is known only when it is done, so all faces come first, then the
+    // arrays.
+    std::vector<std::unique_ptr<Face>> faces(mesh_.faces.size());
+    faces_in_parallel(count, request.threads, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t f = begin; f < end; ++f) {
+        const auto k = static_cast<std::size_t>(f);
+        if (depth[k] < 0) continue;
+        faces[k] = std::make_unique<Face>(domain(k), depth[k]);
+        std::visit([&](const auto& subdivider) { faces[k]->subdivide(subdivider, k, depth[k]); },
+                   subdivider_);
+      }
+    });
+    agree_on_borders(faces, depth);
+    std::int64_t vertices = 0, triangles = 0;
+    for (const auto& face : faces) {
+      if (face == nullptr) continue;
+      vertices += static_cast<std::int64_t>(face->vertices.size());
+      triangles += static_cast<std::int64_t>(face->triangles.size());
+    }
+    const auto output = allocate_output<double>(request, out, vertices, triangles, /*normals=*/true,
+                                                /*corners=*/scheme_ == data::Scheme::kCatmullClark);
+
+    std::int64_t v = 0, t = 0;
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      if (faces[k] == nullptr) continue;
+      const auto face = static_cast<std::int32_t>(k);
+      const auto base = static_cast<std::uint32_t>(v);
+      const auto denominator = static_cast<std::uint32_t>(
+          std::max<std::int64_t>(1, domain(k).denominator(std::int64_t{1} << depth[k])));
+      for (const Corner& corner : faces[k]->vertices) {
+        const auto& [position, normal] = std::tie(corner.position, corner.normal);
+        for (std::int64_t c = 0; const double x : {position.x, position.y, position.z})
+          output.positions[3 * v + c++] = x;
+        for (std::int64_t c = 0; const double x : {normal.x, normal.y, normal.z})
+          output.normals[3 * v + c++] = x;
+        if (output.corner != nullptr) output.corner[v] = corner.at.part;
+        output.provenance[v++] = {face, static_cast<std::uint32_t>(corner.at.i),
+                                  static_cast<std::uint32_t>(corner.at.j), denominator};
+      }
+      for (const auto& triangle : faces[k]->triangles) {
+        for (std::int64_t c = 0; const std::uint32_t corner : triangle)
+          output.triangles[3 * t + c++] = base + corner;
+        output.triangle_face[t++] = face;
+      }
+      faces[k].reset();
+    }
+  }
+
+ private:
+  using Subdivider = std::variant<Loop, CatmullClark>;
+  static Subdivider make_subdivider(const data::ControlMesh& mesh, data::Scheme scheme,
+                                    reference::Weights weights) {
+    if (scheme == data::Scheme::kLoop) return Loop(mesh, weights);
+    return CatmullClark(mesh.faces, reference::positions_of<double>(mesh), mesh.sharpness);
+  }
+  FaceDomain domain(std::size_t face) const { return {scheme_, static_cast<int>(mesh_.faces[face].size())}; }
+
+  // Position and normal of each point on control edges, whatever the order of faces.
+  void agree_on_borders(std::vector<std::unique_ptr<Face>>& faces,
+                        std::span<const std::int32_t> depth) const {
+    const auto each = [&](const auto& body) {
+      BorderPoint point{};
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        if (faces[f] != nullptr)
+          for (Corner& corner : faces[f]->vertices)
+            if (const int side = on_border(mesh_.faces[f], domain(f), corner, depth[f], point); side >= 0)
+              body(point, sides_.number(point, f, side), corner);
+    };
+    std::map<BorderPoint, Vec3> position;
+    std::map<std::pair<BorderPoint, std::int64_t>, Vec3> normal;
+    each([&](const BorderPoint& point, std::int64_t side, const Corner& corner) {
+      agree(position.try_emplace(point, corner.position).first->second, corner.position);
+      agree(normal.try_emplace({point, side}, corner.normal).first->second, corner.normal);
+    });
+    each([&](const BorderPoint& point, std::int64_t side, Corner& corner) {
+      corner.position = position.at(point);
+      corner.normal = normal.at({point, side});
+    });
+  }
+
+  const data::ControlMesh mesh_;
+  const data::Scheme scheme_;
+  const Subdivider subdivider_;
+  const Sides sides_;
+};
+
+}  // namespace
+
+extern "C" const lc_subject* lc_subject_naive() {
+  static const lc_subject subject = make_subject<NaiveSubject>(
+      "naive", "our own recursive subdivider, as the paper's section 4 lists it, in double; both schemes",
+      "weights=loop|warren (default loop)");
+  return &subject;
+}

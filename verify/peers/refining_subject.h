@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// A subject from a library that refines a mesh step by step and stops there: no limit points, no normals.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "verify/peers/lattice_tracker.h"
+#include "verify/peers/quad_tracker.h"
+#include "verify/subject/adapter.h"
+
+namespace limitcheck::verify {
+
+/// LoopMesh and QuadMesh are the library's mesh behind
+///   T(const lc_mesh&)                               throws SubjectError if the library refuses it
+///   void refine()                                   one step
+///   std::int64_t vertex_count() const
+///   std::array<double, 3> position(std::int64_t) const
+///   std::vector<std::array<std::uint32_t, N>> faces() const    after a step: N is 3 or 4
+/// the one refined by Loop's scheme, the other, void if there is none, by Catmull-Clark's. Real is the
+/// number type the library keeps its points in.
+template <class LoopMesh, class QuadMesh, class Real = double>
+class RefiningSubject {
+  static constexpr bool kQuads = !std::is_void_v<QuadMesh>;
+
+ public:
+  static constexpr std::int32_t kSchemes = LC_DOES_LOOP | (kQuads ? LC_DOES_CATMULL_CLARK : 0);
+
+  static lc_capabilities capabilities(Options&, lc_scheme) {
+    constexpr auto precision = std::is_same_v<Real, float> ? LC_FLOAT32 : LC_FLOAT64;
+    return {precision, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, 8, 0, 0, 1};
+  }
+
+  RefiningSubject(const lc_mesh& mesh, Options&) : control_(mesh) {
+    if constexpr (kQuads)
+      if (mesh.scheme == LC_SCHEME_CATMULL_CLARK) {
+        (void)QuadMesh(mesh);
+        return;
+      }
+    (void)LoopMesh(mesh);
+  }
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    refuse_too_many_triangles(control_, uniform_depth(request, control_));
+    if constexpr (kQuads)
+      if (control_.scheme == LC_SCHEME_CATMULL_CLARK) {
+        QuadTracker tracker(control_);
+        const QuadMesh mesh = refined<QuadMesh>(tracker, request);
+        const auto triangles = tracker.triangles();
+        const auto output = deliver(request, out, mesh, triangles, tracker.triangle_face(), /*corners=*/true);
+        std::int64_t v = 0;
+        for (const Place& p : tracker.places()) {
+          output.corner[v] = p.corner;
+          output.provenance[v++] = {p.face, p.i, p.j, p.denominator};
+        }
+        return;
+      }
+    LatticeTracker tracker(control_);
+    const LoopMesh mesh = refined<LoopMesh>(tracker, request);
+    const auto output =
+        deliver(request, out, mesh, tracker.triangles(), tracker.triangle_face(), /*corners=*/false);
+    const auto provenance = tracker.provenance();
+    std::copy(provenance.begin(), provenance.end(), output.provenance);
+  }
+
+ private:
+  template <class Mesh>
+  Mesh refined(auto& tracker, const lc_request& request) const {
+    Mesh mesh(control_);
+    for (int level = 0; level < uniform_depth(request, control_); ++level) {
+      mesh.refine();
+      tracker.step(mesh.vertex_count(), mesh.faces());
+    }
+    return mesh;
+  }
+
+  // All but where the vertices lie.
+  static Output<Real> deliver(const lc_request& request, lc_tessellation& out, const auto& mesh,
+                              const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                              const std::vector<std::int32_t>& triangle_face, bool corners) {
+    const auto output = allocate_output<Real>(request, out, mesh.vertex_count(),
+                                              static_cast<std::int64_t>(triangles.size()), false, corners);
+    for (std::int64_t v = 0; v < mesh.vertex_count(); ++v) {
+      const auto p = mesh.position(v);
+      for (std::size_t c = 0; c < 3; ++c)
+        output.positions[3 * static_cast<std::size_t>(v) + c] = static_cast<Real>(p[c]);
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      std::copy(triangles[t].begin(), triangles[t].end(), output.triangles + 3 * t);
+      output.triangle_face[t] = triangle_face[t];
+    }
+    return output;
+  }
+
+  const lc_mesh control_;
+};
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// The reference's refinement with sharp edges and vertices against OpenSubdiv's, both schemes; and where
+// OpenSubdiv is known to differ.
+#include <gtest/gtest.h>
+#include <opensubdiv/far/primvarRefiner.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/generators/random_mesh.h"
+#include "data/generators/sharp_meshes.h"
+#include "data/shapes.h"
+#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/loop/refine.h"
+#include "verify/peers/opensubdiv_mesh.h"
+#include "verify/peers/test_sharp_shapes.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using reference::Vec3;
+using Quads = reference::catmull_clark::RefinedMesh<double>;
+using Triangles = reference::RefinedMesh<double>;
+namespace Far = OpenSubdiv::Far;
+
+template <class Refined>
+Refined reference_of(const data::ControlMesh& mesh) {
+  if constexpr (std::is_same_v<Refined, Triangles>) {
+    return Triangles(mesh);
+  } else {
+    std::vector<Vec3<double>> positions;
+    for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
+    return Quads(mesh.faces, std::move(positions), mesh.sharpness);
+  }
+}
+
+// The largest differences between both.
+struct Differences {
+  double refined = 0, limit = 0;  // over the largest coordinate
+  double normal = 0;              // degrees
+  std::int64_t limits = 0, normals = 0;
+
+  void add(const Differences& d) {
+    refined = std::max(refined, d.refined), limit = std::max(limit, d.limit),
+    normal = std::max(normal, d.normal);
+    limits += d.limits, normals += d.normals;
+  }
+};
+
+double degrees(const Vec3<double>& a, const Vec3<double>& b) {
+  return std::atan2(magnitude(cross(a, b)), dot(a, b)) * 180 / 3.14159265358979323846;
+}
+
+// The points of so many steps. With limits, those of the last as well, where OpenSubdiv's masks are those of
+// the surface: not at darts; and normals not on edges that stay sharp, where it has one of several, nor where
+// the mask across a boundary is that of another rule, nor where there is none.
+template <class Refined>
+Differences differences(const data::ControlMesh& mesh, int depth, bool with_limits) {
+  constexpr bool kQuads = std::is_same_v<Refined, Quads>;
+  const LentMesh lent(mesh, kQuads ? data::Scheme::kCatmullClark : data::Scheme::kLoop);
+  const auto refiner = make_refiner(lent.view());
+  Far::TopologyRefiner::UniformOptions uniform(depth);
+  uniform.fullTopologyInLastLevel = true;
+  refiner->RefineUniform(uniform);
+  const Far::PrimvarRefinerReal<double> primvars(*refiner);
+  std::vector<OpenSubdivVector<double>> points;
+  double largest = 0;
+  for (const auto& p : mesh.positions) {
+    points.push_back({p});
+    largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  }
+  const auto vec = [](const OpenSubdivVector<double>& a) { return Vec3<double>{a.x[0], a.x[1], a.x[2]}; };
+  Differences worst;
+  Refined ours = reference_of<Refined>(mesh);
+  std::vector<int> vertex(mesh.positions.size()), face(mesh.faces.size());  // Far's number of ours
+  std::iota(vertex.begin(), vertex.end(), 0);
+  std::iota(face.begin(), face.end(), 0);
+  for (int level = 1; level <= depth; ++level) {
+    std::vector<OpenSubdivVector<double>> next(
+        static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
+    primvars.Interpolate(level, points, next);
+    points.swap(next);
+    const Far::TopologyLevel& here = refiner->GetLevel(level - 1);
+    std::vector<int> next_vertex, next_face;
+    for (const int v : vertex) next_vertex.push_back(here.GetVertexChildVertex(v));
+    for (const auto& e : ours.topology().edges())
+      next_vertex.push_back(here.GetEdgeChildVertex(
+          here.FindEdge(vertex[static_cast<std::size_t>(e.a)], vertex[static_cast<std::size_t>(e.b)])));
+    if (kQuads)
+      for (const int f : face) {
+        next_vertex.push_back(here.GetFaceChildVertex(f));
+        const auto children = here.GetFaceChildFaces(f);
+        for (int k = 0; k < children.size(); ++k) next_face.push_back(children[k]);
+      }
+    vertex = std::move(next_vertex), face = std::move(next_face);
+    ours.refine();
+    for (std::size_t v = 0; v < vertex.size(); ++v)
+      worst.refined = std::max(
+          worst.refined,
+          magnitude(ours.positions()[v] - vec(points[static_cast<std::size_t>(vertex[v])])) / largest);
+  }
+  if (!with_limits) return worst;
+
+  std::vector<OpenSubdivVector<double>> limit(points.size()), t1(points.size()), t2(points.size());
+  primvars.Limit(points, limit, t1, t2);
+  const auto limits = ours.limits();
+  const Far::TopologyLevel& last = refiner->GetLevel(depth);
+  for (std::size_t v = 0; v < vertex.size(); ++v) {
+    using Rule = OpenSubdiv::Sdc::Crease;
+    const auto theirs = static_cast<std::size_t>(vertex[v]);
+    const auto rule = last.GetVertexRule(vertex[v]);
+    if (rule == Rule::RULE_DART) continue;
+    worst.limit = std::max(worst.limit, magnitude(limits.positions[v] - vec(limit[theirs])) / largest);
+    ++worst.limits;
+    const auto sector = ours.topology().sector(static_cast<std::int32_t>(v));
+    const std::size_t right = sector.closed ? 0 : rule == Rule::RULE_CORNER ? 1 : kQuads ? 2 : 3;
+    const bool one_side = sector.closed ? rule == Rule::RULE_SMOOTH : sector.faces.size() <= right;
+    if (!one_side || limits.kinds[v] != reference::NormalKind::kRegular) continue;
+    worst.normal =
+        std::max(worst.normal, degrees(limits.normals[v], cross(vec(t1[theirs]), vec(t2[theirs]))));
+    ++worst.normals;
+  }
+  return worst;
+}
+template <class Refined>
+double worst_difference(const data::ControlMesh& mesh, int depth) {
+  return differences<Refined>(mesh, depth, false).refined;
+}
+
+// 4 units of the last place; a normal has lost three bits with each of three steps and more on a steep mesh.
+void expect_a_few_ulp(const Differences& d) {
+  std::printf("units of the last place: refined %.2f, %lld limits %.2f; %lld normals %.1e degrees\n",
+              d.refined * 0x1p52, static_cast<long long>(d.limits), d.limit * 0x1p52,
+              static_cast<long long>(d.normals), d.normal);
+  EXPECT_LE(d.refined, 4 * 0x1p-52);
+  EXPECT_LE(d.limit, 4 * 0x1p-52);
+  EXPECT_LE(d.normal, 1e-9);
+  EXPECT_GT(d.normals, 1000);
+}
+
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnCubesWithAnyOfTheirEdgesSharp) {
+  Differences worst;
+  for (unsigned subset = 0; subset < 4096; ++subset)
+    for (const bool semi_sharp : {false, true})
+      worst.add(differences<Quads>(test::cube_with(subset, semi_sharp), 3, true));
+  expect_a_few_ulp(worst);
+}
+
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnEveryShapeOfPolygons) {
+  Differences worst;
+  for (const auto& [name, mesh] : test::sharp_polygons()) {
+    const Differences d = differences<Quads>(mesh, 3, true);
+    EXPECT_LE(std::max(d.refined, d.limit), 4 * 0x1p-52) << name;
+    worst.add(d);
+  }
+  expect_a_few_ulp(worst);
+}
+
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnEveryShapeOfTriangles) {
+  Differences worst, smooth;
+  for (auto& [name, mesh] : test::sharp_triangles()) {
+    const Differences d = differences<Triangles>(mesh, 3, true);
+    EXPECT_LE(std::max(d.refined, d.limit), 4 * 0x1p-52) << name;
+    worst.add(d);
+    mesh.sharpness.triangles = data::TriangleRule::kSmooth;
+    smooth.add(differences<Quads>(mesh, 3, true));
+  }
+  expect_a_few_ulp(worst);
+  expect_a_few_ulp(smooth);
+}
+
+// Sharpnesses are multiples of 1/16, which OpenSubdiv's floats hold at every level.
+TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithUniformCreasing) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kUniform;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 5));
+    mesh.sharpness.triangles = data::TriangleRule::kSmooth;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 2));
+    mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kUniform;
+    worst = std::max(worst, worst_difference<Triangles>(mesh, 5));
+  }
+  for (const auto& mesh : {data::creased_cube(2), data::creased_cube(10), data::dart(5, false),
+                           data::corner(3, false), data::crease_ring(4)})
+    worst = std::max(worst, worst_difference<Quads>(mesh, 5));
+  std::printf("units of the last place: %.2f\n", worst * 0x1p52);
+  EXPECT_LE(worst, 8 * 0x1p-52);
+}
+
+// Chaikin's means are rounded to float there; 1e-7 of the weights.
+TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithChaikinsUpToItsFloats) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kChaikin;
+    // Below 1: above, OpenSubdiv's weights of edges are wrong (see below).
+    for (auto& e : mesh.sharpness.edges)
+      if (e.sharpness < 10) e.sharpness /= 4;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 4));
+    auto triangles = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
+    triangles.sharpness.creasing = data::Creasing::kChaikin;
+    for (auto& e : triangles.sharpness.edges)
+      if (e.sharpness < 10) e.sharpness /= 4;
+    worst = std::max(worst, worst_difference<Triangles>(triangles, 4));
+  }
+  std::printf("largest difference: %.1e\n", worst);
+  EXPECT_LE(worst, 1e-6);
+}
+
+// An edge of a sharpness above 1 with a child edge of sharpness 0: OpenSubdiv weighs the midpoint with the
+// sharpness, 1.225 here, and the smooth point with what is missing to 1, -0.225. The rule is the midpoint.
+TEST(SharpEdges_OpenSubdiv, WeighAnEdgeWithMoreThanOneByChaikinsRule) {
+  data::ControlMesh mesh = data::quad_wheel(4, 301);
+  const auto spoke = [&](std::size_t f) {
+    const auto face = mesh.faces[f];
+    const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), 0) - face.begin());
+    return face[(at + 1) % 4];
+  };
+  std::vector<std::size_t> faces;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (std::find(mesh.faces[f].begin(), mesh.faces[f].end(), 0) != mesh.faces[f].end()) faces.push_back(f);
+  ASSERT_EQ(faces.size(), 4U);
+  mesh.sharpness.edges = {{0, spoke(faces[0]), 2.7F}, {0, spoke(faces[2]), 0.8F}};
+  mesh.sharpness.creasing = data::Creasing::kChaikin;
+  EXPECT_LE(worst_difference<Quads>(mesh, 1), 1e-7);
+  EXPECT_GT(worst_difference<Quads>(mesh, 2), 1e-4);
+  mesh.sharpness.creasing = data::Creasing::kUniform;
+  EXPECT_LE(worst_difference<Quads>(mesh, 4), 1e-7);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "verify/proof/bounds/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verify/proof/bounds/linear_runs.h"
+#include "verify/proof/numbers/quad_weights.h"
+
+namespace limitcheck::verify {
+
+namespace {
+
+// The kernel's number over BoundFloat: fma rounds once.
+template <int tangent>
+struct BoundLane : fast::row_stream::LinearNumber<BoundFloat, tangent> {
+  static BoundFloat fma(const BoundFloat& a, const BoundFloat& b, const BoundFloat& c) {
+    return BoundFloat(BoundForm::fused(a.form(), b.form(), 1, c.form()));
+  }
+  // Of small integers, which are exact.
+  static BoundFloat equal(const BoundFloat& a, const BoundFloat& b) {
+    return BoundFloat(a.form().constant() == b.form().constant() ? 1 : 0);
+  }
+  static BoundFloat select(const BoundFloat& chosen, const BoundFloat& a, const BoundFloat& b) {
+    return chosen.form().is_zero() ? b : a;
+  }
+};
+
+bool is_control_vertex(const fast::LatticePoint& p) {
+  return p.i % p.denominator == 0 && p.j % p.denominator == 0;
+}
+
+double cross_error(const PointBound& b) {
+  const TangentBound &u = b.du, &v = b.dv;
+  return (3 * (u.error * v.size + v.error * u.size + u.error * v.error) +
+          4 * std::sqrt(3.) * 0x1p-24 * (u.size + u.error) * (v.size + v.error) + 0x1p-60) *
+         (1 + 1e-12);
+}
+
+// Columns 1 .. n are the control points, in order.
+std::vector<double> control_weights(const BoundForm& form, std::size_t n) {
+  std::vector<double> weights(n);
+  for (const BoundForm::Term& t : form.terms)
+    if (t.column >= 1 && static_cast<std::size_t>(t.column) <= n) weights[t.column - 1] = t.weight;
+  return weights;
+}
+
+}  // namespace
+
+const char* name_of(BoundedKernel kernel) {
+  switch (kernel) {
+    case BoundedKernel::kSlidingWindow:
+      return "sliding-window";
+    case BoundedKernel::kCrackEdge:
+      return "crack-edge";
+    case BoundedKernel::kCrackCentre:
+      return "crack-centre";
+    case BoundedKernel::kRowStream:
+      return "row-stream";
+    case BoundedKernel::kRowStreamEdge:
+      return "row-stream-edge";
+    default:
+      return "row-stream-patch";
+  }
+}
+
+double KernelBounds::position() const {
+  double worst = 0;
+  for (const PointBound& p : points) worst = std::max(worst, p.position);
+  return worst;
+}
+double KernelBounds::tangent() const {
+  double worst = 0;
+  for (const PointBound& p : points)
+    if (p.has_tangents) worst = std::max({worst, p.du.relative(), p.dv.relative()});
+  return worst;
+}
+double KernelBounds::normal() const {
+  double worst = 0;
+  for (const PointBound& p : points)
+    if (p.has_tangents) worst = std::max(worst, normal_error_share(p));
+  return worst;
+}
+
+KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourhood, int depth, double reach,
+                          const RoundingModel& model) {
+  const BoundScope scope(reach, model);
+  const std::size_t n = neighbourhood.mesh.positions.size();
+  // One coordinate stands for three: the kernels treat them alike until the normal, see WorstObserved::alike.
+  std::vector<fast::Vec3<BoundFloat>> points(n);
+  for (auto& p : points) p.x = BoundFloat(BoundForm::variable());
+  LinearRuns<BoundFloat, BoundLane> runs(neighbourhood.mesh, points);
+  KernelBounds bounds{kernel, depth, {}};
+  const bool stream = kernel == BoundedKernel::kRowStream || kernel == BoundedKernel::kRowStreamEdge ||
+                      kernel == BoundedKernel::kRowStreamPatch;
+  const auto tangent = [&](const BoundFloat& t) -> TangentBound {
+    return {t.error(), t.form().true_magnitude(), control_weights(t.form(), n)};
+  };
+  runs.run(kernel, depth, [&](const fast::LatticePoint& at, const fast::LimitFrame<BoundFloat>& frame) {
+    PointBound point{at, frame.position.x.error(), !stream || !is_control_vertex(at), {}, {}};
+    if (point.has_tangents) point.du = tangent(frame.du.x), point.dv = tangent(frame.dv.x);
+    bounds.points.push_back(std::move(point));
+  });
+  return bounds;
+}
+
+double normal_angle_bound(const PointBound& bound, double cross) {
+  const double sine = cross_error(bound) / cross;
+  return sine <= 1 ? std::asin(sine) + 0x1p-23 : std::numeric_limits<double>::infinity();
+}
+double normal_error_share(const PointBound& bound) {
+  return cross_error(bound) / (3 * bound.du.size * bound.dv.size);
+}
+
+BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
+                       int last_depth, int meshes) {
+  BoundProof proof;
+  proof.first_depth = first_depth;
+  proof.last_depth = last_depth;
+  for (int depth = first_depth; depth <= last_depth; ++depth) {
+    const KernelBounds bounds = bound_kernel(kernel, neighbourhood, depth);
+    proof.position_bound = std::max(proof.position_bound, bounds.position());
+    proof.tangent_bound = std::max(proof.tangent_bound, bounds.tangent());
+    proof.normal_bound = std::max(proof.normal_bound, bounds.normal());
+    const WorstObserved worst = search_worst(neighbourhood, bounds, depth <= 4 ? meshes : meshes / 5,
+                                             static_cast<std::uint64_t>(depth) + 1);
+    proof.alike = proof.alike && worst.alike;
+    proof.position_worst = std::max(proof.position_worst, worst.position);
+    proof.tangent_worst = std::max(proof.tangent_worst, worst.tangent);
+    proof.share = std::max({proof.share, worst.position_share, worst.tangent_share});
+  }
+  return proof;
+}
+
+}  // namespace limitcheck::verify

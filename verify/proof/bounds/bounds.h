@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// How wrong the float kernels can be: proved bounds for a topology and all control meshes in the unit box.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fast/frame/sink.h"
+#include "verify/proof/numbers/error_bound_number.h"
+#include "verify/proof/topologies/neighbourhood.h"
+#include "verify/proof/topologies/proof_row.h"
+
+namespace limitcheck::verify {
+
+enum class BoundedKernel : std::uint8_t {
+  kSlidingWindow,
+  kCrackEdge,
+  kCrackCentre,
+  kRowStream,
+  kRowStreamEdge,
+  kRowStreamPatch  ///< of regular quads
+};
+const char* name_of(BoundedKernel kernel);
+
+/// Half the side of the unit box: control coordinates are floats in [-1/2, 1/2].
+inline constexpr double kUnitBox = .5;
+
+/// A tangent du or dv of the kernel's own: see regular_limit and NumberStream for which multiple
+/// of a derivative.
+struct TangentBound {
+  double error = 0;             ///< of a coordinate
+  double size = 0;              ///< the largest coordinate that a mesh in the box can give it
+  std::vector<double> weights;  ///< of the control points, in the exact tangent
+  double relative() const { return size > 0 ? error / size : 0; }
+};
+
+/// One limit point. Errors are of a coordinate, for the worst control mesh in the box, against the exact
+/// limit of that mesh. No tangents at control vertices of row streaming: their normals are made in double and
+/// rounded once.
+struct PointBound {
+  fast::LatticePoint at;
+  double position = 0;
+  bool has_tangents = true;
+  TangentBound du, dv;
+};
+
+/// All points of a pair, in the order in which the kernel delivers them.
+struct KernelBounds {
+  BoundedKernel kernel;
+  int depth = 0;
+  std::vector<PointBound> points;
+  double position() const;
+  double tangent() const;  ///< relative to the tangent's size, which a depth and a kernel scale
+  double normal() const;   ///< largest normal_error_share of any point
+};
+
+/// Runs the shipped kernel on BoundNumber (error_bound_number.h, where the model is stated). Covered: every
+/// operation from the control points to positions and tangents, the prepass in double and its narrowing, the
+/// rounding of constants, and the local origins of row streaming, whose choice counts as an operation with an
+/// error of 2^-13 that cancels later. Not covered: placing a mesh (recentring rounds every coordinate once
+/// more; scaling by a power of two is exact), the rule for vanishing tangents [D12], and what follows from
+/// the tangents, for which see normal_angle_bound.
+///   reach   of the box; bounds of the sliding window are proportional to it, those of row streaming nearly
+KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourhood, int depth,
+                          double reach = kUnitBox, const RoundingModel& model = {});
+
+/// Upper bound in radians of the angle between the kernel's unit normal and the exact one, where the exact
+/// tangents (the kernel's own) have |du x dv| >= cross > 0:
+///
+///     asin((3 (e_u s_v + e_v s_u + e_u e_v) + 4 sqrt(3) 2^-24 S_u S_v + 2^-60) / cross) + 2^-23
+///
+/// e: errors, s: sizes of a coordinate, S = s + e. A vector of three such coordinates is sqrt(3) as long;
+/// each coordinate of the product costs two roundings of products and one of their difference, or with fma
+/// less; 2^-60 is the bias of row streaming; the last term is the final multiplication by the inverse length,
+/// one rounding per coordinate. An error of the inverse length itself is common to the coordinates and turns
+/// nothing. Infinite if the fraction exceeds 1.
+double normal_angle_bound(const PointBound& bound, double cross);
+
+/// The numerator of that fraction over 3 s_u s_v, the largest |du x dv| that the sizes allow: a normal that
+/// has the share q of it is right to asin(share / q) + 2^-23.
+double normal_error_share(const PointBound& bound);
+
+/// The worst errors found by trying: random control meshes and signs at the corners of the box, then changes
+/// of one coordinate at a time that make the largest error larger.
+struct WorstObserved {
+  double position = 0;  ///< largest error of a coordinate
+  double tangent = 0;   ///< the same relative to the tangent's size
+  /// Largest share of its own point's bound: at most 1, or the proof is wrong.
+  double position_share = 0, tangent_share = 0;
+  std::int64_t meshes = 0;
+  bool alike =
+      true;  ///< a mesh with x = y = z in all control points has x = y = z in all points, bit for bit
+};
+
+/// The real float kernel against the exact limit. Positions come from the reference (Stam's evaluator in
+/// double, whose own error of some 1e-16 is far below a float's), tangents from the rows of the bounds.
+WorstObserved search_worst(const Neighbourhood& neighbourhood, const KernelBounds& bounds, int meshes,
+                           std::uint64_t seed, double reach = kUnitBox);
+
+/// Bounds and search over the depths: what the table shows.
+///   meshes   tried at each depth up to 4; a fifth of them beyond, where each has many times the points
+BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
+                       int last_depth, int meshes);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Trying to reach the proved bounds with real control meshes.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "data/splitmix64.h"
+#include "reference/loop/stam.h"
+#include "verify/proof/bounds/bounds.h"
+#include "verify/proof/bounds/linear_runs.h"
+#include "verify/proof/maps/quad_reference_map.h"
+#include "verify/proof/maps/reference_map.h"
+#include "verify/proof/numbers/quad_weights.h"
+
+namespace limitcheck::verify {
+
+namespace {
+
+template <int tangent>
+using FloatLane = fast::row_stream::LinearNumber<float, tangent>;
+
+using Row = std::vector<double>;
+using Mesh = std::vector<fast::Vec3<float>>;
+
+// Three meshes at once, one per coordinate: the kernels treat coordinates alike (Search::alike).
+constexpr std::array<float fast::Vec3<float>::*, 3> kCoordinates{&fast::Vec3<float>::x, &fast::Vec3<float>::y,
+                                                                 &fast::Vec3<float>::z};
+
+// A mesh is changed this often, one control point per coordinate, before the next begins anew.
+constexpr int kClimb = 40;
+
+// What doubles may make of an exact value, relative to what it can be at most: the reference's own error, the
+// sum over the control points, and a product and a sum for every change since.
+constexpr double kDoubt = 0x1p-45;
+
+/// Position, du or dv at every point: its weights, a column of all points per control point, and the sizes
+/// that errors are measured by.
+struct Quantity {
+  Row weights;
+  Row doubt;      // kDoubt of its largest value
+  Row per_size;   // 1 / largest value; of positions 1
+  Row per_bound;  // 1 / proved bound
+};
+
+struct Errors {
+  std::array<double, 3> share{};  // of the bound, largest over the points: what is climbed
+  WorstObserved worst;
+};
+
+// The weights of the control points in every limit point, by Stam's evaluator.
+std::vector<Row> exact_positions(const data::ControlMesh& mesh, const KernelBounds& bounds) {
+  std::vector<Row> rows;
+  const auto ask = [&](auto reference) {
+    for (const PointBound& p : bounds.points) rows.push_back(reference.at(p.at).position);
+  };
+  if (mesh.faces.are_triangles())
+    ask(ReferenceMap<double, reference::StamEvaluator<double>>(mesh));
+  else
+    ask(QuadReferenceMap<double, reference::catmull_clark::StamEvaluator<double>>(mesh));
+  return rows;
+}
+
+class Search {
+ public:
+  Search(const Neighbourhood& neighbourhood, const KernelBounds& bounds, double reach, std::uint64_t seed)
+      : neighbourhood_(neighbourhood), bounds_(bounds), reach_(reach), random_(seed) {
+    const std::vector<Row> exact = exact_positions(neighbourhood.mesh, bounds);
+    const std::size_t points = bounds.points.size();
+    for (Quantity& q : quantities_) {
+      q.weights.resize(neighbourhood.mesh.positions.size() * points);
+      q.doubt.resize(points), q.per_size.resize(points), q.per_bound.resize(points);
+    }
+    for (std::size_t k = 0; k < points; ++k) {
+      const PointBound& p = bounds.points[k];
+      put(quantities_[0], k, exact[k], reach, 1, p.position);
+      if (!p.has_tangents) continue;
+      put(quantities_[1], k, p.du.weights, p.du.size, p.du.size, p.du.error);
+      put(quantities_[2], k, p.dv.weights, p.dv.size, p.dv.size, p.dv.error);
+    }
+    for (auto* values : {&best_exact_, &trial_exact_})
+      for (auto& coordinate : *values)
+        for (Row& quantity : coordinate) quantity.resize(points);
+  }
+
+  WorstObserved run(int meshes) {
+    WorstObserved worst;
+    Mesh best(neighbourhood_.mesh.positions.size());
+    std::array<double, 3> best_share{};
+    for (int k = 0; k < meshes; ++k) {
+      Mesh trial = best;
+      if (k % kClimb == 0) {
+        best_share = {};
+        for (auto& p : trial)
+          for (std::size_t c = 0; c < 3; ++c) p.*kCoordinates[c] = fresh((k / kClimb + c) % 4);
+        for (std::size_t c = 0; c < 3; ++c) evaluate(trial, c);
+      } else {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const float to = fresh(random_.next() % 4);
+          const std::size_t v = random_.next() % trial.size();
+          const double change = static_cast<double>(to) - static_cast<double>(trial[v].*kCoordinates[c]);
+          trial[v].*kCoordinates[c] = to;
+          for (std::size_t q = 0; q < 3; ++q)
+            add(quantities_[q], v, change, best_exact_[c][q], trial_exact_[c][q]);
+        }
+      }
+      const Errors errors = measure(trial, k / kClimb % 2 == 1);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (k % kClimb != 0 && errors.share[c] <= best_share[c]) continue;
+        best_share[c] = errors.share[c];
+        for (std::size_t v = 0; v < best.size(); ++v) best[v].*kCoordinates[c] = trial[v].*kCoordinates[c];
+        std::swap(best_exact_[c], trial_exact_[c]);
+      }
+      worst.position = std::max(worst.position, errors.worst.position);
+      worst.tangent = std::max(worst.tangent, errors.worst.tangent);
+      worst.position_share = std::max(worst.position_share, errors.worst.position_share);
+      worst.tangent_share = std::max(worst.tangent_share, errors.worst.tangent_share);
+    }
+    worst.meshes = meshes;
+    worst.alike = alike();
+    return worst;
+  }
+
+ private:
+  // Whether a mesh whose points have one value for x, y and z comes out so, bit for bit.
+  bool alike() {
+    Mesh mesh(neighbourhood_.mesh.positions.size());
+    for (auto& p : mesh) {
+      const float value = fresh(0);
+      p = {value, value, value};
+    }
+    bool result = true;
+    const auto is_alike = [](const fast::Vec3<float>& v) {
+      const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+      return bits(v.x) == bits(v.y) && bits(v.x) == bits(v.z);
+    };
+    LinearRuns<float, FloatLane> runs(neighbourhood_.mesh, mesh);
+    std::size_t k = 0;
+    runs.run(bounds_.kernel, bounds_.depth, [&](const fast::LatticePoint&, const fast::LimitFrame<float>& f) {
+      const bool has_tangents = bounds_.points[k++].has_tangents;
+      result = result && is_alike(f.position) && (!has_tangents || (is_alike(f.du) && is_alike(f.dv)));
+    });
+    return result;
+  }
+
+  static void put(Quantity& q, std::size_t k, const Row& row, double largest, double size, double bound) {
+    const std::size_t points = q.doubt.size();
+    for (std::size_t v = 0; v < row.size(); ++v) q.weights[v * points + k] = row[v];
+    q.doubt[k] = kDoubt * largest;
+    q.per_size[k] = 1 / size;
+    q.per_bound[k] = 1 / bound;
+  }
+
+  // Near a side of the box, with a full mantissa; positive; or anywhere.
+  float fresh(std::uint64_t kind) {
+    const double depth = random_.unit() * (random_.next() % 2 == 0 ? 1 : 0x1p-6);
+    const double sign = random_.next() % 2 == 0 ? 1 : -1;
+    const double size = reach_ * (1 - depth);
+    if (kind == 0) return static_cast<float>(reach_ * (2 * random_.unit() - 1));
+    if (kind == 1) return static_cast<float>(size);
+    return static_cast<float>(sign * size);
+  }
+
+  // to = from + x times the weights of control point v, at every point
+  static void add(const Quantity& q, std::size_t v, double x, const Row& from, Row& to) {
+    const double* const weight = &q.weights[v * to.size()];
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[k] + x * weight[k];
+  }
+
+  void evaluate(const Mesh& mesh, std::size_t c) {
+    for (std::size_t q = 0; q < 3; ++q) {
+      Row& exact = trial_exact_[c][q];
+      std::ranges::fill(exact, 0.);
+      for (std::size_t v = 0; v < mesh.size(); ++v)
+        add(quantities_[q], v, static_cast<double>(mesh[v].*kCoordinates[c]), exact, exact);
+    }
+  }
+
+  Errors measure(const Mesh& mesh, bool climb_tangents) const {
+    Errors errors;
+    LinearRuns<float, FloatLane> runs(neighbourhood_.mesh, mesh);
+    std::size_t k = 0;
+    runs.run(bounds_.kernel, bounds_.depth, [&](const fast::LatticePoint&, const fast::LimitFrame<float>& f) {
+      const bool has_tangents = bounds_.points[k].has_tangents;
+      WorstObserved& worst = errors.worst;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto error = [&](std::size_t q, const fast::Vec3<float>& found) {
+          const double exact = trial_exact_[c][q][k];
+          return std::abs(static_cast<double>(found.*kCoordinates[c]) - exact) - quantities_[q].doubt[k];
+        };
+        const double position = error(0, f.position), share = position * quantities_[0].per_bound[k];
+        worst.position = std::max(worst.position, position);
+        worst.position_share = std::max(worst.position_share, share);
+        double climbed = climb_tangents ? 0 : share;
+        if (has_tangents) {
+          const double du = error(1, f.du), dv = error(2, f.dv);
+          const double tangent = std::max(du * quantities_[1].per_bound[k], dv * quantities_[2].per_bound[k]);
+          worst.tangent =
+              std::max({worst.tangent, du * quantities_[1].per_size[k], dv * quantities_[2].per_size[k]});
+          worst.tangent_share = std::max(worst.tangent_share, tangent);
+          if (climb_tangents) climbed = tangent;
+        }
+        errors.share[c] = std::max(errors.share[c], climbed);
+      }
+      ++k;
+    });
+    return errors;
+  }
+
+  const Neighbourhood& neighbourhood_;
+  const KernelBounds& bounds_;
+  double reach_;
+  data::SplitMix64 random_;
+  std::array<Quantity, 3> quantities_;
+  std::array<std::array<Row, 3>, 3> best_exact_, trial_exact_;  // [coordinate][quantity][point]
+};
+
+}  // namespace
+
+WorstObserved search_worst(const Neighbourhood& neighbourhood, const KernelBounds& bounds, int meshes,
+                           std::uint64_t seed, double reach) {
+  return Search(neighbourhood, bounds, reach, seed).run(meshes);
+}
+
+}  // namespace limitcheck::verify

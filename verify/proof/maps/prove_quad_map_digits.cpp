@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "verify/proof/maps/prove_map_instances.h"
+#include "verify/proof/maps/prove_quad_map_impl.h"
+
+namespace limitcheck::verify::detail {
+
+std::vector<ProofRow> prove_quads_in_digits(const Neighbourhood& neighbourhood, const MapOptions& options) {
+  using C = reference::Decimal50;
+  using Recursion = QuadReferenceMap<C, reference::catmull_clark::SubdivisionEvaluator<C>>;
+  using Stam = QuadReferenceMap<C, reference::catmull_clark::StamEvaluator<C>>;
+  return prove_quad_map<C>(neighbourhood, options,
+                           std::tuple<Recursion, Stam>(neighbourhood.mesh, neighbourhood.mesh));
+}
+
+}  // namespace limitcheck::verify::detail

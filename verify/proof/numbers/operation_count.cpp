@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "verify/proof/numbers/operation_count.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <concepts>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "fast/stream/host/number_stream.h"
+#include "fast/window/sliding_window.h"
+
+namespace limitcheck::verify {
+
+namespace {
+
+thread_local OperationCounts counted;
+thread_local std::int64_t stored_numbers;
+
+/// A T that counts what is done with it.
+template <std::floating_point T>
+struct Counted {
+  T value = 0;
+
+  constexpr Counted() = default;
+  template <class X>
+  requires std::is_arithmetic_v<X>
+  constexpr explicit Counted(X x) : value(static_cast<T>(x)) {}
+  template <std::floating_point U>
+  explicit Counted(const Counted<U>& other) : value(static_cast<T>(other.value)) {}
+
+  friend Counted operator+(const Counted& a, const Counted& b) {
+    return ++counted.additions, Counted(a.value + b.value);
+  }
+  friend Counted operator-(const Counted& a, const Counted& b) {
+    return ++counted.additions, Counted(a.value - b.value);
+  }
+  friend Counted operator-(const Counted& a) { return Counted(-a.value); }
+  friend Counted operator*(const Counted& a, const Counted& b) {
+    return ++counted.multiplications, Counted(a.value * b.value);
+  }
+  friend Counted operator*(T a, const Counted& b) { return Counted(a) * b; }
+  friend Counted operator/(const Counted& a, const Counted& b) {
+    return ++counted.divisions, Counted(a.value / b.value);
+  }
+  friend Counted sqrt(const Counted& a) { return ++counted.roots, Counted(std::sqrt(a.value)); }
+  friend Counted fused(const Counted& a, const Counted& b, const Counted& c) {
+    return ++counted.fused, Counted(std::fma(a.value, b.value, c.value));
+  }
+  // NOLINTNEXTLINE(modernize-use-nullptr): there is no pointer
+  friend auto operator<=>(const Counted&, const Counted&) = default;
+};
+
+/// The number of the row streaming kernel; what it stores counts, too.
+struct CountedLane : fast::row_stream::ScalarNumber<Counted<float>> {
+  static void store(const V& v, V* p) {
+    *p = v;
+    ++stored_numbers;
+  }
+  static V fma(const V& a, const V& b, const V& c) { return fused(a, b, c); }
+  static V fms(const V& a, const V& b, const V& c) { return fused(a, b, -c); }
+  static V fnma(const V& a, const V& b, const V& c) { return fused(-a, b, c); }
+  static constexpr bool kHasSeed = true;
+  static V inverse_root_seed(const V& x) {
+    return V(fast::row_stream::ScalarNumber<float>::inverse_root_seed(x.value));
+  }
+};
+
+template <class Work>
+OperationCounts count(Work&& work) {
+  const OperationCounts before = counted;
+  work();
+  return counted - before;
+}
+
+}  // namespace
+}  // namespace limitcheck::verify
+
+namespace limitcheck::fast {
+
+template <std::floating_point T>
+struct NumberTraits<verify::Counted<T>> {
+  using Scalar = T;
+  using Wide = verify::Counted<double>;
+  static constexpr T ratio(int p, int q) { return NumberTraits<T>::ratio(p, q); }
+  static T cosine(int p, int q) { return NumberTraits<T>::cosine(p, q); }
+  static T sine(int p, int q) { return NumberTraits<T>::sine(p, q); }
+  static Wide widen(const verify::Counted<T>& v) { return Wide(v); }
+  static verify::Counted<T> narrow(const Wide& v) { return verify::Counted<T>(v); }
+};
+
+}  // namespace limitcheck::fast
+
+namespace limitcheck::verify {
+
+namespace {
+
+using Number = Counted<float>;
+
+template <bool kCarry>
+KernelCost count_window(const data::ControlMesh& mesh, int depth) {
+  KernelCost cost;
+  const fast::Adjacency adjacency(mesh);
+  std::vector<fast::Vec3<Number>> points;
+  for (const auto& p : mesh.positions) points.push_back({Number(p[0]), Number(p[1]), Number(p[2])});
+  std::optional<fast::PreparedMesh<Number>> prepared;
+  cost.prepass = count([&] { prepared.emplace(adjacency, points); });
+  fast::SlidingWindow<Number, fast::LimitSurface<Number>, fast::Counting, kCarry> window(
+      depth, adjacency.max_valence());
+  cost.operations = count([&] { window.run(*prepared, 0, depth, [](int, const auto*) {}); });
+  cost.limits = window.probe().counts.limit_points;
+  cost.stored_vectors = window.probe().counts.stored();
+  return cost;
+}
+
+KernelCost count_stream(const data::ControlMesh& mesh, int depth) {
+  KernelCost cost;
+  const fast::Adjacency adjacency(mesh);
+  std::vector<std::array<Number, 3>> points;
+  for (const auto& p : mesh.positions) points.push_back({Number(p[0]), Number(p[1]), Number(p[2])});
+  std::optional<fast::row_stream::NumberStream<CountedLane>> stream;
+  cost.prepass = count([&] { stream.emplace(adjacency, points); });
+  const std::int32_t twin = adjacency.twin(0);
+  const fast::Grid pair{0, twin / 3, 0, twin % 3, depth};
+  const std::int64_t side = (std::int64_t{1} << depth) + 1;
+  std::vector<Number> out(6 * side * side);
+  stored_numbers = 0;
+  cost.operations = count([&] { stream->whole({&pair, 1}, depth, out.data()); });
+  cost.stored_vectors = stored_numbers / 3;
+  cost.limits = side * side;
+  return cost;
+}
+
+}  // namespace
+
+KernelCost count_operations(CountedKernel kernel, const data::ControlMesh& mesh, int depth) {
+  KernelCost cost = kernel == CountedKernel::kRowStream       ? count_stream(mesh, depth)
+                    : kernel == CountedKernel::kSlidingWindow ? count_window<true>(mesh, depth)
+                                                              : count_window<false>(mesh, depth);
+  const std::int64_t side = (std::int64_t{1} << depth) + 1;
+  cost.points = side * side;
+  return cost;
+}
+
+RuleCosts count_rules(CountedKernel kernel) {
+  namespace stream = fast::row_stream::generic;
+  RuleCosts costs;
+  const std::array<Number, 7> x{Number(1), Number(2), Number(4), Number(7), Number(3), Number(9), Number(5)};
+  if (kernel == CountedKernel::kRowStream) {
+    const stream::Hexagon<Number> h{x[1], x[2], x[3], x[4], x[5], x[6]};
+    costs.edge = count([&] { stream::edge_rule<CountedLane>(x[0], x[1], x[2], x[3]); });
+    costs.vertex = count([&] { stream::vertex_rule<CountedLane>(x[0], stream::ring_sum(h)); });
+    costs.limit = count([&] { stream::limit_rule<CountedLane>(x[0], h); });
+    costs.normal = count([&] {
+      const Number a[3] = {x[0], x[1], x[2]}, b[3] = {x[3], x[4], x[5]};
+      stream::Vertex<CountedLane> v;
+      v.set_normal(a, b);
+      v.finish();
+    });
+    return costs;
+  }
+  std::array<fast::Vec3<Number>, 7> p;
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = {x[k], x[(k + 2) % 7], x[(3 * k + 1) % 7]};
+  const fast::AxisRing<Number> ring{p[1], p[2], p[3], p[4], p[5], p[6]};
+  const auto third = [](const OperationCounts& c) {
+    return OperationCounts{c.additions / 3, c.multiplications / 3, c.fused / 3, c.divisions / 3, c.roots / 3};
+  };
+  costs.edge = third(count([&] { fast::edge_point(p[0], p[1], p[2], p[3]); }));
+  costs.vertex = third(count([&] { fast::regular_vertex(p[0], ring); }));
+  costs.limit = third(count([&] { fast::regular_limit(p[0], ring); }));
+  const auto frame = fast::regular_limit(p[0], ring);
+  std::int64_t zero_normals = 0;
+  costs.normal = count([&] {
+    fast::LimitSurface<Number>::vertex(
+        frame, [] { return fast::Vec3<Counted<double>>{}; }, zero_normals);
+  });
+  return costs;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// What the kernels cost: counted, against what their rules say by hand.
+#include "verify/proof/numbers/operation_count.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "data/shapes.h"
+#include "verify/proof/topologies/neighbourhood.h"
+
+namespace limitcheck::verify {
+
+static void PrintTo(const OperationCounts& c, std::ostream* out) {
+  *out << fmt::format("{} additions, {} multiplications, {} fused, {} divisions, {} roots", c.additions,
+                      c.multiplications, c.fused, c.divisions, c.roots);
+}
+
+namespace {
+
+using Counts = OperationCounts;
+
+std::int64_t power(int base, int exponent) {
+  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
+
+// Read off the formulas in rules-inl.h.
+TEST(Cost_RowStreamRules, AreThreeOperationsAnEdgeAndSevenAVertex) {
+  const RuleCosts rules = count_rules(CountedKernel::kRowStream);
+  EXPECT_EQ(rules.edge, (Counts{2, 0, 1, 0, 0})) << "fma(3, a + b, c + d)";
+  EXPECT_EQ(rules.vertex, (Counts{5, 1, 1, 0, 0})) << "fma(5, v, .5 * sum of six)";
+  EXPECT_EQ(rules.edge.operations(), 3);
+  EXPECT_EQ(rules.vertex.operations(), 7);
+  EXPECT_EQ(rules.limit, (Counts{9, 0, 1, 0, 0})) << "sum of six and fma; 3 for slant, 1 for across";
+  // cross product 3 and 3 fused and the bias, square 1 + 2, root 5 products and 3 fused, unit length 3 fused
+  EXPECT_EQ(rules.normal, (Counts{1, 3 + 1 + 5, 3 + 2 + 3 + 3, 0, 0}));
+}
+
+// Read off masks.h and limit.h.
+TEST(Cost_SlidingWindowRules, AreSixFlopsAnEdgeAndNineAVertex) {
+  const RuleCosts rules = count_rules(CountedKernel::kSlidingWindow);
+  EXPECT_EQ(rules.edge, (Counts{4, 2, 0, 0, 0})) << "1/2 ends + 1/8 ((c + d) - ends)";
+  EXPECT_EQ(rules.vertex, (Counts{7, 2, 0, 0, 0})) << "v + 1/16 (sum of six - 6 v)";
+  EXPECT_EQ(rules.limit, (Counts{7 + 5 + 3, 2 + 1, 0, 0, 0}));
+  // product 6 and 3; three squares of 3 and 2; their comparison 2; 1 / root; times 3, plus zero 3
+  EXPECT_EQ(rules.normal, (Counts{3 + 6 + 3, 6 + 9 + 2 + 3, 0, 1, 1}));
+}
+
+// A level of 2^l = n turns into the next: n + 1 even rows of n + 1 vertices and n + 2 edges, n + 2 odd rows
+// of 2 (n + 1) + 1 edges, and four corner rings, 5 or 4 entries wide and one more on either side for every
+// level left. The unit is divided twice, for the rows and for the strips.
+Counts stream_by_hand(int depth) {
+  const RuleCosts rule = count_rules(CountedKernel::kRowStream);
+  Counts total{0, 0, 0, 2, 0};
+  for (int level = 0; level < depth; ++level) {
+    const std::int64_t n = power(2, level);
+    const std::int64_t edges = (n + 1) * (n + 2) + (n + 2) * (2 * n + 3), vertices = (n + 1) * (n + 1);
+    total = total + 3 * (edges * rule.edge + vertices * rule.vertex);
+    const std::int64_t entries = 2 * (5 + 4) + 4 * 2 * (depth - level - 1);
+    total = total + 3 * (entries * rule.edge + 4 * Counts{0, 2, 1, 0, 0});
+  }
+  const std::int64_t limits =
+      (power(2, depth) + 1) * (power(2, depth) + 1) - 4;  // corners come from the prepass
+  return total + limits * (3 * (rule.limit + Counts{0, 0, 1, 0, 0}) + rule.normal);
+}
+
+TEST(Cost_RowStream, IsItsRulesTimesItsPoints) {
+  for (const auto& mesh : {data::torus(5, 6), data::bipyramid(9), boundary_pairs({6, 6, 6, 6}).back().mesh}) {
+    for (int depth = 0; depth <= 3; ++depth) {
+      const KernelCost cost = count_operations(CountedKernel::kRowStream, mesh, depth);
+      EXPECT_EQ(cost.operations, stream_by_hand(depth)) << "depth " << depth;
+    }
+  }
+}
+
+// Local origins: the five edges of a pair are evaluated twice, once for themselves. That is 17 % at
+// depth 5, and half of it at the next.
+TEST(Cost_RowStream, RisesWithLocalOriginsByTheStripsAlone) {
+  for (int depth = 4; depth <= 6; ++depth) {
+    const KernelCost cost = count_operations(CountedKernel::kRowStream, data::torus(5, 6), depth);
+    const std::int64_t without = stream_by_hand(depth).flops();
+    const double more = static_cast<double>(cost.operations.flops()) / static_cast<double>(without) - 1;
+    EXPECT_NEAR(more, .172 * static_cast<double>(power(2, 5)) / static_cast<double>(power(2, depth)), .02)
+        << "depth " << depth;
+  }
+}
+
+/// One call of the window's recursion, rows of n edges, and all below it; corners of a control vertex sum
+/// their ring, those of points on an edge have six neighbours along an axis.
+struct WindowByHand {
+  std::array<int, 4> valence;
+  RuleCosts rule = count_rules(CountedKernel::kSlidingWindow);
+  Counts total{};
+
+  // corners 0 .. 3; -1: a middle corner
+  void call(int level, std::int64_t n, const std::array<int, 4>& corners) {
+    if (level == 0) return;
+    std::int64_t edges = 2 * n + (2 * n + 1) + 2 * (2 * n);  // two rows, the middle, two flap rows
+    std::int64_t vertices = 2 * (n - 1);
+    for (const int c : corners) {
+      edges += c < 0 ? 6 : c;
+      if (c < 0) {
+        ++vertices;
+      } else {
+        total = total + 3 * Counts{c - 1 + 1, 2, 0, 0, 0};
+      }
+    }
+    total = total + 3 * (edges * rule.edge + vertices * rule.vertex);
+    call(level - 1, 2 * n, {-1, -1, corners[2], corners[3]});
+    call(level - 1, 2 * n, {corners[0], corners[1], -1, -1});
+  }
+};
+
+TEST(Cost_SlidingWindow, IsItsRulesTimesItsPoints) {
+  for (const auto& valence : {std::array{6, 6, 6, 6}, std::array{5, 7, 9, 12}, std::array{12, 8, 5, 10}}) {
+    const auto pair = interior_pair(valence);
+    ASSERT_TRUE(pair);
+    for (int depth = 0; depth <= 5; ++depth) {
+      WindowByHand by_hand{valence};
+      by_hand.call(depth, 1, valence);
+      const std::int64_t k = power(2, depth);
+      const Counts limit = 3 * by_hand.rule.limit + by_hand.rule.normal;
+      const KernelCost carried = count_operations(CountedKernel::kSlidingWindow, pair->mesh, depth);
+      EXPECT_EQ(carried.operations, by_hand.total + ((k + 1) * (k + 1) - 4) * limit) << "depth " << depth;
+      EXPECT_EQ(carried.limits, (k + 1) * (k + 1)) << "C51";
+      const KernelCost printed = count_operations(CountedKernel::kSlidingWindowPrinted, pair->mesh, depth);
+      EXPECT_EQ(printed.operations, by_hand.total + (2 * k * (k + 1) - 4) * limit) << "depth " << depth;
+      EXPECT_EQ(printed.limits, 2 * k * (k + 1)) << "C51";
+    }
+  }
+}
+
+// Erratum 9: level l is filled by 2^(l-1) calls, so rows (10/3) 4^m + 5 2^m - 25/3 vectors; corners 4
+// N in time.
+TEST(Cost_SlidingWindow, StoresTheVectorsOfTheCorrectedClosedForm) {
+  RecordProperty("claim", "C53");
+  for (int m = 0; m <= 6; ++m) {
+    const KernelCost cost = count_operations(CountedKernel::kSlidingWindow, data::torus(5, 6), m);
+    const std::int64_t rows = (10 * power(4, m) + 15 * power(2, m) - 25) / 3;
+    const std::int64_t corners = 4 * 6 * (power(2, m) - 1), copies = 2 * 6 * (power(2, m) - 1);
+    EXPECT_EQ(cost.stored_vectors, rows + corners + copies) << "m " << m;
+  }
+}
+
+// ENGINE.md puts row streaming at about 92 flops a point and the paper's scheme at 220. Per point of a large
+// depth the rules say 4/3 (3/4 edge + 1/4 vertex) for every coordinate and a limit; the paper's rows are
+// refined again by every call (10/3 vectors a point, C53) and evaluated twice.
+TEST(Cost_PerPoint, TendsToNinetyOneFlopsForRowStreaming) {
+  const RuleCosts rule = count_rules(CountedKernel::kRowStream);
+  const std::int64_t four_thirds = 3 * (3 * rule.edge + rule.vertex).flops() / 3;
+  const std::int64_t limit = 3 * (rule.limit.flops() + 2) + rule.normal.flops();
+  EXPECT_EQ(four_thirds + limit, 91);
+  double before = 1e9;
+  for (int depth = 4; depth <= 8; ++depth) {
+    const double flops =
+        count_operations(CountedKernel::kRowStream, data::torus(5, 6), depth).flops_per_point();
+    EXPECT_GT(flops, 91);
+    EXPECT_LT(flops, before);
+    before = flops;
+  }
+  EXPECT_LT(before, 94);
+}
+
+TEST(Cost_PerPoint, OfThePaperIsMoreThanTwiceThat) {
+  const auto at = [](CountedKernel kernel, int depth) {
+    return count_operations(kernel, data::torus(5, 6), depth).flops_per_point();
+  };
+  for (const int depth : {3, 5})
+    EXPECT_GT(at(CountedKernel::kSlidingWindowPrinted, depth), 2 * at(CountedKernel::kRowStream, depth));
+  EXPECT_LT(at(CountedKernel::kSlidingWindow, 5), at(CountedKernel::kSlidingWindowPrinted, 5));
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Checks that need more than one tessellation: what must stay the same in variants of a request. They need no
+// exact surface, so they judge every family of weights.
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "verify/evidence/audit_case.h"
+#include "verify/evidence/evidence.h"
+#include "verify/relations/refusal.h"
+
+namespace limitcheck::verify {
+
+/// The names of the rows, in the order of the table:
+///   determinism          the same request again, and with other numbers of threads: the same bits
+///   face-order           faces in another order
+///   vertex-order         control vertices in another order
+///   corner-rotation      faces that begin at another corner
+///   mirror               the mirror image
+///   rotation             axes exchanged with signs: an exact rotation
+///   scaling              times 2^10, 2^-10, 2^40 and 2^-40
+///   translation          moved by some diagonals (positions only: the rounding of the input turns normals)
+///   crease-order         sharp edges and vertices in another order, their ends exchanged
+///   infinite-sharpness   10 and 100 for a sharpness of 10 and more
+///   boundary-crease      the boundary tagged as sharp
+///   cut-by-hand          cut along the edges that stay sharp, which makes them a boundary
+///   fractional-sharpness a single crease of sharpness 2.3: 0.7 of the surface with 2, 0.3 of that with 3
+///   state                between other meshes and depths, on a new instance, the eighth time: the same bits
+///   degenerate-geometry  all control points on a line, or the same: finite, normals of unit length
+///   rejected-inputs      meshes that are no manifold, name vertices that do not exist or have coordinates
+///                        that are no numbers: refused; one without faces: refused, or nothing delivered
+/// Those of sharp edges are there only for meshes that have what they need: relation_rows_of().
+/// The rows from face-order to fractional-sharpness hold if positions and normals differ by at most twice
+/// what one result may be off; a smaller difference in bits is a quality warning if the subject was given the
+/// same numbers.
+const std::vector<std::string_view>& relation_rows();
+/// Those that a mesh has.
+std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, data::Scheme scheme);
+
+/// One row for each name that the mesh has. `e` is the evidence of the original request. Nothing that the
+/// subject does throws: a process that dies or hangs in one request makes its row a crash or a timeout, with
+/// the input that did it, and the next request gets a new process.
+///   refusals  what the subject made of broken_meshes(); asked for if empty: it is the same for each mesh
+///   on_row    called with the name of each row before it is looked at
+std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
+                                    std::vector<Refusal>& refusals,
+                                    const std::function<void(std::string_view)>& on_row = {});
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// What the relations of sharp edges say is true of the reference: each variant has the same surface, side by
+// side. And the sides of points.
+#include "verify/relations/sharp_variants.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "data/generators/named_mesh.h"
+#include "data/shapes.h"
+#include "data/validate.h"
+#include "reference/surface/surface.h"
+#include "verify/evidence/test_script.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using test::Script;
+using test::Scripted;
+
+TEST(Sides, OfACreasedCubeAreThreeAtVerticesAndTwoOnEdges) {
+  const data::ControlMesh mesh = data::named_mesh("creased-cube");
+  const Lattice lattice(mesh, 2);
+  const Sides sides(lattice);
+  EXPECT_EQ(sides.size(), lattice.size() + 8 * 2 + 12 * 3);
+  std::set<Sides::Id> seen;
+  for (std::int32_t f = 0; f < 6; ++f)
+    for (int k = 0; k < 4; ++k)
+      for (std::int64_t along = 0; along < 4; ++along) {
+        const Lattice::Id point = lattice.id(f, lattice.domain(f).on_side(k, along, 4), 4);
+        const Sides::Id side = sides.of(point, f);
+        EXPECT_TRUE(seen.insert(side).second) << "each face has sides of its own";
+        EXPECT_EQ(sides.point(side), point);
+        EXPECT_EQ(sides.place(side).face, f);
+        EXPECT_EQ(lattice.id(sides.place(side)), point);
+        std::set<Sides::Id> all;
+        sides.for_each(point, [&](Sides::Id other) { all.insert(other); });
+        EXPECT_TRUE(all.contains(side));
+        EXPECT_EQ(all.size(), along == 0 ? 3U : 2U);
+      }
+  EXPECT_EQ(seen.size(), 6U * 16U);
+}
+
+TEST(Sides, OfADartAreOneAtItsEndAndTwoAlongTheEdge) {
+  const data::ControlMesh mesh = data::named_mesh("quad-dart:5");
+  const data::SharpEdge& edge = mesh.sharpness.edges.at(0);
+  const Lattice lattice(mesh, 1);
+  const Sides sides(lattice);
+  EXPECT_EQ(sides.size(), lattice.size() + 1) << "the middle of the edge has two";
+  EXPECT_FALSE(sides.several(edge.a));
+  EXPECT_FALSE(sides.several(edge.b));
+}
+
+TEST(Sides, AreOneWithoutEdgesThatStaySharp) {
+  for (const char* name : {"creased-cube:3", "quad-cube", "random:3"}) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    const Lattice lattice(mesh, 2);
+    EXPECT_TRUE(Sides(lattice).none()) << name;
+  }
+}
+
+// The largest distance of a variant's surface from the original's, and the largest angle.
+struct Apart {
+  double position = 0, angle = 0;
+  int points = 0;
+};
+Apart compare(const Evidence& e, const Variant& v) {
+  EXPECT_TRUE(data::validate(v.mesh, v.scheme).empty());
+  const reference::Surface mine(e.mesh, e.lattice.scheme()), other(v.mesh, v.scheme);
+  Apart apart;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(v.mesh.faces.size()); ++f) {
+    const FaceDomain domain = e.lattice.domain(f);
+    domain.for_each_point(4, [&](FaceDomain::Point p) {
+      const Place there{f, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
+                        static_cast<std::uint32_t>(domain.denominator(4)), p.part};
+      const Place here = v.original(there);
+      const auto at = [](const reference::Surface& surface, const Place& q) {
+        return surface.evaluate(q.face, q.corner, static_cast<double>(q.i) / q.denominator,
+                                static_cast<double>(q.j) / q.denominator, reference::Order::kFirst);
+      };
+      const auto a = at(mine, here), b = at(other, there);
+      ++apart.points;
+      apart.position =
+          std::max(apart.position, norm(vector_of(a.position) - v.position(vector_of(b.position))));
+      EXPECT_EQ(a.normal_kind, b.normal_kind) << v.name << ", face " << f;
+      if (a.normal_kind == reference::NormalKind::kRegular)
+        apart.angle = std::max(apart.angle, angle_degrees(vector_of(a.normal), vector_of(b.normal)));
+    });
+  }
+  return apart;
+}
+
+class SharpVariants : public testing::TestWithParam<const char*> {};
+
+TEST_P(SharpVariants, HaveTheSurfaceOfTheMesh) {
+  const data::ControlMesh mesh = data::named_mesh(GetParam());
+  const Scripted scripted(mesh, std::vector<std::int32_t>(mesh.faces.size(), 1), Script{});
+  int looked = 0;
+  for (const Relation& relation : sharp_relations()) {
+    if (!relation.applies(mesh, scripted->lattice)) continue;
+    for (const Variant& v : relation.variants(*scripted)) {
+      const Apart apart = compare(*scripted, v);
+      EXPECT_LE(apart.position, 1e-14) << relation.row;
+      EXPECT_LE(apart.angle, 1e-9) << relation.row;
+      looked += apart.points > 0;
+    }
+  }
+  EXPECT_GE(looked, 1);
+}
+INSTANTIATE_TEST_SUITE_P(Meshes, SharpVariants,
+                         testing::Values("creased-cube", "creased-cube:2", "crease-ring", "quad-corner:2",
+                                         "quad-corner:3", "quad-corner:4", "corner:2", "corner:3",
+                                         "quad-dart:3", "dart:6", "sharp:1:60", "sharp:2:60",
+                                         "mixed-sharp:1:60", "mixed-sharp:4:60"));
+
+// A crease from boundary to boundary across a sheet, both boundary rules.
+TEST(SharpVariants, ACreaseThatMeetsTheBoundaryCanBeCut) {
+  for (const auto boundary : {data::Boundary::kEdge, data::Boundary::kEdgeAndCorner}) {
+    data::ControlMesh mesh = data::sheet(4, 3);
+    const double line = mesh.positions[mesh.positions.size() / 2][1];
+    const Lattice lattice(mesh, 0);
+    for (const Lattice::Edge& e : lattice.edges())
+      if (mesh.positions[e.a][1] == line && mesh.positions[e.b][1] == line)
+        mesh.sharpness.edges.push_back({e.a, e.b, 10});
+    ASSERT_EQ(mesh.sharpness.edges.size(), 4U);
+    mesh.sharpness.boundary = boundary;
+    ASSERT_TRUE(data::validate(mesh).empty());
+    const Scripted scripted(mesh, std::vector<std::int32_t>(mesh.faces.size(), 1), Script{});
+    std::set<std::string_view> rows;
+    for (const Relation& relation : sharp_relations()) {
+      if (!relation.applies(mesh, scripted->lattice)) continue;
+      rows.insert(relation.row);
+      for (const Variant& v : relation.variants(*scripted)) {
+        const Apart apart = compare(*scripted, v);
+        EXPECT_LE(apart.position, 1e-14) << v.name;
+        EXPECT_LE(apart.angle, 1e-9) << v.name;
+      }
+    }
+    EXPECT_EQ(rows.size(), 4U) << "all of them";
+  }
+}
+
+// A wrong variant is seen: without the sharp vertices that the cut needs, corners would move.
+TEST(SharpVariants, ACutWithoutHeldCornersIsAnotherSurface) {
+  const data::ControlMesh mesh = data::named_mesh("creased-cube");
+  const Scripted scripted(mesh, std::vector<std::int32_t>(mesh.faces.size(), 1), Script{});
+  Variant v = sharp_relations().back().variants(*scripted).front();
+  EXPECT_EQ(v.mesh.positions.size(), 24U);
+  EXPECT_EQ(v.mesh.sharpness.vertices.size(), 24U);
+  v.mesh.sharpness.vertices.clear();
+  const reference::Surface whole(mesh, data::Scheme::kCatmullClark), cut(v.mesh, data::Scheme::kCatmullClark);
+  EXPECT_GT(
+      norm(vector_of(whole.evaluate(0, 0, 0, 0).position) - vector_of(cut.evaluate(0, 0, 0, 0).position)),
+      .01);
+}
+
+TEST(Blend, IsOfASingleCreaseOfOneSharpness) {
+  data::ControlMesh ring = data::named_mesh("crease-ring:2");
+  const Lattice lattice(ring, 0);
+  EXPECT_FALSE(blend_of(ring, lattice)) << "a whole number";
+  ring = with_sharpness(std::move(ring), 2.25F);
+  ASSERT_TRUE(blend_of(ring, lattice));
+  EXPECT_EQ(blend_of(ring, lattice)->lower, 2);
+  EXPECT_EQ(blend_of(ring, lattice)->share, .25);
+  data::ControlMesh other = ring;
+  other.sharpness.edges[0].sharpness = 1.5;
+  EXPECT_FALSE(blend_of(other, lattice));
+  other = ring;
+  other.sharpness.vertices.push_back({0, 1});
+  EXPECT_FALSE(blend_of(other, lattice));
+  const data::ControlMesh cube = with_sharpness(data::named_mesh("creased-cube"), 2.25F);
+  EXPECT_FALSE(blend_of(cube, Lattice(cube, 0))) << "three sharp edges at a vertex";
+
+  const auto point = [&](float sharpness) {
+    return vector_of(reference::Surface(with_sharpness(ring, sharpness), data::Scheme::kCatmullClark)
+                         .evaluate(0, 0, .125, .25)
+                         .position);
+  };
+  const Vector p = point(2.25F), a = point(2), b = point(3);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(p[c], .75 * a[c] + .25 * b[c], 1e-15);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The report of an audit as JSON.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "verify/row/result.h"
+
+namespace limitcheck::verify {
+
+/// The report as one JSON document. Keys of the header: program, version, depth, seconds, held, never_judged,
+/// subjects, meshes (name with the generator's seed, vertices, faces). `results`: subject, mesh, depth,
+/// depths, sample, check, status, count (how many are wrong), of (of how many), worst, bound, unit, rms, p99,
+/// worst_absolute, worst_ulps, message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got,
+/// expected_digits, command, reproduce) - null where it does not apply. The schema:
+/// verify/report/schema/audit.schema.json.
+///   level   of the audit, for the commands that repeat it
+std::string to_json(const Report& report, const std::string& level = "standard");
+
+/// JSON has no NaN and no infinity: these are the words "nan", "inf", "-inf".
+nlohmann::ordered_json number(double x);
+/// An array, null for an empty list.
+nlohmann::ordered_json numbers(const std::vector<double>& list);
+
+/// Writes a text whole or not at all (mesh_output/atomic_file.h); makes the folder. Throws
+/// std::filesystem::filesystem_error or data::InputError FILE_CANNOT_WRITE.
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "verify/row/result.h"
+
+namespace limitcheck::verify {
+
+/// The report as JUnit XML: a suite for each subject, a case for each mesh and check. Findings are failures,
+/// breakdowns errors; what is not supported, not run or waived is skipped; warnings pass and say so.
+std::string to_junit(const Report& report);
+
+/// Text for XML 1.0, which has no control characters but three, escaped or not: those are spaces, or left out.
+std::string xml_text(const std::string& text);
+
+}  // namespace limitcheck::verify

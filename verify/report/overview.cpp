@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "verify/report/overview.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "verify/report/judged.h"
+#include "verify/report/table.h"
+#include "verify/row/case_names.h"
+
+namespace limitcheck::verify {
+namespace {
+
+std::string coloured(const std::string& text, const char* code, bool colour) {
+  return colour ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+}
+
+const char* colour_of(const GroupVerdict& v) {
+  return v.bad > 0 ? "31" : v.looked_at == 0 || v.waived || v.stale ? "2" : "32";
+}
+
+std::string matrix(const Report& report, bool colour) {
+  std::size_t widest = 7;
+  for (const std::string& s : report.subjects) widest = std::max(widest, s.size());
+  std::string out = fmt::format("{:<{}}", "subject", widest);
+  for (const CheckGroup& g : check_groups()) out += fmt::format(" {:>10}", g.title);
+  out += "\n";
+  for (const std::string& subject : report.subjects) {
+    out += fmt::format("{:<{}}", subject, widest);
+    for (const CheckGroup& g : check_groups()) {
+      const GroupVerdict v = verdict_of(report, subject, g);
+      out += " " + coloured(fmt::format("{:>10}", v.text()), colour_of(v), colour);
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+std::string who(const Cause& cause) {
+  if (cause.subjects.size() == 1) return cause.subjects.front();
+  return cause.who;
+}
+
+std::string one_line(const Cause& cause, std::size_t number, bool colour) {
+  const char* code = cause.severity() == "high" ? "31" : cause.severity() == "medium" ? "33" : "2";
+  return fmt::format("{:>2} {} {}: {} [{}/{}]\n", number,
+                     coloured(fmt::format("{:<6}", cause.severity()), code, colour), who(cause), cause.title,
+                     cause.cases, cause.of);
+}
+
+}  // namespace
+
+const std::vector<CheckGroup>& check_groups() {
+  static const std::vector<CheckGroup> groups{
+      {"delivers", {"tessellates", "written"}},
+      {"finite", {"finite"}},
+      {"positions", {"positions", "refined-positions"}},
+      {"normals", {"normals", "normal-length", "normals-against-positions"}},
+      {"tiling", {"orientation", "coverage", "t-vertices"}},
+      {"seams", {"shared-positions", "shared-normals", "continuity", "watertight"}},
+      {"order",
+       {"determinism", "face-order", "vertex-order", "corner-rotation", "mirror", "rotation", "translation",
+        "crease-order", "infinite-sharpness", "boundary-crease", "cut-by-hand", "fractional-sharpness",
+        "state"}},
+      {"tiny,huge", {"scaling"}},
+      {"degenerate", {"degenerate-geometry"}},
+      {"bad input", {"rejected-inputs"}}};
+  return groups;
+}
+
+std::string GroupVerdict::text() const {
+  if (bad > 0) return fmt::format("{}/{}", bad, looked_at);
+  return stale ? "stale" : waived ? "waived" : looked_at == 0 ? "-" : "held";
+}
+
+GroupVerdict verdict_of(const Report& report, const std::string& subject, const CheckGroup& group) {
+  std::set<std::tuple<std::string, int, std::string, std::string>> bad, looked;
+  GroupVerdict v;
+  for (const Result& r : report.results) {
+    if (r.subject != subject ||
+        std::find(group.checks.begin(), group.checks.end(), r.check) == group.checks.end())
+      continue;
+    const std::tuple key(r.mesh, r.depth, r.depths, r.sample);
+    if (r.status != Status::kNotSupported && r.status != Status::kNotRun) looked.insert(key);
+    if (is_bad(r)) bad.insert(key);
+    v.waived = v.waived || r.status == Status::kWaived;
+    v.stale = v.stale || r.status == Status::kUnexpectedPass;
+    v.warning = v.warning || r.status == Status::kQualityWarning;
+  }
+  v.bad = static_cast<std::int64_t>(bad.size());
+  v.looked_at = static_cast<std::int64_t>(looked.size());
+  return v;
+}
+
+std::string header(const Report& report) {
+  std::int64_t faces = 0;
+  for (const auto& m : report.meshes) faces += m.faces;
+  std::string depth = fmt::format("depth {}", report.depth);
+  if (report.depths == "file")
+    depth = "a finished tessellation";
+  else if (report.depths == "plan")
+    depth = fmt::format("depths 0 to {}", report.depth);
+  else if (report.depths != "uniform")
+    depth += fmt::format(" at most, {}", report.depths);
+  if (report.seed) depth += fmt::format(" (seed {})", *report.seed);
+  if (!report.sample.empty()) depth += fmt::format(", a sample of faces ({})", report.sample);
+  std::string out = fmt::format(
+      "limitcheck {}: {} on {} ({} faces)\n", report.version, depth,
+      report.meshes.size() == 1 ? report.meshes[0].name : fmt::format("{} meshes", report.meshes.size()),
+      faces);
+  if (!report.containment.empty())
+    out += fmt::format("subjects in processes of their own: {}\n", report.containment);
+  return out;
+}
+
+std::string waiver_lines(const Report& report) {
+  std::string out;
+  std::map<std::pair<std::string, std::string>, std::pair<int, std::string>> groups;  // how many, the first
+  for (const Result& r : report.results) {
+    if (r.check == "waiver") out += r.message + "\n";
+    if (r.status != Status::kWaived && r.status != Status::kUnexpectedPass) continue;
+    const char* what = r.status == Status::kWaived ? "waived" : "stale waiver";
+    const std::size_t until = r.message.find("waived until");
+    auto& [count, first] = groups[{what, fmt::format("{} / {}", r.subject, r.check)}];
+    if (++count == 1) first = until == std::string::npos ? r.message : r.message.substr(until);
+  }
+  for (const auto& [key, group] : groups)
+    out += fmt::format("{}: {}, {} case{}: {}\n", key.first, key.second, group.first,
+                       group.first == 1 ? "" : "s", group.second);
+  return out;
+}
+
+std::string summary(const Report& report) {
+  std::int64_t held = 0, bad = 0, noted = 0, other = 0;
+  for (const Result& r : report.results) {
+    const bool note = r.status == Status::kQualityWarning || r.status == Status::kWaived ||
+                      r.status == Status::kUnexpectedPass;
+    (r.status == Status::kHeld ? held : is_bad(r) ? bad : note ? noted : other) += 1;
+  }
+  std::string out =
+      fmt::format("{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
+                  noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
+  for (const NeverJudged& none : never_judged(report)) out += none.text() + "\n";
+  if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
+  return out;
+}
+
+std::string legend(bool plan) {
+  return fmt::format(
+      "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; -: not looked at, the subject does not "
+      "do it.\n"
+      "irregular: at a vertex of another valence than 6 (Loop) or 4 (Catmull-Clark), or no quad; diagonal: "
+      "of the mesh's bounding box.\n",
+      plan ? "cases (a mesh at its depths)" : "meshes");
+}
+
+std::string changes_line(const Report& report) {
+  if (!report.changes) return "";
+  const auto& c = *report.changes;
+  std::string out = fmt::format("since {}: {} new, {} worse, {} gone, {} as before\n", c.baseline, c.appeared,
+                                c.worse, c.gone, c.same);
+  constexpr std::size_t kNamed = 8;
+  for (std::size_t k = 0; k < c.named.size() && k < kNamed; ++k) out += "  " + c.named[k] + "\n";
+  if (c.named.size() > kNamed) out += fmt::format("  and {} more\n", c.named.size() - kNamed);
+  return out;
+}
+
+std::string to_overview(const Report& report, const std::vector<Cause>& causes, bool colour,
+                        const std::string& scheme_line, const std::string& level, const std::string& full) {
+  std::string top = scheme_line + "\n" + header(report) + "\n";
+  if (report.subjects.size() == 1)
+    top += check_lines(report, report.subjects.front(), colour);
+  else
+    top += matrix(report, colour) + legend(report.depths == "plan");
+  top += waiver_lines(report);
+  std::string bottom = "\n" + changes_line(report) + summary(report) + full;
+
+  std::string brief, long_form;
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    const std::string line = one_line(causes[k], k + 1, colour);
+    brief += line;
+    const std::string command = command_for(report, causes[k], level);
+    long_form += line + (command.empty() ? "" : "          " + command + "\n");
+  }
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const bool all = lines(top) + lines(bottom) + lines(long_form) + 2 <= kScreen;
+  std::string middle;
+  if (!causes.empty())
+    middle = fmt::format("\n{} root cause{} of all findings, the gravest first{}. [1/9]: in 1 of 9 cases\n",
+                         causes.size(), causes.size() == 1 ? "" : "s",
+                         all ? ", each with the command that shows it" : "") +
+             (all ? long_form : brief);
+  return top + middle + bottom;
+}
+
+std::string causes_in_full(const Report& report, const std::vector<Cause>& causes, const std::string& level) {
+  std::string out;
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    const Cause& c = causes[k];
+    out += one_line(c, k + 1, false);
+    if (c.subjects.size() > 1) out += fmt::format("   subjects     {}\n", fmt::join(c.subjects, ", "));
+    if (!c.look.empty()) out += fmt::format("   look at      {}\n", c.look);
+    if (!c.consequences.empty()) out += fmt::format("   consequences {}\n", fmt::join(c.consequences, ", "));
+    out += fmt::format("   smallest     {}, {} row{} in all\n", case_name(report, report.results[c.example]),
+                       c.rows.size(), c.rows.size() == 1 ? "" : "s");
+    if (const std::string command = command_for(report, c, level); !command.empty())
+      out += fmt::format("   see it       {}\n", command);
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Table and JSON.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "verify/report/json.h"
+#include "verify/report/table.h"
+#include "verify/row/reproduce.h"
+
+namespace limitcheck::verify {
+namespace {
+
+Report example() {
+  Report report;
+  report.version = "1.2.3";
+  report.depth = 2;
+  report.subjects = {"good", "bad"};
+  report.meshes = {{"wheel:7", 29, 63}, {"my cage.obj", 4, 4}};
+  for (const char* subject : {"good", "bad"})
+    for (const char* mesh : {"wheel:7", "my cage.obj"}) {
+      Result r;
+      r.subject = subject;
+      r.mesh = mesh;
+      r.check = "positions";
+      r.depth = 2;
+      r.of = 100;
+      r.worst = 1e-9;
+      r.bound = 1e-6;
+      r.rms = r.p99 = 1e-10;
+      r.unit = "diagonal";
+      r.status = Status::kHeld;
+      report.results.push_back(r);
+    }
+  Result& worst = report.results.back();
+  worst.status = Status::kFinding;
+  worst.bad = 3;
+  worst.worst = 0.125;
+  worst.witness = Witness{2,
+                          "3/8",
+                          "1/4",
+                          17,
+                          -1,
+                          {0.1, 0.2, 0.3},
+                          {static_cast<double>(0.1F), std::numeric_limits<double>::quiet_NaN(), 1},
+                          {}};
+  return report;
+}
+
+TEST(Table, ShowsTheWorstMeshAndTheCommandThatRecomputesTheExpectedValue) {
+  const std::string table = to_table(example(), false);
+  EXPECT_NE(table.find("FINDING            1/2"), std::string::npos) << table;
+  EXPECT_NE(table.find("limitcheck eval 'my cage.obj' 2 3/8 1/4\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("got       0.1  nan  1\n"), std::string::npos) << "floats as floats:\n" << table;
+  EXPECT_EQ(table.find('\033'), std::string::npos) << "no colour unless asked for";
+  EXPECT_NE(to_table(example(), true).find("\033[31mFINDING"), std::string::npos);
+}
+
+TEST(Table, AMeshThatWasNotRunIsNeverCountedAsHeld) {
+  Report report = example();
+  report.results[0].status = Status::kNotRun;
+  const std::string table = to_table(report, false);
+  EXPECT_NE(table.find("held               1/2"), std::string::npos) << table;
+}
+
+TEST(Commands, RepeatAResultAtTheDepthsItHad) {
+  Report report = example();
+  report.depths = "plan";
+  Result r = report.results.back();
+  EXPECT_EQ(audit_command(r, "standard"), "limitcheck audit bad 'my cage.obj' --depth 2");
+  r.depths = "uniform";
+  r.depth = 7;
+  EXPECT_EQ(audit_command(r, "quick"), "limitcheck audit bad 'my cage.obj' --depth 7 --level quick");
+  r.depths = "random:1";
+  EXPECT_EQ(audit_command(r, "standard"), "limitcheck audit bad 'my cage.obj' --depth 7 --depths random:1");
+  r.sample = "100:1";
+  EXPECT_EQ(audit_command(r, "standard"),
+            "limitcheck audit bad 'my cage.obj' --depth 7 --depths random:1 --sample 100:1");
+}
+
+TEST(Table, OfAPlanSaysWhichDepthsWereLookedAt) {
+  Report report = example();
+  report.depths = "plan";
+  report.depth = 7;
+  for (const auto& [depth, depths, status] : {std::tuple{0, "uniform", Status::kHeld},
+                                              {1, "uniform", Status::kHeld},
+                                              {7, "uniform", Status::kHeld},
+                                              {5, "uniform", Status::kNotSupported},
+                                              {4, "view", Status::kFinding}}) {
+    Result r = report.results.front();
+    r.depth = depth;
+    r.depths = depths;
+    r.status = status;
+    report.results.push_back(r);
+  }
+  const std::string table = to_table(report, false);
+  EXPECT_NE(table.find("limitcheck 1.2.3: depths 0 to 7 on 2 meshes"), std::string::npos) << table;
+  EXPECT_NE(table.find(" 0-2 7*    "), std::string::npos) << "in the row:\n" << table;
+  EXPECT_NE(table.find("depths looked at: 0 1 2 7; *: view\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("on wheel:7 (view)"), std::string::npos) << table;
+}
+
+TEST(Json, SaysOfEachResultHowDeepItLooked) {
+  Report report = example();
+  report.results[3].depths = "random:1";
+  report.results[3].sample = "9:1";
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["results"][3]["depth"], 2);
+  EXPECT_EQ(json["results"][3]["depths"], "random:1");
+  EXPECT_EQ(json["results"][3]["sample"], "9:1");
+  EXPECT_TRUE(json["results"][0]["depths"].is_null());
+}
+
+TEST(Json, HasTheStableKeys) {
+  const auto json = nlohmann::json::parse(to_json(example()));
+  EXPECT_EQ(json["held"], false);
+  EXPECT_EQ(json["meshes"][1]["name"], "my cage.obj");
+  ASSERT_EQ(json["results"].size(), 4U);
+  const auto& row = json["results"][3];
+  for (const char* key : {"subject", "mesh", "check", "status", "count", "worst", "bound", "unit", "witness"})
+    EXPECT_TRUE(row.contains(key)) << key;
+  EXPECT_EQ(row["status"], "finding");
+  EXPECT_EQ(row["count"], 3);
+  EXPECT_EQ(row["witness"]["l1"], "3/8");
+  EXPECT_EQ(row["witness"]["got"][1], "nan");
+  EXPECT_TRUE(json["results"][0]["witness"].is_null());
+}
+
+TEST(Json, IsWrittenWholeOrNotAtAll) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("limitcheck-json-" + std::to_string(::getpid()));
+  write_text(folder / "deep" / "report.json", "{}\n");
+  std::ifstream in(folder / "deep" / "report.json");
+  std::string text;
+  std::getline(in, text);
+  EXPECT_EQ(text, "{}");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "deep"), {}), 1)
+      << "no temporary file stays";
+  EXPECT_THROW(write_text("/proc/no/such.json", "x"), std::exception);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Status, WordsAreStable) {
+  EXPECT_EQ(word(Status::kHeld), "held");
+  EXPECT_EQ(word(Status::kFinding), "finding");
+  EXPECT_EQ(word(Status::kNotSupported), "not-supported");
+  EXPECT_EQ(word(Status::kNotRun), "not-run");
+  EXPECT_EQ(word(Status::kError), "error");
+}
+
+TEST(Table, ShowsSeveralSubjectsSideBySide) {
+  Report r;
+  r.subjects = {"one", "two-with-a-long-name"};
+  const auto add = [&](const char* subject, const char* mesh, const char* check, Status status) {
+    Result result;
+    result.subject = subject;
+    result.mesh = mesh;
+    result.check = check;
+    result.status = status;
+    r.results.push_back(result);
+  };
+  add("one", "a", "positions", Status::kHeld);
+  add("one", "b", "positions", Status::kFinding);
+  add("two-with-a-long-name", "a", "positions", Status::kHeld);
+  add("two-with-a-long-name", "a", "normals", Status::kCrash);
+  const std::string table = to_table(r, false);
+  EXPECT_NE(table.find("  check                     one            two-with-a-long-name\n"
+                       "  positions                 FINDING        held                \n"
+                       "  normals                                  CRASH               \n"),
+            std::string::npos)
+      << table;
+  r.subjects.pop_back();
+  EXPECT_EQ(to_table(r, false).find("  check                     one "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

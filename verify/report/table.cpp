@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "verify/report/table.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "verify/report/overview.h"
+#include "verify/row/case_names.h"
+#include "verify/row/reproduce.h"
+
+namespace limitcheck::verify {
+namespace {
+
+// The rows of one subject and check: one line of the table.
+struct Line {
+  std::string check;
+  std::vector<const Result*> results;  // one per mesh
+  const Result* shown = nullptr;       // the one whose numbers stand in the line
+  std::int64_t bad_meshes = 0, looked_at = 0;
+};
+
+// Whether x is worse than y: findings before rows that held, then by the worst value in units of its bound;
+// for bound 0, and for equal values, by the share of bad elements.
+bool worse(const Result& a, const Result& b) {
+  const auto rank = [](const Result& r) {
+    switch (r.status) {
+      case Status::kCrash:
+      case Status::kTimeout:
+      case Status::kError:
+        return 4.;
+      case Status::kFinding:
+        return 3.;
+      case Status::kUnexpectedPass:
+      case Status::kQualityWarning:
+      case Status::kWaived:
+        return 2.5;
+      case Status::kHeld:
+        return 2.;
+      case Status::kNotSupported:
+        return 1.;
+      case Status::kNotRun:
+        return 0.;
+    }
+    return 0.;
+  };
+  if (rank(a) != rank(b)) return rank(a) > rank(b);
+  const auto excess = [](const Result& r) {
+    if (r.bound == 0) return 0.0;
+    if (!r.worst) return r.bad > 0 ? std::numeric_limits<double>::infinity() : -1.0;
+    return r.bound ? *r.worst / *r.bound : *r.worst;
+  };
+  if (excess(a) != excess(b)) return excess(a) > excess(b);
+  const auto share = [](const Result& r) {
+    return r.of > 0 ? static_cast<double>(r.bad) / static_cast<double>(r.of) : 0;
+  };
+  return share(a) > share(b);
+}
+
+std::vector<Line> lines_of(const Report& report, const std::string& subject) {
+  std::vector<Line> lines;
+  for (const Result& r : report.results) {
+    if (r.subject != subject) continue;
+    auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) { return l.check == r.check; });
+    if (line == lines.end()) line = lines.insert(lines.end(), Line{r.check, {}, nullptr, 0, 0});
+    line->results.push_back(&r);
+    line->bad_meshes += is_bad(r);
+    line->looked_at += r.status != Status::kNotSupported && r.status != Status::kNotRun;
+    if (line->shown == nullptr || worse(r, *line->shown)) line->shown = &r;
+  }
+  return lines;
+}
+
+const char* verdict(Status status) {
+  switch (status) {
+    case Status::kHeld:
+      return "held";
+    case Status::kFinding:
+      return "FINDING";
+    case Status::kQualityWarning:
+      return "warning";
+    case Status::kWaived:
+      return "waived";
+    case Status::kUnexpectedPass:
+      return "STALE WAIVER";
+    case Status::kNotSupported:
+      return "not supported";
+    case Status::kNotRun:
+      return "not run";
+    case Status::kCrash:
+      return "CRASH";
+    case Status::kTimeout:
+      return "TIMEOUT";
+    case Status::kError:
+      return "ERROR";
+  }
+  return "ERROR";
+}
+
+bool is_breakdown(Status status) {
+  return status == Status::kCrash || status == Status::kTimeout || status == Status::kError;
+}
+
+std::string painted(Status status, bool colour) {
+  const std::string padded = fmt::format("{:<14}", verdict(status));
+  if (!colour) return padded;
+  const char* code = status == Status::kHeld      ? "32"
+                     : status == Status::kFinding ? "31"
+                     : is_breakdown(status)       ? "1;31"
+                                                  : "2";
+  return fmt::format("\033[{}m{}\033[0m", code, padded);
+}
+
+std::string amount(const std::optional<double>& x) {
+  return x ? fmt::format("{:.2e}", *x) : "-";
+}
+
+// Numbers of a witness as their precision prints them: a float as a float.
+std::string numbers(const std::vector<double>& list) {
+  std::vector<std::string> words;
+  for (const double x : list) {
+    if (std::isnan(x)) {
+      words.emplace_back("nan");
+      continue;
+    }
+    const auto single = static_cast<float>(x);
+    words.push_back(static_cast<double>(single) == x ? fmt::format("{}", single) : fmt::format("{}", x));
+  }
+  return fmt::format("{}", fmt::join(words, "  "));
+}
+
+std::string where(const Report& report, const Result& r) {
+  if (!r.witness) return "";
+  const std::string mesh = case_name(report, r);
+  if (!r.witness->l1.empty())
+    return fmt::format("{} face {} ({}, {})", mesh, r.witness->where(), r.witness->l1, r.witness->l2);
+  if (r.witness->triangle >= 0) return fmt::format("{} triangle {}", mesh, r.witness->triangle);
+  return mesh;
+}
+
+void add_line(std::string& out, const Report& report, const Result& r, std::int64_t bad, std::int64_t of,
+              const std::string& meshes, const std::string& depths, bool colour) {
+  const bool has_worst = r.worst.has_value() || r.rms.has_value();
+  const std::string count = of > 0 ? fmt::format("{}/{}", bad, of) : "-";
+  out += fmt::format("  {:<25} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", r.check,
+                     painted(r.status, colour), meshes, count,
+                     has_worst ? (r.worst ? amount(r.worst) : "nan") : "-", has_worst ? amount(r.bound) : "-",
+                     has_worst ? amount(r.p99) : "-", r.unit, depths, where(report, r));
+}
+
+// The commands that a message of a process that broke down contains, each on a line of its own, to be copied.
+std::string in_lines(std::string message) {
+  for (const std::string_view mark : {"; again with: ", " / "})
+    for (std::size_t k = 0; (k = message.find(mark, k)) != std::string::npos; k += 6)
+      message.replace(k, mark.size(), mark == " / " ? "\n     " : "\n       ");
+  return message;
+}
+
+void add_finding(std::string& out, const Report& report, int number, const Line& line) {
+  const Result& r = *line.shown;
+  out += fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
+  if (is_breakdown(r.status)) {
+    out += fmt::format("{}: {}\n", case_name(report, r), in_lines(r.message));
+    return;
+  }
+  out += r.of > 0 ? fmt::format("{} of {}", r.bad, r.of) : fmt::format("{}", r.bad);
+  if (!r.rms) {
+    out += r.unit.empty() ? "" : " " + r.unit;
+  } else {
+    out += r.bound == 0 ? " differ" : fmt::format(" beyond {:.2e} {}", r.bound.value_or(0), r.unit);
+    out += r.worst ? fmt::format(", worst {:.3e} {}", *r.worst, r.unit) : ", worst not finite";
+  }
+  out += fmt::format("\n     on {}", case_name(report, r));
+  std::vector<std::string> others;
+  for (const Result* other : line.results)
+    if (other != &r && is_bad(*other)) others.push_back(case_name(report, *other));
+  constexpr std::size_t kNamed = 5;
+  const std::size_t more = others.size() - std::min(others.size(), kNamed);
+  others.resize(others.size() - more);
+  if (!others.empty()) out += fmt::format("; also on {}", fmt::join(others, ", "));
+  if (more > 0) out += fmt::format(" and {} more", more);
+  out += "\n";
+  if (!r.message.empty()) out += fmt::format("     {}\n", in_lines(r.message));
+  if (!r.witness) return;
+  const Witness& w = *r.witness;
+  std::vector<std::string> place;
+  if (w.face >= 0) place.push_back(fmt::format("face {}", w.where()));
+  if (!w.l1.empty())
+    place.push_back(r.scheme == data::Scheme::kLoop ? fmt::format("l1 = {}, l2 = {}", w.l1, w.l2)
+                                                    : fmt::format("u = {}, v = {}", w.l1, w.l2));
+  if (w.vertex >= 0) place.push_back(fmt::format("vertex {}", w.vertex));
+  if (w.triangle >= 0) place.push_back(fmt::format("triangle {}", w.triangle));
+  if (!place.empty()) out += fmt::format("     witness   {}\n", fmt::join(place, ", "));
+  if (!w.expected.empty()) out += fmt::format("     expected  {}\n", numbers(w.expected));
+  if (!w.got.empty()) out += fmt::format("     got       {}\n", numbers(w.got));
+  const std::string command = difference_command(r), truth = eval_command(r);
+  if (!command.empty()) out += fmt::format("     {}\n", command);
+  if (!truth.empty()) out += fmt::format("     {}\n", truth);
+}
+
+/// All subjects side by side: the worst verdict of each check over the meshes.
+std::string matrix(const Report& report, bool colour) {
+  constexpr std::size_t kLeast = 14;  // a verdict, padded
+  std::vector<std::vector<Line>> columns;
+  std::vector<std::string> checks;
+  std::string out = fmt::format("\n  {:<25}", "check");
+  for (const std::string& subject : report.subjects) {
+    columns.push_back(lines_of(report, subject));
+    out += fmt::format(" {:<{}}", subject, kLeast);
+    for (const Line& line : columns.back())
+      if (std::find(checks.begin(), checks.end(), line.check) == checks.end()) checks.push_back(line.check);
+  }
+  out += "\n";
+  for (const std::string& check : checks) {
+    out += fmt::format("  {:<25}", check);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const auto line =
+          std::find_if(columns[k].begin(), columns[k].end(), [&](const Line& l) { return l.check == check; });
+      const std::size_t width = std::max(report.subjects[k].size(), kLeast);
+      const std::string cell =
+          line == columns[k].end() ? std::string(kLeast, ' ') : painted(line->shown->status, colour);
+      out += " " + cell + std::string(width - kLeast, ' ');
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+// Why meshes were not tessellated at all though nothing is wrong: each reason once.
+std::string reasons(const Report& report, const std::string& subject) {
+  std::map<std::string, std::vector<std::string>> meshes;
+  for (const Result& r : report.results)
+    if (r.subject == subject && r.check == "tessellates" && r.status == Status::kNotSupported)
+      meshes[r.message].push_back(case_name(report, r));
+  std::string out;
+  for (const auto& [reason, names] : meshes)
+    out += fmt::format("  not supported: {}{}: {}\n", names.front(),
+                       names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "", reason);
+  return out;
+}
+
+std::string lines_table(const Report& report, const std::vector<Line>& lines, bool colour, bool all) {
+  const bool plan = report.depths == "plan";
+  const auto depths = [&](std::span<const Result* const> results) {
+    return plan ? fmt::format("{:<9} ", depths_in_short(results)) : "";
+  };
+  std::string out = fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", "check",
+                                "verdict", plan ? "cases" : "meshes", "bad/looked at", "worst", "bound",
+                                "99 %", "unit", plan ? "depths    " : "", "where");
+  for (const Line& line : lines) {
+    if (all) {
+      for (const Result* r : line.results)
+        add_line(out, report, *r, r->bad, r->of, r->status == Status::kHeld ? "1/1" : "0/1", depths({&r, 1}),
+                 colour);
+      continue;
+    }
+    std::int64_t bad = 0, of = 0;
+    for (const Result* r : line.results) {
+      bad += r->bad;
+      of += r->of;
+    }
+    add_line(out, report, *line.shown, bad, of,
+             fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()),
+             depths(line.results), colour);
+  }
+  return out;
+}
+
+// What the words of the table mean.
+std::string words(const Report& report) {
+  return fmt::format(
+      "{} a/b: held on a of b. bad/looked at: points, triangles or whatever the unit says, over all {}; "
+      "worst, bound and 99 % are\nthose of the worst one. warning: within the bound, and worth a look. -: "
+      "nothing to count or measure, or nothing was looked\nat. limitcheck audit --explain CHECK says what a "
+      "check means and where its bound comes from.\n",
+      report.depths == "plan" ? "cases" : "meshes", report.depths == "plan" ? "cases" : "meshes");
+}
+
+}  // namespace
+
+std::string check_lines(const Report& report, const std::string& subject, bool colour) {
+  const std::vector<Line> lines = lines_of(report, subject);
+  const std::string why_not = reasons(report, subject);
+  if (!why_not.empty() &&
+      std::none_of(lines.begin(), lines.end(), [](const Line& l) { return l.looked_at > 0; }))
+    return subject + "\n" + why_not;
+  std::vector<Line> shown;  // without those that nothing was looked at for
+  std::string left_out;
+  for (const Line& line : lines)
+    if (line.looked_at > 0)
+      shown.push_back(line);
+    else
+      left_out += (left_out.empty() ? "" : ", ") + line.check;
+  return subject + "\n" + lines_table(report, shown, colour, false) +
+         (left_out.empty() ? "" : "  not looked at: " + left_out + "\n") + why_not;
+}
+
+std::string to_table(const Report& report, bool colour, bool all) {
+  const bool plan = report.depths == "plan";
+  std::string out = header(report);
+  std::vector<Line> findings;
+  for (const std::string& subject : report.subjects) {
+    std::vector<Line> lines = lines_of(report, subject);
+    out += "\n" + subject + "\n";
+    const std::string why_not = reasons(report, subject);
+    if (!why_not.empty() &&
+        std::none_of(lines.begin(), lines.end(), [](const Line& l) { return l.looked_at > 0; })) {
+      out += why_not;
+      continue;
+    }
+    out += lines_table(report, lines, colour, all);
+    for (Line& line : lines)
+      if (line.bad_meshes > 0) findings.push_back(std::move(line));
+    if (plan) out += fmt::format("  depths looked at: {}\n", depths_in_full(report, subject));
+    out += why_not;
+  }
+  out += "\n" + words(report);
+  out += waiver_lines(report);
+  if (!findings.empty())
+    out +=
+        "\n"
+        "Findings, each at its worst. (Expected values are those of the control mesh rounded to the "
+        "subject's precision.)\n";
+  for (std::size_t k = 0; k < findings.size(); ++k)
+    add_finding(out, report, static_cast<int>(k) + 1, findings[k]);
+
+  if (report.subjects.size() > 1) out += matrix(report, colour);
+
+  if (!report.printed.empty()) out += "\nPrinted by subjects:\n" + report.printed;
+  out += "\n" + changes_line(report) + summary(report);
+  return out;
+}
+
+}  // namespace limitcheck::verify

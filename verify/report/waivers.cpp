@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "verify/report/waivers.h"
+
+#include <fmt/core.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <stdexcept>
+
+#include "data/error.h"
+#include "data/json_nesting.h"
+#include "verify/row/explain.h"
+
+namespace limitcheck::verify {
+namespace {
+
+std::vector<int> numbers(const std::string& version) {
+  std::vector<int> parts;
+  static const std::regex digits("[0-9]{1,9}");
+  for (std::sregex_iterator m(version.begin(), version.end(), digits), end; m != end; ++m)
+    parts.push_back(std::stoi(m->str()));
+  return parts;
+}
+
+bool matches(const std::string& pattern, const std::string& text) {
+  return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
+}
+
+bool covers(const Waiver& w, const Result& r, const std::map<std::string, std::string>& versions) {
+  if (!matches(w.subject, r.subject) || !matches(w.check, r.check) || !matches(w.shape, r.mesh)) return false;
+  if (w.from.empty() && w.before.empty()) return true;
+  const auto found = versions.find(r.subject);
+  if (found == versions.end() || found->second.empty()) return false;
+  const auto version = numbers(found->second);
+  return (w.from.empty() || version >= numbers(w.from)) && (w.before.empty() || version < numbers(w.before));
+}
+
+}  // namespace
+
+namespace {
+
+bool is_a_day(const std::string& date) {
+  const auto number = [&](std::size_t at, std::size_t count) { return std::stoi(date.substr(at, count)); };
+  return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
+                                     std::chrono::month(static_cast<unsigned>(number(5, 2))),
+                                     std::chrono::day(static_cast<unsigned>(number(8, 2))))
+      .ok();
+}
+
+// If a key occurs twice, the parser would silently keep one of the two values.
+nlohmann::json parse_without_duplicates(const std::string& text) {
+  using Json = nlohmann::json;
+  if (data::json_nesting(text) > 32) throw data::ArgumentError("waivers: brackets nest more than 32 deep");
+  std::vector<std::set<std::string>> keys;
+  return Json::parse(
+      text,
+      [&](int, Json::parse_event_t event, Json& value) {
+        if (event == Json::parse_event_t::object_start) keys.emplace_back();
+        if (event == Json::parse_event_t::object_end) keys.pop_back();
+        if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+          throw data::ArgumentError(
+              fmt::format("waivers: \"{}\" stands twice in one object", value.get<std::string>()));
+        return true;
+      },
+      false);
+}
+
+}  // namespace
+
+std::vector<Waiver> parse_waivers(const std::string& text) {
+  const auto json = parse_without_duplicates(text);
+  if (json.is_discarded() || !json.is_object() || !json.contains("waivers") || !json["waivers"].is_array())
+    throw data::ArgumentError("waivers: not a JSON object with an array \"waivers\"");
+  static const std::set<std::string> known{"subject", "versions", "check", "shape",
+                                           "bound",   "reason",   "link",  "expires"};
+  static const std::regex date("[0-9]{4}-[0-9]{2}-[0-9]{2}");
+  std::vector<Waiver> list;
+  for (const auto& row : json["waivers"]) {
+    const auto refuse = [&](const std::string& what) {
+      throw data::ArgumentError(fmt::format("waiver {}: {}", list.size() + 1, what));
+    };
+    if (!row.is_object()) refuse("not an object");
+    for (const auto& [key, value] : row.items())
+      if (!known.contains(key)) refuse(fmt::format("there is no field \"{}\"", key));
+    const auto field = [&](const nlohmann::json& in, const char* key, const char* fallback) {
+      if (!in.contains(key)) {
+        if (fallback != nullptr) return std::string(fallback);
+        refuse(fmt::format("\"{}\" is missing", key));
+      }
+      if (!in[key].is_string()) refuse(fmt::format("\"{}\" is not text", key));
+      return in[key].get<std::string>();
+    };
+    Waiver w;
+    w.subject = field(row, "subject", nullptr);
+    w.check = current_name(field(row, "check", nullptr));
+    w.shape = field(row, "shape", "*");
+    w.reason = field(row, "reason", nullptr);
+    w.link = field(row, "link", "");
+    w.expires = field(row, "expires", nullptr);
+    if (!std::regex_match(w.expires, date) || !is_a_day(w.expires))
+      refuse("\"expires\" is no date as 2027-01-31");
+    if (row.contains("versions")) {
+      if (!row["versions"].is_object()) refuse("\"versions\" is not an object");
+      w.from = field(row["versions"], "from", "");
+      w.before = field(row["versions"], "before", "");
+    }
+    if (row.contains("bound")) {
+      if (!row["bound"].is_number()) refuse("\"bound\" is not a number");
+      w.bound = row["bound"].get<double>();
+    }
+    list.push_back(std::move(w));
+  }
+  return list;
+}
+
+void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
+                   const std::map<std::string, std::string>& versions, const std::string& today) {
+  std::vector<Result> notes;
+  for (std::size_t k = 0; k < waivers.size(); ++k) {
+    const Waiver& w = waivers[k];
+    const auto note = [&](const std::string& what) {
+      Result r;
+      r.subject = w.subject;
+      r.mesh = w.shape;
+      r.check = "waiver";
+      r.depth = report.depth;
+      r.status = Status::kQualityWarning;
+      r.message = fmt::format("waiver {} ({} of {}) {}", k + 1, w.check, w.subject, what);
+      notes.push_back(std::move(r));
+    };
+    if (today > w.expires) {
+      note(fmt::format("expired on {}", w.expires));
+      continue;
+    }
+    std::vector<Result*> held;
+    bool used = false, any = false;
+    for (Result& r : report.results) {
+      if (!covers(w, r, versions)) continue;
+      any = true;
+      if (r.status == Status::kHeld) held.push_back(&r);
+      if (!is_bad(r)) continue;
+      used = true;
+      // A breakdown has no worst value that a bound could be held against.
+      const bool within = r.status != Status::kFinding || !w.bound || (r.worst && *r.worst <= *w.bound);
+      if (within) r.status = Status::kWaived;
+      r.message += fmt::format("{}{}{}: {}{}", r.message.empty() ? "" : "; ",
+                               within ? "waived until " : "beyond the waiver until ", w.expires, w.reason,
+                               w.link.empty() ? "" : fmt::format(" ({})", w.link));
+    }
+    if (!any) note("covers nothing that was audited");
+    if (used || !any) continue;
+    for (Result* r : held) {
+      r->status = Status::kUnexpectedPass;
+      r->message = fmt::format("holds, though waiver {} expects a finding: {}", k + 1, w.reason);
+    }
+    if (held.empty()) note("covers no finding");
+  }
+  for (Result& r : notes) {
+    if (std::find(report.subjects.begin(), report.subjects.end(), r.subject) == report.subjects.end())
+      report.subjects.push_back(r.subject);
+    report.results.push_back(std::move(r));
+  }
+}
+
+std::string version_in(const std::string& description) {
+  static const std::regex pattern("[0-9]+(\\.[0-9]+)*");
+  std::smatch match;
+  return std::regex_search(description, match, pattern) ? match.str() : "";
+}
+
+}  // namespace limitcheck::verify

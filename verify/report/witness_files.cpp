@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "verify/report/witness_files.h"
+
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "data/io/write.h"
+#include "reference/surface/certified.h"
+#include "verify/evidence/face_depths.h"
+#include "verify/report/json.h"
+#include "verify/row/case_names.h"
+#include "verify/row/reproduce.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As part of a file's name.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' ? c : '_';
+  constexpr std::size_t kLongest = 60;
+  return out.size() > kLongest ? out.substr(out.size() - kLongest) : out;
+}
+
+// The limit surface at the witness, on the mesh as the subject gets it.
+void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
+  if (r.in_float)
+    for (auto& p : mesh.positions)
+      for (double& x : p) x = static_cast<double>(static_cast<float>(x));
+  constexpr int kDigits = 40;
+  const reference::CertifiedEvaluator evaluator = r.scheme == data::Scheme::kLoop
+                                                      ? reference::CertifiedEvaluator(mesh, r.weights)
+                                                      : reference::CertifiedEvaluator(mesh, r.scheme);
+  const auto point = evaluator.evaluate(static_cast<int>(r.witness->face), std::max(r.witness->corner, 0),
+                                        reference::Parameter::parse(r.witness->l1),
+                                        reference::Parameter::parse(r.witness->l2), kDigits);
+  const auto vector = [](const auto& v) { return Json{v[0].value, v[1].value, v[2].value}; };
+  json["limit_position"] = vector(point.position);
+  json["limit_normal"] = vector(point.normal);
+}
+
+// A folder that appears whole or not at all, in the place of an older one.
+class Partial {
+ public:
+  explicit Partial(std::filesystem::path place)
+      : place_(std::move(place)), folder_(place_.string() + ".partial") {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  ~Partial() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Partial(const Partial&) = delete;
+  Partial& operator=(const Partial&) = delete;
+  const std::filesystem::path& folder() const { return folder_; }
+  void commit() {
+    std::filesystem::remove_all(place_);
+    std::filesystem::rename(folder_, place_);
+  }
+
+ private:
+  std::filesystem::path place_, folder_;
+};
+
+}  // namespace
+
+std::filesystem::path write_witness(const std::filesystem::path& folder, const Report& report,
+                                    const Result& result, const AuditMesh& mesh, const std::string& level) {
+  const std::filesystem::path place =
+      folder / (plain(result.subject) + "-" + plain(result.check) + "-" + plain(case_name(report, result)));
+  Partial partial(place);
+  const std::filesystem::path control = place / "control.obj";
+  data::write_mesh(partial.folder() / "control.obj", mesh.mesh);
+  Result here = result;
+  here.mesh = control.string();
+  here.triangulated.clear();  // the file has the triangles
+  if (!mesh.face_depth.empty()) {
+    std::string lines;
+    for (const std::int32_t depth : mesh.face_depth) lines += std::to_string(depth) + "\n";
+    write_text(partial.folder() / "depths.txt", lines);
+    here.depths = after_of(result.depths) + "file:" + (place / "depths.txt").string();
+  }
+
+  Json json{{"subject", result.subject},
+            {"check", result.check},
+            {"status", word(result.status)},
+            {"mesh", result.mesh},
+            {"control", "control.obj"},
+            {"scheme", data::name_of(result.scheme)},
+            {"precision", result.in_float ? "float" : "double"},
+            {"count", result.bad},
+            {"of", result.of},
+            {"worst", result.worst && std::isfinite(*result.worst) ? Json(*result.worst) : Json(nullptr)},
+            {"bound", result.bound ? Json(*result.bound) : Json(nullptr)},
+            {"unit", result.unit},
+            {"message", result.message}};
+  if (result.witness) {
+    const Witness& w = *result.witness;
+    json["face"] = w.face >= 0 ? Json(w.face) : Json(nullptr);
+    json["corner"] = w.corner >= 0 ? Json(w.corner) : Json(nullptr);
+    json["l1"] = w.l1.empty() ? Json(nullptr) : Json(w.l1);
+    json["l2"] = w.l2.empty() ? Json(nullptr) : Json(w.l2);
+    json["expected"] = numbers(w.expected);
+    json["got"] = numbers(w.got);
+    if (const std::string command = eval_command(here); !command.empty()) {
+      add_limit(json, result, mesh.mesh);
+      json["eval"] = command + " --digits 40";
+    }
+  }
+  json["audit"] = audit_command(here, level);
+  write_text(partial.folder() / "witness.json",
+             json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  partial.commit();
+  return place;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "verify/row/reproduce.h"
+
+#include <fmt/core.h>
+
+#include <set>
+#include <string_view>
+
+namespace limitcheck::verify {
+namespace {
+
+// A word for the shell.
+std::string quoted(const std::string& text) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said
+// otherwise.
+std::string mesh_options(const Result& result) {
+  std::string text;
+  if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));
+  if (!result.triangulated.empty()) text += fmt::format(" --triangulate {}", result.triangulated);
+  return text;
+}
+
+std::string depth_options(const Result& result) {
+  if (result.depths.empty() || result.depths == "uniform") return "";
+  return fmt::format(" --depths {}", quoted(result.depths));
+}
+
+bool names_a_point(const Result& result) {
+  return result.witness && result.witness->face >= 0 && !result.witness->l1.empty();
+}
+
+}  // namespace
+
+std::string eval_command(const Result& result) {
+  static const std::set<std::string_view> kOfLimit{"positions",      "normals",       "finite",
+                                                   "file-positions", "file-distance", "file-normals"};
+  if (!names_a_point(result) || !kOfLimit.contains(result.check)) return "";
+  return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
+                     result.witness->l1, result.witness->l2, mesh_options(result),
+                     result.in_float ? " --precision float" : "",
+                     result.weights == reference::Weights::kWarren ? " --weights warren" : "");
+}
+
+std::string difference_command(const Result& result) {
+  static const std::set<std::string_view> kOfPoints{
+      "positions", "refined-positions", "normals",       "normal-length",
+      "finite",    "shared-positions",  "shared-normals"};
+  if (!names_a_point(result) || !kOfPoints.contains(result.check)) return "";
+  return fmt::format("limitcheck eval --subject {} {} {} {} {} --depth {}{}{}", quoted(result.subject),
+                     quoted(result.mesh), result.witness->where(), result.witness->l1, result.witness->l2,
+                     result.depth, depth_options(result), mesh_options(result));
+}
+
+std::string audit_command(const Result& result, const std::string& level) {
+  std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
+                                    quoted(result.mesh), result.depth) +
+                        mesh_options(result);
+  if (level != "standard") command += fmt::format(" --level {}", level);
+  command += depth_options(result);
+  if (!result.sample.empty()) command += " --sample " + result.sample;
+  return command;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// What an audit says: one row for each subject, mesh and check.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/scheme.h"
+#include "reference/loop/weights.h"
+#include "verify/row/places.h"
+
+namespace limitcheck::verify {
+
+enum class Status {
+  kHeld,            // looked at, and nothing is wrong
+  kFinding,         // looked at, and something is wrong: `bad` > 0
+  kQualityWarning,  // within its bound, but not as good as it could be: worth a look, no fault
+  kWaived,          // a finding that a waiver covers, within the waiver's own bound
+  kUnexpectedPass,  // a waiver covers it, but there is nothing to waive: time to remove the waiver
+  kNotSupported,    // the subject does not offer what this check looks at; not a fault
+  kNotRun,          // could not be looked at, because something before it failed; never a confirmation
+  kCrash,           // the subject's process was killed, ended, or took too much memory
+  kTimeout,         // the subject did not answer in time
+  kError            // subject or check broke down otherwise
+};
+
+/// "held", "finding", "quality-warning", "waived", "unexpected-pass", "not-supported", "not-run", "crash",
+/// "timeout", "error": stable.
+std::string_view word(Status status);
+
+/// Where to look. Whatever does not apply is -1 or empty.
+struct Witness {
+  std::int64_t face = -1;      // control face, from 0 in file order
+  std::string l1, l2;          // exact fractions: "3/32"; of Catmull-Clark's scheme u and v
+  std::int64_t vertex = -1;    // of the tessellation
+  std::int64_t triangle = -1;  // of the tessellation
+  std::vector<double> expected, got;
+  std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
+  int corner = -1;  // of a face that is cut into quads, the one whose quad l1 and l2 are of
+
+  /// "FACE" or, of a face that is cut into quads, "FACE:CORNER": as `limitcheck eval` takes it.
+  std::string where() const {
+    return std::to_string(face) + (corner < 0 ? "" : ":" + std::to_string(corner));
+  }
+};
+
+/// The points of a row that have a bound of their own, because the surface's tangents there are so short or
+/// so nearly parallel that rounding alone may turn the normal farther than elsewhere.
+struct IllConditioned {
+  std::int64_t count = 0;
+  double bound = 0, worst = 0;  // the largest of their bounds and of their errors, in the row's unit
+};
+
+/// One row. `worst` and `bound` are in `unit`; so are rms
+/// and p99, which run over everything that was compared.
+struct Result {
+  std::string subject, mesh, check;
+  int depth = 0;               // of the deepest face
+  std::string depths, sample;  // how the depths were chosen, and "FACES:SEED": as --depths, --sample take it
+  bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
+  data::Scheme scheme = data::Scheme::kLoop;
+  std::string
+      triangulated;  // how larger faces of the mesh were cut, as --triangulate takes it; empty: they were not
+  reference::Weights weights = reference::Weights::kLoop;  // the family that the subject declares
+  Status status = Status::kNotRun;
+  std::int64_t bad = 0, of = 0;  // how many wrong of how many looked at
+  std::optional<double> worst, bound, rms, p99;
+  std::string unit;
+  std::optional<double> worst_absolute;  // positions: in the mesh's own unit ...
+  std::optional<double> worst_ulps;      // ... and in units in the last place of the subject's precision
+  std::optional<IllConditioned> ill_conditioned;  // normals: if there are any
+  std::optional<Witness> witness;
+  std::string message;  // one sentence, may be empty
+  /// Of findings in positions and normals: where on the control mesh they are, ascending by kind and faces.
+  std::vector<PlaceCount> places;
+  /// Positions and normals: how many errors there are of each power of ten (statistics.h).
+  std::vector<std::int64_t> decades;
+  double seconds = 0;  // that it took to look
+};
+
+/// A finding, or a breakdown.
+inline bool is_bad(const Result& r) {
+  return r.status == Status::kFinding || r.status == Status::kCrash || r.status == Status::kTimeout ||
+         r.status == Status::kError;
+}
+
+/// What the audit was run on and with: the header of table and JSON.
+struct Report {
+  struct Mesh {
+    std::string name;
+    std::int64_t vertices = 0, faces = 0;
+    data::Scheme scheme = data::Scheme::kLoop;
+    std::string triangulated;  // as in Result
+    double diagonal = 0;       // of the bounding box
+  };
+  std::string version;
+  int depth = 0;                      // the largest
+  std::string depths = "uniform";     // how they were chosen (face_depths.h); "plan": one way after the
+                                      // other (default_plan.h); "file": unknown
+  std::optional<std::uint64_t> seed;  // of random
+  std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at
+  std::vector<Mesh> meshes;
+  std::vector<std::string> subjects;
+  std::map<std::string, std::string> descriptions;  // of subjects, by their label: "OpenSubdiv 3.5 Far: ..."
+  std::vector<Result> results;
+  double seconds = 0;
+  std::string containment;  // how the processes of isolated subjects were held; empty: there were none
+  std::string printed;      // by the subjects, on standard output and standard error
+  std::string incomplete;   // "interrupted by SIGINT": not all was looked at; empty: all was
+
+  /// Against an earlier report (baseline.h), in rows.
+  struct Changes {
+    std::string baseline;  // its file
+    std::int64_t appeared = 0, worse = 0, gone = 0, same = 0;
+    std::vector<std::string> named;  // each that is new, worse or gone, in that order
+  };
+  std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held
+
+  /// Whether anything was looked at: if nothing asked for is supported, nothing was.
+  bool looked() const {
+    return std::any_of(results.begin(), results.end(), [](const Result& r) {
+      return r.status != Status::kNotSupported && r.status != Status::kNotRun;
+    });
+  }
+  bool held() const {
+    if (!incomplete.empty()) return false;
+    if (changes) return changes->appeared + changes->worse == 0;
+    for (const Result& r : results)
+      if (is_bad(r)) return false;
+    return true;
+  }
+};
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "verify/row/result.h"
+
+namespace limitcheck::verify {
+
+/// Of a list of errors >= 0. An infinite entry is something that could not be measured (a NaN where a number
+/// should be): it is bad and it is the worst, but rms and p99 run over the finite entries. Negative entries
+/// were not looked at and are left out altogether.
+struct Statistics {
+  std::int64_t of = 0, bad = 0;  // looked at; not within the bound
+  std::int64_t worst_at = -1;    // index of the first largest entry, -1 if nothing was looked at
+  std::optional<double> worst;   // empty if infinite
+  std::optional<double> rms, p99;
+};
+
+/// Summed in order, so that the result does not depend on threads. p99: the smallest entry that at least 99 %
+/// of the finite entries do not exceed.
+Statistics summarise(const std::vector<double>& errors, double bound);
+
+/// How many of the entries >= 0 lie in each power of ten: the first below 1e-17, the last at 100 and more;
+/// what is not finite is left out.
+inline constexpr int kDecades = 21, kFirstDecade = -17;
+std::vector<std::int64_t> decades(const std::vector<double>& errors);
+
+/// Counts, worst, rms and p99 into a row, and its status: not run if nothing was looked at.
+void take(Result& row, const Statistics& statistics);
+
+}  // namespace limitcheck::verify

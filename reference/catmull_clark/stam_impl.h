@@ -188,7 +188,7 @@ class StamData {
               from_bottom = 2 * at.v;
       const P x = k == 0 ? from_left : k == 1 ? from_bottom : k == 2 ? from_right : from_top;
       const P y = k == 0 ? from_bottom : k == 1 ? from_right : k == 2 ? from_top : from_left;
-      if (x == 0 && y == 0) return evaluate_corner(at.quad, k, order);
+      if (x == 0 && y == 0) return evaluate_corner(at.quad, k, at.halved, order);
       near_corner(rings_[static_cast<std::size_t>(ring)], mesh_.topology.ring_index(at.quad, k), x, y,
                   turn_of(k), halved, order, result);
     }
@@ -224,14 +224,14 @@ class StamData {
     return result;
   }
 
-  SurfacePoint<N> evaluate_corner(std::size_t quad, std::size_t k, Order order) const {
+  SurfacePoint<N> evaluate_corner(std::size_t quad, std::size_t k, bool halved, Order order) const {
     const std::int32_t v = mesh_.topology.faces()[quad][k];
     const auto known = limit_of_.find(v);
     const Sector sector = mesh_.topology.sector(v);
     return extraordinary_corner<N>(known != limit_of_.end() ? known->second : limit_of(corner_of(v)),
                                    {static_cast<int>(sector.faces.size()), mesh_.topology.ring_index(quad, k),
                                     !sector.closed, state_of(mesh_.states, v)},
-                                   k, order);
+                                   k, halved, order);
   }
   RingedCorner<Vec3<N>> corner_of(std::int32_t v) const {
     return gather_vertex<Vec3<N>>(

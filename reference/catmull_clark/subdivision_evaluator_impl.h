@@ -50,8 +50,8 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Pa
     const std::size_t k = up ? (right ? 2 : 3) : (right ? 1 : 0);
     if (at.u == (right ? 1 : 0) && at.v == (up ? 1 : 0) && !quad.corner[k].is_regular()) {
       const RingedCorner<Vec3<N>>& c = quad.corner[k];
-      SurfacePoint<N> result =
-          extraordinary_corner<N>(limit_of(c), {c.face_count(), c.sector, c.on_boundary, c.state}, k, order);
+      SurfacePoint<N> result = extraordinary_corner<N>(
+          limit_of(c), {c.face_count(), c.sector, c.on_boundary, c.state}, k, at.halved, order);
       if (steps > 0) scale_derivatives(result, NumberTraits<N>::scale(N(1), steps));
       return result;
     }

@@ -99,78 +99,72 @@ Tangents<N> tangents_of(const SurfacePoint<N>& point) {
   return {point.t1, point.t2, point.t1_terms, point.t2_terms};
 }
 
-/// At an extraordinary corner itself. Towards it, derivatives of order d of a mode of eigenvalue mu grow like
-/// (2^d mu)^J, so that the largest mu below 1 decides:
-///   interior, valence n   mu = 3/8 + cos(2 pi / n) / 4. For n = 3, 4, 5 it is below 1/2: first derivatives
-///                         fall to zero. For n = 3 it is 1/4, and its mode is a quadratic polynomial on every
-///                         face, A_i a^2 + 2 (A_i + A_{i+1}) a b + A_{i+1} b^2 with A_i = 2/3 of the tangent
-///                         masks' direction i: second derivatives are its. All else grows without bound.
-///   boundary, K faces     the mode of 1/2 is linear on every face of K <= 2, slopes +-(r_0 - r_K) / 2 along
-///                         the boundary edges and 0 along the inner one; all other mu are smaller. For K = 1
-///                         the next is 1/4, a multiple of (a + b)^2: second derivatives exist. For K = 2 it
-///                         is 3/8: they do not. For K >= 4 one is above 1/2.
-///   held, dart            none are said to exist. t1, t2 are along the two edges of a held corner; at a dart
-///                         along the sharp edge and across it
+/// At an extraordinary corner itself. Which derivatives there are is said by leading_modes.h; those that are
+/// not zero are the polynomials of their modes:
+///   interior, valence 3   A_i a^2 + 2 (A_i + A_{i+1}) a b + A_{i+1} b^2 on face i, with A_i = 2/3 of the
+///                         tangent masks' direction i
+///   boundary, K <= 2      slopes +-(r_0 - r_K) / 2 along the boundary edges and 0 along the inner one. For
+///                         K = 1 a multiple of (a + b)^2 besides
+///   held, K = 2           slopes r_0 - c and r_2 - c along the ends, their sum along the inner edge
+///   dart, valence 6       that of the tangents, as in a regular vertex
+/// Tangents t1, t2: along the two edges of a held corner; at a dart along the sharp edge and across it.
 ///   limit        of the vertex, from the control mesh
 ///   n            entries of its ring
 ///   ring_index   of the face in that ring (Topology)
 ///   at           (a, b) towards the corner's next and previous neighbour in the face; level is not used
 template <class N>
 SurfacePoint<N> extraordinary_corner(const VertexLimit<N>& limit, std::size_t n, bool on_boundary,
-                                     int ring_index, const ParameterGradients& at, Order order,
-                                     VertexState state = VertexState::kOrdinary) {
+                                     int ring_index, const ParameterGradients& at, Weights weights,
+                                     Order order, VertexState state = VertexState::kOrdinary) {
   SurfacePoint<N> result;
   result.at_corner = true;
   result.position = limit.position;
   result.normal = limit.normal.direction;
   result.normal_kind = limit.normal.kind;
   result.normal_condition = limit.normal.condition;
+  const auto entries = static_cast<int>(n), faces = entries - (on_boundary ? 1 : 0);
+  result.limits = {leading_modes(faces, on_boundary, state, weights),
+                   on_boundary && state != VertexState::kDart};
+  const DerivativeLimit &first = result.limits.first, &second = result.limits.second;
   const Vec3<N>&c = limit.tangents.first, &s = limit.tangents.second;
-  if (state == VertexState::kDart || (state == VertexState::kHeld && on_boundary)) {
-    const N share = state == VertexState::kDart ? N(2) / N(static_cast<int>(n) - 1) : N(1);
-    result.t1 = result.d1 = c * share;
-    result.t2 = result.d2 = s * share;
-    result.t1_terms = limit.tangents.first_terms * share;
-    result.t2_terms = limit.tangents.second_terms * share;
-    return result;
-  }
+  const auto around = [&](int i, const N& share) {  // towards neighbour i of a regular polygon
+    const auto& circle = circle_table<N>(static_cast<long>(faces));
+    const std::size_t k = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
+    return (c * circle.cosine[k] + s * circle.sine[k]) * share;
+  };
   // The masks' sums over a regular polygon, or half of one, of radius 1: n / 2 inside and across, 2 along.
-  const auto entries = static_cast<int>(n);
-  const N half = N(1) / N(2), share = on_boundary ? N(2) / N(std::max(2, entries - 1)) : N(2) / N(entries);
-  const N first_share = on_boundary ? half : share;
-  const N c_terms = limit.tangents.first_terms * first_share;
-  const N s_terms = limit.tangents.second_terms * share;
-  Vec3<N> t1, t2;
+  N c_share(1), s_share(1);
   LocalPoint<N> local{};
-  bool first = false, second = false;
-  if (on_boundary) {
-    t1 = c * first_share;
-    t2 = s * share;
-    first = n <= 3;   // one or two faces
-    second = n == 2;  // one
-    const Vec3<N> along = c * half;
-    if (ring_index == 0) local.a = along;
-    if (ring_index + 2 == entries) local.b = Vec3<N>{} - along;
-    local.aa = local.ab = local.bb = s;
-  } else {
-    const auto& circle = circle_table<N>(static_cast<long>(n));
-    const auto towards = [&](int i) {
-      const std::size_t k = 2 * i % circle.cosine.size();
-      return c * circle.cosine[k] + s * circle.sine[k];
-    };
-    const Vec3<N> a = towards(ring_index), b = towards(ring_index + 1);
-    t1 = (a * N(at.a1) + b * N(at.b1)) * share;
-    t2 = (a * N(at.a2) + b * N(at.b2)) * share;
-    first = n <= 5 && state == VertexState::kOrdinary;
-    second = n == 3;
+  Vec3<N> t1, t2;
+  if (state == VertexState::kDart) {
+    c_share = s_share = N(2) / N(faces);
+    if (first.fate == Fate::kValue)
+      local.a = around(ring_index, c_share), local.b = around(ring_index + 1, c_share);
+  } else if (!on_boundary) {
+    c_share = s_share = N(2) / N(faces);
+    const Vec3<N> a = around(ring_index, N(1)), b = around(ring_index + 1, N(1));
+    t1 = (a * N(at.a1) + b * N(at.b1)) * c_share;
+    t2 = (a * N(at.a2) + b * N(at.b2)) * c_share;
     const N factor = N(4) / N(3);
     local.aa = a * factor;
     local.ab = (a + b) * factor;
     local.bb = b * factor;
+  } else if (state == VertexState::kHeld) {
+    const auto along = [&](int i) { return i == 0 ? c : i == faces ? s : c + s; };
+    local.a = along(ring_index), local.b = along(ring_index + 1);
+  } else {
+    c_share = N(1) / N(2), s_share = N(2) / N(std::max(2, faces));
+    const Vec3<N> along = c * c_share;
+    if (ring_index == 0) local.a = along;
+    if (ring_index + 1 == faces) local.b = Vec3<N>{} - along;
+    local.aa = local.ab = local.bb = s;
   }
+  const N c_terms = limit.tangents.first_terms * c_share, s_terms = limit.tangents.second_terms * s_share;
+  if (on_boundary) t1 = c * c_share, t2 = s * s_share;
   result.d1 = t1;
   result.d2 = t2;
-  if (first) set_derivatives(result, local, at, N(1), N(1), second ? order : std::min(order, Order::kFirst));
+  if (first.exists())
+    set_derivatives(result, local, at, N(1), N(1), second.exists() ? order : std::min(order, Order::kFirst));
   result.t1 = t1;
   result.t2 = t2;
   result.t1_terms = on_boundary ? c_terms : c_terms + s_terms;
@@ -184,7 +178,7 @@ SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> 
                                      int ring_index, const ParameterGradients& at, Weights weights,
                                      Order order, VertexState state = VertexState::kOrdinary) {
   return extraordinary_corner<N>(vertex_limit(v, ring, on_boundary, weights, state), ring.size(), on_boundary,
-                                 ring_index, at, order, state);
+                                 ring_index, at, weights, order, state);
 }
 
 }  // namespace limitcheck::reference

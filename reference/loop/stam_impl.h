@@ -129,7 +129,7 @@ class StamData {
     const auto known = limit_of_.find(v);
     return extraordinary_corner<N>(known != limit_of_.end() ? known->second : limit_at(v),
                                    sector.neighbours.size(), !sector.closed, topology_.ring_index(f, k),
-                                   gradients, order, state_of(mesh_.states, v));
+                                   gradients, weights_, order, state_of(mesh_.states, v));
   }
 
   bool is_ordinary_end(std::int32_t v) const {

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "reference/loop/dart.h"
+#include "reference/loop/leading_modes.h"
 #include "reference/loop/masks.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/point/normal.h"
 
 namespace limitcheck::reference {
-
-/// Whether box splines describe the surface at a vertex of so many faces.
-inline bool is_regular_vertex(std::size_t faces, bool on_boundary, VertexState state) {
-  if (state == VertexState::kHeld) return on_boundary && faces == 1;
-  return state == VertexState::kOrdinary && faces == (on_boundary ? 3U : 6U);
-}
 
 /// Where a vertex goes in a step.
 template <class N>

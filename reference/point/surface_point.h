@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "reference/number/vec3.h"
+#include "reference/point/derivative_limits.h"
 
 namespace limitcheck::reference {
 
@@ -44,13 +45,9 @@ enum class Order : std::uint8_t { kPosition, kFirst, kSecond };
 ///                  to first order: (t1_terms / |t1| + t2_terms / |t2|) / sin(t1, t2), with the tangents that
 ///                  the normal was computed from, which near a boundary corner are better separated than t1,
 ///                  t2. 0 where the normal is not regular. In number types without rounding these three are 0
-/// At an extraordinary corner the derivatives are those of the face, from within (`extraordinary_corner` in
-/// patch.h derives which there are):
-///   interior, valence 3, 4, 5      d1 = d2 = 0; second derivatives at valence 3
-///   interior, valence 7 and more   none
-///   boundary, 1 or 2 faces         d1, d2; second derivatives at 1 face
-///   boundary, 4 faces and more     none but the one along the boundary, which is not given
-/// This holds in general; where the tangents vanish more derivatives may exist.
+///   limits         at an extraordinary corner: which derivatives exist, and why (leading_modes.h of each
+///                  scheme), from within the face, for control points in general; where tangents vanish more
+///                  may exist. In exact rationals Catmull-Clark's are not computed there
 template <class N>
 struct SurfacePoint {
   Vec3<N> position, d1, d2, d11, d12, d22, t1, t2, normal;
@@ -59,6 +56,7 @@ struct SurfacePoint {
   bool first_exist = false;
   bool second_exist = false;
   bool at_corner = false;
+  DerivativeLimits limits{};
 };
 
 /// Turns derivatives by the parameters of a piece into those by the parameters of the whole, whose sides are

@@ -73,19 +73,6 @@ struct CertifiedEvaluator::Data {
 
 namespace {
 
-/// Whether the control vertex at which the parameters lie is on the boundary. (The middle of a face is not.)
-bool corner_on_boundary(const Topology& topology, data::Scheme scheme, std::int32_t face, int corner,
-                        const Parameter& a, const Parameter& b) {
-  const auto corners = topology.faces()[face];
-  const bool first = exact_value(a) == 1, second = exact_value(b) == 1;
-  std::size_t k = first ? 1 : second ? 2 : 0;
-  if (scheme == data::Scheme::kCatmullClark) {
-    if (corners.size() != 4 && (first || second)) return false;
-    k = corners.size() != 4 ? static_cast<std::size_t>(corner) : first ? (second ? 2 : 1) : (second ? 3 : 0);
-  }
-  return topology.on_boundary(corners[k]);
-}
-
 /// The point of a mesh of few faces.
 SurfacePoint<Ball> evaluate_in_balls(const data::Faces& faces, std::vector<Vec3<Ball>> positions,
                                      data::Scheme scheme, Weights weights, const SharpTags& tags, int corner,
@@ -284,8 +271,7 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
     result.normal = print(s.normal);
     result.normal_kind = s.normal_kind;
     result.first_exist = s.first_exist;
-    result.boundary_corner =
-        s.at_corner && corner_on_boundary(data_->topology, data_->scheme, face, corner, l1, l2);
+    result.limits = s.limits;
     if (s.at_corner) {
       result.t1 = print(s.t1);
       result.t2 = print(s.t2);

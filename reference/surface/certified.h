@@ -27,7 +27,8 @@ struct Enclosure {
 using Enclosure3 = std::array<Enclosure, 3>;
 
 /// As SurfacePoint; d11, d12, d22 are there if they exist, t1 and t2 at an extraordinary corner only.
-/// Curvatures are given where second derivatives and the normal exist, but not at an extraordinary corner;
+/// Curvatures are given where second derivatives and the normal exist, but not at an extraordinary corner,
+/// where no two derivatives are independent that have second ones;
 /// the mean curvature is positive where the surface is convex: 1/r on a sphere of radius r.
 struct CertifiedPoint {
   Enclosure3 position, d1, d2, normal;
@@ -35,9 +36,9 @@ struct CertifiedPoint {
   std::optional<Enclosure> gaussian_curvature, mean_curvature;
   NormalKind normal_kind;
   bool first_exist;
-  bool boundary_corner;  ///< an extraordinary corner on the boundary: d along it may exist alone
-  double radius;         ///< the largest radius of all but the curvatures, whose own may be huge
-  long precision;        ///< bits that were needed
+  DerivativeLimits limits;
+  double radius;   ///< the largest radius of all but the curvatures, whose own may be huge
+  long precision;  ///< bits that were needed
 };
 
 /// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are,

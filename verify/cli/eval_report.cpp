@@ -10,8 +10,10 @@ namespace limitcheck::cli {
 namespace {
 
 using reference::CertifiedPoint;
+using reference::DerivativeLimit;
 using reference::Enclosure;
 using reference::Enclosure3;
+using reference::Fate;
 using reference::NormalKind;
 
 const char* name(NormalKind kind) {
@@ -42,6 +44,41 @@ double radius(const Enclosure& e) {
   return e.radius;
 }
 
+const char* name(Fate fate) {
+  switch (fate) {
+    case Fate::kValue:
+      return "value";
+    case Fate::kZero:
+      return "zero";
+    case Fate::kNoLimit:
+      return "no_limit";
+    case Fate::kGrows:
+      return "grows";
+  }
+  return "";
+}
+
+nlohmann::ordered_json json_of(const DerivativeLimit& limit) {
+  return {{"fate", name(limit.fate)}, {"eigenvalue", limit.eigenvalue}, {"growth", limit.growth}};
+}
+
+// What is said beside derivatives of one order at an extraordinary corner, or in their place.
+std::string reason(const DerivativeLimit& limit, bool along_boundary, bool degenerate) {
+  if (limit.fate == Fate::kValue) return "";
+  if (limit.fate == Fate::kZero)
+    return fmt::format("  (zero at such a corner: {:.3g} times as much after each halving of the distance)",
+                       limit.growth);
+  if (degenerate) return "need not exist at this extraordinary corner, where the tangents degenerate";
+  const std::string how =
+      limit.fate == Fate::kGrows
+          ? fmt::format("it grows {:.6g}-fold with each halving of the distance to this extraordinary corner",
+                        limit.growth)
+          : "it depends on the direction, or grows like the logarithm of the distance to this extraordinary "
+            "corner";
+  return fmt::format("does not exist in general: {} (eigenvalue {:.6g}){}", how, limit.eigenvalue,
+                     along_boundary ? ", unless it runs along the boundary or crease" : "");
+}
+
 }  // namespace
 
 void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
@@ -67,6 +104,10 @@ void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
   add("d1", p.d1);
   add("d2", p.d2);
   json["derivatives_exist"] = p.first_exist;
+  json["second_derivatives_exist"] = p.d11.has_value();
+  // At an extraordinary corner, which alone has tangents of its own.
+  json["first_limit"] = p.t1 ? json_of(p.limits.first) : nlohmann::ordered_json();
+  json["second_limit"] = p.t1 ? json_of(p.limits.second) : nlohmann::ordered_json();
   add_maybe("tangent1", p.t1);
   add_maybe("tangent2", p.t2);
   add("normal", p.normal);
@@ -93,25 +134,24 @@ void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
     const double r = radius(value);
     return r == 0 ? "  exact" : fmt::format("  +-{:.1e}", 1.05 * r);
   };
-  const auto line = [&](const std::string& what, const Enclosure3& v, const char* note = "") {
+  const auto line = [&](const std::string& what, const Enclosure3& v, const std::string& note = "") {
     fmt::print("{:<12}{}  {}  {}{}{}\n", what, v[0].value, v[1].value, v[2].value, within(v), note);
   };
-  const auto absent = [](const std::string& what, const char* why) { fmt::print("{:<12}{}\n", what, why); };
+  const auto absent = [](const std::string& what, const std::string& why) {
+    fmt::print("{:<12}{}\n", what, why);
+  };
   fmt::print("{}\n{} face {}{} at ({})\n", at.scheme_line, at.mesh, at.face,
              at.corner ? fmt::format(" corner {}", *at.corner) : "", fmt::join(at.parameters, ", "));
   line("position", p.position);
-  const bool regular = p.normal_kind == NormalKind::kRegular || p.normal_kind == NormalKind::kNoTangentPlane;
-  const char* none = !regular ? "need not exist at this extraordinary corner, where the tangents degenerate"
-                     : !loop  ? "none at this extraordinary corner, where the parameters are singular"
-                     : p.boundary_corner
-                         ? "does not exist at this extraordinary corner, unless it runs along the boundary"
-                         : "does not exist: it grows without bound towards this extraordinary corner";
+  const bool degenerate = p.normal_kind == NormalKind::kFallback || p.normal_kind == NormalKind::kArbitrary;
+  const std::string first = reason(p.limits.first, p.limits.along_boundary, degenerate),
+                    second = reason(p.limits.second, p.limits.along_boundary, degenerate);
   if (p.first_exist) {
-    line(by_a, p.d1);
-    line(by_b, p.d2);
+    line(by_a, p.d1, first);
+    line(by_b, p.d2, first);
   } else {
-    absent(by_a, none);
-    absent(by_b, none);
+    absent(by_a, first);
+    absent(by_b, first);
   }
   if (p.t1) {
     line("tangent 1", *p.t1, "  (direction only)");
@@ -132,11 +172,11 @@ void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
       break;
   }
   if (p.d11) {
-    line(by_aa, *p.d11);
-    line(by_ab, *p.d12);
-    line(by_bb, *p.d22);
+    line(by_aa, *p.d11, second);
+    line(by_ab, *p.d12, second);
+    line(by_bb, *p.d22, second);
   } else {
-    for (const std::string& what : {by_aa, by_ab, by_bb}) absent(what, none);
+    for (const std::string& what : {by_aa, by_ab, by_bb}) absent(what, second);
   }
   if (p.gaussian_curvature) {
     fmt::print("{:<12}{}{}\n", "Gaussian K", p.gaussian_curvature->value, within(*p.gaussian_curvature));

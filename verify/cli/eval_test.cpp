@@ -121,6 +121,39 @@ TEST_F(EvalCommand, SaysWhichDerivativesExistAtAnExtraordinaryCorner) {
   EXPECT_NE(run("eval octahedron 0 0 0").out.find("d/dl1       0  0  0  exact"), std::string::npos);
 }
 
+// The table itself is tested in reference/: here, that its words are those of each kind of vertex.
+TEST_F(EvalCommand, SaysWhyDerivativesExistOrNot) {
+  struct Case {
+    const char *mesh, *first, *second, *why;
+  };
+  const Case cases[] = {
+      {"dart:5", "zero", "grows", "(zero at such a corner: 0.962 times as much after each halving"},
+      {"dart:6", "value", "grows", "grows 1.35355-fold"},
+      {"dart:7", "grows", "grows", "grows 1.06174-fold"},
+      {"fan:1", "value", "value", "d2/dl1dl2"},
+      {"fan:4", "grows", "grows", "(eigenvalue 0.551777), unless it runs along the boundary or crease"},
+      {"corner:3", "value", "grows", "(eigenvalue 0.375), unless"},
+      {"quad-cube", "zero", "grows", "(zero at such a corner: 0.82 times as much"},
+      {"quad-dart:3", "zero", "grows", "(zero at such a corner: 0.924 times"},
+      {"quad-dart:4", "value", "grows", "grows 1.27873-fold"},
+      {"quad-fan:1", "value", "no_limit", "it depends on the direction, or grows like the logarithm"},
+      {"quad-corner:3", "no_limit", "grows", "(eigenvalue 0.5), unless"},
+      {"quad-wheel:5", "grows", "grows", "grows 1.09998-fold"}};
+  for (const Case& c : cases) {
+    const std::string command = "eval " + std::string(c.mesh) + " 0 0 0";
+    const auto json = nlohmann::json::parse(run(command + " --json").out);
+    const std::string first = c.first, second = c.second;
+    EXPECT_EQ(json["first_limit"]["fate"], first) << c.mesh;
+    EXPECT_EQ(json["second_limit"]["fate"], second) << c.mesh;
+    EXPECT_EQ(json["derivatives_exist"], first == "value" || first == "zero") << c.mesh;
+    EXPECT_EQ(json["second_derivatives_exist"], second == "value") << c.mesh;
+    EXPECT_EQ(json["d11"].is_null(), second != "value") << c.mesh;
+    const std::string text = run(command).out;
+    EXPECT_NE(text.find(c.why), std::string::npos) << text;
+  }
+  EXPECT_TRUE(nlohmann::json::parse(run("eval dart:6 0 .25 .25 --json").out)["first_limit"].is_null());
+}
+
 TEST_F(EvalCommand, HasWarrensWeightsToo) {
   // A vertex of the octahedron keeps half of its distance from the centre, 24/55 by Loop's weights.
   const auto first = [&](const std::string& options) {

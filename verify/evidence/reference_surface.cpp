@@ -16,7 +16,7 @@ namespace {
 
 // See normal_condition(). In units of the larger tangent, so that nothing overflows or vanishes.
 double condition(const reference::SurfacePoint<double>& p) {
-  const Vector t1 = vector_of(p.d1), t2 = vector_of(p.d2);
+  const Vector t1 = vector_of(p.t1), t2 = vector_of(p.t2);
   const double unit = std::max(largest(t1), largest(t2));
   if (!(unit > 0)) return std::numeric_limits<double>::infinity();
   const auto scaled = [&](const Vector& t) { return Vector{t[0] / unit, t[1] / unit, t[2] / unit}; };

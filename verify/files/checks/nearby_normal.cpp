@@ -16,7 +16,7 @@ struct Axes {
 
   Axes(const LimitSurface& surface, const FacePoint& at, double radius) {
     const auto p = surface.evaluate(at, reference::Order::kFirst);
-    const Vector d1 = vector_of(p.d1), d2 = vector_of(p.d2);
+    const Vector d1 = vector_of(p.t1), d2 = vector_of(p.t2);
     const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);
     const double turn = std::atan2(2 * b, a - c) / 2, middle = (a + c) / 2,
                  spread = std::hypot((a - c) / 2, b);

@@ -294,7 +294,7 @@ OpenedMesh open_mesh(const std::string& file_or_name, const ReadOptions& options
   if (!std::filesystem::exists(file, ignored) && !file.has_extension() && !file.has_parent_path())
     return open_named_mesh(file_or_name, options);
   io::Examination found = io::require_valid(io::read_soup(file), file_or_name, options);
-  return {std::move(found.mesh), found.cut, found.left_out};
+  return {std::move(found.mesh), found.cut, found.left_out, std::move(found.notes)};
 }
 
 std::vector<NamedMesh> named_meshes() {

@@ -27,11 +27,12 @@ std::vector<NamedMesh> named_meshes();
 /// every interior valence class, every boundary situation.
 std::vector<std::string> stock_shapes();
 
-/// A mesh, how many of its faces were cut into triangles, and how many unused vertices of its file were left
-/// out, because the options asked for it.
+/// A mesh, how many of its faces were cut into triangles, how many unused vertices of its file were left
+/// out, because the options asked for it, and what of the file was read otherwise than one may expect.
 struct OpenedMesh {
   ControlMesh mesh;
   std::int64_t cut = 0, left_out = 0;
+  std::vector<std::string> notes = {};
 };
 
 /// What a user may write where a mesh is expected: an existing file is read, anything else is a

@@ -2,16 +2,20 @@
 // Wavefront OBJ: `v`, `f`, and what may be read over; and OpenSubdiv's tags, which count from 0:
 //   t crease 2/1/0 A B SHARPNESS         one edge; or several: 4/2/0 A B C D S T; or 4/1/0 A B C D S
 //   t corner 1/1/0 V SHARPNESS           likewise
-//   t interpolateboundary 1/0/0 1|2      1: vertices of one face are held, 2: they are not, as without it
+//   t interpolateboundary 1/0/0 0|1|2    1: vertices of one face are held, 2: they are not, as without it; 0:
+//                                        nor are faces beside the boundary shown (PolygonSoup)
 //   t creasemethod 0/0/1 normal|chaikin
 //   t smoothtriangles 0/0/1 catmark|smooth
 //   t hole 2/0/0 F G                     faces that are not shown
-// A sharpness is a decimal number or a fraction, 23/10.
+//   t facevarying...                     of texture coordinates: moves no point, and is read over with a note
+// A sharpness is a decimal number or a fraction, 23/10. Hierarchical edits are refused.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "data/error.h"
@@ -28,6 +32,8 @@ constexpr std::string_view kReadOver[] = {"vt",        "g",      "o",        "s"
 constexpr std::string_view kFreeForm[] = {"vp",   "cstype", "deg",   "bmat", "step", "curv", "curv2",
                                           "surf", "parm",   "trim",  "hole", "scrv", "sp",   "end",
                                           "con",  "ctech",  "stech", "call", "fo"};
+constexpr std::string_view kMoveNothing[] = {"facevaryinginterpolateboundary", "facevaryingpropagatecorners"};
+constexpr std::string_view kEdits[] = {"vertexedit", "edgeedit", "faceedit"};
 
 template <class List>
 bool contains(const List& list, std::string_view word) {
@@ -132,6 +138,16 @@ class ObjReader {
 
   void read_tag() {
     const std::string_view name = scanner_.word();
+    if (contains(kMoveNothing, name)) {
+      soup_.notes.push_back(
+          fmt::format("line {}: tag {} moves no point, and is read over", scanner_.line(), quoted(name)));
+      return;
+    }
+    if (contains(kEdits, name))
+      scanner_.fail("FILE_UNSUPPORTED",
+                    fmt::format("tag {} is a hierarchical edit, which moves points of a refined mesh and is "
+                                "not read",
+                                quoted(name)));
     const Tag tag = read_tag_arguments(name);
     if (name == "crease" || name == "corner") {
       const std::size_t each = name == "crease" ? 2 : 1, count = tag.integers.size() / each;
@@ -149,25 +165,34 @@ class ObjReader {
       for (const std::int64_t f : tag.integers) soup_.holes.push_back({f, scanner_.line()});
       return;
     }
-    const auto choose = [&](auto& choice, const auto& value, std::string_view first, auto first_choice,
-                            std::string_view second, auto second_choice) {
-      if (value != first && value != second)
-        scanner_.fail("FILE_UNSUPPORTED", fmt::format("tag {} is {} or {}, not {}", quoted(name), first,
-                                                      second, io::quoted(value)));
-      choice = value == first ? first_choice : second_choice;
-    };
-    Sharpness& choices = soup_.choices;
     const auto value = tag.words.size() == 1      ? std::string(tag.words[0])
                        : tag.integers.size() == 1 ? std::to_string(tag.integers[0])
                                                   : std::string();
-    if (name == "interpolateboundary")
-      choose(choices.boundary, value, "1", Boundary::kEdgeAndCorner, "2", Boundary::kEdge);
-    else if (name == "creasemethod")
-      choose(choices.creasing, value, "normal", Creasing::kUniform, "chaikin", Creasing::kChaikin);
-    else if (name == "smoothtriangles")
-      choose(choices.triangles, value, "catmark", TriangleRule::kCatmark, "smooth", TriangleRule::kSmooth);
-    else
+    const auto choose = [&]<class Choice>(Choice& choice,
+                                          std::initializer_list<std::pair<std::string_view, Choice>> all) {
+      std::string known;
+      for (const auto& [word, meaning] : all) {
+        if (value == word) {
+          choice = meaning;
+          return;
+        }
+        known += (known.empty() ? "" : " or ") + std::string(word);
+      }
+      scanner_.fail("FILE_UNSUPPORTED",
+                    fmt::format("tag {} is {}, not {}", quoted(name), known, io::quoted(value)));
+    };
+    Sharpness& choices = soup_.choices;
+    if (name == "interpolateboundary") {
+      choose(choices.boundary,
+             {{"0", Boundary::kEdge}, {"1", Boundary::kEdgeAndCorner}, {"2", Boundary::kEdge}});
+      soup_.hides_boundary = value == "0";
+    } else if (name == "creasemethod") {
+      choose(choices.creasing, {{"normal", Creasing::kUniform}, {"chaikin", Creasing::kChaikin}});
+    } else if (name == "smoothtriangles") {
+      choose(choices.triangles, {{"catmark", TriangleRule::kCatmark}, {"smooth", TriangleRule::kSmooth}});
+    } else {
       scanner_.fail("FILE_UNSUPPORTED", fmt::format("tag {} is not read", quoted(name)));
+    }
   }
 
   std::int64_t vertex_of(std::string_view word) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <span>
+#include <utility>
 
 #include "data/error.h"
 #include "data/triangulate.h"
@@ -76,6 +78,25 @@ void leave_out(ControlMesh& mesh, const std::vector<SoupFault>& unused) {
   for (SharpEdge& e : mesh.sharpness.edges) e.a = to[e.a], e.b = to[e.b];
   for (SharpVertex& v : mesh.sharpness.vertices) v.vertex = to[v.vertex];
   std::erase_if(mesh.sharpness.vertices, [](const SharpVertex& v) { return v.vertex < 0; });
+}
+
+// The faces that a mesh does not show whose boundary is not interpolated (PolygonSoup::hides_boundary).
+std::vector<bool> beside_boundary(const ControlMesh& mesh) {
+  using Edge = std::pair<std::int32_t, std::int32_t>;
+  const auto edge = [](std::int32_t a, std::int32_t b) { return Edge(std::min(a, b), std::max(a, b)); };
+  std::map<Edge, int> faces;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t k = 0, n = mesh.faces[f].size(); k < n; ++k)
+      ++faces[edge(mesh.faces[f][k], mesh.faces[f][(k + 1) % n])];
+  for (const SharpEdge& e : mesh.sharpness.edges)
+    if (e.sharpness >= kInfiniteSharpness) faces[edge(e.a, e.b)] = 2;
+  std::vector<bool> at(mesh.positions.size(), false), result(mesh.faces.size(), false);
+  for (const auto& [e, count] : faces)
+    if (count == 1) at[e.first] = at[e.second] = true;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    result[f] =
+        std::any_of(mesh.faces[f].begin(), mesh.faces[f].end(), [&](std::int32_t v) { return at[v]; });
+  return result;
 }
 
 }  // namespace
@@ -158,14 +179,19 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
       result.faults.push_back(
           {std::string(code(MeshFault::kHole)), hole.line,
            fmt::format("the hole {} is no face (holes have numbers from 0)", hole.polygon), -1});
-  if (!soup.holes.empty()) {
-    std::vector<bool> is_hole(polygons, false);
-    for (const auto& hole : soup.holes)
-      if (hole.polygon >= 0 && hole.polygon < static_cast<std::int64_t>(polygons))
-        is_hole[hole.polygon] = true;
-    for (std::size_t f = 0; f < polygon_of.size(); ++f)
-      if (is_hole[polygon_of[f]]) mesh.holes.push_back(static_cast<std::int32_t>(f));
-  }
+  std::vector<bool> is_hole(polygons, false);
+  for (const auto& hole : soup.holes)
+    if (hole.polygon >= 0 && hole.polygon < static_cast<std::int64_t>(polygons)) is_hole[hole.polygon] = true;
+  const std::vector<bool> hidden =
+      soup.hides_boundary ? beside_boundary(mesh) : std::vector<bool>(mesh.faces.size());
+  for (std::size_t f = 0; f < polygon_of.size(); ++f)
+    if (is_hole[polygon_of[f]] || hidden[f]) mesh.holes.push_back(static_cast<std::int32_t>(f));
+  result.notes = soup.notes;
+  if (const auto count = std::count(hidden.begin(), hidden.end(), true); count > 0)
+    result.notes.push_back(
+        fmt::format("{} of {} faces lie beside a boundary that is not interpolated: they are "
+                    "holes, which shape the others and are not shown",
+                    count, mesh.faces.size()));
 
   // All of them together.
   for (MeshFinding& finding : validate(mesh, result.scheme, {soup.first, polygon_of})) {

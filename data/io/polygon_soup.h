@@ -39,6 +39,10 @@ struct PolygonSoup {
     std::int64_t polygon, line;
   };
   std::vector<Hole> holes;
+  // Nor are faces at a boundary vertex one of whose boundary edges is not sharp for good by a tag: what
+  // OpenSubdiv (VTX_BOUNDARY_NONE) and USD (interpolateBoundary = none) do.
+  bool hides_boundary = false;
+  std::vector<std::string> notes;  // what was read over and nobody would expect, a sentence each
 
   void close_polygon(std::int64_t line = 0) {
     polygon_end.push_back(corners.size());
@@ -70,7 +74,8 @@ struct Examination {
   std::int64_t left_out = 0;  // so many vertices that no face names, if the options say so
   // What the mesh was validated for: as asked; else as data/scheme.h chooses, by all polygons of the file.
   Scheme scheme = Scheme::kLoop;
-  std::vector<SoupFault> faults;  // polygons in file order, then as data/validate.h orders them
+  std::vector<SoupFault> faults;   // polygons in file order, then as data/validate.h orders them
+  std::vector<std::string> notes;  // what was read otherwise than one may expect, a sentence each
 };
 
 /// A vertex that no face names: it shapes nothing, and can be left out.

@@ -2,11 +2,13 @@
 // Sharp edges and vertices in files.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "data/error.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/io/polygon_soup.h"
 #include "data/io/read.h"
 #include "data/io/write.h"
 #include "data/shapes.h"
@@ -88,8 +90,78 @@ TEST(Tags, ThatAreWrongAreNamedWithTheirLine) {
   EXPECT_EQ(error_of("t crease 2/1 4 5 1\n"), "FILE_SYNTAX:15");
   EXPECT_EQ(error_of("t crease 3/1/0 4 5 6 1\n"), "FILE_SYNTAX:15");
   EXPECT_EQ(error_of("t crease 2/1/0 -1 5 1\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of("t interpolateboundary 1/0/0 0\n"), "FILE_UNSUPPORTED:15");
+  EXPECT_EQ(error_of("t interpolateboundary 1/0/0 3\n"), "FILE_UNSUPPORTED:15");
   EXPECT_EQ(error_of("t creasemethod 0/0/1 soft\n"), "FILE_UNSUPPORTED:15");
+}
+
+// Of what moves no point nothing is lost; what does is refused by its name.
+TEST(Tags, OfTextureCoordinatesAreReadOverWithANoteAndEditsAreRefused) {
+  for (const char* tag : {"facevaryinginterpolateboundary 1/0/0 1", "facevaryingpropagatecorners 1/0/0 1"}) {
+    const auto found =
+        io::examine(io::read_obj(kCube + "t " + tag + "\nt corner 1/1/0 0 3\n", "cube.obj"), {});
+    ASSERT_EQ(found.notes.size(), 1U) << tag;
+    EXPECT_TRUE(found.notes[0].starts_with("line 15: tag \"facevarying")) << found.notes[0];
+    EXPECT_EQ(found.mesh, read_cube("t corner 1/1/0 0 3\n"));
+  }
+  for (const std::string edit : {"vertexedit", "edgeedit", "faceedit"}) try {
+      read_cube("t " + edit + " 2/1/3 4 0 1 add value sharpness\n");
+      ADD_FAILURE() << edit;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.code(), "FILE_UNSUPPORTED");
+      EXPECT_NE(std::string(error.what()).find(edit + "\" is a hierarchical edit"), std::string::npos)
+          << error.what();
+    }
+  EXPECT_EQ(error_of("t unheardof 1/0/0 1\n"), "FILE_UNSUPPORTED:15");
+}
+
+// A sheet of 4 x 4 squares, or of 32 triangles, with its corner (0, 0) at vertex 0.
+std::string sheet(bool triangles) {
+  std::string text;
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 5; ++i) text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\n";
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const auto v = [&](int di, int dj) { return " " + std::to_string(5 * (j + dj) + i + di + 1); };
+      text += triangles ? "f" + v(0, 0) + v(1, 0) + v(1, 1) + "\nf" + v(0, 0) + v(1, 1) + v(0, 1) + "\n"
+                        : "f" + v(0, 0) + v(1, 0) + v(1, 1) + v(0, 1) + "\n";
+    }
+  return text;
+}
+
+// Faces at a boundary vertex are not shown, unless all its boundary edges are sharp for good: along the lower
+// side all edges are, and its inner vertices hide nothing.
+TEST(Tags, FacesBesideABoundaryThatIsNotInterpolatedAreHoles) {
+  for (const bool triangles : {false, true}) {
+    const auto read = [&](const std::string& tags) {
+      return read_mesh(sheet(triangles) + tags, FileFormat::kObj, "sheet.obj");
+    };
+    const ControlMesh none = read("t interpolateboundary 1/0/0 0\n");
+    const auto is_hole = [&](const ControlMesh& mesh, int i, int j) {
+      const int face = 4 * j + i;
+      const auto has = [&](int f) { return std::binary_search(mesh.holes.begin(), mesh.holes.end(), f); };
+      return triangles ? has(2 * face) && has(2 * face + 1) : has(face);
+    };
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(is_hole(none, i, j), i == 0 || i == 3 || j == 0 || j == 3) << i << " " << j;
+    EXPECT_EQ(none.faces, read("").faces) << "they still shape the others";
+    EXPECT_EQ(none.sharpness, read("").sharpness);
+    EXPECT_EQ(read_mesh(mesh_content(none, FileFormat::kObj), FileFormat::kObj, "again.obj"), none);
+
+    const std::string sharp = "t crease 2/1/0 0 1 10\nt crease 2/1/0 1 2 10\nt crease 2/1/0 2 3 10\n";
+    const ControlMesh partly = read(sharp + "t interpolateboundary 1/0/0 0\n");
+    for (int i = 0; i < 4; ++i)
+      EXPECT_EQ(std::binary_search(partly.holes.begin(), partly.holes.end(), triangles ? 2 * i : i),
+                i == 0 || i > 1)
+          << i;
+    EXPECT_EQ(read("t crease 2/1/0 0 1 9\nt crease 2/1/0 1 2 9\nt interpolateboundary 1/0/0 0\n").holes,
+              none.holes);
+
+    EXPECT_TRUE(read("t interpolateboundary 1/0/0 0\nt interpolateboundary 1/0/0 2\n").holes.empty());
+    const ControlMesh both = read("t hole 1/0/0 10\nt interpolateboundary 1/0/0 0\n");
+    EXPECT_EQ(both.holes.size(), none.holes.size() + 1);
+  }
+  EXPECT_TRUE(read_cube("t interpolateboundary 1/0/0 0\n").holes.empty()) << "it has no boundary";
 }
 
 TEST(Tags, AreReadBackAsTheyWereWritten) {

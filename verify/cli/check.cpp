@@ -125,6 +125,7 @@ nlohmann::ordered_json to_json(const std::string& file, const MeshScheme& chosen
           {"numbers_from", soup.first},
           {"faults", list(all.faults)},
           {"warnings", list(all.unused)},
+          {"notes", found.notes},
           {"vertices", soup.positions.size()},
           {"faces", soup.polygon_end.size()},
           {"face_sizes", counts(face_sizes(soup))},
@@ -156,6 +157,7 @@ int check(const Arguments& a) {
   } else {
     fmt::print("{}\n", scheme_line({chosen}, a.mesh));
     print_summary(soup, summary);
+    for (const std::string& note : found.notes) line("note", note);
     print_faults(a.file, soup, found.faults);
   }
   return sorted(found.faults).faults.empty() ? kHeld : kFindings;

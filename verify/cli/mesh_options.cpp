@@ -77,6 +77,8 @@ OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options
     fmt::print(stderr, "limitcheck: warning: {}: {} no face names {} left out\n", file_or_name,
                opened.left_out == 1 ? "a vertex that" : fmt::format("{} vertices that", opened.left_out),
                opened.left_out == 1 ? "is" : "are");
+  for (const std::string& note : opened.notes)
+    fmt::print(stderr, "limitcheck: note: {}: {}\n", file_or_name, note);
   return taken(file_or_name, std::move(opened), options);
 }
 

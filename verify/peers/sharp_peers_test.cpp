@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numeric>
 #include <string>
 #include <type_traits>
@@ -17,7 +18,10 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/io/read.h"
+#include "data/io/write.h"
 #include "data/shapes.h"
+#include "data/splitmix64.h"
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
 #include "verify/peers/opensubdiv_mesh.h"
@@ -236,6 +240,55 @@ TEST(SharpEdges_OpenSubdiv, WeighAnEdgeWithMoreThanOneByChaikinsRule) {
   EXPECT_GT(worst_difference<Quads>(mesh, 2), 1e-4);
   mesh.sharpness.creasing = data::Creasing::kUniform;
   EXPECT_LE(worst_difference<Quads>(mesh, 4), 1e-7);
+}
+
+// What a file hides with `interpolateboundary 0` is what OpenSubdiv hides with VTX_BOUNDARY_NONE, and the
+// points are those of the boundary rule that it is read with.
+TEST(SharpPeers, FacesBesideABoundaryThatIsNotInterpolatedAreThoseThatOpenSubdivHides) {
+  data::SplitMix64 random(5);
+  std::int64_t hidden = 0, shown = 0;
+  for (const bool quads : {false, true})
+    for (int seed = 1; seed <= 20; ++seed) {
+      data::ControlMesh mesh = quads ? data::mixed_mesh(static_cast<std::uint64_t>(seed), {60, 12})
+                                     : data::random_mesh(static_cast<std::uint64_t>(seed), {60, 12});
+      mesh.sharpness = {};
+      // Half of the boundary edges are sharp for good, or nearly.
+      std::map<std::pair<std::int32_t, std::int32_t>, int> faces;
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        for (std::size_t k = 0, n = mesh.faces[f].size(); k < n; ++k)
+          ++faces[std::minmax(mesh.faces[f][k], mesh.faces[f][(k + 1) % n])];
+      for (const auto& [edge, count] : faces)
+        if (count == 1 && random.next() % 8 > 1)
+          mesh.sharpness.edges.push_back({edge.first, edge.second, random.next() % 8 == 0 ? 9.5F : 10.F});
+      const data::ControlMesh read = data::read_mesh(
+          data::mesh_content(mesh, data::FileFormat::kObj) + "t interpolateboundary 1/0/0 0\n",
+          data::FileFormat::kObj, "mesh.obj");
+
+      const LentMesh lent(mesh, quads ? data::Scheme::kCatmullClark : data::Scheme::kLoop);
+      using Rules = OpenSubdiv::Sdc::Options;
+      const auto type = opensubdiv_scheme(lent.view());
+      const auto none = make_refiner(lent.view(), type, Rules::VTX_BOUNDARY_NONE),
+                 edge = make_refiner(lent.view(), type, Rules::VTX_BOUNDARY_EDGE_ONLY);
+      std::vector<std::int32_t> holes;
+      for (int f = 0; f < none->GetLevel(0).GetNumFaces(); ++f)
+        if (none->GetLevel(0).IsFaceHole(f)) holes.push_back(f);
+      EXPECT_EQ(read.holes, holes) << quads << " " << seed;
+      hidden += static_cast<std::int64_t>(holes.size());
+      shown += static_cast<std::int64_t>(mesh.faces.size() - holes.size());
+
+      std::vector<OpenSubdivVector<double>> control, points[2];
+      for (const auto& p : mesh.positions) control.push_back({p});
+      for (const bool is_none : {false, true}) {
+        const auto& refiner = is_none ? none : edge;
+        refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(1));
+        points[is_none].resize(static_cast<std::size_t>(refiner->GetLevel(1).GetNumVertices()));
+        Far::PrimvarRefinerReal<double>(*refiner).Interpolate(1, control, points[is_none]);
+      }
+      ASSERT_EQ(points[0].size(), points[1].size());
+      for (std::size_t v = 0; v < points[0].size(); ++v) EXPECT_EQ(points[0][v].x, points[1][v].x);
+    }
+  EXPECT_GT(hidden, 100);
+  EXPECT_GT(shown, 100);
 }
 
 }  // namespace

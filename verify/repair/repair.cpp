@@ -50,6 +50,8 @@ class Repair {
     }
     note("dropped", static_cast<std::int64_t>(soup.holes.size()), "hole",
          "which is a face like any other now");
+    note("dropped", static_cast<std::int64_t>(soup.hides_boundary), "tag",
+         "that hides the faces beside the boundary, which are faces like any other now");
     note("dropped", no_vertex, "face", "that named a vertex which does not exist");
     drop("with fewer than three corners", [](const Polygon& p) { return p.size() < 3; });
     drop_repeated_corners("with a repeated corner");

@@ -135,7 +135,7 @@ class Sorting {
       for (const std::size_t k : c.rows()) {
         const Result& r = report_.results[k];
         if (!is_of_surface(r) || r.status != Status::kFinding) continue;
-        const std::set<Region> list = regions(r);
+        const std::set<Region> list = regions(r);  // the more special first, which wins where nothing is sure
         if (list.size() > 1) {
           several.push_back(k);
           continue;

@@ -64,7 +64,7 @@ void describe_surface(const Report& report, Cause& cause) {
   const std::string where = loop.empty() || loop == quads ? quads
                             : quads.empty()               ? loop
                                                           : loop + " (Catmull-Clark: " + quads + ")";
-  const bool all = where.starts_with("everywhere");
+  const bool all = is_everywhere(cause.places[loop.empty() ? 1 : 0]);
   cause.title = fmt::format("{} are off by up to {}{}{}", title, fmt::join(size, " and "),
                             where.empty() ? ""
                             : all         ? ", "

@@ -119,6 +119,30 @@ TEST(Causes, OfDartsAreTheirOwnUnlessTheWholeEdgeIsWrong) {
   }
 }
 
+// A mesh without regular places cannot tell "everywhere" from "only in irregular faces".
+TEST(Causes, AreComparedOnlyInPlacesThatAMeshHas) {
+  Result regular = red("s", "sheet", "positions", 3), irregular = red("s", "tetrahedron", "positions", 2),
+         vertices = red("s", "octahedron", "positions", 2);
+  regular.places = {{PlaceKind::kRegularFace, 0, 5, 9}, {PlaceKind::kBoundaryFace, 0, 2, 9}};
+  irregular.places = {{PlaceKind::kIrregularFace, 0, 9, 9}, {PlaceKind::kExtraordinaryVertex, 3, 4, 4}};
+  vertices.places = {{PlaceKind::kExtraordinaryVertex, 4, 6, 6}};
+  const std::vector<Cause> one = causes(report_of({regular, irregular, vertices}));
+  ASSERT_EQ(one.size(), 1U) << one[0].title << " and " << one[1].title;
+  EXPECT_NE(one[0].title.find("everywhere, in regular faces, too"), std::string::npos) << one[0].title;
+
+  const std::vector<Cause> alone = causes(report_of({irregular}));
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_TRUE(alone[0].title.ends_with("only in irregular faces; nothing regular was looked at"))
+      << alone[0].title;
+
+  // What a mesh has and is right there is no part of it.
+  Result only = red("s", "bumpy", "positions", 2), dart = red("s", "dart", "positions", 2);
+  only.places = {{PlaceKind::kRegularFace, 0, 0, 9}, {PlaceKind::kIrregularFace, 0, 9, 9}};
+  dart.places = {{PlaceKind::kIrregularFace, 0, 0, 9}, {PlaceKind::kDart, 0, 1, 1}};
+  EXPECT_EQ(causes(report_of({regular, only})).size(), 2U);
+  EXPECT_EQ(causes(report_of({regular, dart})).size(), 2U);
+}
+
 TEST(Causes, CoverEveryRedRowOfRealSubjects) {
   std::vector<AuditSubject> subjects;
   for (const char* name : {"opensubdiv-far", "opensubdiv-bfr", "openmesh", "cgal"})

@@ -109,12 +109,17 @@ void add(std::vector<PlaceCount>& to, const std::vector<PlaceCount>& counts) {
   }
 }
 
+bool is_everywhere(const std::vector<PlaceCount>& counts) {
+  return std::any_of(counts.begin(), counts.end(),
+                     [](const PlaceCount& c) { return c.kind == PlaceKind::kRegularFace && c.bad > 0; });
+}
+
 std::string where_wrong(const std::vector<PlaceCount>& counts) {
+  if (is_everywhere(counts)) return "everywhere, in regular faces, too";
   std::vector<PlaceKind> kinds;
   for (const PlaceCount& c : counts)
     if (c.bad > 0 && (kinds.empty() || kinds.back() != c.kind)) kinds.push_back(c.kind);
   if (kinds.empty()) return "";
-  if (kinds.front() == PlaceKind::kRegularFace) return "everywhere, in regular faces, too";
   const bool in_faces = !is_vertex(kinds.front());
   std::vector<std::string> words;
   for (const PlaceKind kind : kinds) {
@@ -124,7 +129,11 @@ std::string where_wrong(const std::vector<PlaceCount>& counts) {
   }
   const std::string last = words.back();
   words.pop_back();
-  return words.empty() ? last : fmt::format("{} and {}", fmt::join(words, ", "), last);
+  const bool regular = std::any_of(counts.begin(), counts.end(), [](const PlaceCount& c) {
+    return c.of > 0 && (c.kind == PlaceKind::kRegularFace || c.kind == PlaceKind::kRegularVertex);
+  });
+  return (words.empty() ? last : fmt::format("{} and {}", fmt::join(words, ", "), last)) +
+         (regular ? "" : "; nothing regular was looked at");
 }
 
 }  // namespace limitcheck::verify

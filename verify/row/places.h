@@ -43,8 +43,12 @@ std::string_view word(PlaceKind kind);
 /// Adds counts of one list to another; both are ascending by kind and faces.
 void add(std::vector<PlaceCount>& to, const std::vector<PlaceCount>& counts);
 
-/// The places with something wrong, in words that follow "only": "at boundary vertices of 4 or more faces";
-/// "everywhere" if places of every kind are among them; empty if nothing is wrong.
+/// Whether something is wrong inside regular faces.
+bool is_everywhere(const std::vector<PlaceCount>& counts);
+
+/// The places with something wrong, in words that follow "only": "at boundary vertices of 4 or more faces", and
+/// that nothing regular was looked at, if so; empty if nothing is wrong. Where is_everywhere(): "everywhere, in
+/// regular faces, too".
 std::string where_wrong(const std::vector<PlaceCount>& counts);
 
 }  // namespace limitcheck::verify

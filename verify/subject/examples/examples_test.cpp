@@ -110,6 +110,14 @@ TEST_F(Examples, InCWithOneWeightChangedIsCaughtWithTheRightWitness) {
       EXPECT_NEAR(std::stod(position[axis].get<std::string>()), w["expected"][axis].get<double>(), 1e-15);
     }
   }
+
+  // One cause, also where meshes without regular faces are among those that have some.
+  const Outcome all = shell(
+      "prefix/bin/limitcheck audit wrong/build/libloop.so tetrahedron octahedron icosahedron "
+      "bumpy:200 holes --depth 2 --json -");
+  ASSERT_EQ(all.code, 1) << all.err;
+  const json causes = json::parse(all.out)["causes"];
+  EXPECT_EQ(causes.size(), 1U) << causes;
 }
 
 TEST_F(Examples, InPythonPassesTheAudit) {

@@ -254,7 +254,8 @@ class Sorting {
                             "file-watertight"}))
       return {of_library, CauseKind::kSeams, Region::kNone, ""};
     if (r.check == "rejected-inputs") return {of_library, CauseKind::kAccepts, Region::kNone, ""};
-    if (is_one_of(r.check, {"normals-against-positions", "normal-length"}) || r.check.starts_with("file-"))
+    if (is_one_of(r.check, {"normals-against-positions", "normal-length", "recognised"}) ||
+        r.check.starts_with("file-"))
       return {name, CauseKind::kOther, Region::kNone, r.check};
     return {of_library, CauseKind::kOrder, Region::kNone, ""};
   }
@@ -271,6 +272,7 @@ class Sorting {
       const Key own = key_of(c, k);
       const bool follows =
           r.status == Status::kFinding &&
+          !is_one_of(r.check, {"recognised", "file-recognised"}) &&  // what the reason does not explain
           (own.kind == CauseKind::kOrder || own.kind == CauseKind::kOther ||
            is_one_of(r.check, {"orientation", "continuity", "file-watertight", "file-orientation"}));
       if (follows && has_reason) {

@@ -71,11 +71,8 @@ void describe_surface(const Report& report, Cause& cause) {
                                           : ", only ",
                             where);
   if (what.size() == 1 && what[0] == "normals") cause.look = "the points are right: look at the tangents";
-  for (const std::size_t k : cause.direct) {
-    const std::string& message = report.results[k].message;
-    const std::size_t at = message.find("the points are those of");
-    if (at != std::string::npos) cause.look = message.substr(at, message.find(';', at) - at);
-  }
+  for (const std::size_t k : cause.direct)
+    if (const auto& known = report.results[k].recognised) cause.look = "the points are " + known->what;
   if (cause.look.empty())
     cause.look = all             ? "rounding, or rules that every face has in common"
                  : where.empty() ? ""

@@ -132,7 +132,12 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   };
   if (distance.status == Status::kFinding) {
     step("diagnosis", 0, 1);
-    for (const std::string& sentence : diagnose(e)) say(sentence);
+    Diagnosis diagnosis = diagnose(e);
+    for (const std::string& sentence : diagnosis.sentences) say(sentence);
+    distance.recognised = std::move(diagnosis.recognised);
+    for (const Result& r : diagnosis.rows)
+      if (is_bad(r)) audit.notes.push_back(r.message);
+    append(audit.results, std::move(diagnosis.rows));  // `distance` is none of them any more
   } else if (const std::string unseen = blind_spots(e); !unseen.empty()) {
     say(unseen);
     audit.notes.push_back(unseen);

@@ -35,7 +35,8 @@ struct FilesAudit {
 };
 
 /// Rows: file-finite, file-unused, file-distance (or file-positions, with a provenance), file-normals,
-/// file-normal-length, file-orientation, file-coverage, file-degenerate, file-watertight, file-hausdorff.
+/// file-normal-length, file-orientation, file-coverage, file-degenerate, file-watertight, file-hausdorff; and
+/// file-recognised, where the vertices are something else (checks/diagnosis.h).
 /// `control` is valid for the scheme (data/validate.h); the tessellation is fitted first if asked. Quads and
 /// larger polygons of the file are the triangles that tessellation_file.h cuts them into.
 FilesAudit audit_files(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The audit of files on tessellations that are right, and on ones with a planted fault each.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "data/generators/named_mesh.h"
 #include "reference/loop/refine.h"
 #include "verify/files/audit_files.h"
+#include "verify/files/checks/diagnosis.h"
 #include "verify/files/checks/hausdorff.h"
 #include "verify/files/test_files.h"
 #include "verify/recognise/schemes.h"
@@ -205,6 +207,11 @@ TEST(AuditFiles, NoCheckIsWithoutAFileThatItRefusesAndAnExplanation) {
       audit(mesh, good, {}, {{0, {0, {1. / 3, 1. / 3, 1. / 3}}}, {1, {0, {1. / 3, 1. / 3, 1. / 3}}}});
   if (row(a, "file-positions").status == Status::kFinding) killers.insert("file-positions");
 
+  FileTessellation refined = exact(mesh, 2, false);
+  refined.positions[7][0] += .01;
+  if (row(audit(mesh, refined), "file-recognised").status == Status::kFinding)
+    killers.insert("file-recognised");
+
   std::set<std::string> explained;
   for (const Explanation& e : explanations())
     if (e.check.starts_with("file-")) explained.emplace(e.check);
@@ -305,6 +312,91 @@ TEST(AuditFiles, SaysWhatItLooksLike) {
   EXPECT_NE(flat.find("nothing was subdivided"), std::string::npos) << flat;
   const std::string other = said(scheme_points(mesh, Scheme::kCatmullClark, 2, true));
   EXPECT_NE(other.find("not Loop subdivision at all"), std::string::npos) << other;
+}
+
+// As programs write coordinates: floats, with six decimals, with six digits, and as they are.
+using Writing = double (*)(double);
+const std::map<std::string, Writing> kWritings{
+    {"float", [](double x) { return static_cast<double>(static_cast<float>(x)); }},
+    {"decimals", [](double x) { return std::stod(fmt::format("{:.6f}", x)); }},
+    {"digits", [](double x) { return std::stod(fmt::format("{:.6g}", x)); }},
+    {"float's nine digits", [](double x) { return std::stod(fmt::format("{:.9g}", static_cast<float>(x))); }},
+    {"double", [](double x) { return x; }}};
+
+// The points that some scheme makes, as a file without faces.
+FileTessellation cloud_of(std::vector<Vector> points, Writing writing) {
+  FileTessellation t;
+  t.name = "cloud";
+  t.positions = std::move(points);
+  for (Vector& p : t.positions)
+    for (double& x : p) x = writing(x);
+  t.used.assign(t.positions.size(), true);
+  return t;
+}
+
+// Refined control points are not points of the limit surface; some that are wrong besides are not excused.
+TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
+  struct Case {
+    const char* mesh;
+    Scheme scheme;
+    int steps;
+  };
+  for (const Case& c :
+       {Case{"bumpy:200", Scheme::kLoop, 3}, Case{"wheel:50", Scheme::kLoop, 3},
+        Case{"holes", Scheme::kLoop, 3}, Case{"quad-wheel:7", Scheme::kCatmullClark, 3},
+        Case{"quad-cube", Scheme::kCatmullClark, 2}, Case{"prism:5", Scheme::kCatmullClark, 2}})
+    for (const auto& [writing, written] : kWritings) {
+      const auto mesh = data::named_mesh(c.mesh);
+      const std::string name = std::string(c.mesh) + " in " + writing;
+      FileTessellation t = cloud_of(scheme_points(mesh, c.scheme, c.steps, false), written);
+      const FilesAudit right = audit(mesh, t);
+      const Result& held = row(right, "file-recognised");
+      EXPECT_EQ(held.status, Status::kHeld) << name << ": " << held.message << " within " << *held.bound;
+      EXPECT_EQ(held.of, static_cast<std::int64_t>(t.positions.size())) << name;
+      EXPECT_LE(*held.bound, 1e-5) << name;
+      ASSERT_TRUE(held.recognised) << name;
+      EXPECT_EQ(held.recognised->scheme, word(c.scheme));
+      EXPECT_EQ(held.recognised->steps, c.steps);
+      EXPECT_FALSE(held.recognised->limit);
+      EXPECT_TRUE(row(right, "file-distance").recognised) << name;
+
+      const std::size_t at = t.positions.size() / 2;
+      t.positions[at][0] = written(t.positions[at][0] + .01);
+      const FilesAudit wrong = audit(mesh, t);
+      const Result& r = row(wrong, "file-recognised");
+      EXPECT_EQ(r.status, Status::kFinding) << name;
+      EXPECT_EQ(r.bad, 1) << name << ": " << r.message;
+      ASSERT_TRUE(r.witness && r.recognised) << name;
+      EXPECT_EQ(r.witness->vertex, static_cast<std::int64_t>(at)) << name;
+      EXPECT_GE(r.witness->face, 0) << name;
+      EXPECT_EQ(row(wrong, "file-distance").recognised->what, r.recognised->what) << name;
+    }
+}
+
+// Sixty of them, each by less than the others are off the limit surface.
+TEST(AuditFiles, SixtySmallFaultsAmongRefinedPointsAreCounted) {
+  const auto mesh = data::named_mesh("bumpy:800");
+  FileTessellation t = cloud_of(scheme_points(mesh, Scheme::kLoop, 3, false), kWritings.at("float"));
+  const std::size_t stride = t.positions.size() / 60;
+  for (std::size_t k = 0; k < 60; ++k) t.positions[k * stride][2] += 1e-4;
+  const FilesAudit a = audit(mesh, t);
+  EXPECT_EQ(row(a, "file-recognised").bad, 60) << row(a, "file-recognised").message;
+  EXPECT_LT(*row(a, "file-recognised").worst, *row(a, "file-distance").worst);
+}
+
+TEST(AuditFiles, ReadsOffTheCoordinatesHowTheyWereWritten) {
+  const auto of = [](const std::string& writing) {
+    std::vector<Vector> points;
+    for (int k = 1; k < 100; ++k) points.push_back({std::sqrt(k), 1. / k, 1e-3 / k});
+    return written(cloud_of(points, kWritings.at(writing)).positions);
+  };
+  for (const char* in_float : {"float", "decimals", "digits", "float's nine digits"})
+    EXPECT_EQ(of(in_float).precision, LC_FLOAT32) << in_float;
+  EXPECT_EQ(of("double").precision, LC_FLOAT64);
+  EXPECT_DOUBLE_EQ(of("decimals").last, 5e-7);
+  EXPECT_DOUBLE_EQ(of("digits").last, 5e-6);  // 9.94987
+  EXPECT_LE(of("double").last, 1e-14);
+  EXPECT_LE(of("float").last, 1e-14);
 }
 
 TEST(AuditFiles, AScaleAnOffsetAndATurnAreFittedAway) {

@@ -246,7 +246,7 @@ KillTable kill_table(const std::map<std::size_t, nlohmann::json>& results) {
     table.kills.push_back({&mutants().at(unit - cases), result.at("killed_by").get<std::set<std::string>>(),
                            result.at("on").get<std::string>()});
   }
-  std::set<std::string> rows{"tessellates", "refined-positions"}, useful;
+  std::set<std::string> rows{"tessellates", "refined-positions", "recognised"}, useful;
   for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());
   rows.insert(relation_rows().begin(), relation_rows().end());
   for (const Kill& k : table.kills)

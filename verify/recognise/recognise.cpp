@@ -6,109 +6,125 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <utility>
 
+#include "verify/recognise/likeness.h"
 #include "verify/recognise/normal_origin.h"
 #include "verify/recognise/schemes.h"
-#include "verify/recognise/worst_faces.h"
+#include "verify/recognise/wrong_faces.h"
+#include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 namespace {
 
-constexpr double kTimesNearer = 10;
-constexpr std::int64_t kFewest = 10;  // points that both have
-
-// Root mean square and largest distances, from a guess and from the truth, at the points that the guess has.
-struct Apart {
-  std::int64_t points = 0;
-  double from_guess = 0, from_truth = 0, worst_guess = 0, worst_truth = 0;
-  double squares_from_guess = 0;
+struct Guess {
+  Scheme scheme;
+  bool limit;
+  const char* remark;
+  bool tags = true;  // with the sharp edges and vertices of the control mesh
 };
 
-Apart apart(const Evidence& e, const SchemePoints& guess) {
-  std::vector<std::int64_t> at(e.lattice.size(), -1);
+std::vector<Guess> guesses_for(const Evidence& e) {
+  const bool wants_limit = e.capabilities.points == LC_POINTS_LIMIT;
+  const char* no_limit = wants_limit ? "; what is missing is the last step, the limit mask" : "";
+  const char* no_step = wants_limit ? "" : "; the capabilities should name them so";
+  const char *warren = "; Warren's is another surface", *no_loop = "; this is not Loop subdivision at all";
+  const bool loop = e.lattice.scheme() == data::Scheme::kLoop;
+  const Scheme own = loop ? Scheme::kLoop : Scheme::kCatmullClark;
+  std::vector<Guess> guesses{{own, false, no_limit}, {own, true, no_step}};
+  if (loop)
+    guesses.insert(guesses.end(), {{Scheme::kWarren, false, warren},
+                                   {Scheme::kWarren, true, warren},
+                                   {Scheme::kLinear, false, "; nothing was subdivided"}});
+  if (loop && e.lattice.depth() > 0)  // at depth 0 Catmull and Clark's is the control mesh again
+    guesses.insert(guesses.end(),
+                   {{Scheme::kCatmullClark, false, no_loop}, {Scheme::kCatmullClark, true, no_loop}});
+  if (!e.mesh.sharpness.empty())
+    for (const bool limit : {false, true})
+      guesses.push_back({own, limit, "; its sharp edges and vertices were not taken as sharp", false});
+  return guesses;
+}
+
+// Of each vertex the distance from a guess, -1 where the guess has none.
+std::vector<double> distances(const Evidence& e, const SchemePoints& guess, std::vector<std::int64_t>& at) {
+  at.assign(static_cast<std::size_t>(e.lattice.size()), -1);
   for (std::size_t k = 0; k < guess.place.size(); ++k) {
     if (guess.place[k].denominator == 0) continue;
     const Lattice::Id id = e.lattice.id(guess.place[k]);
     if (id != Lattice::kNone) at[id] = static_cast<std::int64_t>(k);
   }
-  Apart a;
+  std::vector<double> distance(static_cast<std::size_t>(e.tessellation.vertex_count()), -1);
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
     const Lattice::Id id = e.point[v];
     const Vector got = e.tessellation.position(v);
-    if (id == Lattice::kNone || at[id] < 0 || !is_finite(got)) continue;
-    const double x = norm(got - guess.position[at[id]]), y = norm(got - e.reference.position(id));
-    ++a.points;
-    a.from_guess += x * x;
-    a.from_truth += y * y;
-    a.worst_guess = std::max(a.worst_guess, x);
-    a.worst_truth = std::max(a.worst_truth, y);
+    if (id != Lattice::kNone && at[id] >= 0 && is_finite(got))
+      distance[v] = norm(got - guess.position[at[id]]) / e.diagonal;
   }
-  a.squares_from_guess = a.from_guess;
-  const double count = static_cast<double>(std::max<std::int64_t>(a.points, 1));
-  a.from_guess = std::sqrt(a.from_guess / count);
-  a.from_truth = std::sqrt(a.from_truth / count);
-  return a;
+  return distance;
 }
 
-std::string origin_of_points(const Evidence& e) {
+Likeness likeness(const Evidence& e, const std::vector<double>& distance, double bound) {
+  Likeness result(bound, bound);
+  for (std::size_t v = 0; v < distance.size(); ++v)
+    if (distance[v] >= 0)
+      result.add(distance[v], norm(e.tessellation.position(static_cast<std::int64_t>(v)) -
+                                   e.reference.position(e.point[v])) /
+                                  e.diagonal);
+  return result;
+}
+
+// The best of the guesses that convince, as a sentence and `recognised` of a row of positions; and the row of
+// the points that are not those.
+std::optional<Result> origin_of_points(const Evidence& e, Result& positions) {
   const int steps = e.lattice.depth();
   if (std::any_of(e.face_depth.begin(), e.face_depth.end(), [&](int d) { return d >= 0 && d != steps; }))
-    return "";
-  const bool wants_limit = e.capabilities.points == LC_POINTS_LIMIT;
-  struct Guess {
-    Scheme scheme;
-    bool limit;
-    const char* remark;
-    bool tags = true;  // with the sharp edges and vertices of the control mesh
-  };
-  const bool loop = e.lattice.scheme() == data::Scheme::kLoop;
-  const char* no_loop = "; this is not Loop subdivision at all";
-  std::vector<Guess> guesses{
-      {Scheme::kLoop, false, wants_limit ? "; what is missing is the last step, the limit mask" : ""},
-      {Scheme::kLoop, true, wants_limit ? "" : "; the capabilities should name them so"},
-      {Scheme::kWarren, false, "; Warren's is another surface"},
-      {Scheme::kWarren, true, "; Warren's is another surface"},
-      {Scheme::kLinear, false, "; nothing was subdivided"},
-      {Scheme::kCatmullClark, false, no_loop},
-      {Scheme::kCatmullClark, true, no_loop},
-  };
-  if (!loop)
-    guesses = {{Scheme::kCatmullClark, false,
-                wants_limit ? "; what is missing is the last step, the limit mask" : ""},
-               {Scheme::kCatmullClark, true, wants_limit ? "" : "; the capabilities should name them so"}};
-  if (!e.mesh.sharpness.empty())
-    for (const bool limit : {false, true})
-      guesses.push_back({loop ? Scheme::kLoop : Scheme::kCatmullClark, limit,
-                         "; its sharp edges and vertices were not taken as sharp", false});
+    return std::nullopt;
+  const double bound = *positions.bound;
   const data::ControlMesh smooth = without_tags(e.mesh);
-  // On few faces alone a guess is farther off than it may be on all of them.
-  const WorstFaces worst_one(e, 1), worst_few(e, 8);
-  const auto is_wrong = [&](const Guess& guess) {
-    const auto is_wrong_on = [&](const WorstFaces& worst) {
-      constexpr double kRounding = 1.01;
-      if (!worst.worthwhile()) return false;
-      const Apart a =
-          apart(e, worst.points(guess.tags, guess.scheme, steps, guess.limit, e.lattice.scheme()));
-      return kTimesNearer * kTimesNearer * a.squares_from_guess > kRounding * worst.squares();
-    };
-    return is_wrong_on(worst_one) || is_wrong_on(worst_few);
+  const WrongFaces one(e, bound * e.diagonal, 1), few(e, bound * e.diagonal, 8);
+  std::vector<std::int64_t> at;
+  const auto is_hopeless = [&](const Guess& g) {
+    for (const WrongFaces* faces : {&one, &few})
+      if (faces->worthwhile() &&
+          !likeness(e, distances(e, faces->points(g.tags, g.scheme, steps, g.limit, e.lattice.scheme()), at),
+                    bound)
+               .plausible())
+        return true;
+    return false;
   };
-  std::string text;
+  std::optional<Result> row;
   double least = std::numeric_limits<double>::infinity();
-  for (const Guess& guess : guesses) {
-    if (loop && guess.scheme == Scheme::kCatmullClark && steps == 0) continue;  // the control mesh again
-    if (is_wrong(guess)) continue;
-    const Apart a = apart(e, placed_scheme_points(guess.tags ? e.mesh : smooth, guess.scheme, steps,
-                                                  guess.limit, e.lattice.scheme()));
-    if (a.points < kFewest || !(kTimesNearer * a.from_guess < a.from_truth) || !(a.from_guess < least))
-      continue;
-    least = a.from_guess;
+  std::string text;
+  for (const Guess& g : guesses_for(e)) {
+    if (is_hopeless(g)) continue;
+    const SchemePoints points =
+        placed_scheme_points(g.tags ? e.mesh : smooth, g.scheme, steps, g.limit, e.lattice.scheme());
+    const std::vector<double> distance = distances(e, points, at);
+    const Likeness like = likeness(e, distance, bound);
+    if (!like.convincing() || !(like.misfit() < least)) continue;
+    least = like.misfit();
+    const Recognised recognised{describe(g.scheme, steps, g.limit), std::string(word(g.scheme)), steps,
+                                g.limit, g.tags};
     text = fmt::format(
-        "looks like {}: the vertices are within {:.2g} diagonals of those, and up to {:.2g} off {}{}",
-        describe(guess.scheme, steps, guess.limit), a.worst_guess / e.diagonal, a.worst_truth / e.diagonal,
-        wants_limit ? "the limit surface" : "the refined mesh", guess.remark);
+        "looks like {}: {} of {} vertices are those, and up to {:.2g} diagonals off {}{}", recognised.what,
+        like.points() - like.off(), like.points(), positions.worst.value_or(0),
+        e.capabilities.points == LC_POINTS_LIMIT ? "the limit surface" : "the refined mesh", g.remark);
+    positions.recognised = recognised;
+    row = e.result("recognised");
+    const Statistics statistics = summarise(distance, bound);
+    std::optional<Witness> worst;
+    if (const std::int64_t v = statistics.worst_at; v >= 0) {
+      const Vector expected = points.position[at[e.point[v]]], got = e.tessellation.position(v);
+      worst = e.at_vertex(v);
+      worst->expected = {expected.begin(), expected.end()};
+      worst->got = {got.begin(), got.end()};
+    }
+    say_recognised(*row, recognised, statistics, bound, worst);
   }
-  return text;
+  if (!text.empty()) positions.message += (positions.message.empty() ? "" : "; ") + text;
+  return row;
 }
 
 std::string origin_of_normals(const Evidence& e) {
@@ -141,13 +157,15 @@ std::string origin_of_normals(const Evidence& e) {
 
 void recognise(const Evidence& e, std::vector<Result>& results) {
   if (e.lattice.size() > kRecognised) return;
+  std::optional<Result> row;
   for (Result& r : results) {
     if (r.status != Status::kFinding) continue;
-    std::string text;
-    if (r.check == "positions" || r.check == "refined-positions") text = origin_of_points(e);
-    if (r.check == "normals") text = origin_of_normals(e);
+    if (r.check == "positions" || r.check == "refined-positions") row = origin_of_points(e, r);
+    if (r.check != "normals") continue;
+    const std::string text = origin_of_normals(e);
     if (!text.empty()) r.message += (r.message.empty() ? "" : "; ") + text;
   }
+  if (row) results.push_back(std::move(*row));
 }
 
 }  // namespace limitcheck::verify

@@ -8,12 +8,14 @@
 
 namespace limitcheck::verify {
 
-/// Adds a sentence to the findings among `results`, the rows of this evidence, that it can explain:
+/// Adds a sentence, and of positions `recognised`, to the findings among `results`, the rows of this evidence,
+/// that it can explain:
 ///   positions, refined-positions   the points are those of another scheme at the same lattice points, or of
-///                                  Loop's without or with the limit mask (schemes.h), ten times nearer to
-///                                  them than to what was expected; all visible faces have one depth
+///                                  Loop's without or with the limit mask (schemes.h), by majority
+///                                  (likeness.h); all visible faces have one depth
 ///   normals                        origin_of_normals()
-/// Does nothing without such a finding, or if there are more than kRecognised lattice points.
+/// Then the row `recognised` is added: the points that are not those of what was recognised, by the bound of
+/// the positions. Does nothing without such a finding, or if there are more than kRecognised lattice points.
 void recognise(const Evidence& e, std::vector<Result>& results);
 
 inline constexpr Lattice::Id kRecognised = 300000;

@@ -2,11 +2,15 @@
 // Subjects that deliver something else than they claim are told what it is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
+#include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
+#include "verify/causes/causes.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/recognise/recognise.h"
 #include "verify/row/test_rows.h"
@@ -52,6 +56,61 @@ TEST(Recognise, RefinedPointsThatAreClaimedAsLimitPoints) {
             Status::kHeld);
   expect_said(row(audit(*lc_subject_model(), "mutation=no_limit", "bumpy:200", 2), "positions"),
               "what is missing is the last step, the limit mask");
+}
+
+// The same with one point moved, in all faces that have it.
+template <lc_points kPoints>
+const lc_subject& claimed_but_one() {
+  static const lc_subject subject = [] {
+    lc_subject s = claimed<kPoints>();
+    s.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out, const char** message) {
+      const lc_status status = lc_subject_cgal()->tessellate(instance, request, out, message);
+      auto* positions = static_cast<double*>(out->positions);
+      const std::array<double, 3> one{positions[300], positions[301], positions[302]};
+      for (std::int64_t v = 0; v < out->vertex_count; ++v)
+        if (std::equal(one.begin(), one.end(), positions + 3 * v)) positions[3 * v] += .01;
+      return status;
+    };
+    return s;
+  }();
+  return subject;
+}
+
+// What the other points are explains nothing of it: it is a row and a cause of its own.
+TEST(Recognise, APointThatIsWrongBesidesIsNotExplained) {
+  const auto right = audit(claimed<LC_POINTS_LIMIT>(), "", "bumpy:200", 3);
+  EXPECT_EQ(row(right, "recognised").status, Status::kHeld) << row(right, "recognised").message;
+  EXPECT_EQ(row(right, "recognised").bad, 0);
+
+  Report report;
+  report.subjects = {"claimed"};
+  report.results = audit(claimed_but_one<LC_POINTS_LIMIT>(), "", "bumpy:200", 3);
+  const Result &positions = row(report.results, "positions"), &rest = row(report.results, "recognised");
+  ASSERT_TRUE(positions.recognised);
+  EXPECT_EQ(positions.recognised->scheme, "loop");
+  EXPECT_EQ(positions.recognised->steps, 3);
+  EXPECT_FALSE(positions.recognised->limit);
+  EXPECT_EQ(rest.status, Status::kFinding);
+  EXPECT_GE(rest.bad, 1);
+  EXPECT_LE(rest.bad, 6) << "once for each face at most";
+  EXPECT_EQ(rest.of, positions.of);
+  EXPECT_NEAR(*rest.worst / *rest.bound,
+              .01 / (*rest.bound * data::box_diagonal(data::named_mesh("bumpy:200"))), 1);
+  ASSERT_TRUE(rest.witness);
+  EXPECT_NEAR(rest.witness->got[0] - rest.witness->expected[0], .01, 1e-9);
+  const std::vector<Cause> all = causes(report);
+  EXPECT_EQ(std::count_if(all.begin(), all.end(),
+                          [&](const Cause& c) { return &report.results[c.example] == &rest; }),
+            1);
+  EXPECT_EQ(std::count_if(
+                all.begin(), all.end(),
+                [](const Cause& c) { return c.look.find("refined by Loop's rule") != std::string::npos; }),
+            1);
+
+  // Whoever delivers what it says is judged by that alone.
+  const auto refined = audit(claimed_but_one<LC_POINTS_REFINED>(), "", "bumpy:200", 3);
+  EXPECT_EQ(row(refined, "refined-positions").bad, rest.bad);
+  EXPECT_FALSE(row(refined, "refined-positions").recognised);
 }
 
 TEST(Recognise, LimitPointsThatAreClaimedAsRefined) {

@@ -88,6 +88,11 @@ data::ControlMesh without_tags(const data::ControlMesh& mesh) {
   return {mesh.positions, mesh.faces, {}, mesh.holes};
 }
 
+std::string_view word(Scheme scheme) {
+  constexpr std::string_view kWords[] = {"loop", "warren", "linear", "catmull-clark"};
+  return kWords[static_cast<std::size_t>(scheme)];
+}
+
 std::string describe(Scheme scheme, int steps, bool limit) {
   const char* rule = "";
   switch (scheme) {

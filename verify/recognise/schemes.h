@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -38,6 +39,8 @@ SchemePoints placed_scheme_points(const data::ControlMesh& mesh, Scheme scheme, 
 /// The mesh as somebody has it who knows nothing of sharp edges and vertices.
 data::ControlMesh without_tags(const data::ControlMesh& mesh);
 
+/// "catmull-clark": stable.
+std::string_view word(Scheme scheme);
 /// "the limit points of Loop's rule with Warren's simplified weights (1 step)"
 std::string describe(Scheme scheme, int steps, bool limit);
 

@@ -61,6 +61,12 @@ Json witness(const Result& r, const std::string& level) {
           {"reproduce", is_bad(r) ? Json(audit_command(r, level)) : Json(nullptr)}};
 }
 
+Json recognised(const Result& r) {
+  if (!r.recognised) return nullptr;
+  const auto& [what, scheme, steps, limit, tags] = *r.recognised;
+  return {{"what", what}, {"scheme", scheme}, {"steps", steps}, {"limit", limit}, {"tags", tags}};
+}
+
 Json changes(const Report& report) {
   if (!report.changes) return nullptr;
   const auto& c = *report.changes;
@@ -159,6 +165,7 @@ std::string to_json(const Report& report, const std::string& level) {
                               {"worst_ulps", finite(r.worst_ulps)},
                               {"ill_conditioned", ill_conditioned(r)},
                               {"places", places(r)},
+                              {"recognised", recognised(r)},
                               {"seconds", r.seconds},
                               {"message", text(r.message)},
                               {"cause", index(cause_of[k])},

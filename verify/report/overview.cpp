@@ -60,7 +60,7 @@ const std::vector<CheckGroup>& check_groups() {
   static const std::vector<CheckGroup> groups{
       {"delivers", {"tessellates", "written"}},
       {"finite", {"finite"}},
-      {"positions", {"positions", "refined-positions"}},
+      {"positions", {"positions", "refined-positions", "recognised"}},
       {"normals", {"normals", "normal-length", "normals-against-positions"}},
       {"tiling", {"orientation", "coverage", "t-vertices"}},
       {"seams", {"shared-positions", "shared-normals", "continuity", "watertight"}},

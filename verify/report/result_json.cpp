@@ -57,10 +57,17 @@ std::vector<PlaceCount> places(const Json& j) {
     counts.push_back({static_cast<PlaceKind>(c.at(0).get<int>()), c.at(1), c.at(2), c.at(3)});
   return counts;
 }
+Json to_json(const Recognised& known) {
+  const auto& [what, scheme, steps, limit, tags] = known;
+  return Json::array({what, scheme, steps, limit, tags});
+}
+Recognised recognised(const Json& j) {
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4)};
+}
 Json to_json(const Result& r) {
   const auto& [subject, mesh, check, depth, depths, sample, in_float, scheme, cut, weights, status, bad, of,
-               worst, bound, rms, p99, unit, absolute, ulps, ill, place, message, places, decades, seconds] =
-      r;
+               worst, bound, rms, p99, unit, absolute, ulps, ill, place, message, places, decades, seconds,
+               known] = r;
   return Json::array({subject,
                       mesh,
                       check,
@@ -86,7 +93,8 @@ Json to_json(const Result& r) {
                       message,
                       to_json(places),
                       decades,
-                      seconds});
+                      seconds,
+                      known ? to_json(*known) : Json(nullptr)});
 }
 Result result(const Json& j) {
   return {j.at(0),
@@ -114,7 +122,8 @@ Result result(const Json& j) {
           j.at(22),
           places(j.at(23)),
           j.at(24),
-          j.at(25)};
+          j.at(25),
+          j.at(26).is_null() ? std::nullopt : std::optional(recognised(j.at(26)))};
 }
 
 Json header_json(const Report::Mesh& m) {

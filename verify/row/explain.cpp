@@ -31,6 +31,10 @@ const std::vector<Explanation>& explanations() {
       {"refined-positions",
        "For subjects that deliver no limit points: distance from the vertex of the refined control mesh.",
        "As for positions.", "verify/row/bounds.h; truth: the textbook refinement in double"},
+      {"recognised",
+       "Only where most points are something else than was expected, as refined control points in place of "
+       "limit points: which points are not that.",
+       "That of positions.", "verify/recognise; the reference refines and moves to the limit in double"},
       {"normals",
        "Angle between each normal and the exact one, where the surface has one. A finding is confirmed in "
        "certified arithmetic.",
@@ -118,6 +122,12 @@ const std::vector<Explanation>& explanations() {
       {"file-positions",
        "With --provenance: distance of each vertex from the exact point that its row names.",
        "--tolerance, in diagonals of the control mesh.", "verify/files; truth: Stam's evaluator in double"},
+      {"file-recognised",
+       "Only where most vertices are something else than points of the limit surface, as those of the "
+       "refined "
+       "control mesh: which are not that.",
+       "As of positions, in float or double as the coordinates say, and half of their last digit.",
+       "the nearest of the points that the reference makes by the rule that was recognised"},
       {"file-normals", "Angle between each normal of the file and the surface's at the closest point.",
        "1e-3 rad, as of a float engine at depth 5.", kFile},
       {"file-normal-length", "Distance of the length of the file's normals from 1.",

@@ -56,6 +56,15 @@ struct IllConditioned {
   double bound = 0, worst = 0;  // the largest of their bounds and of their errors, in the row's unit
 };
 
+/// What the points of a row are, by majority, in place of what was expected (verify/recognise).
+struct Recognised {
+  std::string what;    // "the vertices of the control mesh refined by Loop's rule (3 steps)"
+  std::string scheme;  // "loop", "warren", "linear", "catmull-clark"
+  int steps = 0;
+  bool limit = false;  // moved to that scheme's limit surface
+  bool tags = true;    // with the sharp edges and vertices of the control mesh
+};
+
 /// One row. `worst` and `bound` are in `unit`; so are rms
 /// and p99, which run over everything that was compared.
 struct Result {
@@ -80,7 +89,8 @@ struct Result {
   std::vector<PlaceCount> places;
   /// Positions and normals: how many errors there are of each power of ten (statistics.h).
   std::vector<std::int64_t> decades;
-  double seconds = 0;  // that it took to look
+  double seconds = 0;                    // that it took to look
+  std::optional<Recognised> recognised;  // positions, and the row of what is not that
 };
 
 /// A finding, or a breakdown.

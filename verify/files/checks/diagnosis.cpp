@@ -5,40 +5,41 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "data/triangulate.h"
 #include "data/validate.h"
+#include "verify/recognise/likeness.h"
 #include "verify/recognise/schemes.h"
+#include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
 namespace {
 
 constexpr std::size_t kSample = 2000;
 
-// Root mean square and largest distance of points from a cloud.
-struct Apart {
-  double rms = 0, worst = 0;
+// The nearest point of a cloud to each of some points.
+struct Nearest {
+  std::size_t index = 0;
+  double distance = std::numeric_limits<double>::infinity();
 };
-Apart apart(const std::vector<Vector>& points, const std::vector<Vector>& cloud) {
+std::vector<Nearest> nearest(const std::vector<Vector>& points, const std::vector<Vector>& cloud) {
   std::vector<BoxTree::Box> boxes(cloud.size());
   for (std::size_t k = 0; k < cloud.size(); ++k) boxes[k] = {cloud[k], cloud[k]};
   const BoxTree tree(boxes);
-  std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
+  std::vector<Nearest> result(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
     tree.near(points[k], [&](std::size_t other) {
-      return distance[k] = std::min(distance[k], norm(points[k] - cloud[other]));
+      const double d = norm(points[k] - cloud[other]);
+      if (d < result[k].distance) result[k] = {other, d};
+      return result[k].distance;
     });
   });
-  Apart a;
-  for (const double d : distance) {
-    a.rms += d * d;
-    a.worst = std::max(a.worst, d);
-  }
-  a.rms = std::sqrt(a.rms / static_cast<double>(points.size()));
-  return a;
+  return result;
 }
 
 // The control mesh as the schemes take it: of triangles, and as it is. Triangles of polygons may be no
@@ -78,29 +79,25 @@ std::size_t stride(std::size_t count) {
   return std::max<std::size_t>(1, count / kSample);
 }
 
-// A sample of the points that have a place, and how far these are from the surface.
+// The points that have a place, and a sample of them.
 struct Sampled {
-  std::size_t placed = 0;
+  std::vector<std::int32_t> placed;
   std::vector<Vector> points;
-  double rms = 0;    // of the sample
-  double worst = 0;  // of all
+  std::vector<double> off;  // the sample's distances from the surface
+  double worst = 0;         // the largest of all
 };
 
 Sampled sample(const FileEvidence& e) {
   Sampled s;
-  std::vector<std::size_t> placed;
   for (std::size_t k = 0; k < e.place.size(); ++k) {
     if (e.place[k].face < 0) continue;
-    placed.push_back(k);
+    s.placed.push_back(static_cast<std::int32_t>(k));
     s.worst = std::max(s.worst, e.foot[k].distance);
   }
-  s.placed = placed.size();
-  for (std::size_t k = 0; k < placed.size(); k += stride(placed.size())) {
-    s.points.push_back(e.position(static_cast<std::int32_t>(placed[k])));
-    const double d = norm(s.points.back() - e.foot[placed[k]].position);
-    s.rms += d * d;
+  for (std::size_t k = 0; k < s.placed.size(); k += stride(s.placed.size())) {
+    s.points.push_back(e.position(s.placed[k]));
+    s.off.push_back(e.foot[s.placed[k]].distance);
   }
-  s.rms = std::sqrt(s.rms / static_cast<double>(s.points.size()));
   return s;
 }
 
@@ -108,7 +105,7 @@ struct Guess {
   Scheme scheme;
   int steps;
   bool limit, tags;  // tags: with the sharp edges and vertices of the control mesh
-  Apart apart;
+  Likeness like;
 };
 
 // The refined control points of the scheme that the file is judged by: their largest distance from the
@@ -124,6 +121,12 @@ struct Guesses {
   Refined own;  // after the number of steps that comes nearest
 };
 
+double magnitude(const data::ControlMesh& mesh) {
+  double size = 0;
+  for (const Vector& p : mesh.positions) size = std::max(size, largest(p));
+  return size;
+}
+
 double worst_of(const ClosestPoint& surface, const std::vector<Vector>& cloud) {
   double worst = 0;
   for (std::size_t k = 0; k < cloud.size(); k += stride(cloud.size()))
@@ -137,7 +140,9 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   const data::ControlMesh smooth = without_tags(e.control);
   const Cages smooth_cages(smooth);
   const Scheme own = own_scheme(e);
-  const auto have = static_cast<double>(sampled.placed);
+  const auto have = static_cast<double>(sampled.placed.size());
+  const double size = magnitude(e.control);
+  const Written how = written(e.tessellation.positions);
   const auto unlike = [&](int steps) { return std::abs(std::log(cages.vertices_after(own, steps) / have)); };
   for (const Scheme scheme : {Scheme::kLoop, Scheme::kWarren, Scheme::kLinear, Scheme::kCatmullClark}) {
     if (!cages.has(scheme)) continue;
@@ -149,7 +154,10 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
         if (limit && ((scheme == own && tags) || scheme == Scheme::kLinear || steps == 0)) continue;
         if (!tags && (e.control.sharpness.empty() || scheme == Scheme::kLinear)) continue;
         const auto cloud = scheme_points((tags ? cages : smooth_cages).of(scheme), scheme, steps, limit);
-        guesses.all.push_back({scheme, steps, limit, tags, apart(sampled.points, cloud)});
+        Likeness like(rounding(how, steps, size), e.tolerance * e.surface.diagonal());
+        const std::vector<Nearest> there = nearest(sampled.points, cloud);
+        for (std::size_t k = 0; k < there.size(); ++k) like.add(there[k].distance, sampled.off[k]);
+        guesses.all.push_back({scheme, steps, limit, tags, like});
         if (scheme == own && tags && (guesses.own.worst < 0 || unlike(steps) < unlike(guesses.own.steps)))
           guesses.own = {worst_of(e.surface, cloud), steps};
       }
@@ -174,24 +182,86 @@ const char* remark(Scheme scheme, bool tags, Scheme own) {
   return "; nothing was subdivided";
 }
 
+// All points against what was recognised.
+Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess& g, const Recognised& what) {
+  const data::ControlMesh smooth = without_tags(e.control);
+  const Cages cages(g.tags ? e.control : smooth);
+  const std::vector<Vector> cloud = scheme_points(cages.of(g.scheme), g.scheme, g.steps, g.limit);
+  std::vector<Vector> points;
+  for (const std::int32_t k : sampled.placed) points.push_back(e.position(k));
+  const std::vector<Nearest> there = nearest(points, cloud);
+  std::vector<double> off;
+  for (const Nearest& n : there) off.push_back(n.distance / e.surface.diagonal());
+  const double bound =
+      rounding(written(e.tessellation.positions), g.steps, magnitude(e.control)) / e.surface.diagonal();
+  const Statistics statistics = summarise(off, bound);
+  std::optional<Witness> worst;
+  if (const auto k = statistics.worst_at; k >= 0) {
+    worst = e.at_vertex(static_cast<std::int32_t>(e.merged.vertex_of[sampled.placed[k]]));
+    const Vector &expected = cloud[there[k].index], &got = points[k];
+    worst->expected = {expected.begin(), expected.end()};
+    worst->got = {got.begin(), got.end()};
+  }
+  Result row = e.result("file-recognised");
+  say_recognised(row, what, statistics, bound, worst);
+  return row;
+}
+
 }  // namespace
 
-std::vector<std::string> diagnose(const FileEvidence& e) {
+Written written(const std::vector<Vector>& points) {
+  int digits = 1, decimals = 0;
+  double size = 0;
+  for (const Vector& p : points)
+    for (const double x : p) {
+      if (x == 0 || !std::isfinite(x)) continue;
+      size = std::max(size, std::abs(x));
+      std::array<char, 32> text;  // "-d.ddde-xx", as many digits as tell it from all other doubles
+      const char* end =
+          std::to_chars(text.begin(), text.end(), std::abs(x), std::chars_format::scientific).ptr;
+      const char* e = std::find(text.cbegin(), end, 'e');
+      const int written = std::max(1, static_cast<int>(e - text.cbegin()) - 1);
+      int exponent = 0;
+      std::from_chars(e + (e[1] == '+' ? 2 : 1), end, exponent);
+      digits = std::max(digits, written);
+      decimals = std::max(decimals, written - 1 - exponent);
+    }
+  const int first = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
+  const double last = std::max(std::pow(10, -decimals), std::pow(10, first + 1 - digits)) / 2;
+  const bool in_float = std::all_of(points.begin(), points.end(), [&](const Vector& p) {
+    return std::all_of(p.begin(), p.end(), [&](double x) {
+      return !std::isfinite(x) || std::abs(x - static_cast<double>(static_cast<float>(x))) <= last;
+    });
+  });
+  return {in_float ? LC_FLOAT32 : LC_FLOAT64, last};
+}
+
+double rounding(const Written& how, int steps, double magnitude) {
+  return position_bound(how.precision, steps, magnitude, 1) + std::sqrt(3.0) * how.last;
+}
+
+Diagnosis diagnose(const FileEvidence& e) {
   const Sampled sampled = sample(e);
   if (sampled.points.empty()) return {};
   const double size = e.surface.diagonal();
   const auto [guesses, refined] = guess(e, sampled);
   const Scheme own = own_scheme(e);
   // Of schemes that make the same points, as where all edges are still sharp, the file's own.
-  const auto off = [&](const Guess& g) { return g.apart.rms + (g.scheme == own ? 0 : 1e-12 * size); };
+  const auto off = [&](const Guess& g) { return g.like.misfit() + (g.scheme == own ? 0 : 1e-9); };
   const auto best = std::min_element(guesses.begin(), guesses.end(),
                                      [&](const Guess& a, const Guess& b) { return off(a) < off(b); });
-  if (best != guesses.end() && best->apart.rms < sampled.rms / 10)
-    return {fmt::format(
-        "looks like {}: the vertices are within {:.2g} diagonals of those, and {:.2g} off {}'s limit "
-        "surface{}",
-        describe(best->scheme, best->steps, best->limit), best->apart.worst / size, sampled.worst / size,
-        owner(own), remark(best->scheme, best->tags, own))};
+  if (best != guesses.end() && best->like.convincing()) {
+    const Recognised what{describe(best->scheme, best->steps, best->limit), std::string(word(best->scheme)),
+                          best->steps, best->limit, best->tags};
+    const Result row = recognised_row(e, sampled, *best, what);
+    return {
+        {fmt::format("looks like {}: {} of {} vertices are those, and up to {:.2g} diagonals off {}'s limit "
+                     "surface{}",
+                     what.what, row.of - row.bad, row.of, sampled.worst / size, owner(own),
+                     remark(best->scheme, best->tags, own))},
+        what,
+        {row}};
+  }
   std::vector<std::string> told;
   const auto& t = e.tessellation;
   if (own == Scheme::kLoop && 2 * t.quads > t.polygons)
@@ -206,7 +276,7 @@ std::vector<std::string> diagnose(const FileEvidence& e) {
         "{:.2g}. If a scale, an offset or a rotation is in between, --fit takes it out",
         own == Scheme::kLoop ? "Loop" : "Catmull-Clark", refined.steps, owner(own), refined.worst / size,
         sampled.worst / size));
-  return told;
+  return {told, std::nullopt, {}};
 }
 
 }  // namespace limitcheck::verify

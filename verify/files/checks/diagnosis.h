@@ -2,18 +2,38 @@
 // Recognises a tessellation that is not one of the limit surface.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "verify/files/checks/file_evidence.h"
+#include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
 
-/// Returns sentences with figures, none if nothing is recognised. Compares a sample of the points with what
-/// other schemes, and that of the control mesh without its last step to the limit, make of the same control
-/// mesh, at every number of steps with about as many vertices; and the distance with that of the refined
-/// control points. Schemes of triangles are tried on the control mesh with its faces cut as fans from their
-/// first corner.
-std::vector<std::string> diagnose(const FileEvidence& evidence);
+struct Diagnosis {
+  std::vector<std::string> sentences;  // with figures; none if nothing is recognised
+  std::optional<Recognised> recognised;
+  std::vector<Result> rows;  // `file-recognised`, if something is: which vertices are not those
+};
+
+/// Compares the points with what other schemes, and that of the control mesh without its last step to the
+/// limit, make of the same control mesh, at every number of steps with about as many vertices: a sample, by
+/// majority (recognise/likeness.h), and all with what that recognises, by rounding(); and the
+/// distance from the surface with that of the refined control points. Schemes of triangles are tried on the
+/// control mesh with its faces cut as fans from their first corner.
+Diagnosis diagnose(const FileEvidence& evidence);
+
+/// How the coordinates of a file were written, read off themselves.
+struct Written {
+  lc_precision precision = LC_FLOAT64;  // float, if all are floats but for the digits that are missing
+  double last = 0;  // half of the last digit: of so many decimals, or of so many digits of the largest
+};
+Written written(const std::vector<Vector>& points);
+
+/// How far rounding may bring the points of a file from what a right program makes in so many steps, in the unit
+/// of the coordinates: position_bound (verify/row/bounds.h), and what writing leaves out in three coordinates.
+///   magnitude   largest coordinate of the control mesh
+double rounding(const Written& how, int steps, double magnitude);
 
 }  // namespace limitcheck::verify

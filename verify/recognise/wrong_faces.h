@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The faces where a tessellation is farthest from the truth: a guess that is right is right there, too.
+// Some of the faces where a tessellation is wrong: to put a guess off that is wrong there, before what it
+// makes of the whole mesh is computed.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,12 @@
 
 namespace limitcheck::verify {
 
-/// Some of these faces, as parts of a mesh with all that their surface depends on.
-class WorstFaces {
+/// As parts of a mesh with all that their surface depends on.
+class WrongFaces {
  public:
-  /// So many faces, or fewer if those have a tenth of all squares.
-  WorstFaces(const Evidence& e, std::size_t most);
+  /// So many of the faces with vertices farther than `tolerance` from the truth, from the worst to the least.
+  WrongFaces(const Evidence& e, double tolerance, std::size_t most);
 
-  /// The sum of the squares of all vertices' distances to the truth.
-  double squares() const { return squares_; }
   /// Whether the mesh has so many more faces that looking at these first is worth it.
   bool worthwhile() const;
   /// What a scheme makes of these faces, with places on the whole mesh; nothing but what is right there.
@@ -27,9 +26,8 @@ class WorstFaces {
 
  private:
   const data::ControlMesh& whole_;
-  double squares_ = 0;
-  std::vector<std::int32_t> faces_;  // of the part: the worst first, then what their surface depends on
-  std::size_t worst_ = 0;            // how many
+  std::vector<std::int32_t> faces_;  // of the part: the wrong ones first, then what their surface depends on
+  std::size_t wrong_ = 0;            // how many of those
   data::ControlMesh part_;
 };
 

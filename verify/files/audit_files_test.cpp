@@ -346,10 +346,14 @@ TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
         Case{"holes", Scheme::kLoop, 3}, Case{"quad-wheel:7", Scheme::kCatmullClark, 3},
         Case{"quad-cube", Scheme::kCatmullClark, 2}, Case{"prism:5", Scheme::kCatmullClark, 2}})
     for (const auto& [writing, written] : kWritings) {
+      const bool all = c.mesh == std::string("quad-cube") || c.mesh == std::string("holes");
+      if (!all && writing != "float") continue;
       const auto mesh = data::named_mesh(c.mesh);
+      FilesOptions quick;
+      quick.measures_hausdorff = false;
       const std::string name = std::string(c.mesh) + " in " + writing;
       FileTessellation t = cloud_of(scheme_points(mesh, c.scheme, c.steps, false), written);
-      const FilesAudit right = audit(mesh, t);
+      const FilesAudit right = audit(mesh, t, quick);
       const Result& held = row(right, "file-recognised");
       EXPECT_EQ(held.status, Status::kHeld) << name << ": " << held.message << " within " << *held.bound;
       EXPECT_EQ(held.of, static_cast<std::int64_t>(t.positions.size())) << name;
@@ -362,7 +366,7 @@ TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
 
       const std::size_t at = t.positions.size() / 2;
       t.positions[at][0] = written(t.positions[at][0] + .01);
-      const FilesAudit wrong = audit(mesh, t);
+      const FilesAudit wrong = audit(mesh, t, quick);
       const Result& r = row(wrong, "file-recognised");
       EXPECT_EQ(r.status, Status::kFinding) << name;
       EXPECT_EQ(r.bad, 1) << name << ": " << r.message;

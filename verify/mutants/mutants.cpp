@@ -140,6 +140,9 @@ const std::vector<Mutant>& mutants() {
                        fmt::format("fault={}", f.name), std::string(f.check), "", false});
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
                    faulty_options("wrong_edge_mask", "cgal"), "refined-positions", "", false});
+    all.push_back({"no_limit_and_swapped_points", "refined points for limit points, two of them exchanged",
+                   "faulty", faulty_options("swapped_points", kBase, "mutation=no_limit"), "recognised", "",
+                   false});
     return all;
   }();
   return list;

@@ -40,7 +40,7 @@ WrongFaces::WrongFaces(const Evidence& e, double tolerance, std::size_t most) : 
 }
 
 bool WrongFaces::worthwhile() const {
-  return 2 * faces_.size() < whole_.faces.size();
+  return wrong_ > 0 && 2 * faces_.size() < whole_.faces.size();
 }
 
 SchemePoints WrongFaces::points(bool tags, Scheme scheme, int steps, bool limit, data::Scheme lattice) const {

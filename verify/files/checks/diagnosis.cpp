@@ -104,8 +104,8 @@ Sampled sample(const FileEvidence& e) {
 struct Guess {
   Scheme scheme;
   int steps;
-  bool limit, tags;  // tags: with the sharp edges and vertices of the control mesh
-  Likeness like;
+  bool limit, tags;         // tags: with the sharp edges and vertices of the control mesh
+  std::vector<double> off;  // of the sample from its points
 };
 
 // The refined control points of the scheme that the file is judged by: their largest distance from the
@@ -141,8 +141,6 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   const Cages smooth_cages(smooth);
   const Scheme own = own_scheme(e);
   const auto have = static_cast<double>(sampled.placed.size());
-  const double size = magnitude(e.control);
-  const Written how = written(e.tessellation.positions);
   const auto unlike = [&](int steps) { return std::abs(std::log(cages.vertices_after(own, steps) / have)); };
   for (const Scheme scheme : {Scheme::kLoop, Scheme::kWarren, Scheme::kLinear, Scheme::kCatmullClark}) {
     if (!cages.has(scheme)) continue;
@@ -154,10 +152,8 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
         if (limit && ((scheme == own && tags) || scheme == Scheme::kLinear || steps == 0)) continue;
         if (!tags && (e.control.sharpness.empty() || scheme == Scheme::kLinear)) continue;
         const auto cloud = scheme_points((tags ? cages : smooth_cages).of(scheme), scheme, steps, limit);
-        Likeness like(rounding(how, steps, size), e.tolerance * e.surface.diagonal());
-        const std::vector<Nearest> there = nearest(sampled.points, cloud);
-        for (std::size_t k = 0; k < there.size(); ++k) like.add(there[k].distance, sampled.off[k]);
-        guesses.all.push_back({scheme, steps, limit, tags, like});
+        guesses.all.push_back({scheme, steps, limit, tags, {}});
+        for (const Nearest& n : nearest(sampled.points, cloud)) guesses.all.back().off.push_back(n.distance);
         if (scheme == own && tags && (guesses.own.worst < 0 || unlike(steps) < unlike(guesses.own.steps)))
           guesses.own = {worst_of(e.surface, cloud), steps};
       }
@@ -183,7 +179,8 @@ const char* remark(Scheme scheme, bool tags, Scheme own) {
 }
 
 // All points against what was recognised.
-Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess& g, const Recognised& what) {
+Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess& g, const Recognised& what,
+                      const Written& how) {
   const data::ControlMesh smooth = without_tags(e.control);
   const Cages cages(g.tags ? e.control : smooth);
   const std::vector<Vector> cloud = scheme_points(cages.of(g.scheme), g.scheme, g.steps, g.limit);
@@ -192,8 +189,7 @@ Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess
   const std::vector<Nearest> there = nearest(points, cloud);
   std::vector<double> off;
   for (const Nearest& n : there) off.push_back(n.distance / e.surface.diagonal());
-  const double bound =
-      rounding(written(e.tessellation.positions), g.steps, magnitude(e.control)) / e.surface.diagonal();
+  const double bound = rounding(how, g.steps, magnitude(e.control)) / e.surface.diagonal();
   const Statistics statistics = summarise(off, bound);
   std::optional<Witness> worst;
   if (const auto k = statistics.worst_at; k >= 0) {
@@ -209,31 +205,38 @@ Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess
 
 }  // namespace
 
-Written written(const std::vector<Vector>& points) {
-  int digits = 1, decimals = 0;
+Written written(const std::vector<Vector>& points, double share) {
+  std::vector<int> digits, decimals;
   double size = 0;
   for (const Vector& p : points)
     for (const double x : p) {
       if (x == 0 || !std::isfinite(x)) continue;
       size = std::max(size, std::abs(x));
-      std::array<char, 32> text;  // "-d.ddde-xx", as many digits as tell it from all other doubles
+      std::array<char, 32> text;  // "d.ddde-xx", as many digits as tell it from all other doubles
       const char* end =
-          std::to_chars(text.begin(), text.end(), std::abs(x), std::chars_format::scientific).ptr;
-      const char* e = std::find(text.cbegin(), end, 'e');
-      const int written = std::max(1, static_cast<int>(e - text.cbegin()) - 1);
+          std::to_chars(text.data(), text.data() + text.size(), std::abs(x), std::chars_format::scientific)
+              .ptr;
+      const char* e = std::find<const char*>(text.data(), end, 'e');
       int exponent = 0;
       std::from_chars(e + (e[1] == '+' ? 2 : 1), end, exponent);
-      digits = std::max(digits, written);
-      decimals = std::max(decimals, written - 1 - exponent);
+      digits.push_back(std::max(1, static_cast<int>(e - text.data()) - 1));
+      decimals.push_back(std::max(0, digits.back() - 1 - exponent));
     }
-  const int first = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
-  const double last = std::max(std::pow(10, -decimals), std::pow(10, first + 1 - digits)) / 2;
-  const bool in_float = std::all_of(points.begin(), points.end(), [&](const Vector& p) {
-    return std::all_of(p.begin(), p.end(), [&](double x) {
-      return !std::isfinite(x) || std::abs(x - static_cast<double>(static_cast<float>(x))) <= last;
-    });
-  });
-  return {in_float ? LC_FLOAT32 : LC_FLOAT64, last};
+  if (digits.empty()) return {};
+  const auto otherwise = static_cast<std::ptrdiff_t>(share * static_cast<double>(digits.size()));
+  const auto most = [&](std::vector<int>& list) {
+    std::nth_element(list.begin(), list.end() - 1 - otherwise, list.end());
+    return list[list.size() - 1 - static_cast<std::size_t>(otherwise)];
+  };
+  const double last =
+      std::max(std::pow(10, -most(decimals)), std::pow(10, std::floor(std::log10(size)) + 1 - most(digits))) /
+      2;
+  std::ptrdiff_t no_floats = 0;
+  for (const Vector& p : points)
+    for (const double x : p)  // a little more, since halves of the last digit are rounded
+      no_floats +=
+          std::isfinite(x) && !(std::abs(x - static_cast<double>(static_cast<float>(x))) <= 1.001 * last);
+  return {no_floats <= otherwise ? LC_FLOAT32 : LC_FLOAT64, last};
 }
 
 double rounding(const Written& how, int steps, double magnitude) {
@@ -246,14 +249,23 @@ Diagnosis diagnose(const FileEvidence& e) {
   const double size = e.surface.diagonal();
   const auto [guesses, refined] = guess(e, sampled);
   const Scheme own = own_scheme(e);
-  // Of schemes that make the same points, as where all edges are still sharp, the file's own.
-  const auto off = [&](const Guess& g) { return g.like.misfit() + (g.scheme == own ? 0 : 1e-9); };
-  const auto best = std::min_element(guesses.begin(), guesses.end(),
-                                     [&](const Guess& a, const Guess& b) { return off(a) < off(b); });
-  if (best != guesses.end() && best->like.convincing()) {
+  // As all coordinates were written; or all but some, which may be those of wrong points.
+  const std::vector<Vector>& points = e.tessellation.positions;
+  for (const Written& how : {written(points), written(points, .05)}) {
+    const Guess* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    bool convincing = false;
+    for (const Guess& g : guesses) {
+      Likeness like(rounding(how, g.steps, magnitude(e.control)), e.tolerance * size);
+      for (std::size_t k = 0; k < g.off.size(); ++k) like.add(g.off[k], sampled.off[k]);
+      // Of schemes that make the same points, as where all edges are still sharp, the file's own.
+      const double misfit = like.misfit() + (g.scheme == own ? 0 : 1e-9);
+      if (misfit < least) best = &g, least = misfit, convincing = like.convincing();
+    }
+    if (!convincing) continue;
     const Recognised what{describe(best->scheme, best->steps, best->limit), std::string(word(best->scheme)),
                           best->steps, best->limit, best->tags};
-    const Result row = recognised_row(e, sampled, *best, what);
+    const Result row = recognised_row(e, sampled, *best, what, how);
     return {
         {fmt::format("looks like {}: {} of {} vertices are those, and up to {:.2g} diagonals off {}'s limit "
                      "surface{}",

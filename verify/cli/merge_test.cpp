@@ -2,6 +2,7 @@
 // Parts of audits and proofs, merged, are the report of the whole; and a part that was killed goes on.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -147,6 +148,30 @@ TEST_F(Merge, ProofsAreTheWhole) {
   EXPECT_EQ(without_times("merged.json"), without_times("whole.json"));
   EXPECT_EQ(run("merge part1.json -o x.json").code, 2);
   EXPECT_EQ(run("merge part1.json part2.json -o x.json --baseline whole.json").code, 2);
+
+  // The last unit are the stock shapes: mesh, kernel, depth, points, position, normal, ...
+  const auto last = [](json& part) -> json& { return part["results"].back(); };
+  json parts[]{json::parse(read("part1.json")), json::parse(read("part2.json"))};
+  const std::size_t holder = last(parts[0])[0] > last(parts[1])[0] ? 0 : 1;
+  const std::string sound = holder == 0 ? "part2.json" : "part1.json";
+  const auto merged_with = [&](const std::function<void(json&)>& edit) {
+    json edited = parts[holder];
+    edit(last(edited)[1]);
+    write("edited.json", edited.dump());
+    return run("merge edited.json " + sound + " -o edited-whole.json");
+  };
+  EXPECT_EQ(merged_with([](json&) {}).code, 0);
+  for (const std::size_t figure : {4, 5}) {
+    const Outcome o = merged_with([&](json& lines) { lines[3][figure] = .5; });
+    EXPECT_EQ(o.code, 1) << figure << o.out;
+    EXPECT_FALSE(json::parse(read("edited-whole.json"))["held"].get<bool>()) << figure;
+    EXPECT_NE(o.out.find("EXCEEDED"), std::string::npos) << o.out;
+  }
+  for (const json& nothing : {json(), json::array()}) {
+    EXPECT_EQ(merged_with([&](json& lines) { lines = nothing; }).code, 1);
+    EXPECT_FALSE(json::parse(read("edited-whole.json"))["complete"].get<bool>());
+  }
+  EXPECT_EQ(merged_with([](json& lines) { lines.erase(3); }).code, 1);
 }
 
 }  // namespace

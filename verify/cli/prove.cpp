@@ -117,15 +117,12 @@ void prove_tasks(const verify::ProofSet& set, verify::Journal& journal) {
   progress.clear();
 }
 
-void certify(const verify::ProofRequest& what, verify::Journal& journal) {
+void certify(const verify::ProofSet& set, verify::Journal& journal) {
   const std::size_t unit = journal.plan().units - 1;
   if (!journal.plan().has(unit) || journal.recall(unit) != nullptr || verify::interrupted() != 0) return;
-  std::vector<verify::FloatKernel> kernels;
-  if (what.sliding_window) kernels.push_back(verify::FloatKernel::kSlidingWindow);
-  if (what.row_stream) kernels.push_back(verify::FloatKernel::kRowStream);
-  const int points = what.size == verify::ProofSize::kSample ? 1 : 12;
-  journal.keep(unit, verify::certified_json(verify::certify_stock_shapes(kernels, std::min(what.depth, 4),
-                                                                         points, what.scheme)));
+  auto lines = set.certified;
+  verify::certify(lines, set.certified_points);
+  journal.keep(unit, verify::certified_json(lines));
 }
 
 // The results as they are in a journal or in parts.
@@ -146,12 +143,11 @@ Results results_of(const std::map<std::size_t, nlohmann::json>& units, std::size
 
 int run(const Request& request) {
   const auto start = std::chrono::steady_clock::now();
-  const verify::ProofRequest what = as_request(request);
-  const verify::ProofSet set = verify::proof_set(what);
+  const verify::ProofSet set = verify::proof_set(as_request(request));
   const auto journal = open_journal(request.shard, plan_of(request, set));
   const verify::InterruptGuard guard;
   prove_tasks(set, *journal);
-  certify(what, *journal);
+  certify(set, *journal);
   const Results results = results_of(journal->results(), set.tasks.size());
   const verify::ProofReport report(set, results.rows, results.certified);
   const int signal = verify::interrupted();
@@ -191,7 +187,7 @@ int merge_prove(const verify::PartReport& whole, const MergeArguments& a) {
   const verify::ProofReport report(set, results.rows, results.certified);
   verify::write_text(a.output, report.json() + "\n");
   fmt::print("{}", report.table(false));
-  return report.held() ? kHeld : kFindings;
+  return report.held() && report.complete() ? kHeld : kFindings;
 }
 
 void add_prove(CLI::App& app, int& exit_code) {

@@ -40,8 +40,10 @@ TEST(Certified, PositionsOfBothKernelsLieWithin3e7OfTheTrueSurface) {
 
 TEST(Certified, QuadKernelsAreNearTheTrueSurface) {
   CertifiedErrors worst;
-  for (const CertifiedLine& line : certify_stock_shapes(
-           {FloatKernel::kSlidingWindow, FloatKernel::kRowStream}, 3, 12, data::Scheme::kCatmullClark)) {
+  auto lines = stock_shape_lines({FloatKernel::kSlidingWindow, FloatKernel::kRowStream}, 3,
+                                 data::Scheme::kCatmullClark);
+  certify(lines, 12);
+  for (const CertifiedLine& line : lines) {
     EXPECT_GT(line.errors.points, 2) << line.mesh;
     EXPECT_LT(line.errors.position, 3e-7) << line.mesh << ' ' << line.kernel << " face " << line.errors.face
                                           << ' ' << line.errors.l1 << ' ' << line.errors.l2;

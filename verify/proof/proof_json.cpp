@@ -40,9 +40,12 @@ MapProof map_of(const Json& j) {
 
 Json to_json(const std::optional<BoundProof>& bound) {
   if (!bound) return nullptr;
-  const auto& [first, last, position, position_worst, tangent, tangent_worst, normal, share, alike] = *bound;
+  const auto& [first, last, position, position_worst, tangent, tangent_worst, normal, product, share, alike,
+               shipped] = *bound;
+  const auto& [position_share, normal_share, targets, unlike] = shipped;
   return Json::array({first, last, number(position), number(position_worst), number(tangent),
-                      number(tangent_worst), number(normal), number(share), alike});
+                      number(tangent_worst), number(normal), number(product), number(share), alike,
+                      number(position_share), number(normal_share), targets, unlike});
 }
 std::optional<BoundProof> bound_of(const Json& j) {
   if (j.is_null()) return std::nullopt;
@@ -54,7 +57,9 @@ std::optional<BoundProof> bound_of(const Json& j) {
                     number_of(j.at(5)),
                     number_of(j.at(6)),
                     number_of(j.at(7)),
-                    j.at(8)};
+                    number_of(j.at(8)),
+                    j.at(9),
+                    {number_of(j.at(10)), number_of(j.at(11)), j.at(12), j.at(13)}};
 }
 
 Json to_json(const std::optional<CostProof>& cost) {
@@ -91,9 +96,9 @@ Json certified_json(const std::vector<CertifiedLine>& lines) {
   Json list = Json::array();
   for (const CertifiedLine& line : lines) {
     const auto& [mesh, kernel, depth, errors] = line;
-    const auto& [points, position, normal, radius, face, l1, l2, corner] = errors;
+    const auto& [points, position, normal, radius, face, l1, l2, corner, unit, condition, placing] = errors;
     list.push_back(Json::array({mesh, kernel, depth, points, number(position), number(normal), number(radius),
-                                face, l1, l2, corner}));
+                                face, l1, l2, corner, number(unit), number(condition), number(placing)}));
   }
   return list;
 }
@@ -105,7 +110,7 @@ std::vector<CertifiedLine> certified_of(const Json& json) {
                      j.at(1),
                      j.at(2),
                      {j.at(3), number_of(j.at(4)), number_of(j.at(5)), number_of(j.at(6)), j.at(7), j.at(8),
-                      j.at(9), j.at(10)}});
+                      j.at(9), j.at(10), number_of(j.at(11)), number_of(j.at(12)), number_of(j.at(13))}});
   return lines;
 }
 

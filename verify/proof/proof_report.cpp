@@ -39,6 +39,7 @@ struct Line {
     bound->tangent_bound = std::max(bound->tangent_bound, row.bound->tangent_bound);
     bound->tangent_worst = std::max(bound->tangent_worst, row.bound->tangent_worst);
     bound->normal_bound = std::max(bound->normal_bound, row.bound->normal_bound);
+    bound->shipped.add(row.bound->shipped);
     bound->share = std::max(bound->share, row.bound->share);
     bound->last_depth = std::max(bound->last_depth, row.bound->last_depth);
   }
@@ -62,18 +63,49 @@ std::string describe(const MapWitness& w) {
   return fmt::format("{}: {}{} is {}, should be {}", w.point, w.quantity, point, w.found, w.expected);
 }
 
+std::string describe(const ShippedProof& p) {
+  if (!p.unlike.empty()) return fmt::format("{} has other bits than the scalar code", p.unlike);
+  return fmt::format("an error of {:.3f} times its bound in a position, {:.3f} in a normal", p.position_share,
+                     p.normal_share);
+}
+
 }  // namespace
 
 bool ProofReport::held() const {
-  return std::ranges::all_of(rows_, [](const auto& rows) {
-    return std::ranges::all_of(rows, [](const ProofRow& row) {
-      return row.map.equal && (!row.bound || (row.bound->share <= 1 && row.bound->alike));
-    });
-  });
+  return std::ranges::all_of(rows_,
+                             [](const auto& rows) {
+                               return std::ranges::all_of(rows, [](const ProofRow& row) {
+                                 return row.map.equal && (!row.bound || row.bound->held());
+                               });
+                             }) &&
+         std::ranges::all_of(certified_, [&](const CertifiedLine& line) {
+           const auto proved = proved_of(line);
+           return !proved || proved->hold(line.errors);
+         });
+}
+
+bool ProofReport::has_all_rows() const {
+  return std::ranges::none_of(rows_, [](const auto& rows) { return rows.empty(); });
 }
 
 bool ProofReport::complete() const {
-  return std::ranges::none_of(rows_, [](const auto& rows) { return rows.empty(); });
+  return has_all_rows() &&
+         std::ranges::equal(certified_, set_.certified, [](const CertifiedLine& a, const CertifiedLine& b) {
+           return a.mesh == b.mesh && a.kernel == b.kernel && a.depth == b.depth && a.errors.points > 0;
+         });
+}
+
+std::optional<ProvedBounds> ProofReport::proved_of(const CertifiedLine& line) const {
+  if (!has_all_rows()) return std::nullopt;
+  ProvedBounds proved;
+  for (const auto& rows : rows_) {
+    for (const ProofRow& row : rows) {
+      if (!row.bound || row.kernel.starts_with("row-stream") != (line.kernel == "row-stream")) continue;
+      proved.position = std::max(proved.position, row.bound->position_bound);
+      proved.product = std::max(proved.product, row.bound->product_bound);
+    }
+  }
+  return proved;
 }
 
 std::string ProofReport::table(bool each) const {
@@ -105,10 +137,22 @@ std::string ProofReport::table(bool each) const {
       if (row.bound && !row.bound->alike)
         failures += fmt::format("UNLIKE   {} {} {}: x, y and z are not rounded alike\n", group, row.topology,
                                 row.kernel);
+      if (row.bound && !row.bound->shipped.held())
+        failures += fmt::format("SHIPPED  {} {} {}: {}\n", group, row.topology, row.kernel,
+                                describe(row.bound->shipped));
       if (row.map.witness)
         failures += fmt::format("DIFFERS  {} {} {}\n         {}\n", group, row.topology, row.kernel,
                                 describe(*row.map.witness));
     }
+  }
+  for (const CertifiedLine& line : certified_) {
+    const auto proved = proved_of(line);
+    if (proved && !proved->hold(line.errors))
+      failures += fmt::format(
+          "EXCEEDED certified {} {}: position {:.2e} of the diagonal, bound {:.2e}; normal {:.3g} degrees, "
+          "bound {:.3g}\n",
+          line.mesh, line.kernel, line.errors.position, proved->position_of(line.errors), line.errors.normal,
+          proved->normal_of(line.errors));
   }
   std::size_t width = 10;
   for (const Line& line : lines) width = std::max(width, line.group.size());
@@ -144,12 +188,23 @@ std::string ProofReport::table(bool each) const {
   if (const auto left = std::ranges::count_if(rows_, [](const auto& r) { return r.empty(); }); left > 0)
     text += fmt::format("STOPPED: {} of {} proofs were not done; the table says nothing of them.\n", left,
                         rows_.size());
+  if (has_all_rows() && !complete())
+    text += "STOPPED: not all stock shapes were compared with the true surface; nothing is said of it.\n";
   if (overall.bound)
     text += fmt::format(
         "For every control mesh of these topologies in the unit box, at the depths beside the bound, float x "
         "coordinates are right to {:.2e}; the worst error found is {:.2e}. Where y and z have the values of "
         "x they get the bits of x.\n",
         overall.bound->position_bound, overall.bound->position_worst);
+  if (overall.bound)
+    text += fmt::format(
+        "As they ship, with unit normals, the kernels reach {:.2f} of the bound of a position and {:.2f} of "
+        "a "
+        "normal's{}.\n",
+        overall.bound->shipped.position_share, overall.bound->shipped.normal_share,
+        overall.bound->shipped.targets.empty() || !overall.bound->shipped.unlike.empty()
+            ? ""
+            : fmt::format("; row streaming has the same bits on {}", overall.bound->shipped.targets));
   for (const char* kernel : {"sliding-window", "row-stream"}) {
     const CertifiedLine* worst = nullptr;
     std::int64_t looked_at = 0;
@@ -158,11 +213,13 @@ std::string ProofReport::table(bool each) const {
       looked_at += line.errors.points;
       if (worst == nullptr || line.errors.position > worst->errors.position) worst = &line;
     }
-    if (worst != nullptr)
-      text += fmt::format(
-          "Certified: at {} points of the stock shapes {} is within {:.2e} of the diagonal of the true "
-          "surface ({}, depth {}).\n",
-          looked_at, kernel, worst->errors.position, worst->mesh, worst->depth);
+    if (worst == nullptr) continue;
+    text += fmt::format(
+        "Certified: at {} points of the stock shapes {} is within {:.2e} of the diagonal of the true surface "
+        "({}, depth {}",
+        looked_at, kernel, worst->errors.position, worst->mesh, worst->depth);
+    const auto proved = proved_of(*worst);
+    text += proved ? fmt::format("; bound {:.2e}).\n", proved->position_of(worst->errors)) : ").\n";
   }
   return text;
 }
@@ -197,6 +254,11 @@ std::string ProofReport::json() const {
         j["normal_bound"] = row.bound->normal_bound;
         j["bound_depths"] = {row.bound->first_depth, row.bound->last_depth};
         j["worst_share"] = row.bound->share;
+        j["product_bound"] = row.bound->product_bound;
+        j["shipped_position_share"] = row.bound->shipped.position_share;
+        j["shipped_normal_share"] = row.bound->shipped.normal_share;
+        j["targets"] = row.bound->shipped.targets;
+        j["unlike"] = row.bound->shipped.unlike;
       }
       if (row.cost) {
         j["flops_per_point"] = row.cost->flops;
@@ -206,13 +268,18 @@ std::string ProofReport::json() const {
     }
   }
   nlohmann::ordered_json certified = nlohmann::ordered_json::array();
-  for (const CertifiedLine& line : certified_)
+  for (const CertifiedLine& line : certified_) {
+    const auto proved = proved_of(line);
+    using Json = nlohmann::ordered_json;
     certified.push_back({{"mesh", line.mesh},
                          {"kernel", line.kernel},
                          {"depth", line.depth},
                          {"points", line.errors.points},
                          {"position", line.errors.position},
-                         {"normal", line.errors.normal}});
+                         {"normal", line.errors.normal},
+                         {"position_bound", proved ? Json(proved->position_of(line.errors)) : Json()},
+                         {"normal_bound", proved ? Json(proved->normal_of(line.errors)) : Json()}});
+  }
   const nlohmann::ordered_json document = {{"scheme", name_of(set_.scheme)}, {"held", held()},
                                            {"complete", complete()},         {"rows", rows},
                                            {"impossible", set_.impossible},  {"certified", certified}};

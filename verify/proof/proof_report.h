@@ -2,6 +2,7 @@
 // A proof's rows as a table and as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,18 +19,24 @@ class ProofReport {
               std::vector<CertifiedLine> certified = {})
       : set_(set), rows_(rows), certified_(std::move(certified)) {}
 
-  /// Whether every map that was proved is equal and no error exceeds its bound.
+  /// Whether every map that was proved is equal and no error exceeds its bound; those that are certified, once
+  /// all rows are there to be compared with.
   bool held() const;
-  /// Whether all of the set was done.
+  /// Whether all of the set was done, certified lines and all.
   bool complete() const;
   /// A line per group and kernel, or with `each` per topology and kernel; then what failed, with its witness.
   std::string table(bool each) const;
   /// {"scheme": .., "held": .., "complete": .., "rows": [{"group", "topology", "kernel", "depths", "points",
   /// "map", "arithmetic", "digits", "witness", "bound", "worst", ..}], "impossible": [..], "certified": [{"mesh",
-  /// "kernel", "depth", "points", "position", "normal"}]}
+  /// "kernel", "depth", "points", "position", "normal", "position_bound", "normal_bound"}]}; bounds are null until
+  /// all rows are there
   std::string json() const;
 
  private:
+  bool has_all_rows() const;
+  /// What the rows prove of the kernel that a certified line names.
+  std::optional<ProvedBounds> proved_of(const CertifiedLine& line) const;
+
   const ProofSet& set_;
   const std::vector<std::vector<ProofRow>>& rows_;
   const std::vector<CertifiedLine> certified_;

@@ -90,6 +90,7 @@ double estimated_seconds(const ProofTask& task) {
 ProofSet sample_of(ProofRequest request) {
   request.size = ProofSize::kStandard;
   ProofSet set = proof_set(request);
+  set.certified_points = 1;
   std::map<std::pair<std::string, Arithmetic>, int> seen;
   std::erase_if(set.tasks, [&](const ProofTask& task) {
     return seen[{task.group, task.options.arithmetic}]++ % 10 != 0;
@@ -97,11 +98,7 @@ ProofSet sample_of(ProofRequest request) {
   return set;
 }
 
-}  // namespace
-
-ProofSet proof_set(const ProofRequest& request) {
-  if (request.size == ProofSize::kSample) return sample_of(request);
-  if (request.scheme == data::Scheme::kCatmullClark) return quad_proof_set(request);
+ProofSet triangle_proof_set(const ProofRequest& request) {
   ProofSet set;
   const bool full = request.size == ProofSize::kFull;
   const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic,
@@ -171,6 +168,19 @@ ProofSet proof_set(const ProofRequest& request) {
     for (Neighbourhood& pair : pairs_of(data::bumpy_sphere(faces, 1)))
       if (seen.insert(pair.name).second) spheres.push_back(std::move(pair));
   add("spheres", spheres, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, 40});
+  return set;
+}
+
+}  // namespace
+
+ProofSet proof_set(const ProofRequest& request) {
+  if (request.size == ProofSize::kSample) return sample_of(request);
+  ProofSet set =
+      request.scheme == data::Scheme::kCatmullClark ? quad_proof_set(request) : triangle_proof_set(request);
+  std::vector<FloatKernel> kernels;
+  if (request.sliding_window) kernels.push_back(FloatKernel::kSlidingWindow);
+  if (request.row_stream) kernels.push_back(FloatKernel::kRowStream);
+  set.certified = stock_shape_lines(kernels, std::min(request.depth, 4), request.scheme);
   return set;
 }
 

@@ -8,6 +8,7 @@
 
 #include "data/scheme.h"
 #include "verify/proof/maps/prove_map.h"
+#include "verify/proof/certified_comparison.h"
 
 namespace limitcheck::verify {
 
@@ -45,6 +46,9 @@ struct ProofSet {
   data::Scheme scheme = data::Scheme::kLoop;
   std::vector<ProofTask> tasks;
   std::vector<std::string> impossible;  ///< triples of valences that no face of a manifold mesh has
+  /// What is compared with certified enclosures, at about so many points each; the errors are not there yet.
+  std::vector<CertifiedLine> certified;
+  int certified_points = 12;
 };
 
 /// Groups, with the depths in the standard | full set; at most request.depth.
@@ -85,7 +89,7 @@ struct ProofSet {
 ///     darts          those with a dart                                    digits      0-1 | 0-3  0-2 | 0-4
 ///     semi-sharp     semi-sharp edges and vertices, sliding window        exact       0-1 | 0-3  0-2 | 0-4
 ProofSet proof_set(const ProofRequest& request);
-/// The latter.
+/// The tasks of the latter.
 ProofSet quad_proof_set(const ProofRequest& request);
 
 }  // namespace limitcheck::verify

@@ -31,13 +31,6 @@ bool is_control_vertex(const fast::LatticePoint& p) {
   return p.i % p.denominator == 0 && p.j % p.denominator == 0;
 }
 
-double cross_error(const PointBound& b) {
-  const TangentBound &u = b.du, &v = b.dv;
-  return (3 * (u.error * v.size + v.error * u.size + u.error * v.error) +
-          4 * std::sqrt(3.) * 0x1p-24 * (u.size + u.error) * (v.size + v.error) + 0x1p-60) *
-         (1 + 1e-12);
-}
-
 // Columns 1 .. n are the control points, in order.
 std::vector<double> control_weights(const BoundForm& form, std::size_t n) {
   std::vector<double> weights(n);
@@ -105,12 +98,18 @@ KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourho
   return bounds;
 }
 
+double product_error(const PointBound& b) {
+  const TangentBound &u = b.du, &v = b.dv;
+  return (3 * (u.error * v.size + v.error * u.size + u.error * v.error) +
+          4 * std::sqrt(3.) * 0x1p-24 * (u.size + u.error) * (v.size + v.error) + 0x1p-60) *
+         (1 + 1e-12);
+}
 double normal_angle_bound(const PointBound& bound, double cross) {
-  const double sine = cross_error(bound) / cross;
+  const double sine = product_error(bound) / cross;
   return sine <= 1 ? std::asin(sine) + 0x1p-23 : std::numeric_limits<double>::infinity();
 }
 double normal_error_share(const PointBound& bound) {
-  return cross_error(bound) / (3 * bound.du.size * bound.dv.size);
+  return product_error(bound) / (3 * bound.du.size * bound.dv.size);
 }
 
 BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
@@ -129,6 +128,8 @@ BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood,
     proof.position_worst = std::max(proof.position_worst, worst.position);
     proof.tangent_worst = std::max(proof.tangent_worst, worst.tangent);
     proof.share = std::max({proof.share, worst.position_share, worst.tangent_share});
+    proof.product_bound = std::max(proof.product_bound, worst.product);
+    proof.shipped.add(worst.shipped);
   }
   return proof;
 }

@@ -80,6 +80,13 @@ double normal_angle_bound(const PointBound& bound, double cross);
 /// has the share q of it is right to asin(share / q) + 2^-23.
 double normal_error_share(const PointBound& bound);
 
+/// The numerator itself: how far du x dv, and what is computed from it, can be from the exact one.
+double product_error(const PointBound& bound);
+
+/// How far the length of a unit normal may be from 1: the rounding of three components, of the sum of their
+/// squares, and the inverse root of row streaming (2.2e-7, see rules-inl.h).
+inline constexpr double kLengthBound = 8 * 0x1p-24;
+
 /// The worst errors found by trying: random control meshes and signs at the corners of the box, then changes
 /// of one coordinate at a time that make the largest error larger.
 struct WorstObserved {
@@ -90,6 +97,8 @@ struct WorstObserved {
   std::int64_t meshes = 0;
   bool alike =
       true;  ///< a mesh with x = y = z in all control points has x = y = z in all points, bit for bit
+  double product = 0;    ///< BoundProof::product_bound: not an error that was found, but one that can be
+  ShippedProof shipped;  ///< of four more meshes
 };
 
 /// The real float kernel against the exact limit. Positions come from the reference (Stam's evaluator in

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "reference/loop/stam.h"
 #include "verify/proof/bounds/bounds.h"
 #include "verify/proof/bounds/linear_runs.h"
+#include "verify/proof/bounds/shipped_kernels.h"
 #include "verify/proof/maps/quad_reference_map.h"
 #include "verify/proof/maps/reference_map.h"
 #include "verify/proof/numbers/quad_weights.h"
@@ -53,10 +55,10 @@ struct Errors {
 };
 
 // The weights of the control points in every limit point, by Stam's evaluator.
-std::vector<Row> exact_positions(const data::ControlMesh& mesh, const KernelBounds& bounds) {
-  std::vector<Row> rows;
+std::vector<MapRow<double>> exact_rows(const data::ControlMesh& mesh, const KernelBounds& bounds) {
+  std::vector<MapRow<double>> rows;
   const auto ask = [&](auto reference) {
-    for (const PointBound& p : bounds.points) rows.push_back(reference.at(p.at).position);
+    for (const PointBound& p : bounds.points) rows.push_back(reference.at(p.at));
   };
   if (mesh.faces.are_triangles())
     ask(ReferenceMap<double, reference::StamEvaluator<double>>(mesh));
@@ -65,22 +67,43 @@ std::vector<Row> exact_positions(const data::ControlMesh& mesh, const KernelBoun
   return rows;
 }
 
+double length(const fast::Vec3<double>& a) {
+  return std::sqrt(fast::dot(a, a));
+}
+
+// Of two columns of two rows.
+double determinant(const Row& a, const Row& b, std::size_t p, std::size_t q) {
+  return a[p] * b[q] - a[q] * b[p];
+}
+
+// PointBound of a control vertex, whose normal is made in double: of the weights d1 and d2 each is known to
+// 2^-40.
+PointBound made_in_double(const MapRow<double>& row, double reach) {
+  PointBound bound;
+  for (const auto& [weights, tangent] : {std::pair{&row.d1, &bound.du}, std::pair{&row.d2, &bound.dv}}) {
+    for (const double w : *weights) tangent->size += reach * std::abs(w), tangent->error += 0x1p-40 * reach;
+    tangent->weights = *weights;
+  }
+  return bound;
+}
+
 class Search {
  public:
   Search(const Neighbourhood& neighbourhood, const KernelBounds& bounds, double reach, std::uint64_t seed)
       : neighbourhood_(neighbourhood), bounds_(bounds), reach_(reach), random_(seed) {
-    const std::vector<Row> exact = exact_positions(neighbourhood.mesh, bounds);
+    const std::vector<MapRow<double>> exact = exact_rows(neighbourhood.mesh, bounds);
     const std::size_t points = bounds.points.size();
     for (Quantity& q : quantities_) {
       q.weights.resize(neighbourhood.mesh.positions.size() * points);
       q.doubt.resize(points), q.per_size.resize(points), q.per_bound.resize(points);
     }
     for (std::size_t k = 0; k < points; ++k) {
-      const PointBound& p = bounds.points[k];
-      put(quantities_[0], k, exact[k], reach, 1, p.position);
-      if (!p.has_tangents) continue;
+      put(quantities_[0], k, exact[k].position, reach, 1, bounds.points[k].position);
+      normals_.push_back(bounds.points[k].has_tangents ? bounds.points[k] : made_in_double(exact[k], reach));
+      const PointBound& p = normals_.back();
       put(quantities_[1], k, p.du.weights, p.du.size, p.du.size, p.du.error);
       put(quantities_[2], k, p.dv.weights, p.dv.size, p.dv.size, p.dv.error);
+      product_ = std::max(product_, product_by_parameters(bounds.points[k], exact[k]));
     }
     for (auto* values : {&best_exact_, &trial_exact_})
       for (auto& coordinate : *values)
@@ -122,10 +145,63 @@ class Search {
     }
     worst.meshes = meshes;
     worst.alike = alike();
+    worst.product = product_;
+    worst.shipped = shipped();
     return worst;
   }
 
  private:
+  // What ships, unit normals and all, on meshes that are random, at the sides of the box, flat, and both.
+  ShippedProof shipped() {
+    std::array<Mesh, 4> meshes;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      meshes[m].resize(neighbourhood_.mesh.positions.size());
+      for (auto& p : meshes[m]) {
+        for (const auto c : kCoordinates) p.*c = fresh(m % 2 == 0 ? 0 : 2);
+        if (m >= 2) p.z *= 0x1p-4F;
+      }
+    }
+    const Delivery found = deliver(bounds_.kernel, neighbourhood_, meshes, bounds_.depth);
+    ShippedProof proof{0, 0, found.targets, found.unlike};
+    const auto raise = [](double& share, double to) {
+      if (!(to <= share)) share = std::isnan(to) ? std::numeric_limits<double>::infinity() : to;
+    };
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      for (std::size_t c = 0; c < 3; ++c) evaluate(meshes[m], c);
+      const auto exact = [&](std::size_t q, std::size_t k) {
+        return fast::Vec3<double>{trial_exact_[0][q][k], trial_exact_[1][q][k], trial_exact_[2][q][k]};
+      };
+      for (std::size_t k = 0; k < normals_.size(); ++k) {
+        const auto position = fast::widen(found.vertices[m][k].position) - exact(0, k);
+        for (const double error : {position.x, position.y, position.z})
+          raise(proof.position_share,
+                (std::abs(error) - quantities_[0].doubt[k]) * quantities_[0].per_bound[k]);
+        const auto normal = fast::widen(found.vertices[m][k].normal);
+        raise(proof.normal_share, std::abs(length(normal) - 1) / kLengthBound);
+        const auto product = fast::cross(exact(1, k), exact(2, k));
+        const double size = length(product), doubt = kDoubt * normals_[k].du.size * normals_[k].dv.size;
+        if (!(size > 0x1p10 * doubt)) continue;  // no tangent plane, or the doubles do not know it
+        const double angle = std::atan2(length(fast::cross(product, normal)), fast::dot(product, normal));
+        raise(proof.normal_share, angle / normal_angle_bound(normals_[k], size - 8 * doubt));
+      }
+    }
+    return proof;
+  }
+
+  // product_error in the units of d1 x d2, which a kernel's tangents multiply by a determinant; 0 at control
+  // vertices.
+  static double product_by_parameters(const PointBound& p, const MapRow<double>& exact) {
+    if (!p.has_tangents || (p.at.i % p.at.denominator == 0 && p.at.j % p.at.denominator == 0)) return 0;
+    const Row &d1 = exact.d1, &d2 = exact.d2;
+    std::size_t a = 0, b = 0;
+    for (std::size_t k = 0; k < d1.size(); ++k)
+      if (std::abs(d1[k]) > std::abs(d1[a])) a = k;
+    for (std::size_t k = 0; k < d1.size(); ++k)
+      if (std::abs(determinant(d1, d2, a, k)) > std::abs(determinant(d1, d2, a, b))) b = k;
+    const double scale = determinant(p.du.weights, p.dv.weights, a, b) / determinant(d1, d2, a, b);
+    return scale > 0 ? product_error(p) / scale : 0;
+  }
+
   // Whether a mesh whose points have one value for x, y and z comes out so, bit for bit.
   bool alike() {
     Mesh mesh(neighbourhood_.mesh.positions.size());
@@ -216,6 +292,8 @@ class Search {
   double reach_;
   data::SplitMix64 random_;
   std::array<Quantity, 3> quantities_;
+  std::vector<PointBound> normals_;  // of all points, made in double or not
+  double product_ = 0;
   std::array<std::array<Row, 3>, 3> best_exact_, trial_exact_;  // [coordinate][quantity][point]
 };
 

@@ -2,6 +2,7 @@
 // The result of the proofs about one kernel and one topology: a line of the table.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,6 +25,23 @@ struct MapProof {
   std::optional<MapWitness> witness;
 };
 
+/// The float32 kernel as it ships (shipped_kernels.h), on a few control meshes at each depth. A share above 1,
+/// or one that is no number, refutes the proof.
+struct ShippedProof {
+  double position_share = 0;  ///< largest share of its own point's bound that the error of a position had
+  double normal_share = 0;    ///< likewise of a unit normal: of its angle's bound, or its length's
+  std::string targets;        ///< of row streaming: the vector targets that ran, by a space
+  std::string unlike;  ///< the first of them with other bits than the scalar code; empty: there is none
+
+  bool held() const { return position_share <= 1 && normal_share <= 1 && unlike.empty(); }
+  void add(const ShippedProof& other) {
+    position_share = std::max(position_share, other.position_share);
+    normal_share = std::max(normal_share, other.normal_share);
+    if (targets.empty()) targets = other.targets;
+    if (unlike.empty()) unlike = other.unlike;
+  }
+};
+
 /// Rounding of a float32 kernel over all control meshes in the unit box.
 struct BoundProof {
   int first_depth = 0, last_depth = 0;
@@ -33,8 +51,14 @@ struct BoundProof {
   double tangent_worst = 0;
   /// A unit normal is right to asin(normal_bound / q) + 2^-23, q the share that |du x dv| has of its largest.
   double normal_bound = 0;
+  /// A unit normal is right to asin(product_bound / |d1 x d2|) + 2^-23, d1 and d2 the derivatives by the
+  /// parameters of a face: the largest at any point but control vertices.
+  double product_bound = 0;
   double share = 0;   ///< largest share of its own point's bound that an error had: at most 1
   bool alike = true;  ///< equal x, y and z give equal bits, so that the bound of x holds for y and z
+  ShippedProof shipped;
+
+  bool held() const { return share <= 1 && alike && shipped.held(); }
 };
 
 /// Counted at the last depth, per distinct limit point of the pair (operation_count.h).

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "verify/proof/bounds/shipped_kernels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+
+#include "fast/mesh/quad_mesh.h"
+#include "fast/rules/limit.h"
+#include "fast/stream/gather/batch.h"
+#include "fast/stream/gather/quad_batch.h"
+#include "fast/stream/gather/quad_rings.h"
+#include "fast/stream/kernel/quad_targets.h"
+#include "fast/stream/kernel/targets.h"
+#include "fast/stream/row_stream.h"
+#include "verify/proof/maps/kernel_runs.h"
+#include "verify/proof/maps/quad_runs.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using namespace fast::row_stream;
+
+// The mesh so many times, side by side.
+data::ControlMesh copies(const data::ControlMesh& mesh, std::size_t count) {
+  data::ControlMesh all;
+  all.sharpness = mesh.sharpness;
+  all.sharpness.edges.clear(), all.sharpness.vertices.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto first = static_cast<std::int32_t>(all.positions.size());
+    all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      std::vector<std::int32_t> face(mesh.faces[f].begin(), mesh.faces[f].end());
+      for (std::int32_t& v : face) v += first;
+      all.faces.push_back(face);
+    }
+    for (const data::SharpEdge& e : mesh.sharpness.edges)
+      all.sharpness.edges.push_back({e.a + first, e.b + first, e.sharpness});
+    for (const data::SharpVertex& v : mesh.sharpness.vertices)
+      all.sharpness.vertices.push_back({v.vertex + first, v.sharpness});
+  }
+  return all;
+}
+
+// The scalar code is the last.
+template <class K>
+std::vector<K> scalar_first(std::span<const K> kernels) {
+  return {kernels.rbegin(), kernels.rend()};
+}
+
+// Where each lane's output begins.
+std::array<float*, kMaxLanes> lanes_of(float* out, std::ptrdiff_t stride, int lanes) {
+  std::array<float*, kMaxLanes> list{};
+  for (int k = 0; k < lanes; ++k) list[static_cast<std::size_t>(k)] = out + k * stride;
+  return list;
+}
+
+// The points of all copies; of a mesh that was cut, those of its vertices.
+PlacedPoints<float> points_of(std::span<const FloatPoints> meshes, const std::vector<std::int32_t>& uncut) {
+  std::vector<ControlPoint<float>> points;
+  for (const FloatPoints& mesh : meshes)
+    for (const auto& p : mesh) points.push_back({p.x, p.y, p.z, 0});
+  PlacedPoints<float> placed{{}, KernelPlacement<float>{}};
+  if (uncut.empty()) placed.points = points;
+  for (const std::int32_t v : uncut) placed.points.push_back(points[static_cast<std::size_t>(v)]);
+  return placed;
+}
+
+// Collects what targets deliver, and compares it with what the first one did.
+class Collector {
+ public:
+  Collector(std::size_t copies, Delivery& delivery) : copies_(copies), delivery_(delivery) {
+    delivery.vertices.resize(copies);
+  }
+
+  void begin(const char* target, int lanes) {
+    if (at_ > 0) first_ = false;
+    target_ = target, lanes_ = static_cast<std::size_t>(lanes), at_ = 0;
+  }
+  /// A batch, or several if the lanes do not hold all copies: run(the copy in each lane, output, numbers from
+  /// lane to lane). Of the `size` vertices of a lane those of the list are looked at, in its order.
+  template <class Run>
+  void add(std::size_t size, const std::vector<std::size_t>& visited, Run&& run) {
+    std::vector<fast::SurfaceVertex<float>> out(lanes_ * size);
+    std::vector<std::int32_t> copy(lanes_);
+    for (std::size_t begin = 0; begin < copies_; begin += lanes_) {
+      for (std::size_t lane = 0; lane < lanes_; ++lane)
+        copy[lane] = static_cast<std::int32_t>((begin + lane + lane / 4) % copies_);
+      run(copy, &out[0].position.x, static_cast<std::ptrdiff_t>(6 * size));
+      for (std::size_t lane = 0; lane < lanes_; ++lane) {
+        auto& kept = delivery_.vertices[static_cast<std::size_t>(copy[lane])];
+        for (std::size_t k = 0; k < visited.size(); ++k) {
+          const auto& vertex = out[lane * size + visited[k]];
+          if (first_)
+            kept.push_back(vertex);
+          else if (delivery_.unlike.empty() && std::memcmp(&vertex, &kept[at_ + k], sizeof vertex) != 0)
+            delivery_.unlike = target_;
+        }
+      }
+    }
+    at_ += visited.size();
+  }
+
+ private:
+  std::size_t copies_, lanes_ = 1, at_ = 0;
+  bool first_ = true;
+  const char* target_ = "";
+  Delivery& delivery_;
+};
+
+std::vector<std::size_t> all_of(std::size_t size) {
+  std::vector<std::size_t> list(size);
+  std::iota(list.begin(), list.end(), std::size_t{0});
+  return list;
+}
+
+// The same item of the copies that are in the lanes; copies have so many items each.
+std::vector<std::int32_t> of_lanes(const std::vector<std::int32_t>& copy, std::int32_t item,
+                                   std::size_t items) {
+  std::vector<std::int32_t> list;
+  for (const std::int32_t k : copy) list.push_back(item + k * static_cast<std::int32_t>(items));
+  return list;
+}
+
+void stream_triangles(BoundedKernel kernel, const data::ControlMesh& mesh,
+                      std::span<const FloatPoints> meshes, int depth, Collector& collector) {
+  const data::ControlMesh all = copies(mesh, meshes.size());
+  const fast::Adjacency adjacency(all);
+  const Rings rings(adjacency, points_of(meshes, {}));
+  const std::size_t faces = mesh.faces.size(), width = static_cast<std::size_t>(side(depth));
+  const std::int32_t twin = adjacency.twin(0);
+  std::vector<std::size_t> visited;
+  for (std::size_t row = 0; row < width; ++row)
+    for (std::size_t column = 0; column <= (twin < 0 ? row : width - 1); ++column)
+      visited.push_back(row * width + column);
+
+  AlignedFloats input, work;
+  for (const Kernel& target : scalar_first(kernels())) {
+    input.grow(static_cast<std::size_t>(target.lanes * input_size(depth)));
+    work.grow(static_cast<std::size_t>(target.lanes * work_size(depth)));
+    const auto gather_pairs = [&](const std::vector<std::int32_t>& copy) {
+      std::vector<fast::Grid> grids;
+      for (const std::int32_t face : of_lanes(copy, 0, faces)) {
+        if (twin < 0)
+          grids.push_back({.face0 = face, .depth = depth});
+        else
+          grids.push_back({face, face + twin / 3, 0, twin % 3, depth});
+      }
+      gather(adjacency, rings, std::span<const fast::Grid>(grids), depth, target.lanes, input.data());
+    };
+    collector.begin(target.name, target.lanes);
+    if (kernel == BoundedKernel::kRowStreamEdge) {
+      for (std::int32_t h = 0; h < (twin < 0 ? 3 : 6); ++h)
+        collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+          const auto edges = of_lanes(copy, h, 3 * faces);
+          gather_edges(adjacency, rings, std::span<const std::int32_t>(edges), depth, target.lanes,
+                       input.data());
+          target.run_edges(input.data(), depth, rings.placement(), work.data(), out, stride);
+        });
+      continue;
+    }
+    const auto row = static_cast<std::ptrdiff_t>(6 * width);
+    collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+      gather_pairs(copy);
+      target.run(input.data(), depth, rings.placement(), work.data(), {out, stride, row, nullptr, nullptr});
+    });
+    if (target.run_lines == nullptr) continue;
+    collector.begin(target.name, target.lanes);
+    collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+      gather_pairs(copy);
+      target.run_lines(input.data(), depth, rings.placement(), work.data(),
+                       lanes_of(out, stride, target.lanes).data(), fast::Stores::kOrdinary);
+    });
+  }
+}
+
+void stream_quads(BoundedKernel kernel, const data::ControlMesh& mesh, std::span<const FloatPoints> meshes,
+                  int depth, Collector& collector) {
+  const data::ControlMesh all = copies(mesh, meshes.size());
+  const fast::QuadMesh quads(all);
+  const QuadRings rings(quads, points_of(meshes, quads.uncut), 0);
+  const std::size_t faces = mesh.faces.size(), width = static_cast<std::size_t>(side(depth));
+  // As QuadStreamRuns has them.
+  std::vector<KernelPlacement<float>> placements{rings.placement()};
+  if (kernel != BoundedKernel::kRowStreamPatch && depth > 0 && !placements[0].has_local_origin(depth)) {
+    placements.push_back(placements[0]);
+    placements[1].local_from = 1;
+  }
+
+  AlignedFloats input, work;
+  for (const QuadKernel& target : scalar_first(quad_kernels())) {
+    input.grow(static_cast<std::size_t>(target.lanes * quad_input_size(depth)));
+    work.grow(static_cast<std::size_t>(target.lanes * quad_work_size(depth)));
+    const bool patch = kernel == BoundedKernel::kRowStreamPatch;
+    const auto batch_of = [&](const std::vector<std::int32_t>& copy) {
+      const auto list = of_lanes(copy, 0, faces);
+      return patch ? gather_patches<float>(rings, list, depth, target.lanes, input.data())
+                   : gather_quads<float>(rings, list, depth, target.lanes, input.data());
+    };
+    const auto row = static_cast<std::ptrdiff_t>(6 * width);
+    const auto run = [&](QuadKernel::Run* code, const QuadBatch<float>& batch,
+                         const KernelPlacement<float>& placement, float* out, std::ptrdiff_t stride) {
+      code(batch, placement, work.data(),
+           {lanes_of(out, stride, target.lanes).data(), row, nullptr, nullptr});
+    };
+    collector.begin(target.name, target.lanes);
+    for (const auto& placement : placements) {
+      if (kernel == BoundedKernel::kRowStreamEdge) {
+        for (std::int32_t side = 0; side < 4; ++side)
+          collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+            const auto edges = of_lanes(copy, side, 4 * faces);
+            run(target.sides, gather_sides<float>(rings, edges, depth, target.lanes, input.data()), placement,
+                out, stride);
+          });
+        continue;
+      }
+      collector.add(width * width, all_of(width * width),
+                    [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+                      run(patch ? target.patches : target.quads, batch_of(copy), placement, out, stride);
+                    });
+    }
+    QuadKernel::Lines* const lines = patch ? target.patch_lines : target.quad_lines;
+    if (lines == nullptr || kernel == BoundedKernel::kRowStreamEdge) continue;
+    collector.begin(target.name, target.lanes);
+    for (const auto& placement : placements)
+      collector.add(width * width, all_of(width * width),
+                    [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+                      lines(batch_of(copy), placement, work.data(),
+                            lanes_of(out, stride, target.lanes).data(), fast::Stores::kOrdinary);
+                    });
+  }
+}
+
+template <class Visit>
+void run_window(BoundedKernel kernel, const data::ControlMesh& mesh, const FloatPoints& points, int depth,
+                Visit&& visit) {
+  if (!mesh.faces.are_triangles()) {
+    const QuadWindowRuns<float, fast::LimitSurface<float>> runs(mesh, points);
+    return kernel == BoundedKernel::kCrackEdge ? runs.sides(depth, visit) : runs.quad(depth, visit);
+  }
+  const WindowRuns<float, fast::LimitSurface<float>> runs(mesh, points);
+  const std::int32_t faces = mesh.faces.size() == 1 ? 1 : 2;
+  if (kernel == BoundedKernel::kSlidingWindow) return runs.pair(depth, visit);
+  if (kernel == BoundedKernel::kCrackEdge)
+    for (std::int32_t h = 0; h < 3 * faces; ++h) runs.edge(h, depth, visit);
+  else
+    for (std::int32_t face = 0; face < faces; ++face) runs.centre(face, visit);
+}
+
+}  // namespace
+
+Delivery deliver(BoundedKernel kernel, const Neighbourhood& neighbourhood,
+                 std::span<const FloatPoints> meshes, int depth) {
+  const data::ControlMesh& mesh = neighbourhood.mesh;
+  Delivery delivery;
+  if (kernel == BoundedKernel::kSlidingWindow || kernel == BoundedKernel::kCrackEdge ||
+      kernel == BoundedKernel::kCrackCentre) {
+    for (const FloatPoints& points : meshes) {
+      auto& vertices = delivery.vertices.emplace_back();
+      run_window(kernel, mesh, points, depth,
+                 [&](const fast::LatticePoint&, const auto& vertex) { vertices.push_back(vertex); });
+    }
+    return delivery;
+  }
+  const bool triangles = mesh.faces.are_triangles();
+  if (triangles)
+    for (const Kernel& target : kernels()) delivery.targets += fmt::format("{} ", target.name);
+  else
+    for (const QuadKernel& target : quad_kernels()) delivery.targets += fmt::format("{} ", target.name);
+  delivery.targets.pop_back();
+  Collector collector(meshes.size(), delivery);
+  (triangles ? stream_triangles : stream_quads)(kernel, mesh, meshes, depth, collector);
+  return delivery;
+}
+
+}  // namespace limitcheck::verify

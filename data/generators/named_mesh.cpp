@@ -179,7 +179,7 @@ std::string without_alias(const std::string& name) {
 
 // "dual:NAME..." and so on: the specifications that contain another.
 constexpr std::string_view kDual = "dual:", kStretched = "stretched:", kHandled = "handled:",
-                           kTurned = "turned:";
+                           kTurned = "turned:", kTagged = "tagged:";
 
 ControlMesh dual_of(const std::string& name) {
   const auto refuse = [&](const std::string& why) {
@@ -233,6 +233,11 @@ ControlMesh turned(const std::string& what) {
   return with_turned_edges(named_mesh(at.name), at.number);
 }
 
+ControlMesh tagged(const std::string& what) {
+  const NumberedName at = numbered(kTagged, what, std::numeric_limits<std::uint64_t>::max());
+  return with_any_tags(named_mesh(at.name), at.number);
+}
+
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
@@ -248,8 +253,9 @@ std::vector<std::string> split(const std::string& text) {
 }  // namespace
 
 ControlMesh named_mesh(const std::string& specification) {
-  for (const auto& [word, make] : {std::pair{kDual, &dual_of}, std::pair{kStretched, &stretched},
-                                   std::pair{kHandled, &handled}, std::pair{kTurned, &turned}})
+  for (const auto& [word, make] :
+       {std::pair{kDual, &dual_of}, std::pair{kStretched, &stretched}, std::pair{kHandled, &handled},
+        std::pair{kTurned, &turned}, std::pair{kTagged, &tagged}})
     if (specification == word.substr(0, word.size() - 1) || specification.starts_with(word))
       return make(specification.substr(std::min(word.size(), specification.size())));
   std::vector<std::string> parts = split(specification);
@@ -306,6 +312,8 @@ std::vector<NamedMesh> named_meshes() {
   list.push_back({"handled:K:NAME...", "a mesh with up to K tubes more, each in the place of two faces"});
   list.push_back(
       {"turned:SEED:NAME...", "a mesh with some inner edges between other corners of the faces beside them"});
+  list.push_back(
+      {"tagged:SEED:NAME...", "a mesh with any sharp edges, vertices and options in place of its own"});
   return list;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -108,6 +109,40 @@ ControlMesh with_random_sharpness(ControlMesh mesh, std::uint64_t seed) {
     if (random.next() % 50 == 0) mesh.sharpness.vertices.push_back({static_cast<std::int32_t>(v), some()});
   if (random.next() % 2 == 0) mesh.sharpness.creasing = Creasing::kChaikin;
   if (random.next() % 2 == 0) mesh.sharpness.boundary = Boundary::kEdgeAndCorner;
+  return mesh;
+}
+
+ControlMesh with_any_tags(ControlMesh mesh, std::uint64_t seed) {
+  SplitMix64 random(seed);
+  mesh.sharpness = {};
+  const double share = .05 * std::exp2(4.3 * random.unit());  // of the edges; a third as many vertices
+  const auto some = [&]() -> float {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    switch (random.next() % 8) {
+      case 0:
+        return kInfiniteSharpness;
+      case 1:
+      case 2: {
+        const float at = std::array{1.F, 2.F, kInfiniteSharpness}[random.next() % 3];
+        return std::array{at, std::nextafter(at, 0.F), std::nextafter(at, kInfinity)}[random.next() % 3];
+      }
+      case 3:
+        return std::array{0.F, std::numeric_limits<float>::denorm_min(), 0x1p-20F,
+                          kInfinity}[random.next() % 4];
+      case 4:
+        return static_cast<float>(10 * random.unit());
+      default:
+        return static_cast<float>(random.next() % 48) / 16;
+    }
+  };
+  for (const auto& [a, b] : edges_of(mesh))
+    if (random.unit() < share) mesh.sharpness.edges.push_back({a, b, some()});
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (3 * random.unit() < share) mesh.sharpness.vertices.push_back({static_cast<std::int32_t>(v), some()});
+  const std::uint64_t options = random.next();
+  if ((options & 3) != 0) mesh.sharpness.creasing = Creasing::kChaikin;
+  if ((options & 4) != 0) mesh.sharpness.boundary = Boundary::kEdgeAndCorner;
+  if ((options & 8) != 0 && !mesh.faces.are_triangles()) mesh.sharpness.triangles = TriangleRule::kSmooth;
   return mesh;
 }
 

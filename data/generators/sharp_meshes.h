@@ -25,7 +25,10 @@ ControlMesh with_open_crease(ControlMesh mesh, int edges);
 /// Any mesh with about a tenth of its edges sharp, half of them infinite and half below 4, a few sharp
 /// vertices, and the way of creasing drawn by chance.
 ControlMesh with_random_sharpness(ControlMesh mesh, std::uint64_t seed);
-/// The same with every sharp edge and vertex sharp for ever.
+/// Any mesh with other tags, from few to most of its edges: sharpnesses over the whole range and at its seams
+/// (0, the least float, next to 1, 2 and 10), and every option drawn by chance.
+ControlMesh with_any_tags(ControlMesh mesh, std::uint64_t seed);
+/// As with_random_sharpness, with every sharp edge and vertex sharp for ever.
 ControlMesh with_random_creases(ControlMesh mesh, std::uint64_t seed);
 
 }  // namespace limitcheck::data

@@ -122,7 +122,7 @@ TEST(CatmullClark_KnownAnswers, AreInsideTheCertifiedEnclosures) {
         for (std::size_t i = 0; i < 3; ++i) {
           const N want = data::parse<N>(expected[i]), value(got[i].value);
           const N rounding = magnitude(want) * N("1e-41") + N("1e-43");  // of the answer's own 42 digits
-          EXPECT_LE(magnitude(want - value), N(got[i].radius) + rounding)
+          EXPECT_LE(magnitude(want - value), N(got[i].radius.to_string(17)) + rounding)
               << a.id << " " << s.uv[0] << " " << s.uv[1];
         }
       };

@@ -79,8 +79,9 @@ TEST(Loop_SharpKnownAnswers, AreInsideTheCertifiedEnclosures) {
         for (std::size_t i = 0; i < 3; ++i) {
           const N want = data::parse<N>(expected[i]), value(got[i].value);
           const N rounding = magnitude(want) * N("1e-41") + N("1e-43");  // of the answer's own 42 digits
-          EXPECT_LE(magnitude(want - value), N(got[i].radius) + rounding) << a.id << " " << s.uv[0];
-          EXPECT_LE(got[i].radius, 1e-40) << a.id << " " << s.uv[0];
+          EXPECT_LE(magnitude(want - value), N(got[i].radius.to_string(17)) + rounding)
+              << a.id << " " << s.uv[0];
+          EXPECT_LE(got[i].radius.as_double(), 1e-40) << a.id << " " << s.uv[0];
         }
       };
       check(p.position, s.position);

@@ -84,23 +84,6 @@ SurfacePoint<Ball> evaluate_in_balls(const data::Faces& faces, std::vector<Vec3<
       .evaluate(0, a, b);
 }
 
-double radius_of(const Ball& a) {
-  mag_t radius;
-  mag_init(radius);
-  mag_set(radius, arb_radref(a.raw()));
-  const bool exact = mag_is_zero(radius) != 0;
-  const double result = mag_get_d(radius);  // exact but for overflow to infinity and underflow to zero
-  mag_clear(radius);
-  return exact ? 0 : std::max(result * (1 + 1e-9), std::numeric_limits<double>::denorm_min());
-}
-
-/// Upper bound of |a|, as a double.
-double magnitude(const Ball& a) {
-  Ball bound;
-  arb_get_mag(arb_radref(bound.raw()), a.raw());
-  return radius_of(bound);
-}
-
 /// Largest decimal exponent e with 10^e <= the magnitude the ball may have; very small for an exact zero.
 long decimal_exponent(const Ball& a) {
   const long binary = NumberTraits<Ball>::exponent(a);
@@ -114,6 +97,19 @@ Ball power_of_ten(long e) {
   Ball result(10);
   arb_pow_ui(result.raw(), result.raw(), static_cast<ulong>(std::labs(e)), Ball::precision());
   return e < 0 ? Ball(1) / result : result;
+}
+
+/// Upper bound of |a|. (mag_get_d ends at 2^+-1000.)
+Radius magnitude(const Ball& a) {
+  Ball bound;
+  arb_get_mag(arb_radref(bound.raw()), a.raw());
+  arf_set_mag(arb_midref(bound.raw()), arb_radref(bound.raw()));
+  mag_zero(arb_radref(bound.raw()));
+  if (arf_is_inf(arb_midref(bound.raw())) != 0) return {std::numeric_limits<double>::infinity(), 0};
+  const long exponent = decimal_exponent(bound);
+  if (exponent == std::numeric_limits<int>::min()) return {};
+  const Ball digits = bound * power_of_ten(-exponent);  // between .1 and 100
+  return {arf_get_d(arb_midref(digits.raw()), ARF_RND_UP) * (1 + 1e-9), exponent};
 }
 
 /// The ball's midpoint rounded to a multiple of 10^-decimals (10^-decimals may exceed 1), with a radius that
@@ -165,19 +161,20 @@ class Printer {
   template <std::size_t Size>
   std::array<Enclosure, Size> operator()(const std::array<const Ball*, Size>& group) {
     long exponent = std::numeric_limits<int>::min();
-    double worst = 0;
+    Radius worst;
     std::array<Enclosure, Size> result;
     for (const Ball* a : group) {
       if (arb_is_finite(a->raw()) == 0) {  // a division by something not told from zero
         enough_ = false;
-        result.fill({"0", std::numeric_limits<double>::infinity()});
-        if (last_chance_) largest_ = std::numeric_limits<double>::infinity();
+        const Radius infinite(std::numeric_limits<double>::infinity(), 0);
+        result.fill({"0", infinite});
+        if (last_chance_) largest_ = infinite;
         return result;
       }
       exponent = std::max(exponent, decimal_exponent(*a));
     }
     if (exponent == std::numeric_limits<int>::min()) {
-      result.fill({"0", 0.0});
+      result.fill({"0", {}});
       return result;
     }
     const long decimals = digits_ - 1 - exponent;
@@ -201,13 +198,13 @@ class Printer {
   Enclosure operator()(const Ball& a) { return (*this)(std::array<const Ball*, 1>{&a})[0]; }
 
   bool enough() const { return enough_; }
-  double largest() const { return largest_; }
+  const Radius& largest() const { return largest_; }
 
  private:
   int digits_;
   bool last_chance_;
   bool enough_ = true;
-  double largest_ = 0;
+  Radius largest_;
 };
 
 }  // namespace

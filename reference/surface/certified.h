@@ -14,6 +14,7 @@
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/parameter.h"
+#include "reference/point/radius.h"
 #include "reference/point/surface_point.h"
 
 namespace limitcheck::reference {
@@ -21,7 +22,7 @@ namespace limitcheck::reference {
 /// |true value - value| <= radius. `value` has as many decimals as were asked for, not more.
 struct Enclosure {
   std::string value;
-  double radius;
+  Radius radius;
 };
 /// A point or vector.
 using Enclosure3 = std::array<Enclosure, 3>;
@@ -37,7 +38,7 @@ struct CertifiedPoint {
   NormalKind normal_kind;
   bool first_exist;
   DerivativeLimits limits;
-  double radius;   ///< the largest radius of all but the curvatures, whose own may be huge
+  Radius radius;   ///< the largest radius of all but the curvatures, whose own may be huge
   long precision;  ///< bits that were needed
 };
 

@@ -2,6 +2,7 @@
 // Certified points hold the truth, print no digit they cannot vouch for, and say what does not exist.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -31,9 +32,11 @@ TEST(Certified, EnclosuresHoldTheOtherMethodsValuesAtEveryPrecision) {
         Big largest = 0;
         for (const Big& c : coordinates) largest = std::max(largest, Big(abs(c)));
         for (std::size_t i = 0; i < 3; ++i) {
-          EXPECT_LE(abs(Big(got[i].value) - coordinates[i]), Big(got[i].radius) + largest * Big("1e-80"))
+          EXPECT_LE(abs(Big(got[i].value) - coordinates[i]),
+                    Big(got[i].radius.to_string(17)) + largest * Big("1e-80"))
               << what << " to " << digits;
-          EXPECT_LE(Big(got[i].radius), 10 * largest * pow(Big(10), -digits)) << what << " to " << digits;
+          EXPECT_LE(Big(got[i].radius.to_string(17)), 10 * largest * pow(Big(10), -digits))
+              << what << " to " << digits;
         }
       };
       check(p.position, s.position, "position");
@@ -55,7 +58,7 @@ TEST(Certified, ExtraordinaryCornersHaveTheDerivativesThatExist) {
   EXPECT_TRUE(three.first_exist && three.d11 && three.t1);
   EXPECT_EQ(three.position[0].value, "0.20000000000000000000");  // of the known answers
   EXPECT_EQ(three.normal_kind, NormalKind::kRegular);
-  for (const Enclosure& zero : three.d1) EXPECT_TRUE(zero.value == "0" && zero.radius == 0);
+  for (const Enclosure& zero : three.d1) EXPECT_TRUE(zero.value == "0" && zero.radius.is_zero());
   EXPECT_FALSE(three.gaussian_curvature);  // not by first derivatives that vanish
   const CertifiedPoint five = at_corner(data::icosahedron());
   EXPECT_TRUE(five.first_exist && five.t1);
@@ -85,7 +88,8 @@ TEST(Certified, EveryFaceOfATightMeshHasTheSurfaceOfTheWhole) {
         const auto check = [&](const Enclosure3& got, const Vec3<Big>& want) {
           const std::array<Big, 3> coordinates{want.x, want.y, want.z};
           for (std::size_t i = 0; i < 3; ++i)
-            EXPECT_LE(abs(Big(got[i].value) - coordinates[i]), Big(got[i].radius) + Big("1e-80"))
+            EXPECT_LE(abs(Big(got[i].value) - coordinates[i]),
+                      Big(got[i].radius.to_string(17)) + Big("1e-80"))
                 << mesh.faces.size() << " faces, face " << face;
         };
         check(p.position, s.position);
@@ -128,7 +132,8 @@ TEST(Certified, ChaikinsCreasingReadsTheFarEndsOfEdges) {
           }
       ASSERT_GE(heights.size(), 4U);
       for (const Enclosure& h : heights)
-        EXPECT_LE(abs(Big(h.value) - Big(heights[0].value)), Big(h.radius) + Big(heights[0].radius))
+        EXPECT_LE(abs(Big(h.value) - Big(heights[0].value)),
+                  Big(h.radius.to_string(17)) + Big(heights[0].radius.to_string(17)))
             << data::name_of(scheme) << " vertex " << v << ": " << h.value << ", " << heights[0].value;
     }
   }
@@ -141,7 +146,7 @@ TEST(Certified, HasWarrensSurfaceToo) {
             Big(mesh.positions[mesh.faces[0][0]][0]) / 2);
   const SurfacePoint<Big> s = SubdivisionEvaluator<Big>(mesh, Weights::kWarren).evaluate(3, 0.25, 0.125);
   const CertifiedPoint p = certified.evaluate(3, 0.25, 0.125, 40);
-  EXPECT_LE(abs(Big(p.position[1].value) - s.position.y), Big(p.position[1].radius));
+  EXPECT_LE(abs(Big(p.position[1].value) - s.position.y), Big(p.position[1].radius.to_string(17)));
   EXPECT_LE(abs(Big(p.mean_curvature->value)), Big(100));
 }
 
@@ -165,7 +170,7 @@ TEST(Certified, CurvaturesToo) {
   const CertifiedPoint p = CertifiedEvaluator(data::wheel(7))
                                .evaluate(0, Parameter::parse("1e-25"), Parameter::parse("2e-25"), 20);
   for (const auto& curvature : {p.gaussian_curvature, p.mean_curvature})
-    EXPECT_LE(Big(curvature->radius), abs(Big(curvature->value)) * Big("1e-19"));
+    EXPECT_LE(Big(curvature->radius.to_string(17)), abs(Big(curvature->value)) * Big("1e-19"));
 }
 
 TEST(Certified, ConvexSurfacesHavePositiveCurvatures) {
@@ -208,7 +213,7 @@ TEST(Certified, PrecisionRisesUntilTheNormalIsKnown) {
         CertifiedEvaluator(positions, triangles_of(mesh).to_vector()).evaluate(0, 0.25, 0.25, 10);
     EXPECT_EQ(p.normal_kind, NormalKind::kRegular) << offset;
     EXPECT_EQ(abs(Big(p.normal[2].value)), 1) << offset;
-    EXPECT_LE(p.normal[2].radius, 1e-9) << offset;
+    EXPECT_LE(p.normal[2].radius.as_double(), 1e-9) << offset;
   }
 }
 
@@ -221,7 +226,7 @@ TEST(Certified, PrecisionRisesUntilTheCurvaturesAreKnown) {
     for (const auto& curvature : {p.gaussian_curvature, p.mean_curvature}) {
       ASSERT_TRUE(curvature.has_value()) << distance;
       ASSERT_FALSE(curvature->value.empty()) << distance;
-      EXPECT_LE(Big(curvature->radius), abs(Big(curvature->value)) * Big("1e-11")) << distance;
+      EXPECT_LE(Big(curvature->radius.to_string(17)), abs(Big(curvature->value)) * Big("1e-11")) << distance;
     }
   }
 }
@@ -233,6 +238,58 @@ TEST(Certified, NumbersWithoutDecimalsArePrintedWithoutAnExponent) {
   EXPECT_EQ(p.position[0].value, "123");
   EXPECT_EQ(p.position[1].value, "456");
   EXPECT_EQ(p.position[2].value, "-789");
+}
+
+// Sizes near the ends of the range of double. Curvatures go with the inverse of the length, and its square: what
+// a mesh of size 1 has is known, and a power of two scales it exactly.
+TEST(Certified, AMeshOfAnySizeHasRadiiThatFitIt) {
+  const data::ControlMesh unit = data::wheel(7);
+  const auto evaluated = [](const data::ControlMesh& mesh) {
+    return CertifiedEvaluator(mesh).evaluate(0, 0.25, 0.125, 16);
+  };
+  const CertifiedPoint one = evaluated(unit);
+  for (const int exponent : {-996, 0, 996}) {  // 1e-300, 1e300
+    data::ControlMesh mesh = unit;
+    for (auto& p : mesh.positions)
+      for (double& x : p) x = std::ldexp(x, exponent);
+    const CertifiedPoint p = evaluated(mesh);
+    const Big size = pow(Big(2), exponent);
+    const auto check = [&](const Enclosure& got, const Enclosure& of_one, const Big& scale,
+                           const Big& least) {
+      EXPECT_LE(abs(Big(got.value) - scale * Big(of_one.value)),
+                Big(got.radius.to_string(17)) + scale * Big(of_one.radius.to_string(17)))
+          << exponent;
+      EXPECT_LE(Big(got.radius.to_string(17)),
+                Big("1e-14") * std::max(Big(abs(Big(got.value))), Big(scale * least)));
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+      check(p.position[c], one.position[c], size, 1);
+      check(p.d1[c], one.d1[c], size, 1);
+      check((*p.d11)[c], (*one.d11)[c], size, 1);
+      check(p.normal[c], one.normal[c], 1, 1);
+    }
+    check(*p.gaussian_curvature, *one.gaussian_curvature, 1 / (size * size), 0);
+    check(*p.mean_curvature, *one.mean_curvature, 1 / size, 0);
+  }
+}
+
+TEST(Radius, IsADecimalWithAnExponentOfItsOwnAndNeverLess) {
+  EXPECT_EQ(Radius().to_string(), "0");
+  EXPECT_TRUE(Radius(0, 5).is_zero());
+  EXPECT_EQ(Radius(4.21, -20).to_string(), "4.3e-20");
+  EXPECT_EQ(Radius(9.96, -301).to_string(), "1.0e-300");
+  EXPECT_EQ(Radius(250, 598).to_string(), "2.6e+600");  // 2.5, and rounded upwards
+  EXPECT_EQ(Radius(.25, 0).to_string(3), "2.51e-01");
+  EXPECT_EQ(Radius(std::numeric_limits<double>::infinity(), 0).to_string(), "inf");
+  EXPECT_GT(Radius(1, -600).as_double(), 0);
+  EXPECT_GT(Radius(1, 600).as_double(), std::numeric_limits<double>::max());
+  for (const double x : {1e-300, 1.2345678901234567e-5, 1., 9.999999999999999e299}) {
+    EXPECT_GE(Radius(x, 0).as_double(), x);
+    EXPECT_LE(Radius(x, 0).as_double(), x * (1 + 1e-11));  // 300 divisions by 10
+  }
+  EXPECT_LT(Radius(), Radius(1, -600));
+  EXPECT_LT(Radius(9, -600), Radius(1, -599));
+  EXPECT_LT(Radius(9, 600), Radius(std::numeric_limits<double>::infinity(), 0));
 }
 
 TEST(Certified, DegenerateMeshesAreSaidToBeSo) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace limitcheck::cli {
@@ -15,6 +17,7 @@ using reference::Enclosure;
 using reference::Enclosure3;
 using reference::Fate;
 using reference::NormalKind;
+using reference::Radius;
 
 const char* name(NormalKind kind) {
   switch (kind) {
@@ -37,10 +40,10 @@ nlohmann::ordered_json vector(const Enclosure& e) {
   return e.value;
 }
 
-double radius(const Enclosure3& v) {
+Radius radius(const Enclosure3& v) {
   return std::max({v[0].radius, v[1].radius, v[2].radius});
 }
-double radius(const Enclosure& e) {
+Radius radius(const Enclosure& e) {
   return e.radius;
 }
 
@@ -79,6 +82,14 @@ std::string reason(const DerivativeLimit& limit, bool along_boundary, bool degen
                      along_boundary ? ", unless it runs along the boundary or crease" : "");
 }
 
+// A number, or, where no double of full precision is that small or large, a string of the same form.
+nlohmann::ordered_json number(const Radius& r) {
+  const double value = r.as_double();
+  if (r.is_zero() || std::isnormal(value)) return value;
+  if (r == Radius(std::numeric_limits<double>::infinity(), 0)) return nullptr;
+  return r.to_string();
+}
+
 }  // namespace
 
 void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
@@ -94,7 +105,7 @@ void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
   json["weights"] = loop ? nlohmann::ordered_json(at.weights) : nlohmann::ordered_json();
   const auto add = [&](const char* key, const auto& value) {
     json[key] = vector(value);
-    radii[key] = radius(value);
+    radii[key] = number(radius(value));
   };
   const auto add_maybe = [&](const char* key, const auto& value) {
     if (value) return add(key, *value);
@@ -117,7 +128,7 @@ void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
   add_maybe("d22", p.d22);
   add_maybe("gaussian_curvature", p.gaussian_curvature);
   add_maybe("mean_curvature", p.mean_curvature);
-  json["radius"] = p.radius;
+  json["radius"] = number(p.radius);
   json["radii"] = radii;
   fmt::print("{}\n", json.dump(2));
 }
@@ -129,10 +140,9 @@ void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
   const std::string by_a = "d/d" + a, by_b = "d/d" + b;
   const std::string by_aa = fmt::format("d2/d{0}d{0}", a), by_ab = fmt::format("d2/d{}d{}", a, b),
                     by_bb = fmt::format("d2/d{0}d{0}", b);
-  // Two digits of the radius, not less than it.
   const auto within = [](const auto& value) {
-    const double r = radius(value);
-    return r == 0 ? "  exact" : fmt::format("  +-{:.1e}", 1.05 * r);
+    const Radius r = radius(value);
+    return r.is_zero() ? "  exact" : "  +-" + r.to_string();
   };
   const auto line = [&](const std::string& what, const Enclosure3& v, const std::string& note = "") {
     fmt::print("{:<12}{}  {}  {}{}{}\n", what, v[0].value, v[1].value, v[2].value, within(v), note);
@@ -182,8 +192,8 @@ void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
     fmt::print("{:<12}{}{}\n", "Gaussian K", p.gaussian_curvature->value, within(*p.gaussian_curvature));
     fmt::print("{:<12}{}{}\n", "mean H", p.mean_curvature->value, within(*p.mean_curvature));
   }
-  fmt::print("certified: every number is that near the truth; the largest radius of a vector is {:.3g}\n",
-             p.radius);
+  fmt::print("certified: every number is that near the truth; the largest radius of a vector is {}\n",
+             p.radius.to_string(3));
 }
 
 }  // namespace limitcheck::cli

@@ -95,6 +95,26 @@ TEST_F(EvalCommand, GivesEveryQuantityARadiusOfItsOwn) {
   EXPECT_TRUE(radii["tangent1"].is_null());
 }
 
+// A radius is a JSON number as long as a double of full precision is that small or large, and else a string.
+TEST_F(EvalCommand, NoRadiusIsTooSmallOrTooLargeToBeSaid) {
+  write("tiny.obj",
+        "v 1e-300 0 0\nv 0 2e-300 0\nv 0 0 3e-300\nv -1e-300 -1e-300 -1e-300\n"
+        "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+  const Outcome o = run("eval tiny.obj 0 1/4 1/4 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto json = nlohmann::json::parse(o.out);
+  const auto radius = [&](const char* key) { return Decimal(json["radii"][key].get<std::string>()); };
+  EXPECT_TRUE(json["radii"]["position"].is_string());
+  EXPECT_LT(radius("position"), Decimal("1e-315"));
+  EXPECT_GT(radius("position"), 0);
+  EXPECT_TRUE(json["radii"]["gaussian_curvature"].is_string());
+  EXPECT_LT(radius("gaussian_curvature"), Decimal(json["gaussian_curvature"].get<std::string>()) * 1e-14);
+  EXPECT_GT(Decimal(json["gaussian_curvature"].get<std::string>()), Decimal("1e600"));
+  EXPECT_TRUE(json["radius"].is_number());
+  const Outcome text = run("eval tiny.obj 0 1/4 1/4");
+  EXPECT_NE(text.out.find("e-317\n"), std::string::npos) << text.out;
+}
+
 TEST_F(EvalCommand, SaysWhichDerivativesExistAtAnExtraordinaryCorner) {
   const auto at = [&](const std::string& mesh) {
     const Outcome o = run("eval " + mesh + " 0 0 0 --json");

@@ -14,6 +14,7 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "verify/checks/check_oracle.h"
 #include "verify/cli/audit_output.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/hunt_jobs.h"
@@ -95,7 +96,8 @@ verify::HuntReport hunt_part(const Arguments& a, const Part& part, JobCounters& 
   const auto start = Clock::now();
   auto saved = start;
   std::uint64_t next = report.next;
-  verify::Hunt hunt(subject, verify::HuntPlan(a.seed, std::move(does), std::move(ways)),
+  verify::Hunt hunt(subject,
+                    verify::HuntPlan(a.seed, std::move(does), std::move(ways), verify::is_oracle(subject)),
                     {1, a.attempts, a.witnesses}, std::move(report));
   const auto now = [&] {
     verify::HuntReport r = hunt.report();

@@ -180,8 +180,8 @@ std::set<std::uint64_t> kinds_of_edges(const AuditMesh& audited) {
   return kinds;
 }
 
-HuntPlan::HuntPlan(std::uint64_t seed, std::vector<Does> does, std::vector<Way> ways)
-    : seed_(seed), does_(std::move(does)), ways_(std::move(ways)) {
+HuntPlan::HuntPlan(std::uint64_t seed, std::vector<Does> does, std::vector<Way> ways, bool tagged)
+    : seed_(seed), does_(std::move(does)), ways_(std::move(ways)), tagged_(tagged) {
   if (does_.empty())
     throw data::ArgumentError("there is nothing to hunt: the subject does not do this scheme");
 }
@@ -212,6 +212,7 @@ HuntCase HuntPlan::next() {
   for (std::size_t k = 0; k < kCandidates || best.mesh.name.empty(); ++k) {
     data::SplitMix64 random(of_case + k);
     AuditMesh m{mesh_name(does, turn, k >= kPatience, random), {}};
+    if (tagged_ && turn % 8 != 7) m.name = fmt::format("tagged:{}:{}", below(random, 1'000'000), m.name);
     m.mesh = data::named_mesh(m.name);
     m.asked_scheme = does.scheme;
     if (!data::validate(m.mesh, does.scheme).empty() || !does_sharp(does.sharp, m.mesh, does.scheme))

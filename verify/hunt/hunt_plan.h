@@ -56,8 +56,9 @@ class HuntPlan {
  public:
   static constexpr std::uint64_t kBlock = 16;  // cases: shards have whole blocks
 
+  ///   tagged   most meshes have any sharp edges, vertices and options in place of their own
   /// Throws data::ArgumentError: the subject does none of the schemes.
-  HuntPlan(std::uint64_t seed, std::vector<Does> does, std::vector<Way> ways = {});
+  HuntPlan(std::uint64_t seed, std::vector<Does> does, std::vector<Way> ways = {}, bool tagged = false);
 
   /// Fast for the case after the last one; for any other the block is begun anew.
   HuntCase at(std::uint64_t number);
@@ -68,6 +69,7 @@ class HuntPlan {
   std::uint64_t seed_, number_ = 0;  // of the case that next() makes
   std::vector<Does> does_;
   std::vector<Way> ways_;
+  bool tagged_;
   std::set<std::uint64_t> seen_;  // in this block
 };
 

@@ -67,7 +67,7 @@ Read read(const reference::Enclosure& e) {
   const auto [end, error] = std::from_chars(e.value.data(), e.value.data() + e.value.size(), value);
   if (error != std::errc() || end != e.value.data() + e.value.size())
     throw std::logic_error("certified comparison: not a number: " + e.value);
-  return {value, (e.radius + 0x1p-53 * std::abs(value)) * kUpward};
+  return {value, (e.radius.as_double() + 0x1p-53 * std::abs(value)) * kUpward};
 }
 
 // For conditions, which need no more than a few digits.

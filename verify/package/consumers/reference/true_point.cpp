@@ -21,8 +21,9 @@ int main(int argc, char** argv) try {
   std::printf("double: %.17g %.17g %.17g\n", point.position.x, point.position.y, point.position.z);
 
   const auto certified = reference::CertifiedEvaluator(cage).evaluate(0, third, third, 30);
-  std::printf("certified: %s %s %s (radius %.3g)\n", certified.position[0].value.c_str(),
-              certified.position[1].value.c_str(), certified.position[2].value.c_str(), certified.radius);
+  std::printf("certified: %s %s %s (radius %s)\n", certified.position[0].value.c_str(),
+              certified.position[1].value.c_str(), certified.position[2].value.c_str(),
+              certified.radius.to_string().c_str());
 
   long leaves = 0;
   reference::NaiveSubdivider<double>(cage).tessellate(0, 3, [&](const auto&) { ++leaves; });

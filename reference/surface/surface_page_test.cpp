@@ -206,9 +206,9 @@ Rational exact_decimal(const std::string& text) {
 }
 
 void expect_within(const Enclosure& got, const Rational& expected, const std::string& what) {
-  EXPECT_LE(magnitude(Rational(exact_decimal(got.value) - expected)), Rational(got.radius))
+  EXPECT_LE(magnitude(Rational(exact_decimal(got.value) - expected)), Rational(got.radius.as_double()))
       << what << ": " << got.value << " is not " << expected;
-  EXPECT_LE(got.radius, 1e-28) << what;
+  EXPECT_LE(got.radius.as_double(), 1e-28) << what;
 }
 
 /// The weights of all vertices, three at a time: one for each coordinate.
@@ -271,7 +271,7 @@ void check_normal(const Line& line) {
     EXPECT_EQ(p.normal_kind, NormalKind::kRegular);
     const auto value = [&](std::size_t i) { return exact_decimal(p.normal[i].value); };
     const Vec3<Rational> got{value(0), value(1), value(2)}, off = cross(got, expected);
-    const Rational radius(std::max({p.normal[0].radius, p.normal[1].radius, p.normal[2].radius}));
+    const Rational radius(std::max({p.normal[0].radius, p.normal[1].radius, p.normal[2].radius}).as_double());
     EXPECT_LE(radius, Rational(1e-28));
     EXPECT_LE(magnitude(off), radius * 2 * magnitude(expected));
     EXPECT_GT(dot(got, expected), 0);

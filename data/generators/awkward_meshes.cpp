@@ -6,8 +6,10 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "data/error.h"
+#include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 
@@ -38,7 +40,11 @@ ControlMesh scaled(ControlMesh mesh, int exponent) {
 void append(ControlMesh& mesh, const ControlMesh& other) {
   const auto first = static_cast<std::int32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-  for (const auto& t : triangles_of(other)) mesh.faces.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (std::size_t f = 0; f < other.faces.size(); ++f) {
+    std::vector<std::int32_t> face(other.faces[f].begin(), other.faces[f].end());
+    for (std::int32_t& v : face) v += first;
+    mesh.faces.push_back(face);
+  }
 }
 
 }  // namespace
@@ -144,11 +150,11 @@ ControlMesh huge_box() {
   return scaled(cube(), 66);
 }
 
-ControlMesh crowd(int count) {
-  require(count >= 1 && count <= 2'500'000, "a crowd: 1 to 2 500 000 tetrahedra");
+ControlMesh crowd(int count, bool quads) {
+  require(count >= 1 && count <= 1'500'000, "a crowd: 1 to 1 500 000 tetrahedra or cubes");
   int side = 1;
   while (side * side * side < count) ++side;
-  const ControlMesh one = tetrahedron();
+  const ControlMesh one = quads ? quad_cube() : tetrahedron();
   ControlMesh mesh;
   for (int k = 0; k < count; ++k)
     append(mesh, shifted(one, 3. * (k % side), 3. * (k / side % side), 3. * (k / side / side)));

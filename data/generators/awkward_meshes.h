@@ -20,8 +20,9 @@ ControlMesh stellated();            ///< an octahedron with a vertex of valence 
 ControlMesh tiny_box();             ///< a cube times 2^-83, about 1e-25
 ControlMesh huge_box();             ///< a cube times 2^66, about 1e20
 
-/// `count` tetrahedra in a grid, 1 to 2.5 million: 4 vertices and 4 faces each. With more than 16 384 of them
-/// indices need more than 16 bits. Throws InputError NAME_BAD_PARAMETER.
-ControlMesh crowd(int count);
+/// `count` tetrahedra, or cubes of quads, in a grid, 1 to 1.5 million: 4 vertices and 4 faces each, or 8 and
+/// 6. With more than 16 384, or 8192, of them indices need more than 16 bits. Throws InputError
+/// NAME_BAD_PARAMETER.
+ControlMesh crowd(int count, bool quads = false);
 
 }  // namespace limitcheck::data

@@ -14,9 +14,11 @@
 #include "data/generators/awkward_meshes.h"
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/mixed_mesh.h"
+#include "data/generators/planned_stars.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/star_meshes.h"
 #include "data/generators/surgery.h"
 #include "data/io/polygon_soup.h"
 #include "data/scheme.h"
@@ -40,6 +42,13 @@ struct Entry {
 
 int as_int(std::uint64_t value) {
   return static_cast<int>(std::min<std::uint64_t>(value, std::numeric_limits<int>::max()));
+}
+
+ControlMesh planned(std::uint64_t k, bool triangles) {
+  const auto& all = planned_stars(triangles);
+  if (k < 1 || k > all.size())
+    throw InputError("NAME_BAD_PARAMETER", "", 0, "there are stars 1 to " + std::to_string(all.size()));
+  return star_mesh(parse_stars(all[k - 1].stars), triangles);
 }
 
 const std::vector<Entry>& entries() {
@@ -162,8 +171,14 @@ const std::vector<Entry>& entries() {
          mesh.sharpness.triangles = TriangleRule::kSmooth;
          return mesh;
        }},
+      {"stars", "stars:K", "vertices of many kinds amid their triangles, which an audit without meshes takes",
+       1, 1, [](Parameters p) { return planned(p[0], true); }},
+      {"quad-stars", "quad-stars:K", "the same amid quads and other faces", 1, 1,
+       [](Parameters p) { return planned(p[0], false); }},
       {"crowd", "crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number", 1,
        1, [](Parameters p) { return crowd(as_int(p[0])); }},
+      {"quad-crowd", "quad-crowd:N", "N cubes of quads apart: beyond 8192 the same", 1, 1,
+       [](Parameters p) { return crowd(as_int(p[0]), true); }},
   };
   return all;
 }
@@ -179,7 +194,8 @@ std::string without_alias(const std::string& name) {
 
 // "dual:NAME..." and so on: the specifications that contain another.
 constexpr std::string_view kDual = "dual:", kStretched = "stretched:", kHandled = "handled:",
-                           kTurned = "turned:", kTagged = "tagged:";
+                           kTurned = "turned:", kTagged = "tagged:", kStar = "star:",
+                           kQuadStar = "quad-star:";
 
 ControlMesh dual_of(const std::string& name) {
   const auto refuse = [&](const std::string& why) {
@@ -238,6 +254,13 @@ ControlMesh tagged(const std::string& what) {
   return with_any_tags(named_mesh(at.name), at.number);
 }
 
+ControlMesh star(const std::string& what) {
+  return star_mesh(parse_stars(what), true);
+}
+ControlMesh quad_star(const std::string& what) {
+  return star_mesh(parse_stars(what), false);
+}
+
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
@@ -255,7 +278,8 @@ std::vector<std::string> split(const std::string& text) {
 ControlMesh named_mesh(const std::string& specification) {
   for (const auto& [word, make] :
        {std::pair{kDual, &dual_of}, std::pair{kStretched, &stretched}, std::pair{kHandled, &handled},
-        std::pair{kTurned, &turned}, std::pair{kTagged, &tagged}})
+        std::pair{kTurned, &turned}, std::pair{kTagged, &tagged}, std::pair{kStar, &star},
+        std::pair{kQuadStar, &quad_star}})
     if (specification == word.substr(0, word.size() - 1) || specification.starts_with(word))
       return make(specification.substr(std::min(word.size(), specification.size())));
   std::vector<std::string> parts = split(specification);
@@ -314,6 +338,12 @@ std::vector<NamedMesh> named_meshes() {
       {"turned:SEED:NAME...", "a mesh with some inner edges between other corners of the faces beside them"});
   list.push_back(
       {"tagged:SEED:NAME...", "a mesh with any sharp edges, vertices and options in place of its own"});
+  list.push_back(
+      {"star:SEED[c][h][s]:STAR[_STAR...]",
+       "vertices amid their triangles, each edge with its sharpness (c: Chaikin's creasing, h: corners "
+       "held): star:1:J.J3 has a crease, star:2:o.B. a boundary where a semi-sharp edge ends"});
+  list.push_back({"quad-star:SEED[c][h][s]:STAR[_STAR...]",
+                  "the same amid quads and other faces (s: smooth triangles): quad-star:1:vJ.5/3-8"});
   return list;
 }
 

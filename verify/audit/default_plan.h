@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "verify/audit/audit.h"
+#include "verify/audit/cover.h"
 
 namespace limitcheck::verify {
 
-/// The cases, those of the same mesh one after the other:
-///   at depth 4, with the relations   the worst cases known (data/worst_cases.h; not at kQuick), bumpy:800,
-///                                    and the stock shapes (data/generators/named_mesh.h)
-///   at depths 0 and 1                the stock shapes
-///   at depths 2, 3, 5, 6 and 7       small meshes, those of data/generators/awkward_meshes.h among them
-///   at unequal depths                random ones with culled faces, a view, face 0 culled, all faces culled
-///   meshes with sharp edges          of quads and mixed ones
-///   meshes of many tetrahedra        whose indices need more than 16 bits: one at depth 0, a part of another
+/// The cases, those of the same mesh one after the other: chosen_cases(), the stars that cover what is left
+/// (data/generators/planned_stars.h), and a part of a mesh whose indices need more than 16 bits. Together they
+/// look at each cell (cells.h) of either scheme.
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
 
 /// The cases of a scheme and of sharp edges that some of the subjects does; all without sharp edges if a
 /// subject does not say.
 std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>& subjects);
+
+/// Those that somebody chose: the worst cases known (data/worst_cases.h), the stock shapes
+/// (data/generators/named_mesh.h), deep levels, unequal depths, awkward topology and geometry, relations.
+std::vector<PlannedCase> chosen_cases(Level level);
 
 }  // namespace limitcheck::verify

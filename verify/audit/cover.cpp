@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "verify/audit/cover.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "data/generators/named_mesh.h"
+#include "data/generators/star_meshes.h"
+#include "data/sharpness_classes.h"
+#include "data/splitmix64.h"
+#include "verify/evidence/face_depths.h"
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr double kCaseCost = 2500;  // of a case beside its points, in points
+constexpr double kMostCost = 24000;
+constexpr int kMeshes = 6, kStars = 14, kCandidates = 12, kPatience = 150;
+constexpr int kNone = -1;
+
+struct Ways {
+  int depth;
+  const char* kind;
+};
+constexpr std::array<Ways, 11> kWays{{{0, "uniform"},
+                                      {1, "uniform"},
+                                      {1, "uniform"},
+                                      {2, "uniform"},
+                                      {2, "uniform"},
+                                      {3, "uniform"},
+                                      {4, "uniform"},
+                                      {2, "random"},
+                                      {3, "random"},
+                                      {4, "random"},
+                                      {4, "visible"}}};
+
+// What a neighbourhood is to have on each axis: the value's number, or kNone.
+using Wish = std::array<int, 20>;
+
+class Cover {
+ public:
+  Cover(data::Scheme scheme, CellSet& covered, std::uint64_t seed)
+      : scheme_(scheme), covered_(covered), random_(seed) {}
+
+  std::vector<CoveringStars> run() {
+    std::vector<CoveringStars> cases;
+    for (int failures = 0; failures < kPatience;) {
+      std::optional<Try> best;
+      list_missing();
+      if (missing_.empty()) break;
+      for (int k = 0; k < kMeshes; ++k) {
+        Try one = mesh();
+        if (one.gain > 0 && (!best || one.worth() > best->worth())) best = std::move(one);
+      }
+      if (!best) {
+        ++failures;
+        continue;
+      }
+      failures = 0;
+      add_cells(covered_, best->set);
+      cases.push_back(best->planned);
+    }
+    return cases;
+  }
+
+ private:
+  struct Try {
+    CoveringStars planned;
+    CellSet set;
+    double gain = 0, cost = 0;
+    double worth() const { return gain / (kCaseCost + cost); }
+  };
+
+  std::uint64_t below(std::uint64_t n) { return random_.next() % n; }
+  bool chance(double p) { return random_.unit() < p; }
+  void list_missing() {
+    missing_.clear();
+    for (std::size_t k = 0; k < covered_.size(); ++k)
+      if (!covered_[k]) missing_.push_back(k);
+  }
+
+  void judge(Try& one) const {
+    const bool loop = scheme_ == data::Scheme::kLoop;
+
+    AuditMesh m{"", data::star_mesh(one.planned.stars, loop)};
+    m.asked_scheme = scheme_;
+    m.depth = one.planned.depth;
+    m.face_depth = face_depths(parse_depths(one.planned.depths), m.mesh, m.depth);
+    one.set = cells_of(m);
+    one.gain = one.cost = 0;
+    for (const std::size_t k : missing_) one.gain += one.set[k] ? 1 : 0;
+    for (std::size_t f = 0; f < m.mesh.faces.size(); ++f) {
+      const int depth = m.face_depth.empty() ? m.depth : m.face_depth[f];
+      const std::size_t corners = m.mesh.faces[f].size();
+      if (depth >= 0)
+        one.cost += std::ldexp(loop ? 0.5 : corners == 4 ? 1.0 : static_cast<double>(corners) / 4, 2 * depth);
+    }
+    one.cost += static_cast<double>(m.mesh.faces.size());
+    // By Catmull-Clark's scheme and not by Loop's.
+    if (!loop && m.mesh.faces.are_triangles()) one.gain = 0;
+  }
+
+  Try mesh() {
+    Try best;
+    best.planned.stars.seed = below(1000);
+    best.planned.stars.chaikin = chance(0.5);
+    best.planned.stars.corners_held = chance(0.4);
+    best.planned.stars.smooth_triangles = scheme_ == data::Scheme::kCatmullClark && chance(0.4);
+    const Ways& way = kWays[below(kWays.size())];
+    best.planned.depth = way.depth;
+    if (way.kind != std::string("uniform"))
+      best.planned.depths =
+          fmt::format("random:{}{}", below(100), way.kind == std::string("visible") ? ":visible" : "");
+    for (int k = 0; k < kStars; ++k) {
+      std::optional<Try> next;
+      for (int c = 0; c < kCandidates; ++c) {
+        const auto star = star_for(missing_[below(missing_.size())], best);
+        if (!star) continue;
+        Try one = best;
+        one.planned.stars.stars.push_back(*star);
+        judge(one);
+        if (one.cost <= kMostCost && one.gain > best.gain &&
+            (!next || (one.gain - best.gain) / (200 + one.cost - best.cost) >
+                          (next->gain - best.gain) / (200 + next->cost - best.cost)))
+          next = std::move(one);
+      }
+      if (!next) break;
+      if (k > 0 && next->worth() < 0.7 * best.worth()) break;
+      best = std::move(*next);
+    }
+    return best;
+  }
+
+  // A star that looks at a cell, in a mesh with these choices.
+  std::optional<data::Star> star_for(std::size_t cell, const Try& in) {
+    Wish wish;
+    wish.fill(kNone);
+    const Cell& wanted = cells(scheme_)[cell];
+    for (const std::size_t f : {wanted.first, wanted.second}) {
+      const auto [axis, k] = on_axis(f);
+      wish[static_cast<std::size_t>(axis)] = static_cast<int>(k);
+      if (axis != Axis::kVertex) continue;
+      const VertexTags tags = vertex_tags(f);
+      set(wish, Axis::kSide, tags.boundary ? 1 : 0), set(wish, Axis::kInfinite, tags.infinite);
+      set(wish, Axis::kSemi, tags.semi), set(wish, Axis::kOwn, tags.own);
+    }
+    const auto want = [&](Axis a) { return wish[static_cast<std::size_t>(a)]; };
+    const auto is_not = [&](Axis a, bool second) { return want(a) != kNone && want(a) != (second ? 1 : 0); };
+    const bool uniform = in.planned.depths == "uniform";
+    if (is_not(Axis::kCreasing, in.planned.stars.chaikin) ||
+        is_not(Axis::kBoundary, in.planned.stars.corners_held) ||
+        is_not(Axis::kTriangles, in.planned.stars.smooth_triangles) ||
+        (want(Axis::kNeighbour) > 0 && uniform) ||
+        (want(Axis::kDepth) != kNone &&
+         (uniform ? want(Axis::kDepth) != in.planned.depth : want(Axis::kDepth) > in.planned.depth)))
+      return std::nullopt;
+    return star(wish);
+  }
+  static void set(Wish& wish, Axis a, int value) { wish[static_cast<std::size_t>(a)] = value; }
+
+  std::optional<data::Star> star(const Wish& wish) {
+    const auto want = [&](Axis a) { return wish[static_cast<std::size_t>(a)]; };
+    const auto or_else = [&](Axis a, int value) { return want(a) != kNone ? want(a) : value; };
+    constexpr int kInfiniteClass = data::kFirstInfiniteClass;
+    data::Star star;
+    const int size = want(Axis::kFaces);
+    const int faces_wanted =
+        size == kNone ? 0 : least_of(static_cast<std::size_t>(size)) + (size == 20 ? 28 : 0);
+    star.open = want(Axis::kBoundary) != kNone || (faces_wanted > 0 && faces_wanted < 3) ||
+                (want(Axis::kSide) != kNone ? want(Axis::kSide) == 1 : chance(0.25));
+    const int sharpness = want(Axis::kSharpness);
+    int infinite = or_else(Axis::kInfinite, chance(0.6) ? static_cast<int>(below(star.open ? 2 : 4)) : 0);
+    int semi = or_else(Axis::kSemi, chance(0.6) ? static_cast<int>(below(star.open ? 3 : 4)) : 0);
+    if (sharpness >= kInfiniteClass) infinite = std::max(infinite, 1);
+    if ((sharpness != kNone && sharpness < kInfiniteClass) ||
+        (want(Axis::kCreasing) != kNone && want(Axis::kSemi) == kNone))
+      semi = std::max(semi, 1);
+    if (want(Axis::kAround) >= 2 && infinite + semi == 0) (want(Axis::kSemi) == kNone ? semi : infinite) = 1;
+
+    const int inner = faces_wanted - (star.open ? 1 : 0);
+    if (faces_wanted > 0 && want(Axis::kInfinite) == kNone)
+      infinite = std::min(infinite, std::max(0, inner - semi));
+    if (faces_wanted > 0 && want(Axis::kSemi) == kNone && infinite + semi > inner)
+      semi = std::max(0, inner - infinite);
+    // Where there is room for more, semi-sharp edges of many kinds.
+    if (faces_wanted > 8 && want(Axis::kSemi) == kNone && want(Axis::kCreasing) == kNone && chance(0.3))
+      semi = std::min(inner - infinite, 14);
+    if (want(Axis::kSemi) == 3 && inner > infinite + 3)
+      semi = 3 + static_cast<int>(
+                     below(std::min<std::uint64_t>(12, static_cast<std::uint64_t>(inner - infinite - 2))));
+    const int tags = infinite + semi, aside = want(Axis::kAround) == 1 ? 1 : 0;
+    const int least = std::max(star.open ? 1 : 3, tags + aside + (star.open ? 1 : 0));
+    const int faces = faces_wanted > 0 ? faces_wanted : least + static_cast<int>(below(4));
+    if (faces < least) return std::nullopt;
+
+    star.spokes.assign(static_cast<std::size_t>(faces + (star.open ? 1 : 0)), '.');
+    std::vector<std::size_t> places;
+    for (std::size_t i = star.open ? 1 : 0; i + (star.open ? 1 : 0) < star.spokes.size(); ++i)
+      places.push_back(i);
+    for (std::size_t k = places.size(); k > 1; --k) std::swap(places[k - 1], places[below(k)]);
+    const std::size_t first = below(kInfiniteClass), finite = faces > 16 ? 11 : kInfiniteClass;
+    for (int k = 0; k < tags; ++k) {
+      std::size_t c =
+          k < infinite ? kInfiniteClass + below(2) : (first + static_cast<std::size_t>(k)) % finite;
+      if (sharpness >= kInfiniteClass && k == 0) c = static_cast<std::size_t>(sharpness);
+      if (sharpness != kNone && sharpness < kInfiniteClass && k == infinite)
+        c = static_cast<std::size_t>(sharpness);
+      star.spokes[places[static_cast<std::size_t>(k)]] = data::kSharpnessClasses[c].letter;
+    }
+    const auto any = [&](bool finite, bool infinite_too) {
+      const std::size_t from = finite ? 0 : kInfiniteClass;
+      const std::size_t to = infinite_too ? data::kSharpnessClasses.size() : kInfiniteClass;
+      return data::kSharpnessClasses[from + below(to - from)].letter;
+    };
+    int own = or_else(Axis::kOwn, chance(0.25) ? 1 + static_cast<int>(below(2)) : 0);
+    if (aside > 0 && tags == 0 && own == 0) own = 2;
+    if (want(Axis::kCreasing) != kNone && semi == 0) own = 1;
+    if (own > 0) star.own = any(own == 1, own == 2);
+    if (want(Axis::kOwnClass) != kNone)
+      star.own = data::kSharpnessClasses[static_cast<std::size_t>(want(Axis::kOwnClass))].letter;
+    if (tags > 0 && (want(Axis::kAround) >= 2 || chance(0.35)))
+      star.beyond = want(Axis::kAround) == 2 || (want(Axis::kAround) != 3 && chance(0.5))
+                        ? star.spokes[places[below(static_cast<std::uint64_t>(tags))]]
+                        : any(true, true);
+    if (aside > 0) star.aside = any(true, true);
+    star.bare = star.beyond == '.' && star.aside == '.' && (faces > 16 || chance(0.7));
+    if (faces > 32) star.bare = true, star.beyond = star.aside = '.';
+    if (scheme_ == data::Scheme::kCatmullClark) {
+      if (const int c = want(Axis::kCorners); c != kNone) {
+        star.corners.push_back(least_of(static_cast<std::size_t>(c) + 2));
+        if (want(Axis::kTriangles) != kNone && faces > 1) star.corners.push_back(3);
+      } else if (want(Axis::kTriangles) != kNone || chance(0.15)) {
+        star.corners.push_back(want(Axis::kTriangles) != kNone ? 3 : 3 + static_cast<int>(below(6)));
+      }
+    }
+    return star;
+  }
+
+  data::Scheme scheme_;
+  CellSet& covered_;
+  data::SplitMix64 random_;
+  std::vector<std::size_t> missing_;
+};
+
+}  // namespace
+
+AuditMesh made(const PlannedCase& planned) {
+  AuditMesh m{planned.mesh, data::named_mesh(planned.mesh)};
+  m.depth = planned.depth;
+  m.face_depth = face_depths(parse_depths(planned.depths), m.mesh, planned.depth);
+  m.depths = planned.depths;
+  m.relations = planned.relations;
+  return m;
+}
+
+std::vector<CoveringStars> cover(data::Scheme scheme, CellSet& covered, std::uint64_t seed) {
+  return Cover(scheme, covered, seed).run();
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Finds the stars of the plan: limitcheck_make_plan [SEED] > data/generators/planned_stars.cpp
+#include <fmt/core.h>
+
+#include <cstdlib>
+
+#include "verify/audit/default_plan.h"
+
+int main(int count, char** arguments) {
+  using namespace limitcheck;
+  using namespace limitcheck::verify;
+  const std::uint64_t seed = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 1;
+  fmt::print(R"(// SPDX-License-Identifier: MIT
+// Written by `limitcheck_make_plan {}`, and not to be edited.
+#include "data/generators/planned_stars.h"
+
+namespace limitcheck::data {{
+
+// clang-format off
+const std::vector<PlannedStars>& planned_stars(bool triangles) {{
+)",
+             seed);
+  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+    CellSet covered(cells(scheme).size());
+    for (const PlannedCase& c : chosen_cases(Level::kQuick)) {
+      const AuditMesh m = made(c);
+      if (m.scheme() == scheme) add_cells(covered, cells_of(m));
+    }
+    fmt::print("  static const std::vector<PlannedStars> {}{{\n",
+               scheme == data::Scheme::kLoop ? "loop" : "quads");
+    for (const CoveringStars& c : cover(scheme, covered, seed))
+      fmt::print("      {{\"{}\", {}, \"{}\"}},\n", c.stars.text(), c.depth, c.depths);
+    fmt::print("  }};\n");
+    for (std::size_t k = 0; k < covered.size(); ++k)
+      if (!covered[k]) fmt::print(stderr, "not found: {}: {}\n", name_of(scheme), cells(scheme)[k].name());
+  }
+  fmt::print(
+      "  return triangles ? loop : quads;\n}}\n// clang-format on\n\n}}  // namespace limitcheck::data\n");
+}

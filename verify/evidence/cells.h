@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The kinds of neighbourhood that an audit looks at, and those that there are: what "held" is said of.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/scheme.h"
+#include "verify/evidence/audit_case.h"
+
+namespace limitcheck::verify {
+
+/// What tells the neighbourhoods of a control vertex apart: the rules of subdivision see no more of it.
+enum class Axis : std::uint8_t {
+  kSide,        ///< inside or on the boundary
+  kInfinite,    ///< how many of its edges are sharp for ever; those of the boundary do not count
+  kSemi,        ///< how many are sharp for some steps
+  kOwn,         ///< its own sharpness: none, finite, infinite
+  kFaces,       ///< how many there are around it
+  kSharpness,   ///< of its edges
+  kAround,      ///< what lies at the other ends of its edges
+  kCreasing,    ///< of semi-sharp edges
+  kBoundary,    ///< whether boundary vertices of one face are held
+  kTriangles,   ///< the rule for triangles of Catmull-Clark's first step
+  kCorners,     ///< of its faces; Catmull-Clark
+  kDepth,       ///< of its faces
+  kNeighbour,   ///< how much the depths of its faces differ, and whether some are culled
+  kOwnClass,    ///< the class of its own sharpness
+  kVertex,      ///< kSide, kInfinite, kSemi and kOwn in one
+  kIndex,       ///< how large its index is
+  kTags,        ///< how many the mesh has
+  kComponents,  ///< .. of the mesh
+  kGenus
+};
+
+/// One value on one axis.
+///   needs   LC_SHARP_...: what a subject has to do to be asked; kNeedsBoundary, kNeedsDepths beyond
+struct Feature {
+  Axis axis;
+  std::string name;
+  std::int32_t needs = 0;
+};
+inline constexpr std::int32_t kNeedsBoundary = 1 << 20, kNeedsDepths = 1 << 21;
+
+/// All of them, axis by axis.
+const std::vector<Feature>& features();
+/// The axis of a feature, and which value on it: the k-th class of sharpness, so many edges, ..
+std::pair<Axis, std::size_t> on_axis(std::size_t feature);
+/// What a feature on the axis kVertex says; the largest numbers mean "and more". `own` as on its axis.
+struct VertexTags {
+  bool boundary;
+  int infinite, semi, own;
+};
+VertexTags vertex_tags(std::size_t feature);
+/// The least number of faces of class k, or of corners of class k - 2.
+int least_of(std::size_t size_class);
+
+/// The features of each control vertex that has a displayed face, ascending. On some axes a vertex has
+/// several: edges of several sharpnesses.                                                         O(faces)
+std::vector<std::vector<std::uint16_t>> neighbourhoods(const AuditMesh& mesh);
+
+/// A feature, or two of one neighbourhood (first < second).
+struct Cell {
+  std::size_t first, second;  ///< the same: one feature
+  std::string name() const;   ///< "inside", "1 face, depth 3"
+  std::int32_t needs() const { return features()[first].needs | features()[second].needs; }
+};
+/// Those that a subject of the scheme can meet, within what an audit without meshes takes on: many faces, or
+/// corners, are combined with small depths only.
+const std::vector<Cell>& cells(data::Scheme scheme);
+
+/// A set of the cells of a scheme: element k is whether cells(scheme)[k] is in it.
+using CellSet = std::vector<bool>;
+CellSet cells_of(const AuditMesh& mesh);
+/// Adds all of another set.
+void add_cells(CellSet& to, const CellSet& from);
+/// Adds those of one neighbourhood.
+void add_cells(CellSet& to, const std::vector<std::uint16_t>& features, data::Scheme scheme);
+/// Hexadecimal digits, four cells each.
+std::string text_of(const CellSet& set);
+CellSet cell_set(const std::string& text, data::Scheme scheme);
+
+}  // namespace limitcheck::verify

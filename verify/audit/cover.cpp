@@ -14,13 +14,14 @@
 #include "data/sharpness_classes.h"
 #include "data/splitmix64.h"
 #include "verify/evidence/face_depths.h"
+#include "verify/subject/lent_mesh.h"
 
 namespace limitcheck::verify {
 namespace {
 
-constexpr double kCaseCost = 2500;  // of a case beside its points, in points
-constexpr double kMostCost = 24000;
-constexpr int kMeshes = 6, kStars = 14, kCandidates = 12, kPatience = 150;
+constexpr double kCaseCost = 3000;  // of a case beside its points, in points
+constexpr double kMostCost = 30000;
+constexpr int kMeshes = 5, kStars = 30, kCandidates = 10, kPatience = 150;
 constexpr int kNone = -1;
 
 struct Ways {
@@ -39,19 +40,24 @@ constexpr std::array<Ways, 11> kWays{{{0, "uniform"},
                                       {4, "random"},
                                       {4, "visible"}}};
 
+constexpr std::size_t kUniformWays = 7;
+
 // What a neighbourhood is to have on each axis: the value's number, or kNone.
 using Wish = std::array<int, 20>;
 
 class Cover {
  public:
-  Cover(data::Scheme scheme, CellSet& covered, std::uint64_t seed)
-      : scheme_(scheme), covered_(covered), random_(seed) {}
+  Cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed)
+      : scheme_(scheme), known_(known), random_(seed) {}
 
-  std::vector<CoveringStars> run() {
-    std::vector<CoveringStars> cases;
+  void run(std::int32_t ability, std::vector<CoveringStars>& cases) {
+    ability_ = ability;
+    Covered now = covered_by(known_, scheme_, ability);
     for (int failures = 0; failures < kPatience;) {
       std::optional<Try> best;
-      list_missing();
+      missing_.clear();
+      for (std::size_t k = 0; k < now.wanted.size(); ++k)
+        if (now.wanted[k] && !now.looked[k]) missing_.push_back(k);
       if (missing_.empty()) break;
       for (int k = 0; k < kMeshes; ++k) {
         Try one = mesh();
@@ -62,27 +68,23 @@ class Cover {
         continue;
       }
       failures = 0;
-      add_cells(covered_, best->set);
+      add_cells(now.looked, best->looked.cells);
+      known_.push_back(best->looked);
       cases.push_back(best->planned);
     }
-    return cases;
   }
 
  private:
   struct Try {
     CoveringStars planned;
-    CellSet set;
+    Looked looked;
     double gain = 0, cost = 0;
     double worth() const { return gain / (kCaseCost + cost); }
   };
 
   std::uint64_t below(std::uint64_t n) { return random_.next() % n; }
   bool chance(double p) { return random_.unit() < p; }
-  void list_missing() {
-    missing_.clear();
-    for (std::size_t k = 0; k < covered_.size(); ++k)
-      if (!covered_[k]) missing_.push_back(k);
-  }
+  bool can(std::int32_t needs) const { return (needs & ~ability_) == 0; }
 
   void judge(Try& one) const {
     const bool loop = scheme_ == data::Scheme::kLoop;
@@ -90,10 +92,11 @@ class Cover {
     AuditMesh m{"", data::star_mesh(one.planned.stars, loop)};
     m.asked_scheme = scheme_;
     m.depth = one.planned.depth;
-    m.face_depth = face_depths(parse_depths(one.planned.depths), m.mesh, m.depth);
-    one.set = cells_of(m);
+    m.depths = one.planned.depths;
+    m.face_depth = face_depths(parse_depths(m.depths), m.mesh, m.depth);
+    one.looked = look_at(m);
     one.gain = one.cost = 0;
-    for (const std::size_t k : missing_) one.gain += one.set[k] ? 1 : 0;
+    for (const std::size_t k : missing_) one.gain += one.looked.cells[k] ? 1 : 0;
     for (std::size_t f = 0; f < m.mesh.faces.size(); ++f) {
       const int depth = m.face_depth.empty() ? m.depth : m.face_depth[f];
       const std::size_t corners = m.mesh.faces[f].size();
@@ -101,6 +104,7 @@ class Cover {
         one.cost += std::ldexp(loop ? 0.5 : corners == 4 ? 1.0 : static_cast<double>(corners) / 4, 2 * depth);
     }
     one.cost += static_cast<double>(m.mesh.faces.size());
+    if (!can(one.looked.needs)) one.gain = 0;
     // By Catmull-Clark's scheme and not by Loop's.
     if (!loop && m.mesh.faces.are_triangles()) one.gain = 0;
   }
@@ -108,10 +112,11 @@ class Cover {
   Try mesh() {
     Try best;
     best.planned.stars.seed = below(1000);
-    best.planned.stars.chaikin = chance(0.5);
-    best.planned.stars.corners_held = chance(0.4);
-    best.planned.stars.smooth_triangles = scheme_ == data::Scheme::kCatmullClark && chance(0.4);
-    const Ways& way = kWays[below(kWays.size())];
+    best.planned.stars.chaikin = can(LC_SHARP_CHAIKIN) && chance(0.5);
+    best.planned.stars.corners_held = can(LC_SHARP_CORNERS) && chance(0.4);
+    best.planned.stars.smooth_triangles =
+        scheme_ == data::Scheme::kCatmullClark && can(LC_SHARP_SMOOTH_TRIANGLES) && chance(0.4);
+    const Ways& way = kWays[below(can(kNeedsDepths) ? kWays.size() : kUniformWays)];
     best.planned.depth = way.depth;
     if (way.kind != std::string("uniform"))
       best.planned.depths =
@@ -174,13 +179,17 @@ class Cover {
     star.open = want(Axis::kBoundary) != kNone || (faces_wanted > 0 && faces_wanted < 3) ||
                 (want(Axis::kSide) != kNone ? want(Axis::kSide) == 1 : chance(0.25));
     const int sharpness = want(Axis::kSharpness);
-    int infinite = or_else(Axis::kInfinite, chance(0.6) ? static_cast<int>(below(star.open ? 2 : 4)) : 0);
-    int semi = or_else(Axis::kSemi, chance(0.6) ? static_cast<int>(below(star.open ? 3 : 4)) : 0);
+    int infinite =
+        or_else(Axis::kInfinite,
+                can(LC_SHARP_CREASES) && chance(0.6) ? static_cast<int>(below(star.open ? 2 : 4)) : 0);
+    int semi = or_else(Axis::kSemi,
+                       can(LC_SHARP_SEMI) && chance(0.6) ? static_cast<int>(below(star.open ? 3 : 4)) : 0);
     if (sharpness >= kInfiniteClass) infinite = std::max(infinite, 1);
     if ((sharpness != kNone && sharpness < kInfiniteClass) ||
         (want(Axis::kCreasing) != kNone && want(Axis::kSemi) == kNone))
       semi = std::max(semi, 1);
-    if (want(Axis::kAround) >= 2 && infinite + semi == 0) (want(Axis::kSemi) == kNone ? semi : infinite) = 1;
+    if (want(Axis::kAround) >= 2 && infinite + semi == 0)
+      (want(Axis::kSemi) == kNone && can(LC_SHARP_SEMI) ? semi : infinite) = 1;
 
     const int inner = faces_wanted - (star.open ? 1 : 0);
     if (faces_wanted > 0 && want(Axis::kInfinite) == kNone)
@@ -188,7 +197,8 @@ class Cover {
     if (faces_wanted > 0 && want(Axis::kSemi) == kNone && infinite + semi > inner)
       semi = std::max(0, inner - infinite);
     // Where there is room for more, semi-sharp edges of many kinds.
-    if (faces_wanted > 8 && want(Axis::kSemi) == kNone && want(Axis::kCreasing) == kNone && chance(0.3))
+    if (faces_wanted > 8 && want(Axis::kSemi) == kNone && want(Axis::kCreasing) == kNone &&
+        can(LC_SHARP_SEMI) && chance(0.3))
       semi = std::min(inner - infinite, 14);
     if (want(Axis::kSemi) == 3 && inner > infinite + 3)
       semi = 3 + static_cast<int>(
@@ -212,12 +222,15 @@ class Cover {
         c = static_cast<std::size_t>(sharpness);
       star.spokes[places[static_cast<std::size_t>(k)]] = data::kSharpnessClasses[c].letter;
     }
-    const auto any = [&](bool finite, bool infinite_too) {
-      const std::size_t from = finite ? 0 : kInfiniteClass;
-      const std::size_t to = infinite_too ? data::kSharpnessClasses.size() : kInfiniteClass;
+    const auto any = [&](bool may_be_finite, bool may_be_infinite) {
+      const std::size_t from = may_be_finite ? 0 : kInfiniteClass;
+      const std::size_t to = may_be_infinite ? data::kSharpnessClasses.size() : kInfiniteClass;
       return data::kSharpnessClasses[from + below(to - from)].letter;
     };
-    int own = or_else(Axis::kOwn, chance(0.25) ? 1 + static_cast<int>(below(2)) : 0);
+    const auto any_edge = [&] { return any(can(LC_SHARP_SEMI), can(LC_SHARP_CREASES)); };
+    int own = or_else(Axis::kOwn, can(LC_SHARP_CORNERS) && chance(0.25)
+                                      ? (can(LC_SHARP_SEMI) ? 1 + static_cast<int>(below(2)) : 2)
+                                      : 0);
     if (aside > 0 && tags == 0 && own == 0) own = 2;
     if (want(Axis::kCreasing) != kNone && semi == 0) own = 1;
     if (own > 0) star.own = any(own == 1, own == 2);
@@ -226,8 +239,8 @@ class Cover {
     if (tags > 0 && (want(Axis::kAround) >= 2 || chance(0.35)))
       star.beyond = want(Axis::kAround) == 2 || (want(Axis::kAround) != 3 && chance(0.5))
                         ? star.spokes[places[below(static_cast<std::uint64_t>(tags))]]
-                        : any(true, true);
-    if (aside > 0) star.aside = any(true, true);
+                        : any_edge();
+    if (aside > 0) star.aside = any_edge();
     star.bare = star.beyond == '.' && star.aside == '.' && (faces > 16 || chance(0.7));
     if (faces > 32) star.bare = true, star.beyond = star.aside = '.';
     if (scheme_ == data::Scheme::kCatmullClark) {
@@ -242,7 +255,8 @@ class Cover {
   }
 
   data::Scheme scheme_;
-  CellSet& covered_;
+  std::vector<Looked>& known_;
+  std::int32_t ability_ = 0;
   data::SplitMix64 random_;
   std::vector<std::size_t> missing_;
 };
@@ -258,8 +272,33 @@ AuditMesh made(const PlannedCase& planned) {
   return m;
 }
 
-std::vector<CoveringStars> cover(data::Scheme scheme, CellSet& covered, std::uint64_t seed) {
-  return Cover(scheme, covered, seed).run();
+Looked look_at(const AuditMesh& mesh) {
+  const bool uniform = mesh.face_depth.empty() && !mesh.sample;
+  return {sharp_kinds(mesh.mesh, mesh.scheme()) | (uniform ? 0 : kNeedsDepths), cells_of(mesh)};
+}
+
+const std::vector<std::int32_t>& steps_of_ability() {
+  constexpr std::int32_t kHeld = LC_SHARP_CREASES | LC_SHARP_CORNERS, kUniform = kHeld | LC_SHARP_SEMI;
+  constexpr std::int32_t kAll = kUniform | LC_SHARP_CHAIKIN | LC_SHARP_SMOOTH_TRIANGLES;
+  static const std::vector<std::int32_t> all{
+      0, LC_SHARP_CREASES, kHeld, kUniform, kAll, kNeedsDepths, kAll | kNeedsDepths};
+  return all;
+}
+
+Covered covered_by(const std::vector<Looked>& known, data::Scheme scheme, std::int32_t ability) {
+  Covered result{CellSet(cells(scheme).size()), CellSet(cells(scheme).size())};
+  for (std::size_t k = 0; k < result.wanted.size(); ++k)
+    result.wanted[k] = (cells(scheme)[k].needs() & ~(ability | kNeedsBoundary)) == 0;
+  for (const Looked& one : known)
+    if ((one.needs & ~ability) == 0) add_cells(result.looked, one.cells);
+  return result;
+}
+
+std::vector<CoveringStars> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed) {
+  std::vector<CoveringStars> cases;
+  Cover search(scheme, known, seed);
+  for (const std::int32_t ability : steps_of_ability()) search.run(ability, cases);
+  return cases;
 }
 
 }  // namespace limitcheck::verify

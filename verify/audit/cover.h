@@ -26,9 +26,25 @@ struct CoveringStars {
   int depth = 0;
   std::string depths = "uniform";
 };
-/// Those that look at the cells of a scheme which are not in
-/// `covered`, as far as they are found: greedily those that look at most for their time. The same for the
-/// same seed. `covered` has all of them added.                                         O(minutes)
-std::vector<CoveringStars> cover(data::Scheme scheme, CellSet& covered, std::uint64_t seed);
+/// What a case looks at, and what it asks of a subject (Feature::needs).
+struct Looked {
+  std::int32_t needs;
+  CellSet cells;
+};
+Looked look_at(const AuditMesh& mesh);
+
+/// What subjects do, from nothing beyond smooth surfaces to all: whatever a subject does, there are cases for
+/// it that ask for no more.
+const std::vector<std::int32_t>& steps_of_ability();
+
+/// Those that look at the cells of a scheme which `known` cases do not, for each step of ability, as far as
+/// they are found: greedily those that look at most for their time. The same for the same seed. `known` has
+/// them added.                                                                                     O(minutes)
+std::vector<CoveringStars> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed);
+/// The cells that need no more than a subject does, and whether cases that need no more look at them.
+struct Covered {
+  CellSet wanted, looked;
+};
+Covered covered_by(const std::vector<Looked>& known, data::Scheme scheme, std::int32_t ability);
 
 }  // namespace limitcheck::verify

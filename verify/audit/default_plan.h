@@ -9,18 +9,15 @@
 
 namespace limitcheck::verify {
 
-/// The cases, those of the same mesh one after the other: chosen_cases(), the stars that cover what is left
-/// (data/generators/planned_stars.h), and a part of a mesh whose indices need more than 16 bits. Together they
-/// look at each cell (cells.h) of either scheme.
+/// The cases, those of the same mesh one after the other: the worst cases known (data/worst_cases.h; not at
+/// kQuick), the stock shapes (data/generators/named_mesh.h), deep levels, unequal depths, awkward topology and
+/// geometry, what the relations need, the stars that look at all other kinds of neighbourhood (cover.h,
+/// data/generators/planned_stars.h), and parts of meshes whose indices need more than 16 bits.
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
 
 /// The cases of a scheme and of sharp edges that some of the subjects does; all without sharp edges if a
 /// subject does not say.
 std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>& subjects);
-
-/// Those that somebody chose: the worst cases known (data/worst_cases.h), the stock shapes
-/// (data/generators/named_mesh.h), deep levels, unequal depths, awkward topology and geometry, relations.
-std::vector<PlannedCase> chosen_cases(Level level);
 
 }  // namespace limitcheck::verify

@@ -21,18 +21,21 @@ const std::vector<PlannedStars>& planned_stars(bool triangles) {{
 )",
              seed);
   for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
-    CellSet covered(cells(scheme).size());
-    for (const PlannedCase& c : chosen_cases(Level::kQuick)) {
-      const AuditMesh m = made(c);
-      if (m.scheme() == scheme) add_cells(covered, cells_of(m));
-    }
+    std::vector<Looked> known;
+    for (const AuditMesh& m : default_plan(Level::kQuick))
+      if (m.scheme() == scheme && m.name.find("stars:") == std::string::npos) known.push_back(look_at(m));
     fmt::print("  static const std::vector<PlannedStars> {}{{\n",
                scheme == data::Scheme::kLoop ? "loop" : "quads");
-    for (const CoveringStars& c : cover(scheme, covered, seed))
+    for (const CoveringStars& c : cover(scheme, known, seed))
       fmt::print("      {{\"{}\", {}, \"{}\"}},\n", c.stars.text(), c.depth, c.depths);
     fmt::print("  }};\n");
-    for (std::size_t k = 0; k < covered.size(); ++k)
-      if (!covered[k]) fmt::print(stderr, "not found: {}: {}\n", name_of(scheme), cells(scheme)[k].name());
+    for (const std::int32_t ability : steps_of_ability()) {
+      const Covered now = covered_by(known, scheme, ability);
+      for (std::size_t k = 0; k < now.wanted.size(); ++k)
+        if (now.wanted[k] && !now.looked[k])
+          fmt::print(stderr, "not found: {}, ability {}: {}\n", name_of(scheme), ability,
+                     cells(scheme)[k].name());
+    }
   }
   fmt::print(
       "  return triangles ? loop : quads;\n}}\n// clang-format on\n\n}}  // namespace limitcheck::data\n");

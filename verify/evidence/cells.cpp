@@ -118,7 +118,8 @@ struct Table {
                 (boundary ? kNeedsBoundary : 0) | (i > 0 ? LC_SHARP_CREASES : 0) |
                     (s > 0 ? LC_SHARP_SEMI : 0) | own_needs[own]);
     axis(Axis::kIndex);
-    for (const std::int64_t most : kIndexes) add(fmt::format("an index up to {}", most));
+    for (const std::int64_t most : kIndexes)  // large ones are looked at in a part of a mesh
+      add(fmt::format("an index up to {}", most), most > kIndexes[1] ? kNeedsDepths : 0);
     axis(Axis::kTags);
     add("a mesh without tags");
     for (const char* many : {"1 to 12", "13 to 100", "101 to 255", "more than 255"})
@@ -172,7 +173,7 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
   // How many faces of so many corners, and at which depth, an audit without meshes takes on.
   const auto deepest = [](std::size_t size_class) {
     const int least = kLeast[size_class];
-    return least <= 6 ? 4U : least <= 12 ? 3U : least <= 33 ? 2U : 1U;
+    return least <= 4 ? 4U : least <= 8 ? 3U : least <= 16 ? 2U : 1U;
   };
   const auto is = [&](Axis x, Axis y) { return a.axis == x && b.axis == y; };
   const int faces = a.axis == Axis::kFaces ? kLeast[i] : 0;
@@ -204,7 +205,7 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
   if (is(Axis::kCorners, Axis::kDepth)) return j <= deepest(i + 2);
   if (is(Axis::kCorners, Axis::kNeighbour)) return kLeast[i + 2] <= 16;
   if (is(Axis::kDepth, Axis::kNeighbour)) return i <= 4;
-  if (b.axis == Axis::kDepth) return j <= 4;
+  if (b.axis == Axis::kDepth) return j <= 3;
   return true;
 }
 
@@ -368,6 +369,16 @@ std::pair<Axis, std::size_t> on_axis(std::size_t feature) {
 
 int least_of(std::size_t size_class) {
   return kLeast[size_class];
+}
+
+std::int32_t Cell::needs() const {
+  const std::int32_t both = features()[first].needs | features()[second].needs;
+  const auto [a, i] = on_axis(first);
+  const auto [b, j] = on_axis(second);
+  if (b != Axis::kAround || j == 0 || j == 3) return both;
+  // Sharp without an infinite edge; or with none at all.
+  if (a == Axis::kInfinite && i == 0) return both | LC_SHARP_SEMI;
+  return a == Axis::kFaces && kLeast[i] == 2 && j == 1 ? both | LC_SHARP_CORNERS : both;
 }
 
 const std::vector<Cell>& cells(data::Scheme scheme) {

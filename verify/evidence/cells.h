@@ -64,9 +64,9 @@ std::vector<std::vector<std::uint16_t>> neighbourhoods(const AuditMesh& mesh);
 
 /// A feature, or two of one neighbourhood (first < second).
 struct Cell {
-  std::size_t first, second;  ///< the same: one feature
-  std::string name() const;   ///< "inside", "1 face, depth 3"
-  std::int32_t needs() const { return features()[first].needs | features()[second].needs; }
+  std::size_t first, second;   ///< the same: one feature
+  std::string name() const;    ///< "inside", "1 face, depth 3"
+  std::int32_t needs() const;  ///< LC_SHARP_.. as in Feature
 };
 /// Those that a subject of the scheme can meet, within what an audit without meshes takes on: many faces, or
 /// corners, are combined with small depths only.

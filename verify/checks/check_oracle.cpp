@@ -35,6 +35,7 @@ namespace cc = reference::catmull_clark;
 
 // Semi-sharp tags of more steps make the whole mesh in double too large.
 constexpr int kMostStepsOfWhole = 5;
+constexpr double kMostExcess = 1e300;   // where nothing may differ
 constexpr std::size_t kMostFaces = 16;  // of a vertex that are asked
 
 Parameter first(const Place& p) {
@@ -53,26 +54,6 @@ Result row_of(const AuditMesh& mesh, const char* check) {
   return row;
 }
 
-// Two places whose numbers are `excess` times as far apart as they may be.
-void take(Result& row, const Place& at, double excess, const std::string& what) {
-  excess = std::isnan(excess) ? 1e300 : std::min(excess, 1e300);
-  if (excess > 1) row.status = Status::kFinding;
-  if (excess <= *row.worst) return;
-  row.worst = excess;
-  if (excess <= 1) return;
-  Witness w;
-  w.face = at.face, w.l1 = fraction(at.i, at.denominator), w.l2 = fraction(at.j, at.denominator);
-  row.witness = std::move(w);
-  row.message = what;
-}
-
-// A mesh of quads has faces without corners of their own.
-void name_corner(Result& row, const Place& at, const ControlMesh& mesh) {
-  if (row.witness && row.scheme == data::Scheme::kCatmullClark &&
-      mesh.faces[static_cast<std::size_t>(at.face)].size() != 4)
-    row.witness->corner = at.corner;
-}
-
 Big big(const reference::Radius& r) {
   return Big(r.to_string(17));
 }
@@ -83,7 +64,7 @@ Big size_of(const reference::Enclosure& e) {
 
 // How far apart, by how far they may be.
 double ratio(const Big& apart, const Big& may) {
-  return apart == 0 ? 0 : may == 0 ? 1e300 : Big(apart / may).convert_to<double>();
+  return apart == 0 ? 0 : may == 0 ? kMostExcess : Big(apart / may).convert_to<double>();
 }
 double excess(const reference::Enclosure& a, const reference::Enclosure& b) {
   return ratio(abs(Big(a.value) - Big(b.value)), big(a.radius) + big(b.radius));
@@ -173,8 +154,7 @@ int steps_of(const data::Sharpness& tags) {
 class OracleCheck {
  public:
   OracleCheck(const AuditMesh& mesh, const Oracle& oracle)
-      : audited_(mesh),
-        mesh_(mesh.mesh),
+      : mesh_(mesh.mesh),
         scheme_(mesh.scheme()),
         oracle_(oracle),
         certify_(oracle(mesh_, scheme_)),
@@ -300,8 +280,10 @@ class OracleCheck {
     if (s.first_exist != exact.first_exist)
       note(1, at, 2, "only one of certificate and double has first derivatives");
     if (!s.first_exist || !exact.first_exist) return;
-    note(1, at, excess(exact.d1, s.d1, bound_.of(exact.d1)), "the first derivative in double is off");
-    note(1, at, excess(exact.d2, s.d2, bound_.of(exact.d2)), "the second derivative in double is off");
+    note(1, at, excess(exact.d1, s.d1, bound_.of(exact.d1)),
+         "the derivative in double by the first parameter is off");
+    note(1, at, excess(exact.d2, s.d2, bound_.of(exact.d2)),
+         "the derivative in double by the second parameter is off");
   }
 
   void compare_parts(const Place& at, const CertifiedPoint& exact, const ControlMesh& part,
@@ -325,15 +307,26 @@ class OracleCheck {
       note(2, at, excess(exact.normal, of_part.normal), "the faces around, alone, have another normal");
   }
 
+  // Numbers are `excess` times as far apart as they may be.
   void note(std::size_t row, const Place& at, double excess, const std::string& what) {
     Result& r = rows_[row];
-    const bool worse = !(excess <= *r.worst);
-    if (!(excess <= 1)) ++r.bad;
-    take(r, at, excess, what);
-    if (worse) name_corner(r, at, mesh_);
+    excess = std::isnan(excess) ? kMostExcess : std::min(excess, kMostExcess);
+    if (excess <= *r.worst) {
+      r.bad += excess > 1;
+      return;
+    }
+    r.worst = excess;
+    if (excess <= 1) return;
+    ++r.bad;
+    r.status = Status::kFinding;
+    r.message = what;
+    Witness w;
+    w.face = at.face, w.l1 = fraction(at.i, at.denominator), w.l2 = fraction(at.j, at.denominator);
+    if (scheme_ == data::Scheme::kCatmullClark && mesh_.faces[static_cast<std::size_t>(at.face)].size() != 4)
+      w.corner = at.corner;
+    r.witness = std::move(w);
   }
 
-  const AuditMesh& audited_;
   const ControlMesh& mesh_;
   data::Scheme scheme_;
   const Oracle& oracle_;

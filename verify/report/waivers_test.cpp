@@ -138,7 +138,9 @@ TEST(Waivers, MayNameARowThatHasBecomePartOfAnother) {
 }
 
 TEST(Explain, KnowsEveryRowOnce) {
-  std::set<std::string_view> rows{"tessellates", "refined-positions", "recognised"}, explained;
+  std::set<std::string_view> rows{"tessellates",  "refined-positions", "recognised",
+                                  "oracle-faces", "oracle-double",     "oracle-parts"},
+      explained;
   for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());
   rows.insert(relation_rows().begin(), relation_rows().end());
   for (const Explanation& e : explanations()) {

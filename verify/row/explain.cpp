@@ -9,6 +9,7 @@ const std::vector<Explanation>& explanations() {
       "position (u unit roundoff, M largest coordinate; at least 1e-14), in the normal 1e-3 rad in float and "
       "1e-9 rad in double, doubling with each level beyond 5. `worst` is in these bounds, so the limit is 1.";
   constexpr std::string_view kRelation = "verify/relations/relations.h; needs no exact surface";
+  constexpr std::string_view kOracle = "verify/checks/check_oracle.h; needs no other truth";
   constexpr std::string_view kNone = "None wrong.";
   constexpr std::string_view kFile =
       "verify/files, verify/projection: Newton's iteration on Stam's evaluator";
@@ -112,6 +113,20 @@ const std::vector<Explanation>& explanations() {
        "subject "
        "that says that it does not validate is not asked.",
        "None accepted.", "the scheme is defined on oriented manifolds only"},
+
+      // Of the subject `oracle`, in place of all others.
+      {"oracle-faces",
+       "A point of a vertex or edge, asked from each of its faces: the certified balls of its position meet, "
+       "and "
+       "on one side of edges that stay sharp those of normal and Gaussian curvature.",
+       "They meet: `worst` is the distance of the centres over the sum of the radii.", kOracle},
+      {"oracle-double", "Position and derivatives in double against the certificate.",
+       "What rounding may do: (steps + 2) (2 n + 8) u M, n faces at a vertex or corners of a face.", kOracle},
+      {"oracle-parts",
+       "A certificate against that of the few faces which it depends on, and against the whole mesh, uncut, "
+       "in "
+       "50 decimals.",
+       "They meet.", kOracle},
 
       // Of finished tessellations (--tessellation).
       {"file-finite", "No position or normal in the file is NaN or infinite.", kNone, "IEEE 754"},

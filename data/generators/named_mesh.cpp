@@ -341,7 +341,7 @@ std::vector<NamedMesh> named_meshes() {
   list.push_back(
       {"star:SEED[c][h][s]:STAR[_STAR...]",
        "vertices amid their triangles, each edge with its sharpness (c: Chaikin's creasing, h: corners "
-       "held): star:1:J.J3 has a crease, star:2:o.B. a boundary where a semi-sharp edge ends"});
+       "held): star:1:J.J.3 has a crease, star:2:o.B. a boundary where a semi-sharp edge ends"});
   list.push_back({"quad-star:SEED[c][h][s]:STAR[_STAR...]",
                   "the same amid quads and other faces (s: smooth triangles): quad-star:1:vJ.5/3-8"});
   return list;

@@ -215,7 +215,7 @@ std::string Stars::text() const {
 
 Stars parse_stars(const std::string& text) {
   const std::size_t colon = text.find(':');
-  check(colon != std::string::npos, "a seed and a star are needed, as in star:1:J.J3");
+  check(colon != std::string::npos, "a seed and a star are needed, as in star:1:J.J.3");
   Text in(std::string_view(text).substr(0, colon));
   Stars stars;
   stars.seed = in.number(~std::uint64_t{0});

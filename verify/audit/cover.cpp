@@ -281,7 +281,7 @@ const std::vector<std::int32_t>& steps_of_ability() {
   constexpr std::int32_t kHeld = LC_SHARP_CREASES | LC_SHARP_CORNERS, kUniform = kHeld | LC_SHARP_SEMI;
   constexpr std::int32_t kAll = kUniform | LC_SHARP_CHAIKIN | LC_SHARP_SMOOTH_TRIANGLES;
   static const std::vector<std::int32_t> all{
-      0, LC_SHARP_CREASES, kHeld, kUniform, kAll, kNeedsDepths, kAll | kNeedsDepths};
+      0, LC_SHARP_CREASES, kHeld, kUniform, kAll, kNeedsDepths, kHeld | kNeedsDepths, kAll | kNeedsDepths};
   return all;
 }
 

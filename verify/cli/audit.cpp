@@ -30,6 +30,7 @@
 #include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/refusal.h"
+#include "verify/report/coverage.h"
 #include "verify/report/json.h"
 #include "verify/report/overview.h"
 #include "verify/report/table.h"
@@ -135,9 +136,10 @@ struct Job {
 void refuse_with_shards(const Arguments& a) {
   if (a.shard.of().is_whole()) return;
   a.shard.check();
-  for (const auto& [option, given] : {std::pair{"--baseline", !a.output.baseline.empty()},
-                                      std::pair{"--waivers", !a.output.waivers.empty()},
-                                      std::pair{"--require", !a.output.required.empty()}})
+  for (const auto& [option, given] :
+       {std::pair{"--baseline", !a.output.baseline.empty()},
+        std::pair{"--waivers", !a.output.waivers.empty()}, std::pair{"--require", !a.output.required.empty()},
+        std::pair{"--require-coverage", a.output.require_coverage}})
     if (given)
       throw data::ArgumentError(
           fmt::format("{} needs the whole report: it is an option of limitcheck merge", option));
@@ -241,6 +243,8 @@ int audit(const Job& job) {
                         audited, progress);
   const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
+  const verify::CoverageQuestion coverage =
+      a.must_refuse ? verify::CoverageQuestion{} : verify::coverage_question(audited, meshes);
 
   // Look.
   const verify::InterruptGuard guard;
@@ -259,7 +263,8 @@ int audit(const Job& job) {
   kept.check();
   const bool keeps = !a.must_refuse && !kept.json.empty() && kept.json != "-";
   const auto journal =
-      keeps ? open_journal(kept, audit_plan(audited, meshes, report, a.output.level), false) : nullptr;
+      keeps ? open_journal(kept, audit_plan(audited, meshes, report, coverage, a.output.level), false)
+            : nullptr;
   try {
     report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
                                    : auditor.run(audited, meshes, journal.get());
@@ -277,6 +282,7 @@ int audit(const Job& job) {
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;
     const bool whole = a.shard.of().is_whole();
     report.incomplete = incomplete(auditor, meshes, report, signal, whole);
+    if (whole) report.coverage = verify::coverage_of(report.results, coverage);
     const bool judged = judged_as_required(a.output, report);
     waive(a.output, report);
     compare(a.output, report);

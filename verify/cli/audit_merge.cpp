@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "verify/cli/merge.h"
+#include "verify/report/coverage.h"
 #include "verify/report/json.h"
 #include "verify/report/overview.h"
 #include "verify/report/result_json.h"
@@ -20,6 +21,7 @@ int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
     for (std::size_t unit = s; unit < whole.plan.units; unit += subjects)
       for (verify::Result& row : verify::rows_of(whole.results.at(unit)))
         report.results.push_back(std::move(row));
+  report.coverage = verify::coverage_of(report.results, verify::coverage_question(plan.at("coverage")));
   report.seconds = whole.seconds;
   report.containment = whole.containment;
   report.printed = whole.printed;

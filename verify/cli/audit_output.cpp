@@ -40,6 +40,10 @@ void add_report_options(CLI::App& command, OutputArguments& a) {
       ->check(CLI::IsMember(checks))
       ->transform([](const std::string& check) { return std::string(verify::current_name(check)); })
       ->type_name("CHECK,...");
+  command.add_flag(
+      "--require-coverage", a.require_coverage,
+      "Each subject must have been judged at every kind of neighbourhood that it declares to do; "
+      "otherwise nothing is confirmed (exit code 2)");
   command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
   command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
@@ -227,6 +231,11 @@ bool judged_as_required(const OutputArguments& a, verify::Report& report) {
   std::string missing;
   for (const verify::NeverJudged& none : verify::never_judged(report, a.required))
     missing += (missing.empty() ? "" : "; ") + none.text();
+  for (const verify::Coverage& c : report.coverage)
+    if (a.require_coverage && !c.never.empty())
+      missing += fmt::format("{}{} never looked at {} of {} kinds of neighbourhood that it declares ({})",
+                             missing.empty() ? "" : "; ", c.subject, c.never.size(), c.declared(),
+                             data::name_of(c.scheme));
   if (!missing.empty() && report.incomplete.empty()) report.incomplete = missing;
   return missing.empty();
 }

@@ -15,6 +15,7 @@ namespace limitcheck::cli {
 struct OutputArguments {
   std::string level = "standard", junit, html, waivers, baseline, explain, witnesses;
   std::vector<std::string> required;
+  bool require_coverage = false;
   double shrink_seconds = 0;  // 0: no shrinking
 };
 

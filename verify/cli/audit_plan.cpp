@@ -49,8 +49,10 @@ std::string stamp(const lc_subject& subject) {
 
 verify::Plan audit_plan(const std::vector<verify::AuditSubject>& subjects,
                         const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
-                        const std::string& level) {
-  nlohmann::json what{{"report", verify::header_json(report)}, {"level", level}};
+                        const verify::CoverageQuestion& coverage, const std::string& level) {
+  nlohmann::json what{{"report", verify::header_json(report)},
+                      {"coverage", verify::coverage_json(coverage)},
+                      {"level", level}};
   for (const auto& s : subjects) what["stamps"].push_back(stamp(*s.subject));
   bool polygons = false;
   for (const auto& m : meshes) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "verify/evidence/audit_case.h"
+#include "verify/report/coverage.h"
 #include "verify/row/result.h"
 #include "verify/shard/journal.h"
 
@@ -15,6 +16,6 @@ namespace limitcheck::cli {
 /// options and versions; the header of the report is in it. The subjects of a mesh go together.
 verify::Plan audit_plan(const std::vector<verify::AuditSubject>& subjects,
                         const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
-                        const std::string& level);
+                        const verify::CoverageQuestion& coverage, const std::string& level);
 
 }  // namespace limitcheck::cli

@@ -145,6 +145,20 @@ TEST_F(AuditCommand, WithoutMeshesAndDepthsFollowsThePlanAndWithDepthsAsksJustTh
             std::set<std::string>{"random:5:visible"});
 }
 
+TEST_F(AuditCommand, SaysWhatItLookedAtAndEndsWithTwoIfAllIsRequired) {
+  const Outcome one = run("audit row-stream icosahedron --require-coverage --json");
+  EXPECT_EQ(one.code, 2) << one.out << one.err;
+  const nlohmann::json part = nlohmann::json::parse(one.out);
+  EXPECT_NE(part["incomplete"].get<std::string>().find("never looked at"), std::string::npos);
+  const nlohmann::json& coverage = part["coverage"].at(0);
+  EXPECT_LT(coverage["looked_at"], coverage["declared"]);
+  EXPECT_EQ(coverage["never"].size(), 100U);
+  const Outcome all = run("audit row-stream --level quick --require-coverage");
+  EXPECT_EQ(all.code, 0) << all.out << all.err;
+  EXPECT_NE(all.out.find(" kinds of neighbourhood were looked at"), std::string::npos) << all.out;
+  EXPECT_EQ(all.out.find("; never: "), std::string::npos) << all.out;
+}
+
 TEST_F(AuditCommand, EndsWithTwoIfWhatIsRequiredWasNotJudged) {
   const std::string cgal = "audit cgal octahedron --depth 1 --level quick ";
   EXPECT_EQ(run(cgal).code, 0);

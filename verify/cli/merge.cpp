@@ -34,10 +34,11 @@ std::string program_of(const std::string& text) {
 }
 
 void refuse(const MergeArguments& a, const std::string& program, bool of_hunt) {
-  for (const auto& [option, given] :
-       {std::pair{"--require", !a.report.required.empty()}, std::pair{"--waivers", !a.report.waivers.empty()},
-        std::pair{"--baseline", !a.report.baseline.empty() && !of_hunt},
-        std::pair{"--junit", !a.report.junit.empty() && !of_hunt}})
+  for (const auto& [option, given] : {std::pair{"--require", !a.report.required.empty()},
+                                      std::pair{"--require-coverage", a.report.require_coverage},
+                                      std::pair{"--waivers", !a.report.waivers.empty()},
+                                      std::pair{"--baseline", !a.report.baseline.empty() && !of_hunt},
+                                      std::pair{"--junit", !a.report.junit.empty() && !of_hunt}})
     if (given) throw data::ArgumentError(fmt::format("{} is not for parts of {}", option, program));
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "data/sharpness_classes.h"
@@ -249,7 +250,7 @@ class Looker {
 
   std::vector<std::vector<std::uint16_t>> all() const {
     const std::vector<std::uint16_t> whole = of_mesh(mesh_);
-    std::vector<std::vector<std::uint16_t>> list;
+    std::set<std::vector<std::uint16_t>> list;
     for (std::size_t v = 0; v < vertex_.size(); ++v) {
       if (std::none_of(faces_[v].begin(), faces_[v].end(), [&](std::int32_t f) { return depth_[f] >= 0; }))
         continue;
@@ -257,9 +258,9 @@ class Looker {
       add_features(v, found);
       std::sort(found.begin(), found.end());
       found.erase(std::unique(found.begin(), found.end()), found.end());
-      list.push_back(std::move(found));
+      list.insert(std::move(found));
     }
-    return list;
+    return {list.begin(), list.end()};
   }
 
  private:
@@ -403,10 +404,7 @@ void add_cells(CellSet& to, const CellSet& from) {
 
 CellSet cells_of(const AuditMesh& mesh) {
   CellSet set(cells(mesh.scheme()).size());
-  auto all = neighbourhoods(mesh);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  for (const auto& found : all) add_cells(set, found, mesh.scheme());
+  for (const auto& found : neighbourhoods(mesh)) add_cells(set, found, mesh.scheme());
   return set;
 }
 

@@ -58,7 +58,7 @@ VertexTags vertex_tags(std::size_t feature);
 /// The least number of faces of class k, or of corners of class k - 2.
 int least_of(std::size_t size_class);
 
-/// The features of each control vertex that has a displayed face, ascending. On some axes a vertex has
+/// The features of the control vertices that have a displayed face, each list once and ascending. On some axes a vertex has
 /// several: edges of several sharpnesses.                                                         O(faces)
 std::vector<std::vector<std::uint16_t>> neighbourhoods(const AuditMesh& mesh);
 

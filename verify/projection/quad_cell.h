@@ -8,12 +8,12 @@ namespace limitcheck::verify {
 
 /// A quad of a face's lattice, its corners from the one at which its diagonal begins: the one nearest to a corner of
 /// the face.
-struct Cell {
+struct QuadCell {
   std::array<std::array<int, 2>, 4> corner;
 };
 
 /// Of the i-th column and the j-th row of n.
-Cell cell(int i, int j, int n);
+QuadCell cell(int i, int j, int n);
 
 /// The corners of its two triangles.
 inline constexpr std::array<std::array<int, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};

@@ -131,7 +131,7 @@ void SurfaceLattice::subdivide_quads(const data::ControlMesh& mesh, const refere
   if (sharp) rough_.assign(2 * cells, 0);
   tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t c) {
     const auto within = static_cast<int>(c & ((std::size_t{1} << (2 * depth_)) - 1));
-    const Cell at = cell(within % n, within / n, n);
+    const QuadCell at = cell(within % n, within / n, n);
     Quad quad{};
     for (std::size_t k = 0; k < 4; ++k)
       quad[k] = refined.vertex(c >> (2 * depth_), 0, at.corner[k][0], at.corner[k][1]);

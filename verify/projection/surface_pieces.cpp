@@ -39,7 +39,7 @@ Piece SurfaceLattice::piece(std::size_t index) const {
   if (chart_.is_square()) {
     const auto quad = static_cast<std::int64_t>(index / 2), within_face = quad % (n * n);
     p.face = static_cast<std::int32_t>(quad / (n * n));
-    const Cell its =
+    const QuadCell its =
         cell(static_cast<int>(within_face % n), static_cast<int>(within_face / n), static_cast<int>(n));
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& [i, j] = its.corner[kHalves[index % 2][k]];

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -130,6 +131,18 @@ std::string to_json(const Report& report, const std::string& level) {
   for (const NeverJudged& none : never_judged(report))
     out["never_judged"].push_back(
         {{"subject", none.subject}, {"check", none.check}, {"reason", text(none.reason)}});
+  out["coverage"] = Json::array();
+  for (const Coverage& c : report.coverage) {
+    constexpr std::size_t kNamed = 100;
+    const std::vector<std::string> named(
+        c.never.begin(), c.never.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, c.never.size())));
+    out["coverage"].push_back({{"subject", c.subject},
+                               {"scheme", data::name_of(c.scheme)},
+                               {"looked_at", c.looked},
+                               {"declared", c.declared()},
+                               {"not_declared", c.not_declared},
+                               {"never", named}});
+  }
   out["subjects"] = report.subjects;
   out["meshes"] = Json::array();
   for (const auto& m : report.meshes)

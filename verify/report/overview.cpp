@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "verify/report/coverage.h"
 #include "verify/report/judged.h"
 #include "verify/report/table.h"
 #include "verify/row/case_names.h"
@@ -146,6 +147,7 @@ std::string summary(const Report& report) {
   std::string out =
       fmt::format("{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
                   noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
+  out += coverage_lines(report);
   for (const NeverJudged& none : never_judged(report)) out += none.text() + "\n";
   if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
   return out;

@@ -99,6 +99,16 @@ inline bool is_bad(const Result& r) {
          r.status == Status::kError;
 }
 
+/// How many kinds of neighbourhood (verify/evidence/cells.h) of one scheme a subject was judged at.
+struct Coverage {
+  std::string subject;
+  data::Scheme scheme = data::Scheme::kLoop;
+  std::int64_t looked = 0;         // at so many ..
+  std::vector<std::string> never;  // .. and never at these, which it declares to do
+  std::int64_t not_declared = 0;
+  std::int64_t declared() const { return looked + static_cast<std::int64_t>(never.size()); }
+};
+
 /// What the audit was run on and with: the header of table and JSON.
 struct Report {
   struct Mesh {
@@ -118,6 +128,7 @@ struct Report {
   std::vector<std::string> subjects;
   std::map<std::string, std::string> descriptions;  // of subjects, by their label: "OpenSubdiv 3.5 Far: ..."
   std::vector<Result> results;
+  std::vector<Coverage> coverage;  // of audits of subjects
   double seconds = 0;
   std::string containment;  // how the processes of isolated subjects were held; empty: there were none
   std::string printed;      // by the subjects, on standard output and standard error

@@ -135,6 +135,13 @@ bool Auditor::related(const AuditMesh& mesh, const data::ControlMesh& judged) co
          (level_ == Level::kThorough || (level_ == Level::kStandard && faces <= kRelationFaces));
 }
 
+std::vector<std::string_view> Auditor::rows_of_relations(const AuditMesh& mesh,
+                                                         const data::ControlMesh& judged) const {
+  if (related(mesh, judged)) return relation_rows_of(judged, mesh.scheme());
+  if (level_ == Level::kQuick || !mesh.asked_again || mesh.sample) return {};
+  return {"determinism"};
+}
+
 ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
                                      const lc_capabilities& capabilities) {
   const reference::Weights weights = family(capabilities.weights);
@@ -205,8 +212,8 @@ void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bo
   if (begun && !is_oracle(audited))
     for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
   const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
-  if (begun && !is_oracle(audited) && related(mesh, judged))
-    for (const std::string_view row : relation_rows_of(judged, mesh.scheme())) missing.push_back(row);
+  if (begun && !is_oracle(audited))
+    for (const std::string_view row : rows_of_relations(mesh, judged)) missing.push_back(row);
   std::erase_if(missing, [&](std::string_view check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
   });
@@ -249,9 +256,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     rows.add_failure(error, contradicts_capabilities(error, audited, mesh, asked));
     for (const Check& check : checks()) rows.add(check, Status::kNotRun, "there is no tessellation");
     const data::ControlMesh& whole_or_part = sample ? sample->part() : mesh.mesh;
-    if (related(mesh, whole_or_part))
-      for (const std::string_view r : relation_rows_of(whole_or_part, mesh.scheme()))
-        rows.add(r, Status::kNotRun, "there is no tessellation");
+    for (const std::string_view r : rows_of_relations(mesh, whole_or_part))
+      rows.add(r, Status::kNotRun, "there is no tessellation");
     return;
   }
 
@@ -281,11 +287,15 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   run_checks(evidence, rows, no_reference);
   if (keep_rows_) keep_rows_();
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
-  if (interrupted() == 0 && related(mesh, judged)) {
-    const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
+  if (interrupted() != 0) return;
+  const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
+  if (related(mesh, judged)) {
     for (Result& r :
          check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))
       results.push_back(std::move(r));
+  } else if (!rows_of_relations(mesh, judged).empty()) {
+    told("determinism");
+    results.push_back(check_determinism(audited, evidence));
   }
 }
 

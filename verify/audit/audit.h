@@ -27,7 +27,8 @@ struct AuditStep {
 /// How much is looked at.
 enum class Level {
   kQuick,     // one tessellation of each mesh
-  kStandard,  // also the relations (relations.h), on meshes of at most kRelationFaces faces of four corners
+  kStandard,  // also the relations (relations.h), on meshes of at most kRelationFaces faces of four corners,
+              // and on larger ones whether a deep request is answered with the same bits
   kThorough   // the relations on every mesh
 };
 inline constexpr std::size_t kRelationFaces = 200;
@@ -75,6 +76,9 @@ class Auditor {
                    std::vector<Result>& results);
   // Whether the relations belong to the audit of a mesh, of which this is judged.
   bool related(const AuditMesh& mesh, const data::ControlMesh& judged) const;
+  // The rows of relations of the audit of a mesh.
+  std::vector<std::string_view> rows_of_relations(const AuditMesh& mesh,
+                                                  const data::ControlMesh& judged) const;
   int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
   ReferenceSurface& reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
                               const lc_capabilities& capabilities);

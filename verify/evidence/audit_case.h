@@ -22,8 +22,9 @@ struct AuditMesh {
   std::vector<std::int32_t> face_depth = {};           // 0 .. depth or -1 (culled); empty: `depth` for all
   std::shared_ptr<const MeshSample> sample = nullptr;  // if given, only this part of the mesh is looked at
   int depth = -1;                                      // of the deepest face; -1: the auditor's
-  std::string depths{};   // how the depths were chosen, as --depths takes it (face_depths.h); may be empty
-  bool relations = true;  // whether the relations are checked, if the auditor's level includes them
+  std::string depths{};     // how the depths were chosen, as --depths takes it (face_depths.h); may be empty
+  bool relations = true;    // whether the relations are checked, if the auditor's level includes them
+  bool asked_again = true;  // whether a mesh without relations has the row `determinism` all the same
   std::optional<data::Scheme> asked_scheme = {};  // empty: the one that the mesh is meant for
   std::string
       triangulated{};  // how larger faces of what `name` means were cut, as --triangulate takes it; or empty

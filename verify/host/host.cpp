@@ -126,9 +126,9 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
       for (double& x : position) x = static_cast<double>(static_cast<float>(x));
   lent_ = LentMesh(mesh_, scheme);
 
-  const lc_mesh view = lent_.view();
+  const lc_mesh& mine = lent_.lend();
   detail::call(subject_, "create", [&](const char** message) {
-    return subject_.create(&view, text(options_), &instance_, message);
+    return subject_.create(&mine, text(options_), &instance_, message);
   });
 }
 

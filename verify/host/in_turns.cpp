@@ -47,9 +47,8 @@ class Instance {
   }
 
   lc_status create(const char** message) {
-    const lc_mesh mesh = mesh_.view();
     const lc_status status =
-        inner->create(&mesh, options_.empty() ? nullptr : options_.c_str(), &made_, message);
+        inner->create(&mesh_.lend(), options_.empty() ? nullptr : options_.c_str(), &made_, message);
     alive_ = status == LC_OK;
     return status;
   }
@@ -65,8 +64,10 @@ class Instance {
 
   /// Tessellates, and looks away.
   lc_status disturb(std::int32_t depth, const char** message) {
+    return disturb(std::vector<std::int32_t>(faces(), depth), message);
+  }
+  lc_status disturb(const std::vector<std::int32_t>& depths, const char** message) {
     Scratch scratch;
-    const std::vector<std::int32_t> depths(faces(), depth);
     const lc_request request{depths.data(), 1, &scratch, &Scratch::allocate, sizeof(lc_request)};
     lc_tessellation out{};
     out.size = sizeof out;
@@ -76,21 +77,6 @@ class Instance {
   }
 
   std::int64_t faces() const { return mesh_.faces(); }
-  const std::string& options() const { return options_; }
-
-  /// As many vertices and faces, each vertex with another number and, times two, at another place.
-  std::unique_ptr<Instance> look_alike() const {
-    LentMesh other = mesh_;
-    const auto last = static_cast<std::size_t>(mesh_.vertices()) - 1;
-    for (std::size_t v = 0; v <= last; ++v)
-      for (std::size_t k = 0; k < 3; ++k)
-        other.positions[3 * (last - v) + k] = 2 * mesh_.positions[3 * v + k];
-    const auto renumber = [last](std::int32_t& v) { v = static_cast<std::int32_t>(last) - v; };
-    for (std::int32_t& v : other.corners) renumber(v);
-    for (lc_sharp_edge& e : other.sharp_edges) renumber(e.a), renumber(e.b);
-    for (lc_sharp_vertex& v : other.sharp_vertices) renumber(v.vertex);
-    return std::make_unique<Instance>(std::move(other), options_);
-  }
 
  private:
   LentMesh mesh_;
@@ -99,48 +85,139 @@ class Instance {
   bool alive_ = false;
 };
 
+// Each has as many vertices and faces, and differs in one thing that caches are known to leave out.
+std::vector<LentMesh> look_alikes(const LentMesh& mesh, std::int32_t sharp) {
+  const auto declared = [sharp](std::int32_t kinds) { return (sharp & kinds) == kinds; };
+  std::vector<LentMesh> all;
+  // Other vertices under each number, at other places.
+  LentMesh& renumbered = all.emplace_back(mesh);
+  const auto last = static_cast<std::size_t>(mesh.vertices()) - 1;
+  for (std::size_t v = 0; v <= last; ++v)
+    for (std::size_t k = 0; k < 3; ++k)
+      renumbered.positions[3 * (last - v) + k] = 2 * mesh.positions[3 * v + k];
+  const auto renumber = [last](std::int32_t& v) { v = static_cast<std::int32_t>(last) - v; };
+  for (std::int32_t& v : renumbered.corners) renumber(v);
+  for (lc_sharp_edge& e : renumbered.sharp_edges) renumber(e.a), renumber(e.b);
+  for (lc_sharp_vertex& v : renumbered.sharp_vertices) renumber(v.vertex);
+  // Other positions, and other normals with them; both precisions have the numbers.
+  LentMesh& stretched = all.emplace_back(mesh);
+  for (std::size_t k = 0; k < stretched.positions.size(); k += 3) stretched.positions[k] *= 2;
+  // Tags. Fewer of them might leave darts.
+  if (!mesh.sharp_edges.empty() || !mesh.sharp_vertices.empty()) {
+    LentMesh& plain = all.emplace_back(mesh);
+    plain.sharp_edges.clear();
+    plain.sharp_vertices.clear();
+    LentMesh fewer = mesh;
+    const auto change = [&](auto& tags) {
+      if (!declared(LC_SHARP_SEMI)) return tags.resize(tags.size() / 2);
+      for (auto& tag : tags) tag.sharpness = tag.sharpness < 10 ? tag.sharpness / 2 : 1.5F;
+    };
+    change(fewer.sharp_edges);
+    change(fewer.sharp_vertices);
+    if (declared(LC_SHARP_SEMI) || !declared(LC_SHARP_NO_DARTS)) all.push_back(std::move(fewer));
+  } else if (declared(LC_SHARP_CREASES)) {
+    LentMesh& creased = all.emplace_back(mesh);  // round the first face
+    for (std::int32_t k = 0, n = mesh.face_sizes[0]; k < n; ++k)
+      creased.sharp_edges.push_back({mesh.corners[k], mesh.corners[(k + 1) % n], 10});
+  }
+  // Choices.
+  const auto semi_sharp = [](const lc_sharp_edge& e) { return e.sharpness < 10; };
+  if (declared(LC_SHARP_CHAIKIN) && std::any_of(mesh.sharp_edges.begin(), mesh.sharp_edges.end(), semi_sharp))
+    all.emplace_back(mesh).creasing =
+        mesh.creasing == LC_CREASING_UNIFORM ? LC_CREASING_CHAIKIN : LC_CREASING_UNIFORM;
+  std::vector<int> faces_at(last + 1);
+  for (const std::int32_t v : mesh.corners) ++faces_at[v];
+  if (declared(LC_SHARP_CORNERS) && std::count(faces_at.begin(), faces_at.end(), 1) > 0)
+    all.emplace_back(mesh).corners_held = !mesh.corners_held;
+  if (declared(LC_SHARP_SMOOTH_TRIANGLES) && mesh.scheme == data::Scheme::kCatmullClark &&
+      std::count(mesh.face_sizes.begin(), mesh.face_sizes.end(), 3) > 0)
+    all.emplace_back(mesh).smooth_triangles = !mesh.smooth_triangles;
+  return all;
+}
+
 // The mesh that is asked for, and those in between.
 struct Turns {
-  std::unique_ptr<Instance> mine, other, alike;
-  std::int32_t max_depth = 0;
+  std::unique_ptr<Instance> mine, other;
+  std::vector<std::unique_ptr<Instance>> alike;
+  lc_capabilities capabilities{};
+  bool other_is_first = false;  // and there is one turn
   std::size_t turn = 0;
 
+  std::int32_t at_most(std::int32_t depth) const { return std::min(depth, capabilities.max_depth); }
+
+  lc_status make(Instance& before, std::int32_t depth, const char** message) const {
+    const lc_status status = before.create(message);
+    return status == LC_OK ? before.disturb(at_most(depth), message) : status;
+  }
+
   lc_status create(const char** message) {
-    for (Instance* before : {alike.get(), other.get()}) {
-      lc_status status = before->create(message);
-      if (status == LC_OK) status = before->disturb(std::min(1, max_depth), message);
+    if (other_is_first) {
+      (void)make(*other, 2, message);
+      return mine->create(message);
+    }
+    for (const auto& before : alike)
+      if (const lc_status status = make(*before, 1, message); status != LC_OK) return status;
+    const lc_status status = make(*other, 1, message);
+    return status == LC_OK ? mine->create(message) : status;
+  }
+
+  // As the mesh itself is asked to come, where that is not many triangles.
+  lc_status disturb_alike(const std::vector<std::int32_t>& depths, bool made_again, const char** message) {
+    double triangles = 0;
+    for (const std::int32_t d : depths) triangles += d < 0 ? 0 : std::ldexp(1.0, 2 * d);
+    for (const auto& each : alike) {
+      lc_status status = LC_OK;
+      if (made_again) {
+        each->destroy();
+        status = each->create(message);
+      }
+      if (status == LC_OK)
+        status = triangles > kMany ? each->disturb(at_most(1), message) : each->disturb(depths, message);
       if (status != LC_OK) return status;
     }
-    return mine->create(message);
+    return LC_OK;
+  }
+
+  // With every other face culled, and no others, as far as the subject culls.
+  lc_status disturb_culled(std::vector<std::int32_t> depths, const char** message) {
+    if (capabilities.per_face_depth == 0) return LC_OK;
+    for (std::size_t f = 0; f < depths.size(); ++f) depths[f] = f % 2 == 0 ? -1 : std::max(depths[f], 0);
+    return mine->disturb(depths, message);
   }
 
   // What comes before the next request (kTurns).
   lc_status disturb(const lc_request& request, const char** message) {
-    const std::int32_t* end = request.face_depth + mine->faces();
-    const std::int32_t deepest = std::max(0, *std::max_element(request.face_depth, end));
-    const std::int32_t another = deepest == 1 || max_depth == 0 ? 0 : 1;
+    if (other_is_first) return LC_OK;
+    const std::vector<std::int32_t> depths(request.face_depth, request.face_depth + mine->faces());
+    const std::int32_t deepest = std::max(0, *std::max_element(depths.begin(), depths.end()));
+    const std::int32_t another = deepest == 1 || capabilities.max_depth == 0 ? 0 : 1;
+    lc_status status = LC_OK;
     switch (turn++) {
+      case 0:
+        return disturb_alike(depths, false, message);
       case 1:
         return mine->disturb(another, message);
       case 2:
-        return other->disturb(std::min(2, max_depth), message);
+        return other->disturb(at_most(2), message);
       case 3:
-        return alike->disturb(deepest, message);
+        return disturb_alike(depths, true, message);
       case 4:
         other->destroy();
         return LC_OK;
       case 5:
-        if (deepest >= max_depth || std::ldexp(static_cast<double>(mine->faces()), 2 * deepest + 2) > kMany)
+        if (deepest >= capabilities.max_depth ||
+            std::ldexp(static_cast<double>(mine->faces()), 2 * deepest + 2) > kMany)
           return LC_OK;
         return mine->disturb(deepest + 1, message);
       case 6:
-        return other->create(message);
-      case 7: {
+        status = other->create(message);
+        return status == LC_OK ? disturb_culled(depths, message) : status;
+      case 7:
         mine->destroy();
-        lc_status status = other->disturb(0, message);
+        status = other->disturb(0, message);
         if (status == LC_OK) status = mine->create(message);
-        return status == LC_OK ? mine->disturb(another, message) : status;
-      }
+        if (status == LC_OK) status = mine->disturb(another, message);
+        return status == LC_OK ? disturb_culled(depths, message) : status;
       default:
         return LC_OK;
     }
@@ -148,28 +225,49 @@ struct Turns {
 
   void destroy() const {
     mine->destroy();
-    alike->destroy();
+    for (const auto& each : alike) each->destroy();
     other->destroy();
   }
 };
+
+// Which of kFirst the options begin with, which then begin behind it; or its size.
+std::size_t take_first(const char*& options) {
+  for (std::size_t k = 0; k < kFirst.size(); ++k)
+    if (const std::size_t size = std::strlen(kFirst[k].option);
+        options != nullptr && std::strncmp(options, kFirst[k].option, size) == 0) {
+      options = options[size] == '\0' ? nullptr : options + size;
+      return k;
+    }
+  return kFirst.size();
+}
 
 }  // namespace
 
 InTurns::InTurns(const lc_subject& of) : subject_(of) {
   inner = &of;
+  subject_.capabilities = [](const char* options, lc_capabilities* out, const char** message) {
+    (void)take_first(options);
+    return inner->capabilities(options, out, message);
+  };
   subject_.create = [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
-    lc_capabilities capabilities{};
-    capabilities.size = sizeof capabilities;
-    capabilities.scheme = mesh->scheme;
-    lc_status status = inner->capabilities(options, &capabilities, message);
-    if (status != LC_OK) return status;
+    const std::size_t first = take_first(options);
     auto turns = std::make_unique<Turns>();
-    turns->max_depth = capabilities.max_depth;
+    turns->capabilities.size = sizeof turns->capabilities;
+    turns->capabilities.scheme = mesh->scheme;
+    lc_status status = inner->capabilities(options, &turns->capabilities, message);
+    if (status != LC_OK) return status;
     const std::string given = options != nullptr ? options : "";
-    turns->mine = std::make_unique<Instance>(LentMesh(*mesh), given);
-    turns->alike = turns->mine->look_alike();
-    const data::ControlMesh other = mesh->vertex_count == 6 ? data::icosahedron() : data::octahedron();
-    turns->other = std::make_unique<Instance>(LentMesh(other, scheme_of(mesh->scheme)), given);
+    const LentMesh mine(*mesh);
+    turns->mine = std::make_unique<Instance>(mine, given);
+    turns->other_is_first = first < kFirst.size();
+    if (!turns->other_is_first)
+      for (LentMesh& alike : look_alikes(mine, turns->capabilities.sharp))
+        turns->alike.push_back(std::make_unique<Instance>(std::move(alike), given));
+    const data::ControlMesh other = first == 0                ? data::tetrahedron()
+                                    : first == 1              ? data::bipyramid(60)
+                                    : mesh->vertex_count == 6 ? data::icosahedron()
+                                                              : data::octahedron();
+    turns->other = std::make_unique<Instance>(LentMesh(other, mine.scheme), given);
     status = turns->create(message);
     if (status == LC_OK) *instance = turns.release();
     return status;

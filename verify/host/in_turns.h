@@ -3,26 +3,40 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "verify/subject/subject.h"
 
 namespace limitcheck::verify {
 
 /// What has happened before each request to tessellate is passed on, in this order; behind the last one,
-/// nothing more.
+/// nothing more. A look-alike differs from the mesh in one thing: its positions, all tags or some of them,
+/// the creasing, the boundary option or the rule of triangles, as far as the subject declares these; or all
+/// its vertices have other numbers.
 inline constexpr std::array<const char*, 8> kTurns{
-    "after other meshes, one of them of as many vertices and faces",
+    "after another mesh and its look-alikes",
     "after a smaller depth",
     "after another mesh that is alive beside it",
-    "beside another mesh of as many vertices and faces, with 8 threads",
+    "beside its look-alikes, each made again, with 8 threads",
     "after the other mesh was destroyed",
     "after a greater depth, where that is not many triangles",
-    "for the eighth time, another mesh made in between",
-    "made again after another mesh, and asked for another depth first"};
+    "after the eighth time, another mesh made in between, and after other culling",
+    "made again after another mesh, and asked for another depth and other culling first"};
+
+/// What else a subject may have met first. The options then begin with this text, which is not passed on, and
+/// there is one turn: after the mesh was made and tessellated.
+struct First {
+  const char* option;
+  const char* what;
+};
+inline constexpr std::array<First, 2> kFirst{
+    First{"in-turns-first=low,", "after a mesh with vertices of three neighbours alone"},
+    First{"in-turns-first=high,", "after a mesh with vertices of 60 neighbours"}};
 
 /// Another subject around `inner`: create() first makes two other meshes and tessellates them, then the one
 /// that is asked for, and all live together; each tessellate() is passed on after the turn above. All other
-/// meshes are valid and closed. A failure in a turn is a failure of the request. One at a time in a process.
+/// meshes are valid; those that are no look-alikes are closed. A failure in a turn is a failure of the
+/// request, unless it is of a mesh of kFirst. One at a time in a process.
 class InTurns {
  public:
   explicit InTurns(const lc_subject& inner);

@@ -71,6 +71,8 @@ class UnusualSubject {
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     behave();
+    if (is("keeps_the_mesh") && !(control_mesh(*lent_) == session_.mesh()))
+      throw std::runtime_error("the mesh is not what it was");
     if (session_.capabilities().precision == LC_FLOAT32 || is("rounded_double"))
       run<float>(request, out);
     else
@@ -104,7 +106,7 @@ class UnusualSubject {
   };
 
   UnusualSubject(const lc_mesh& mesh, const Inner& inner)
-      : habit_(inner.habit), session_(inner.subject, control_mesh(mesh), inner.options) {
+      : habit_(inner.habit), lent_(&mesh), session_(inner.subject, control_mesh(mesh), inner.options) {
     behave();
     if (is("closed_only")) refuse_boundaries();
   }
@@ -218,6 +220,7 @@ class UnusualSubject {
   }
 
   const std::string_view habit_;
+  const lc_mesh* const lent_;
   Session session_;
 };
 
@@ -236,6 +239,7 @@ std::span<const Habit> habits() {
       {"deeper_where_allowed", "faces are deeper than asked for where all their neighbours are"},
       {"rounded_double", "computes in double and delivers float"},
       {"odd_memory", "all arrays are parts of one block, in another order, with room between"},
+      {"keeps_the_mesh", "keeps no copy of the control mesh: reads what it was lent each time"},
       {"no_normals", "delivers no normals, and says so"},
       {"shallow", "to depth 2 only, and says so"},
       {"closed_only", "closed meshes only, and says so"},

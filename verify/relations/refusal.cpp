@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/error.h"
+#include "data/shapes.h"
 #include "data/triangulate.h"
 #include "data/validate.h"
 #include "verify/evidence/vector.h"
@@ -15,6 +16,24 @@
 #include "verify/relations/relation_row.h"
 
 namespace limitcheck::verify {
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+BrokenMesh with_edge(const char* what, std::int32_t a, std::int32_t b, float sharpness) {
+  BrokenMesh broken{what, data::octahedron(), LC_SHARP_CREASES};
+  broken.mesh.sharpness.edges.push_back({a, b, sharpness});
+  return broken;
+}
+
+BrokenMesh with_vertex(const char* what, std::int32_t v, float sharpness) {
+  BrokenMesh broken{what, data::octahedron(), LC_SHARP_CORNERS};
+  broken.mesh.sharpness.vertices.push_back({v, sharpness});
+  return broken;
+}
+
+}  // namespace
 
 const std::vector<BrokenMesh>& broken_meshes() {
   static const std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
@@ -32,14 +51,23 @@ const std::vector<BrokenMesh>& broken_meshes() {
       {"faces and no vertices", {{}, {{0, 1, 2}}}},
       {"a vertex that does not exist", {points, {{0, 1, 2}, {2, 1, 1'000'000'000}, {4, 5, 6}}}},
       {"a coordinate that is no number", {not_a_number, {{0, 1, 2}, {2, 1, 3}, {4, 5, 6}}}},
+      with_edge("a sharp edge that no face has", 0, 1, 10),  // opposite vertices
+      with_edge("a sharp edge of a vertex that does not exist", 0, 1'000'000'000, 10),
+      with_edge("an edge of a sharpness that is no number", 0, 2, kNan),
+      with_edge("an edge of a sharpness below 0", 0, 2, -1),
+      with_vertex("a sharp vertex that does not exist", 1'000'000'000, 10),
+      with_vertex("a vertex of a sharpness that is no number", 0, kNan),
+      with_vertex("a vertex of a sharpness below 0", 0, -1),
   };
   return meshes;
 }
 
-std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, data::Scheme scheme, int threads) {
+std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, data::Scheme scheme, int threads,
+                                      std::int32_t sharp) {
   std::vector<Refusal> refusals;
   for (const BrokenMesh& broken : broken_meshes())
-    refusals.push_back(ask_for_refusal(subject, broken.mesh, scheme, threads));
+    refusals.push_back((broken.sharp & ~sharp) != 0 ? Refusal{.asked = false}
+                                                    : ask_for_refusal(subject, broken.mesh, scheme, threads));
   return refusals;
 }
 
@@ -50,15 +78,15 @@ Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& me
     const Tessellation t = session.tessellate(std::min(1, session.capabilities().max_depth), threads);
     session.close();
     if (mesh.faces.empty() && t.triangle_count() == 0) return {};  // nothing of nothing
-    return {Status::kFinding, "accepted"};
+    return {true, Status::kFinding, "accepted"};
   } catch (const SubjectDied& error) {
-    return {status_of(error), error.what()};
+    return {true, status_of(error), error.what()};
   } catch (const NotAsked& why) {
-    return {Status::kNotSupported, fmt::format("not asked: {}", why.what())};
+    return {true, Status::kNotSupported, fmt::format("not asked: {}", why.what())};
   } catch (const SubjectError&) {
     return {};
   } catch (const std::exception& error) {
-    return {Status::kError, error.what()};
+    return {true, Status::kError, error.what()};
   }
 }
 

@@ -14,22 +14,26 @@ namespace limitcheck::verify {
 struct BrokenMesh {
   const char* what;  // "an edge with three faces"
   data::ControlMesh mesh;
+  std::int32_t sharp = 0;  // of tags: which kinds have to be declared for it to be asked, LC_SHARP_...
 };
 
 /// One mesh for each way in which faces fail to form an oriented manifold, one without faces, one without
-/// vertices, one with an index out of range and one with a coordinate that is no number.
+/// vertices, one with an index out of range and one with a coordinate that is no number; then closed ones
+/// with a tag that means nothing.
 const std::vector<BrokenMesh>& broken_meshes();
 
 /// Held: the subject refused the mesh, with any message, or delivered nothing for a mesh without faces.
 /// Finding: it accepted the mesh. Crash, timeout: its process broke down. Not supported: it was not asked,
 /// because it does not validate, or does not do the scheme.
 struct Refusal {
+  bool asked = true;  // false: the mesh has tags of a kind that the subject does not declare
   Status status = Status::kHeld;
   std::string message;
 };
 
-/// What a subject made of each of broken_meshes().
-std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, data::Scheme scheme, int threads);
+/// What a subject that declares `sharp`, LC_SHARP_..., made of each of broken_meshes().
+std::vector<Refusal> ask_for_refusals(const AuditSubject& subject, data::Scheme scheme, int threads,
+                                      std::int32_t sharp);
 
 /// Hands `mesh` to the subject as it is. Never throws for what the subject does.
 Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& mesh, data::Scheme scheme,

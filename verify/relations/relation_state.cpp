@@ -33,31 +33,39 @@ void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence&
                   const Compared& compared) {
   std::optional<InTurns> here;
   if (subject.in_turns == nullptr) here.emplace(*subject.subject);
-  const AuditSubject turns{here ? &here->subject() : subject.in_turns, subject.options};
+  AuditSubject turns{here ? &here->subject() : subject.in_turns, subject.options};
   const Variant mine = identity(e);
   std::string what = kTurns[0];
+  const auto ask = [&](Session& session, int threads) {
+    const Tessellation t = session.tessellate(e.face_depth, threads);
+    row.inspect(what, t);
+    if (same_arrays(t, e.tessellation)) {
+      row.count(0, t.vertex_count());
+      return;
+    }
+    Comparison c = compared.with(t, mine, 0);
+    if (t.vertex_count() != e.tessellation.vertex_count() ||
+        t.triangle_count() != e.tessellation.triangle_count()) {
+      c.bad += 1;
+      c.message =
+          fmt::format("{} vertices and {} triangles, but {} and {} at first", t.vertex_count(),
+                      t.triangle_count(), e.tessellation.vertex_count(), e.tessellation.triangle_count());
+    }
+    c.bad = std::max(c.bad, c.other_bits);
+    c.worst = static_cast<double>(c.bad);
+    row.judge(what, c, false);
+  };
   row.ask(turns, what, e.mesh, [&](Session& session) {
     for (std::size_t k = 0; k < kTurns.size(); ++k) {
       what = kTurns[k];
-      const Tessellation t = session.tessellate(e.face_depth, k == 3 ? 8 : 1);
-      row.inspect(what, t);
-      if (same_arrays(t, e.tessellation)) {
-        row.count(0, t.vertex_count());
-        continue;
-      }
-      Comparison c = compared.with(t, mine, 0);
-      if (t.vertex_count() != e.tessellation.vertex_count() ||
-          t.triangle_count() != e.tessellation.triangle_count()) {
-        c.bad += 1;
-        c.message =
-            fmt::format("{} vertices and {} triangles, but {} and {} at first", t.vertex_count(),
-                        t.triangle_count(), e.tessellation.vertex_count(), e.tessellation.triangle_count());
-      }
-      c.bad = std::max(c.bad, c.other_bits);
-      c.worst = static_cast<double>(c.bad);
-      row.judge(what, c, false);
+      ask(session, k == 3 ? 8 : 1);
     }
   });
+  for (const First& first : kFirst) {
+    turns.options = first.option + subject.options;
+    what = first.what;
+    row.ask(turns, what, e.mesh, [&](Session& session) { ask(session, 1); });
+  }
 }
 
 }  // namespace limitcheck::verify

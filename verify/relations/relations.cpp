@@ -4,7 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -17,11 +23,55 @@
 namespace limitcheck::verify {
 namespace {
 
+// How many points of the one have positions and normals that the other has not; a face may name them
+// otherwise.
+std::int64_t different_points(const Tessellation& a, const Tessellation& b) {
+  const auto points = [](const Tessellation& t) {
+    using Bits = std::array<std::uint64_t, 3>;
+    std::vector<std::pair<Bits, Bits>> all;
+    for (std::int64_t v = 0; v < t.vertex_count(); ++v)
+      all.emplace_back(std::bit_cast<Bits>(t.position(v)),
+                       t.has_normals() ? std::bit_cast<Bits>(t.normal(v)) : Bits{});
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto mine = points(a), other = points(b);
+  std::vector<typename decltype(mine)::value_type> lost;
+  std::set_difference(mine.begin(), mine.end(), other.begin(), other.end(), std::back_inserter(lost));
+  return static_cast<std::int64_t>(lost.size()) + std::abs(b.vertex_count() - a.vertex_count()) +
+         std::abs(b.triangle_count() - a.triangle_count());
+}
+
 // Finds each row. A subject may break down in any request, which must not affect the other rows.
 class Relations {
  public:
   Relations(const AuditSubject& subject, const Evidence& e, int threads)
       : subject_(subject), e_(e), threads_(threads), compared_(e) {}
+
+  // Twice at one depth, with 1 and 4 threads: the greatest at which all faces are kDeep triangles.
+  void deep_determinism(RelationRow& row) const {
+    constexpr double kDeep = 8192;
+    double triangles = 0;  // at depth 0
+    for (std::size_t f = 0; f < e_.mesh.faces.size(); ++f)
+      triangles +=
+          e_.lattice.scheme() == data::Scheme::kLoop ? 1 : .5 * static_cast<double>(e_.mesh.faces[f].size());
+    int depth = -1;
+    while (depth < e_.capabilities.max_depth && std::ldexp(triangles, 2 * (depth + 1)) <= kDeep) ++depth;
+    if (depth < 0) return;
+    const std::string what = fmt::format("at depth {} with 1 thread and with 4", depth);
+    row.ask(what, e_.mesh, [&](Session& session) {
+      const Tessellation a = session.tessellate(depth, 1), b = session.tessellate(depth, 4);
+      const auto bad = different_points(a, b);
+      row.count(bad, a.vertex_count());
+      if (bad > 0) row.note(Status::kFinding, fmt::format("{}: {} points have other bits", what, bad));
+    });
+  }
+
+  Result deep_determinism() const {
+    RelationRow row = begin("determinism", "points", 0);
+    deep_determinism(row);
+    return done(row);
+  }
 
   Result determinism() const {
     RelationRow row = begin("determinism", "points", 0);
@@ -46,7 +96,8 @@ class Relations {
         row.judge(what, c, false);
       }
     });
-    return row.take();
+    deep_determinism(row);
+    return done(row);
   }
 
   Result relation(const Relation& relation) const {
@@ -57,53 +108,44 @@ class Relations {
         row.inspect(v.name, t);
         row.judge(v.name, compared_.with(t, v, 2), v.same_numbers);
       });
-    Result r = row.take();
-    // A size that the subject does not take is no fault, nor does it undo what was compared at others.
-    if (r.status == Status::kNotSupported && r.of > 0) r.status = Status::kHeld;
-    return r;
+    return done(row);
   }
 
+  // With one sharpness s for all its semi-sharp edges and vertices, in whole steps and one of fraction f, each
+  // point of that one step is 1 - f of the point without and f of the point with it, and no other step knows
+  // of f: the surface is linear in s between whole numbers, and continuous below 10. Three results make the
+  // difference, of whose errors the bound has two in all.
   Result fractional_sharpness() const {
     RelationRow row = begin("fractional-sharpness", "bounds", 1);
-    const Blend blend = *blend_of(e_.mesh, e_.lattice);
-    std::vector<Vector> position(e_.lattice.size());
-    std::vector<int> delivered(e_.lattice.size(), 0);
-    for (const bool upper : {false, true}) {
-      const float sharpness = upper ? blend.lower + 1 : blend.lower;
-      const std::string what = fmt::format("with sharpness {}", sharpness);
-      row.ask(what, with_sharpness(e_.mesh, sharpness), [&](Session& session) {
-        const Tessellation t = session.tessellate(e_.face_depth, threads_);
-        row.inspect(what, t);
-        for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-          const Lattice::Id id = t.provenance_ok(v) ? e_.lattice.id(t.place(v)) : Lattice::kNone;
-          if (id == Lattice::kNone || delivered[id] != (upper ? 1 : 0) || !is_finite(t.position(v))) continue;
-          const double share = upper ? blend.share : 1 - blend.share;
-          for (std::size_t c = 0; c < 3; ++c) position[id][c] += share * t.position(v)[c];
-          ++delivered[id];
-        }
-      });
+    const Surfaces surfaces(*this, row);
+    std::vector<float> fractions{0x1p-10F, std::nextafter(1.F, 0.F), std::nextafter(1.F, 2.F),
+                                 std::nextafter(2.F, 0.F), std::nextafter(2.F, 3.F)};
+    if (const auto own = common_sharpness(e_.mesh); own && *own < 9 && *own != std::floor(*own))
+      fractions.push_back(*own);
+    for (const float s : fractions) {
+      const float lower = std::floor(s);
+      const double share = static_cast<double>(s) - lower;
+      Surfaces::Points mix = surfaces.at(lower);
+      for (std::size_t k = 0; k < mix.size(); ++k)
+        mix[k] = (1 - share) * mix[k] + share * surfaces.at(lower + 1)[k];
+      surfaces.compare(fmt::format("sharpness {} against {:.3g} of sharpness {} and {:.3g} of {}", s,
+                                   1 - share, lower, share, lower + 1),
+                       surfaces.at(s), mix, 0);
     }
-    Comparison c;
-    const double limit = 2 * position_bound(e_.capabilities.precision, e_.reference.steps(), e_.magnitude,
-                                            std::max(e_.diagonal, 1e-300));
-    for (std::int64_t v = 0; v < e_.tessellation.vertex_count(); ++v) {
-      const Lattice::Id id = e_.point[v];
-      const Vector got = e_.tessellation.position(v);
-      if (id == Lattice::kNone || delivered[id] != 2 || !is_finite(got)) continue;
-      ++c.of;
-      const double off = norm(got - position[id]) / e_.diagonal;
-      c.bad += !(off <= limit);
-      c.position = std::max(c.position, off);
-      if (c.witness && off / limit <= c.worst) continue;
-      c.worst = off / limit;
-      c.witness = e_.at_vertex(v);
-      c.witness->expected = {position[id].begin(), position[id].end()};
-      c.witness->got = {got.begin(), got.end()};
-    }
-    row.judge(fmt::format("against {:.3g} of sharpness {} and {:.3g} of {}", 1 - blend.share, blend.lower,
-                          blend.share, blend.lower + 1),
-              c, false);
-    return row.take();
+    // From 10 on sharpness is for ever. The rings in which limits still differ shrink by 3/8 + 1/4 or
+    // (3 + sqrt 5)/8 a step and more: all that is to come from 9 on is less than twice the step to 9. As much
+    // again is left for what is not yet in proportion.
+    if (!does_sharp(e_.capabilities.sharp, with_sharpness(e_.mesh, 10), e_.lattice.scheme()))
+      return row.take();
+    const float below = std::nextafter(10.F, 9.F), above = std::nextafter(10.F, 11.F);
+    const double step = 4 * surfaces.distance(surfaces.at(8), surfaces.at(9));
+    surfaces.compare(fmt::format("sharpness {} against {}", below, 9), surfaces.at(below), surfaces.at(9),
+                     step);
+    surfaces.compare(fmt::format("sharpness {} against {}", 10, below), surfaces.at(10), surfaces.at(below),
+                     step);
+    surfaces.compare(fmt::format("sharpness {} against {}", above, 10), surfaces.at(above), surfaces.at(10),
+                     0);
+    return done(row);
   }
 
   Result degenerate_geometry() const {
@@ -145,9 +187,11 @@ class Relations {
       row.note(Status::kNotSupported, "not asked: does not validate");
       return row.take();
     }
-    if (refusals.empty()) refusals = ask_for_refusals(subject_, e_.lattice.scheme(), threads_);
+    if (refusals.empty())
+      refusals = ask_for_refusals(subject_, e_.lattice.scheme(), threads_, e_.capabilities.sharp);
     for (std::size_t k = 0; k < refusals.size(); ++k) {
       const Refusal& refusal = refusals[k];
+      if (!refusal.asked) continue;
       row.count(refusal.status != Status::kHeld, 1);
       row.note(refusal.status, refusal.message.empty()
                                    ? ""
@@ -157,6 +201,83 @@ class Relations {
   }
 
  private:
+  // Positions with one sharpness for all semi-sharp edges and vertices, asked for when first needed.
+  class Surfaces {
+   public:
+    using Points = std::vector<Vector>;  // of the lattice; NaN where nothing was delivered
+
+    Surfaces(const Relations& of, RelationRow& row) : of_(of), e_(of.e_), row_(row) {
+      if (const auto own = common_sharpness(e_.mesh)) points(e_.tessellation, fresh(*own));
+    }
+
+    const Points& at(float sharpness) const {
+      if (const auto known = known_.find(sharpness); known != known_.end()) return known->second;
+      Points& there = fresh(sharpness);
+      const std::string what = fmt::format("with sharpness {}", sharpness);
+      row_.ask(what, with_sharpness(e_.mesh, sharpness), [&](Session& session) {
+        const Tessellation t = session.tessellate(e_.face_depth, of_.threads_);
+        row_.inspect(what, t);
+        points(t, there);
+      });
+      return there;
+    }
+
+    // The largest, in diagonals.
+    double distance(const Points& a, const Points& b) const {
+      double most = 0;
+      for (std::size_t k = 0; k < a.size(); ++k)
+        if (is_finite(a[k]) && is_finite(b[k])) most = std::max(most, norm(a[k] - b[k]) / e_.diagonal);
+      return most;
+    }
+
+    // They may differ by two results' errors and as many diagonals.
+    void compare(const std::string& what, const Points& got, const Points& expected, double more) const {
+      constexpr int kMostSteps = 10;  // of another sharpness than the mesh has
+      const double limit =
+          more + 2 * position_bound(e_.capabilities.precision, std::max(e_.reference.steps(), kMostSteps),
+                                    e_.magnitude, std::max(e_.diagonal, 1e-300));
+      Comparison c;
+      for (std::size_t k = 0; k < got.size(); ++k) {
+        if (!is_finite(got[k]) || !is_finite(expected[k])) continue;
+        ++c.of;
+        const double off = norm(got[k] - expected[k]) / e_.diagonal;
+        c.bad += off > limit;
+        c.position = std::max(c.position, off);
+        if (c.witness && off / limit <= c.worst) continue;
+        c.worst = off / limit;
+        c.witness = e_.at_point(static_cast<Lattice::Id>(k));
+        c.witness->expected = {expected[k].begin(), expected[k].end()};
+        c.witness->got = {got[k].begin(), got[k].end()};
+      }
+      row_.judge(what, c, false);
+    }
+
+   private:
+    Points& fresh(float sharpness) const {
+      constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+      return known_.try_emplace(sharpness, e_.lattice.size(), Vector{kNowhere, kNowhere, kNowhere})
+          .first->second;
+    }
+    void points(const Tessellation& t, Points& to) const {
+      for (std::int64_t v = 0; v < t.vertex_count(); ++v)
+        if (const Lattice::Id id = t.provenance_ok(v) ? e_.lattice.id(t.place(v)) : Lattice::kNone;
+            id != Lattice::kNone)
+          to[id] = t.position(v);
+    }
+
+    const Relations& of_;
+    const Evidence& e_;
+    RelationRow& row_;
+    mutable std::map<float, Points> known_;
+  };
+
+  // A size that the subject does not take is no fault, nor does it undo what was compared at others.
+  static Result done(RelationRow& row) {
+    Result r = row.take();
+    if (r.status == Status::kNotSupported && r.of > 0) r.status = Status::kHeld;
+    return r;
+  }
+
   RelationRow begin(std::string_view name, const char* unit, double bound) const {
     return {subject_, e_, name, unit, bound};
   }
@@ -201,8 +322,12 @@ std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, da
   const Lattice lattice(mesh, scheme, 0);
   for (const Relation& r : sharp_relations())
     if (!r.applies(mesh, lattice)) std::erase(rows, r.row);
-  if (!blend_of(mesh, lattice)) std::erase(rows, "fractional-sharpness");
+  if (!has_semi_sharp(mesh)) std::erase(rows, "fractional-sharpness");
   return rows;
+}
+
+Result check_determinism(const AuditSubject& subject, const Evidence& e) {
+  return Relations(subject, e, 1).deep_determinism();
 }
 
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
@@ -229,8 +354,7 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
   for (const Relation& r : variant_relations()) add(r.row, [&] { return relations.relation(r); });
   for (const Relation& r : sharp_relations())
     if (r.applies(e.mesh, e.lattice)) add(r.row, [&] { return relations.relation(r); });
-  if (blend_of(e.mesh, e.lattice))
-    add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
+  if (has_semi_sharp(e.mesh)) add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
   add("state", [&] { return relations.state(results.front()); });
   add("degenerate-geometry", [&] { return relations.degenerate_geometry(); });
   add("rejected-inputs", [&] { return relations.rejected_inputs(refusals); });

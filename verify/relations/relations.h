@@ -14,7 +14,8 @@
 namespace limitcheck::verify {
 
 /// The names of the rows, in the order of the table:
-///   determinism          the same request again, and with other numbers of threads: the same bits
+///   determinism          the same request again, and with other numbers of threads, and a deep one: the same
+///                        bits
 ///   face-order           faces in another order
 ///   vertex-order         control vertices in another order
 ///   corner-rotation      faces that begin at another corner
@@ -26,11 +27,13 @@ namespace limitcheck::verify {
 ///   infinite-sharpness   10 and 100 for a sharpness of 10 and more
 ///   boundary-crease      the boundary tagged as sharp
 ///   cut-by-hand          cut along the edges that stay sharp, which makes them a boundary
-///   fractional-sharpness a single crease of sharpness 2.3: 0.7 of the surface with 2, 0.3 of that with 3
+///   fractional-sharpness one sharpness s for all that is semi-sharp: linear in s between whole numbers (just
+///                        below and above them, too), and what 10 and more adds to 9.99 is little
 ///   state                between other meshes and depths, on a new instance, the eighth time: the same bits
 ///   degenerate-geometry  all control points on a line, or the same: finite, normals of unit length
 ///   rejected-inputs      meshes that are no manifold, name vertices that do not exist or have coordinates
-///                        that are no numbers: refused; one without faces: refused, or nothing delivered
+///                        that are no numbers: refused; one without faces: refused, or nothing delivered;
+///                        if sharp edges or vertices are declared, tags that mean nothing: refused
 /// Those of sharp edges are there only for meshes that have what they need: relation_rows_of().
 /// The rows from face-order to fractional-sharpness hold if positions and normals differ by at most twice
 /// what one result may be off; a smaller difference in bits is a quality warning if the subject was given the
@@ -38,6 +41,10 @@ namespace limitcheck::verify {
 const std::vector<std::string_view>& relation_rows();
 /// Those that a mesh has.
 std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, data::Scheme scheme);
+
+/// The row `determinism` alone, of one deep request with 1 and with 4 threads; for meshes that are audited
+/// without relations.
+Result check_determinism(const AuditSubject& subject, const Evidence& e);
 
 /// One row for each name that the mesh has. `e` is the evidence of the original request. Nothing that the
 /// subject does throws: a process that dies or hangs in one request makes its row a crash or a timeout, with

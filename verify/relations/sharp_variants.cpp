@@ -2,7 +2,6 @@
 #include "verify/relations/sharp_variants.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -13,6 +12,10 @@ using Edge = std::pair<std::int32_t, std::int32_t>;
 
 bool lasts(float sharpness) {
   return sharpness >= data::kInfiniteSharpness;
+}
+
+bool ends(float sharpness) {
+  return sharpness > 0 && !lasts(sharpness);
 }
 
 std::vector<Lattice::Edge> boundary_of(const Lattice& lattice) {
@@ -84,11 +87,8 @@ Variant boundary_crease(const Evidence& e) {
 
 // A cut is the same surface if sharpness lasts wherever there is some, and no sharp edge ends in a dart.
 bool can_be_cut(const data::ControlMesh& mesh, const Lattice& lattice) {
-  const auto semi_sharp = [](const auto& tag) { return tag.sharpness > 0 && !lasts(tag.sharpness); };
+  if (has_semi_sharp(mesh)) return false;
   const data::Sharpness& sharp = mesh.sharpness;
-  if (std::any_of(sharp.edges.begin(), sharp.edges.end(), semi_sharp) ||
-      std::any_of(sharp.vertices.begin(), sharp.vertices.end(), semi_sharp))
-    return false;
   const std::vector<int> count = lasting_edges_at(mesh, lattice);
   return std::any_of(sharp.edges.begin(), sharp.edges.end(),
                      [](const data::SharpEdge& e) { return lasts(e.sharpness); }) &&
@@ -156,21 +156,29 @@ const std::vector<Relation>& sharp_relations() {
   return all;
 }
 
-std::optional<Blend> blend_of(const data::ControlMesh& mesh, const Lattice& lattice) {
+std::optional<float> common_sharpness(const data::ControlMesh& mesh) {
+  std::set<float> all;
+  for (const data::SharpEdge& e : mesh.sharpness.edges) all.insert(e.sharpness);
+  for (const data::SharpVertex& v : mesh.sharpness.vertices) all.insert(v.sharpness);
+  std::erase_if(all, [](float s) { return !ends(s); });
+  return all.size() == 1 ? std::optional(*all.begin()) : std::nullopt;
+}
+
+bool has_semi_sharp(const data::ControlMesh& mesh) {
+  const auto semi_sharp = [](const auto& tag) { return ends(tag.sharpness); };
   const data::Sharpness& sharp = mesh.sharpness;
-  if (sharp.edges.empty() || !sharp.vertices.empty()) return std::nullopt;
-  const float s = sharp.edges[0].sharpness;
-  if (!(s > 0) || lasts(s) || s == std::floor(s)) return std::nullopt;
-  std::vector<int> count(mesh.positions.size(), 0);
-  for (const Lattice::Edge& e : boundary_of(lattice)) count[e.a] = count[e.b] = 2;
-  for (const data::SharpEdge& e : sharp.edges)
-    if (e.sharpness != s || ++count[e.a] > 2 || ++count[e.b] > 2) return std::nullopt;
-  return Blend{std::floor(s), static_cast<double>(s) - std::floor(s)};
+  return std::any_of(sharp.edges.begin(), sharp.edges.end(), semi_sharp) ||
+         std::any_of(sharp.vertices.begin(), sharp.vertices.end(), semi_sharp);
 }
 
 data::ControlMesh with_sharpness(data::ControlMesh mesh, float sharpness) {
-  for (data::SharpEdge& e : mesh.sharpness.edges) e.sharpness = sharpness;
-  if (sharpness == 0) mesh.sharpness.edges.clear();
+  const auto change = [sharpness](auto& tags) {
+    for (auto& tag : tags)
+      if (ends(tag.sharpness)) tag.sharpness = sharpness;
+    std::erase_if(tags, [](const auto& tag) { return tag.sharpness == 0; });
+  };
+  change(mesh.sharpness.edges);
+  change(mesh.sharpness.vertices);
   return mesh;
 }
 

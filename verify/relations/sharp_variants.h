@@ -11,16 +11,11 @@ namespace limitcheck::verify {
 /// In the order of the table (relations.h says what each is). All need sharp edges or vertices.
 const std::vector<Relation>& sharp_relations();
 
-/// The two surfaces between which that of a mesh lies whose only crease has one sharpness that is no whole
-/// number: S(2.3) = 0.7 S(2) + 0.3 S(3), the limit points and the refined ones.
-struct Blend {
-  float lower;   // 2
-  double share;  // 0.3, of the next
-};
-/// Nothing if the mesh is another one: with another sharpness, sharp vertices, a vertex of three sharp edges,
-/// a crease that meets the boundary.
-std::optional<Blend> blend_of(const data::ControlMesh& mesh, const Lattice& lattice);
-/// The mesh with another sharpness of its crease.
+/// Whether an edge or a vertex has a sharpness that ends.
+bool has_semi_sharp(const data::ControlMesh& mesh);
+/// The sharpness of all that do, if it is the same and there are some.
+std::optional<float> common_sharpness(const data::ControlMesh& mesh);
+/// The mesh with another one for all of them; 0 is none.
 data::ControlMesh with_sharpness(data::ControlMesh mesh, float sharpness);
 
 }  // namespace limitcheck::verify

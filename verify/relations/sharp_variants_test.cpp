@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <utility>
 
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
@@ -155,30 +157,59 @@ TEST(SharpVariants, ACutWithoutHeldCornersIsAnotherSurface) {
       .01);
 }
 
-TEST(Blend, IsOfASingleCreaseOfOneSharpness) {
-  data::ControlMesh ring = data::named_mesh("crease-ring:2");
-  const Lattice lattice(ring, 0);
-  EXPECT_FALSE(blend_of(ring, lattice)) << "a whole number";
-  ring = with_sharpness(std::move(ring), 2.25F);
-  ASSERT_TRUE(blend_of(ring, lattice));
-  EXPECT_EQ(blend_of(ring, lattice)->lower, 2);
-  EXPECT_EQ(blend_of(ring, lattice)->share, .25);
-  data::ControlMesh other = ring;
-  other.sharpness.edges[0].sharpness = 1.5;
-  EXPECT_FALSE(blend_of(other, lattice));
-  other = ring;
-  other.sharpness.vertices.push_back({0, 1});
-  EXPECT_FALSE(blend_of(other, lattice));
-  const data::ControlMesh cube = with_sharpness(data::named_mesh("creased-cube"), 2.25F);
-  EXPECT_FALSE(blend_of(cube, Lattice(cube, 0))) << "three sharp edges at a vertex";
+TEST(CommonSharpness, IsThatOfAllSemiSharpEdgesAndVertices) {
+  data::ControlMesh mesh = data::named_mesh("crease-ring:2");
+  EXPECT_EQ(common_sharpness(mesh), 2.F);
+  mesh = with_sharpness(std::move(mesh), 2.25F);
+  EXPECT_EQ(common_sharpness(mesh), 2.25F);
+  mesh.sharpness.vertices.push_back({0, 1});
+  EXPECT_TRUE(has_semi_sharp(mesh));
+  EXPECT_FALSE(common_sharpness(mesh));
+  EXPECT_EQ(common_sharpness(with_sharpness(mesh, 3)), 3.F);
+  EXPECT_FALSE(has_semi_sharp(with_sharpness(mesh, 0)));
+  EXPECT_FALSE(has_semi_sharp(with_sharpness(mesh, 10)));
+}
 
-  const auto point = [&](float sharpness) {
-    return vector_of(reference::Surface(with_sharpness(ring, sharpness), data::Scheme::kCatmullClark)
-                         .evaluate(0, 0, .125, .25)
-                         .position);
-  };
-  const Vector p = point(2.25F), a = point(2), b = point(3);
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(p[c], .75 * a[c] + .25 * b[c], 1e-15);
+// What fractional-sharpness says: linear between whole numbers, by both ways of creasing, with edges that
+// stay sharp, corners and boundaries among them; and what is still to come from 9 on is less than twice the
+// step before.
+TEST(CommonSharpness, MakesASurfaceThatIsLinearBetweenWholeNumbers) {
+  for (const char* name : {"crease-ring:2", "creased-cube:3", "sharp:22:60", "sharp:20:60", "sharp:36:60",
+                           "mixed-sharp:8:60", "mixed-sharp:20:60", "mixed-sharp:11:60"})
+    for (const auto creasing : {data::Creasing::kUniform, data::Creasing::kChaikin}) {
+      data::ControlMesh mesh = data::named_mesh(name);
+      ASSERT_TRUE(has_semi_sharp(mesh)) << name;
+      mesh.sharpness.creasing = creasing;
+      const data::Scheme scheme = data::natural_scheme(mesh);
+      std::set<std::int32_t> looked;
+      for (const data::SharpEdge& e : mesh.sharpness.edges) looked.insert(e.a);
+      const auto points = [&](float s) {
+        const reference::Surface surface(with_sharpness(mesh, s), scheme);
+        std::vector<Vector> all;
+        for (std::int32_t f = 0; f < static_cast<std::int32_t>(mesh.faces.size()) && all.size() < 40; ++f)
+          if (looked.contains(mesh.faces[f][0]))
+            for (const auto& [u, v] : {std::pair{0., 0.}, {.25, .125}, {.5, 0.}})
+              all.push_back(vector_of(surface.evaluate(f, 0, u, v).position));
+        return all;
+      };
+      const auto apart = [](const std::vector<Vector>& a, const std::vector<Vector>& b) {
+        double most = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, norm(a[k] - b[k]));
+        return most;
+      };
+      for (const float s : {.125F, 1.75F, 2.5F}) {
+        const double share = static_cast<double>(s) - std::floor(s);
+        std::vector<Vector> mix = points(std::floor(s));
+        const std::vector<Vector> upper = points(std::ceil(s));
+        for (std::size_t k = 0; k < mix.size(); ++k) mix[k] = (1 - share) * mix[k] + share * upper[k];
+        EXPECT_LE(apart(points(s), mix), 1e-14) << name << " " << s;
+        EXPECT_GT(apart(points(s), upper), 1e-4) << name << " " << s;
+      }
+      const auto nine = points(9), below = points(std::nextafter(10.F, 9.F));
+      const double step = apart(points(8), nine);
+      EXPECT_LE(apart(nine, below), 2 * step) << name << ": half of what is allowed";
+      EXPECT_LE(apart(points(10), below), 2 * step) << name;
+    }
 }
 
 }  // namespace

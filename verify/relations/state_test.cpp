@@ -118,6 +118,13 @@ TEST(State, OfASubjectWithoutMemoryHolds) {
                              .run({find_subject(name), ""}, {"octahedron", data::named_mesh("octahedron")});
     EXPECT_EQ(row(results, "state").status, Status::kHeld) << name << ": " << row(results, "state").message;
   }
+  // Nothing in between is of a kind that they do not declare.
+  for (const char* name : {"sliding-window", "row-stream"})
+    for (const char* mesh : {"corner:3", "creased-cube", "creased-cube:3"}) {
+      const auto results =
+          Auditor(1, 1, {}, Level::kStandard).run({find_subject(name), ""}, {mesh, data::named_mesh(mesh)});
+      EXPECT_FALSE(is_bad(row(results, "state"))) << name << ": " << row(results, "state").message;
+    }
 }
 
 // As in a process of its own: what it knows by then, it knows from the turns.

@@ -98,7 +98,9 @@ const std::vector<Explanation>& explanations() {
        "An edge that stays sharp is a boundary of both of its sides: the mesh cut there is the same surface.",
        kTwice, kRelation},
       {"fractional-sharpness",
-       "A single crease of sharpness 2.3 gives 0.7 of the surface with sharpness 2 and 0.3 of that with 3.",
+       "One sharpness for all semi-sharp edges and vertices: with 2.3, 0.7 of the surface with 2 and 0.3 of "
+       "that with 3; likewise with 1/1024 and the numbers next below and above 1 and 2. From 9 to the "
+       "number next below 10, and from that to 10, no more than four times what there is between 8 and 9.",
        kTwice, kRelation},
       {"state",
        "Asked eight times, between other meshes and other depths, made again, beside another mesh of as many "
@@ -109,9 +111,10 @@ const std::vector<Explanation>& explanations() {
        kNone, "the surface has no normal there, a renderer needs one all the same"},
       {"rejected-inputs",
        "An edge with three faces, faces of opposite orientation, fans that meet in a vertex, faces without "
-       "vertices, a vertex that does not exist, a coordinate that is no number: refused with a message. A "
-       "subject "
-       "that says that it does not validate is not asked.",
+       "vertices, a vertex that does not exist, a coordinate that is no number, and, of a subject that "
+       "declares "
+       "sharp edges and vertices, tags of none and sharpness that is no number or below 0: refused with a "
+       "message. A subject that says that it does not validate is not asked.",
        "None accepted.", "the scheme is defined on oriented manifolds only"},
 
       // Of the subject `oracle`, in place of all others.

@@ -3,11 +3,14 @@
 // its exceptions become statuses with messages.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <new>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/options.h"
@@ -45,13 +48,26 @@ inline void refuse_unusable(const lc_mesh& mesh) {
   for (std::int64_t k = 0; k < mesh.corner_count; ++k)
     if (mesh.corners[k] < 0 || mesh.corners[k] >= mesh.vertex_count)
       throw SubjectError(LC_INVALID_INPUT, "a face names a vertex that does not exist");
-  const auto exists = [&](std::int32_t vertex) { return vertex >= 0 && vertex < mesh.vertex_count; };
-  for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k)
-    if (!exists(mesh.sharp_edges[k].a) || !exists(mesh.sharp_edges[k].b))
-      throw SubjectError(LC_INVALID_INPUT, "a sharp edge names a vertex that does not exist");
-  for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k)
-    if (!exists(mesh.sharp_vertices[k].vertex))
+}
+
+/// The same for tags that mean nothing.
+inline void refuse_unusable_tags(const lc_mesh& mesh) {
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  const std::int32_t* corner = mesh.corners;
+  for (std::int64_t f = 0; mesh.sharp_edge_count > 0 && f < mesh.face_count; corner += mesh.face_sizes[f++])
+    for (std::int32_t k = 0, n = mesh.face_sizes[f]; k < n; ++k)
+      edges.insert(std::minmax(corner[k], corner[(k + 1) % n]));
+  for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k) {
+    const lc_sharp_edge& e = mesh.sharp_edges[k];
+    if (!edges.contains(std::minmax(e.a, e.b))) throw SubjectError(LC_INVALID_INPUT, "a sharp edge is none");
+    if (!(e.sharpness > 0)) throw SubjectError(LC_INVALID_INPUT, "the sharpness of an edge is not above 0");
+  }
+  for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k) {
+    const lc_sharp_vertex& v = mesh.sharp_vertices[k];
+    if (v.vertex < 0 || v.vertex >= mesh.vertex_count)
       throw SubjectError(LC_INVALID_INPUT, "a sharp vertex does not exist");
+    if (!(v.sharpness > 0)) throw SubjectError(LC_INVALID_INPUT, "the sharpness of a vertex is not above 0");
+  }
 }
 
 /// The depth of a request that has one for all faces; 0 where there are no faces.
@@ -160,6 +176,7 @@ lc_subject make_subject(const char* name, const char* description, const char* o
       if (!does(has, scheme_of(mesh->scheme)))
         throw SubjectError(LC_NOT_SUPPORTED, "does not do this scheme");
       refuse_unusable(*mesh);
+      refuse_unusable_tags(*mesh);
       *instance = new T(*mesh, options);
     });
   };

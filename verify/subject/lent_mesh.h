@@ -94,9 +94,9 @@ struct LentMesh {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       face_sizes.push_back(static_cast<std::int32_t>(mesh.faces[f].size()));
     for (const data::SharpEdge& e : mesh.sharpness.edges)
-      if (e.sharpness > 0) sharp_edges.push_back({e.a, e.b, e.sharpness});
+      if (e.sharpness != 0) sharp_edges.push_back({e.a, e.b, e.sharpness});
     for (const data::SharpVertex& v : mesh.sharpness.vertices)
-      if (v.sharpness > 0) sharp_vertices.push_back({v.vertex, v.sharpness});
+      if (v.sharpness != 0) sharp_vertices.push_back({v.vertex, v.sharpness});
     if (mesh.sharpness.creasing == data::Creasing::kChaikin) creasing = LC_CREASING_CHAIKIN;
     corners_held = mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
     smooth_triangles = mesh.sharpness.triangles == data::TriangleRule::kSmooth;
@@ -115,6 +115,10 @@ struct LentMesh {
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(positions.size() / 3); }
   std::int64_t faces() const { return static_cast<std::int64_t>(face_sizes.size()); }
+
+  /// What create() gets: this structure, too, stays as it is as long as the mesh does, or until it is lent
+  /// again.
+  const lc_mesh& lend() { return lent_ = view(); }
 
   /// It refers to the arrays.
   lc_mesh view() const {
@@ -147,6 +151,9 @@ struct LentMesh {
     return same(a.positions, b.positions) && same(a.corners, b.corners) && same(a.face_sizes, b.face_sizes) &&
            same(a.sharp_edges, b.sharp_edges) && same(a.sharp_vertices, b.sharp_vertices);
   }
+
+ private:
+  lc_mesh lent_{};
 };
 
 }  // namespace limitcheck::verify

@@ -133,8 +133,10 @@ typedef struct lc_capabilities {
   int32_t does_not_validate;
 } lc_capabilities;
 
-/* A control mesh: an oriented 2-manifold, boundaries allowed, or what a subject that validates has to refuse.
- * The arrays are the host's. */
+/* A control mesh: an oriented 2-manifold, boundaries allowed, with tags on edges and vertices that exist, or
+ * what a subject that validates has to refuse: also, if it declares sharp edges or vertices, a sharpness that
+ * is no number or below 0, and one of an edge or vertex that the mesh does not have. This structure and the
+ * arrays are the host's. */
 typedef struct lc_mesh {
   const double* positions; /* 3 * vertex_count, representable in the subject's precision */
   int64_t vertex_count;
@@ -215,8 +217,8 @@ typedef struct lc_subject {
    * LC_INVALID_INPUT. A scheme that it does not do is no error: it fills in `schemes`. */
   lc_status (*capabilities)(const char* options, lc_capabilities* out, const char** message);
 
-  /* Prepares a mesh. The mesh arrays stay valid and unchanged until destroy(). On failure *instance is not
-   * used, and destroy() is not called. */
+  /* Prepares a mesh. *mesh and its arrays stay valid and unchanged until destroy(): a subject may keep the
+   * pointer instead of a copy. On failure *instance is not used, and destroy() is not called. */
   lc_status (*create)(const lc_mesh* mesh, const char* options, void** instance, const char** message);
   /* *out is zeroed beforehand, but for `size`. */
   lc_status (*tessellate)(void* instance, const lc_request* request, lc_tessellation* out,

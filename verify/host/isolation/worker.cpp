@@ -208,7 +208,7 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
         header.choice("creasing", {"uniform", "chaikin"}) == 0 ? LC_CREASING_UNIFORM : LC_CREASING_CHAIKIN;
     lent.corners_held = header.flag("corners_held");
     lent.smooth_triangles = header.flag("smooth_triangles");
-    const lc_mesh mesh = lent.view();
+    const lc_mesh& mesh = lent.lend();
     detail::call(subject, "create", [&](const char** message) {
       return subject.create(&mesh, loaded->option_text(), &loaded->instance, message);
     });

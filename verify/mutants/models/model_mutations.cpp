@@ -152,6 +152,7 @@ std::span<const Mutation> mutations() {
       {"depths_not_supported", "declares depths for each face, and supports one for all", "tessellates"},
       {"valence_50_at_most", "calls a valid mesh with a valence above 50 invalid", "tessellates"},
       {"accepts_wild_indices", "takes an index out of range for vertex 0", "rejected-inputs"},
+      {"accepts_bad_tags", "leaves out sharpness that is no number or of no edge", "rejected-inputs"},
       {"accepts_nan", "takes control points that are no numbers", "rejected-inputs"},
       {"accepts_anything", "takes what is no manifold, and delivers nothing", "rejected-inputs", "C06"},
   };

@@ -118,6 +118,7 @@ class ModelSubject {
       data::ControlMesh control = control_mesh(mesh);
       refuse_tags(settings.mutation, control.sharpness);
       if (!rules_.is("accepts_nan") && !rules_.is("accepts_wild_indices")) refuse_unusable(mesh);
+      if (!rules_.is("accepts_bad_tags")) refuse_unusable_tags(mesh);
       remember(control);
       mesh_ = std::make_unique<ModelMesh>(control);
     } catch (const data::ArgumentError& error) {

@@ -13,6 +13,7 @@
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
 #include "verify/checks/checks.h"
+#include "verify/mutants/distortions.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/mutants/models/model_rules.h"
 #include "verify/mutants/quad_models/quad_model_rules.h"
@@ -103,9 +104,9 @@ bool is_model(const std::string& subject, const std::string& options) {
   return subject == kBase || options.find(fmt::format("of={}", kBase)) != std::string::npos;
 }
 
-// All right subjects and mutants but the quad model do Loop's scheme.
-bool suits(const std::string& subject, const AuditMesh& m) {
-  return (m.scheme() == data::Scheme::kLoop) == (subject != kQuadBase);
+// All right subjects but the quad model are audited by Loop's scheme.
+data::Scheme scheme_of(const std::string& subject) {
+  return subject == kQuadBase ? data::Scheme::kCatmullClark : data::Scheme::kLoop;
 }
 
 std::string label(const AuditMesh& m) {
@@ -133,7 +134,16 @@ const std::vector<Mutant>& mutants() {
     for (const Mutation& m : quad_mutations())
       if (m.name != "none")
         all.push_back({fmt::format("quad_{}", m.name), std::string(m.description), kQuadBase,
-                       fmt::format("mutation={}", m.name), std::string(m.check), "", m.sharp});
+                       fmt::format("mutation={}", m.name), std::string(m.check), "", m.sharp,
+                       data::Scheme::kCatmullClark});
+    for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+      for (const Distortion& d : distortions())
+        if (d.name != "none" && (d.loop || scheme == data::Scheme::kCatmullClark))
+          all.push_back({fmt::format("{}_{}", scheme == data::Scheme::kLoop ? "loop" : "quad", d.name),
+                         d.description, "distorted", fmt::format("fault={}", d.name), d.check, "", d.sharp,
+                         scheme, [&d, scheme](const data::ControlMesh& mesh, int depth) {
+                           return shows(d, mesh, scheme, depth);
+                         }});
     for (const FrameFault& f : frame_faults())
       if (f.name != "none")
         all.push_back({std::string(f.name), std::string(f.description), "faulty-frames",
@@ -194,7 +204,8 @@ void run_mutants(Journal& journal,
     for (const AuditSubject& s : correct) {
       if (stop && stop()) return;
       step(s.subject->name, m);
-      if (!suits(s.subject->name, m) || (is_model(s.subject->name, s.options) && too_much(m))) continue;
+      if (m.scheme() != scheme_of(s.subject->name) || (is_model(s.subject->name, s.options) && too_much(m)))
+        continue;
       for (const Result& r : auditor.run(s, m))
         if (is_bad(r))
           red.push_back(fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
@@ -221,12 +232,14 @@ void run_mutants(Journal& journal,
     for (Open& at : open) {
       Kill& k = at.kill;
       const bool relation = is_relation(k.mutant->check);
-      if (k.by_its_check() || (relation && !relations) || !suits(k.mutant->subject, m)) continue;
+      if (k.by_its_check() || (relation && !relations) || m.scheme() != k.mutant->scheme) continue;
       if (k.mutant->sharp == m.mesh.sharpness.empty()) continue;
       if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
+      if (k.mutant->shows && !k.mutant->shows(m.mesh, m.depth)) continue;
       if (stop && stop()) return;
       step(k.mutant->name, m);
       m.relations = relation;
+      m.asked_again = false;
       for (const Result& r : auditor.run({find_subject(k.mutant->subject), k.mutant->options}, m))
         if (is_bad(r)) k.killed_by.insert(r.check);
       if (!k.by_its_check()) continue;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "data/control_mesh.h"
+#include "data/scheme.h"
 #include "verify/shard/journal.h"
 
 namespace limitcheck::verify {
@@ -19,6 +21,9 @@ struct Mutant {
   std::string check;             // the row meant for it
   std::string claim;             // of the paper, where the mutant is the paper taken literally; else empty
   bool sharp;                    // only meshes with sharp edges or vertices bring it out
+  data::Scheme scheme = data::Scheme::kLoop;
+  /// Whether a mesh can bring it out at a depth; empty: each can.
+  std::function<bool(const data::ControlMesh&, int)> shows = {};
 };
 
 /// Faults planted in what a correct subject delivers, and a correct subject with one rule changed.

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
 #include "verify/host/isolation/remote_subject.h"
@@ -63,6 +64,18 @@ TEST(UnusualSubjects, AreNotBlamedForWhatTheyDoToTheirProcess) {
   for (const Habit& habit : habits())
     if (habit.of_the_process) subjects.push_back({&remote.subject(), options_of(habit)});
   expect_no_finding(subjects, cases(600));
+}
+
+// Between other meshes, in a worker of its own, too.
+TEST(UnusualSubjects, KeepTheMeshThatTheyWereLentIfTheyLike) {
+  IsolationSettings settings;
+  settings.worker = LIMITCHECK_PROGRAM;
+  const RemoteSubject plain(RemoteSubject::Kind::kBuiltIn, "unusual", settings);
+  settings.in_turns = true;
+  const RemoteSubject turns(RemoteSubject::Kind::kBuiltIn, "unusual", settings);
+  const std::string options = unusual_options("keeps_the_mesh", "row-stream");
+  expect_no_finding({{lc_subject_unusual(), options}, {&plain.subject(), options, &turns.subject()}},
+                    {{"octahedron", data::named_mesh("octahedron")}});
 }
 
 }  // namespace

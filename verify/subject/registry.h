@@ -24,6 +24,7 @@ const lc_subject* lc_subject_model();          // right, or wrong in one stated 
 const lc_subject* lc_subject_quad_model();     // the same of Catmull-Clark's surfaces: quad_model_rules.h
 const lc_subject* lc_subject_faulty();         // options: verify/mutants/faulty_subjects.h
 const lc_subject* lc_subject_faulty_frames();  // options: the same
+const lc_subject* lc_subject_distorted();      // options: verify/mutants/distortions.h
 const lc_subject* lc_subject_unusual();        // options: verify/mutants/unusual_subjects.h
 }
 
@@ -38,7 +39,7 @@ struct MissingSubject {
 };
 std::vector<MissingSubject> missing_subjects();
 
-/// By name, `null`, `faulty`, `faulty-frames`, `unusual`, `model` and `quad-model` included; nullptr if there is none.
+/// By name, `null`, `faulty`, `faulty-frames`, `distorted`, `unusual`, `model` and `quad-model` included; nullptr if there is none.
 const lc_subject* find_subject(std::string_view name);
 
 }  // namespace limitcheck::verify

@@ -45,6 +45,8 @@ std::span<const Mutation> sharp_mutations() {
          "positions"},
         {"chaikin_takes_infinite", "edges that stay sharp are part of Chaikin's means", "positions"},
         {"chaikin_takes_half", "Chaikin's weights 1/2 and 1/2 for 3/4 and 1/4", "positions"},
+        {"chaikin_by_maximum", "Chaikin's mean is the largest of the other sharpnesses", "positions"},
+        {"chaikin_by_sum", "Chaikin's mean is the sum of the other sharpnesses", "positions"},
         // Tags.
         {"first_tag_only", "only the first sharp edge is looked at", "positions"},
         {"tags_by_direction", "an edge given as (a, b) is not found from the face that has it as (b, a)",

@@ -132,18 +132,20 @@ double ModelTags::fallen(const Topology& topology, std::int32_t e, std::int32_t 
   const Edge& edge_of_mesh = topology.edges()[e];
   const std::int32_t end =
       is("chaikin_ends_exchanged") ? (edge_of_mesh.a == v ? edge_of_mesh.b : edge_of_mesh.a) : v;
-  double sum = 0;
+  double sum = 0, most = 0;
   int others = 0;
   for (const std::int32_t other : topology.sector(end).edges) {
     const double s = edge(topology, other);
     if (other == e || s <= 0) continue;
     if (s == kForEver && !is("chaikin_takes_infinite")) continue;
     sum += std::min(s, 10.);
+    most = std::max(most, std::min(s, 10.));
     ++others;
   }
   if (others == 0) return fallen(own);
   const double share = is("chaikin_takes_half") ? 1. / 2 : 3. / 4;
-  return fallen(share * own + (1 - share) * sum / others);
+  const double mean = is("chaikin_by_maximum") ? most : is("chaikin_by_sum") ? sum : sum / others;
+  return fallen(share * own + (1 - share) * mean);
 }
 
 double ModelTags::edge_share(const Topology& topology, std::int32_t e) const {

@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,8 @@ class Repair {
     });
   }
 
+  std::size_t faces() const { return polygons_.size(); }
+
   void weld() {
     // Only finite points have an order, so unused vertices are dropped first.
     drop_unused();
@@ -93,40 +96,39 @@ class Repair {
     // False: it had to cut, which the points it added show.
     (void)pmp::orient_polygon_soup(points_, polygons_,
                                    CGAL::parameters::visitor(WatchOrientation{{}, &turned, &copies}));
-    for (const auto& [vertex, copy] : copies) copy_tags(vertex, copy);
+    copy_tags(copies);
+    was_cut_ = was_cut_ || !copies.empty();
     note("turned", turned, "face", "so that neighbours run the same way round");
     note("added", static_cast<std::int64_t>(points_.size() - vertices), "vertex",
          "where the mesh was cut apart: at edges of three faces or more, and where fans touch in a vertex");
   }
 
-  /// Two faces around an interior vertex are one face with a vertex too many.
+  /// Two faces around an interior vertex are one face with a vertex too many. Where they touch elsewhere, too,
+  /// and would be no polygon, the second one goes.
   void merge_at_valence_2() {
-    std::int64_t removed = 0;
-    for (bool again = true; again;) {
-      again = false;
-      std::vector<std::vector<std::size_t>> around(points_.size());
-      for (std::size_t f = 0; f < polygons_.size(); ++f)
-        for (const std::size_t v : polygons_[f]) around[v].push_back(f);
-      std::vector<bool> changed(polygons_.size(), false);
-      for (std::size_t v = 0; v < points_.size(); ++v) {
-        if (around[v].size() != 2) continue;
-        const std::size_t f = around[v][0], g = around[v][1];
-        Polygon one = beginning_at(v, polygons_[f]), other = beginning_at(v, polygons_[g]);
-        if (one[1] != other.back() || one.back() != other[1]) continue;  // a boundary vertex
-        again = again || changed[f] || changed[g];
-        if (changed[f] || changed[g]) continue;
-        Polygon merged(one.begin() + 1, one.end());
-        merged.insert(merged.end(), other.begin() + 2, other.end() - 1);
-        if (has_repeated_corners(merged) || merged.size() < 3) continue;
-        polygons_[f] = std::move(merged);
-        polygons_[g].clear();
-        changed[f] = changed[g] = true;
-        ++removed;
-      }
-      std::erase_if(polygons_, [](const Polygon& p) { return p.empty(); });
-      again = again || std::find(changed.begin(), changed.end(), true) != changed.end();
+    std::int64_t removed = 0, dropped = 0;
+    std::vector<std::vector<std::size_t>> around(points_.size());
+    for (std::size_t f = 0; f < polygons_.size(); ++f)
+      for (const std::size_t v : polygons_[f]) around[v].push_back(f);
+    std::vector<bool> changed(polygons_.size(), false);
+    for (std::size_t v = 0; v < points_.size(); ++v) {
+      if (around[v].size() != 2) continue;
+      const std::size_t f = around[v][0], g = around[v][1];
+      if (changed[f] || changed[g]) continue;  // the next pass looks at it
+      Polygon one = beginning_at(v, polygons_[f]), other = beginning_at(v, polygons_[g]);
+      if (one[1] != other.back() || one.back() != other[1]) continue;  // a boundary vertex
+      Polygon merged(one.begin() + 1, one.end());
+      merged.insert(merged.end(), other.begin() + 2, other.end() - 1);
+      const bool polygon = merged.size() >= 3 && !has_repeated_corners(merged);
+      ++(polygon ? removed : dropped);
+      if (polygon) polygons_[f] = std::move(merged);
+      polygons_[g].clear();
+      changed[f] = changed[g] = true;
     }
+    std::erase_if(polygons_, [](const Polygon& p) { return p.empty(); });
     note("removed", removed, "vertex", "inside with two faces only, which became one");
+    note("dropped", dropped, "face",
+         "that made with another one all faces of a vertex, and touched it elsewhere");
   }
 
   void drop_unused(bool say = true) {
@@ -167,11 +169,18 @@ class Repair {
       if (stays) most.erase(at);
       return !stays;
     });
+    // Copies stand at the end, wherever the vertex was cut: in an order of their own they stay as they are.
+    if (was_cut_) {
+      for (Tag& t : tags_)
+        if (t.b >= 0) std::tie(t.a, t.b) = ends(t);
+      std::sort(tags_.begin(), tags_.end(), [](const Tag& a, const Tag& b) { return ends(a) < ends(b); });
+    }
     note("dropped", static_cast<std::int64_t>(before - tags_.size()), "sharpness",
          "of no edge or vertex, or of one that has a larger one");
   }
 
-  Repaired take() {
+  /// The mesh, and what was done to it: nothing, if welding and cutting ended where they began.
+  Repaired take(const data::io::PolygonSoup& before) {
     Repaired result;
     for (const Point& p : points_) result.soup.positions.push_back({p.x(), p.y(), p.z()});
     for (const Polygon& p : polygons_) {
@@ -180,7 +189,15 @@ class Repair {
     }
     result.soup.sharp = std::move(tags_);
     result.soup.choices = choices_;
-    result.changes = std::move(changes_);
+    const auto same_tag = [](const Tag& a, const Tag& b) {
+      return a.a == b.a && a.b == b.b && a.sharpness == b.sharpness;
+    };
+    const bool same = result.soup.positions == before.positions && result.soup.corners == before.corners &&
+                      result.soup.polygon_end == before.polygon_end && before.holes.empty() &&
+                      std::equal(result.soup.sharp.begin(), result.soup.sharp.end(), before.sharp.begin(),
+                                 before.sharp.end(), same_tag);
+    if (!same)
+      for (const Change& c : changes_) result.changes.push_back(c.text());
     return result;
   }
 
@@ -208,22 +225,54 @@ class Repair {
       return t.a < 0 || (edge && t.b < 0);
     });
   }
-  void copy_tags(std::size_t vertex, std::size_t copy) {
-    const auto from = static_cast<std::int64_t>(vertex), to = static_cast<std::int64_t>(copy);
-    for (std::size_t k = 0, count = tags_.size(); k < count; ++k) {
-      Tag t = tags_[k];
-      if (t.a != from && t.b != from) continue;
-      (t.a == from ? t.a : t.b) = to;
-      tags_.push_back(t);
+  /// Edges and vertices of copies are as sharp as those that they were copied from.
+  void copy_tags(const std::vector<std::pair<std::size_t, std::size_t>>& copies) {
+    std::map<std::int64_t, std::int64_t> origin;
+    for (const auto& [vertex, copy] : copies) {
+      const auto from = origin.find(static_cast<std::int64_t>(vertex));
+      origin[static_cast<std::int64_t>(copy)] =
+          from == origin.end() ? static_cast<std::int64_t>(vertex) : from->second;
     }
+    const auto origin_of = [&](std::int64_t v) {
+      const auto from = origin.find(v);
+      return from == origin.end() ? v : from->second;
+    };
+    std::multimap<std::pair<std::int64_t, std::int64_t>, Tag> known;
+    for (const Tag& t : tags_) known.emplace(ends(t), t);
+    std::set<std::pair<std::int64_t, std::int64_t>> seen;
+    const auto copy = [&](std::int64_t a, std::int64_t b) {
+      if (!origin.contains(a) && !origin.contains(b)) return;
+      if (!seen.insert(std::minmax(a, b)).second) return;
+      const auto [first, last] = known.equal_range(std::minmax(origin_of(a), b < 0 ? b : origin_of(b)));
+      for (auto t = first; t != last; ++t) tags_.push_back({a, b, t->second.sharpness, t->second.line});
+    };
+    for (const Polygon& p : polygons_)
+      for (std::size_t k = 0; k < p.size(); ++k) {
+        const auto v = static_cast<std::int64_t>(p[k]);
+        copy(v, -1);
+        copy(v, static_cast<std::int64_t>(p[(k + 1) % p.size()]));
+      }
   }
 
+  /// A kind of change, and how often; the texts live as long as the program.
+  struct Change {
+    std::string_view verb, what, which;
+    std::int64_t count;
+    std::string text() const {
+      const std::string many = what == "vertex"      ? "vertices"
+                               : what == "sharpness" ? "sharpnesses"
+                                                     : fmt::format("{}s", what);
+      return fmt::format("{} {} {} {}", verb, count, count == 1 ? what : many, which);
+    }
+  };
   void note(std::string_view verb, std::int64_t count, std::string_view what, std::string_view which) {
     if (count == 0) return;
-    const std::string many = what == "vertex"      ? "vertices"
-                             : what == "sharpness" ? "sharpnesses"
-                                                   : fmt::format("{}s", what);
-    changes_.push_back(fmt::format("{} {} {} {}", verb, count, count == 1 ? what : many, which));
+    for (Change& c : changes_)
+      if (c.verb == verb && c.which == which) {
+        c.count += count;
+        return;
+      }
+    changes_.push_back({verb, what, which, count});
   }
 
   template <class Bad>
@@ -237,21 +286,27 @@ class Repair {
   std::vector<Polygon> polygons_;
   std::vector<Tag> tags_;
   data::Sharpness choices_;
-  std::vector<std::string> changes_;
+  bool was_cut_ = false;
+  std::vector<Change> changes_;
 };
 
 }  // namespace
 
 Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options) {
   Repair work(soup);
-  if (options.weld) work.weld();
-  work.drop_duplicates();
-  work.orient();
-  work.drop_unused();
-  work.merge_at_valence_2();
-  work.drop_unused(false);
+  // Where faces went or became one, others may have the corners of another, or a seam may close that was cut
+  // before: it ends, as each further pass begins with fewer faces.
+  for (std::size_t before = 0; before != work.faces();) {
+    before = work.faces();
+    if (options.weld) work.weld();
+    work.drop_duplicates();
+    work.orient();
+    work.drop_unused();
+    work.merge_at_valence_2();
+    work.drop_unused(false);
+  }
   work.drop_tags();
-  return work.take();
+  return work.take(soup);
 }
 
 }  // namespace limitcheck::verify

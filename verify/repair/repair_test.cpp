@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <map>
+#include <random>
 #include <tuple>
+
+#include "verify/repair/test_repair_properties.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -168,6 +170,32 @@ TEST(Repair, ClosesSeamsOnlyWhenAsked) {
 TEST(Repair, KeepsPolygons) {
   const Faces cube{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   EXPECT_EQ(faces_of(repair(soup(8, cube)).soup), cube);
+}
+
+// Polygons of anything, few vertices, some of them at one place, and tags of anything.
+PolygonSoup random_soup(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](std::uint32_t n) { return static_cast<std::int64_t>(random() % n); };
+  const std::int64_t vertices = 3 + below(8);
+  PolygonSoup s = soup(static_cast<std::size_t>(vertices), {});
+  if (below(3) == 0)
+    for (std::int64_t n = below(4); n > 0; --n) s.positions[below(vertices)] = s.positions[below(vertices)];
+  for (std::int64_t faces = 1 + below(9); faces > 0; --faces) {
+    for (std::int64_t n = 3 + below(3); n > 0; --n) s.corners.push_back(below(vertices));
+    s.close_polygon();
+  }
+  for (std::int64_t n = below(6); n > 0; --n) {
+    const bool vertex = below(3) == 0;
+    s.sharp.push_back({below(vertices), vertex ? -1 : below(vertices), static_cast<double>(below(12)), n});
+  }
+  return s;
+}
+
+TEST(Repair, EndsInAMeshThatItLeavesAsItIs) {
+  EXPECT_EQ(broken_property(soup(4, {{0, 1, 2, 3}, {0, 1, 2}}), {}), "");
+  for (std::uint32_t seed = 0; seed < 4000; ++seed)
+    for (const bool weld : {false, true})
+      ASSERT_EQ(broken_property(random_soup(seed), {.weld = weld}), "") << seed << (weld ? " welded" : "");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ packages=(
   libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev     # threads, command line, text, JSON
   libhwy-dev                                                # SIMD with dispatch at run time
   libtinygltf-dev libassimp-dev                             # glTF output; the reader that checks it
+  libmd-dev                                                 # digests of reports
   libgtest-dev libbenchmark-dev                             # tests, benchmarks
   dpkg-dev file                                             # the Debian package
   python3-jsonschema                                        # tests: the reports against their schema

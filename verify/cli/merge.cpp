@@ -11,6 +11,7 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "data/untrusted_json.h"
 #include "verify/cli/commands.h"
 #include "verify/hunt/hunt_report.h"
 #include "verify/report/json.h"
@@ -27,7 +28,7 @@ auto read_file(const std::string& file, const Read& read) try {
 }
 
 std::string program_of(const std::string& text) {
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  const nlohmann::json json = data::parse_untrusted(text);
   if (!json.is_object() || !json.contains("program") || !json["program"].is_string())
     throw data::ArgumentError("this is no report of limitcheck");
   return json["program"].get<std::string>();

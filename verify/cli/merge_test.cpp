@@ -8,6 +8,7 @@
 #include <string>
 
 #include "verify/cli/command_test.h"
+#include "verify/shard/seal.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -92,9 +93,13 @@ TEST_F(Merge, WrongPartsAreRefused) {
   EXPECT_EQ(run(all + "--json whole.json").code, 0);
   json part = json::parse(read("part2.json"));
   part["results"].erase(0);
-  write("less.json", part.dump());
+  part.erase("digest");
+  write("less.json", verify::sealed(part));
   part["incomplete"] = "interrupted by SIGINT";
-  write("interrupted.json", part.dump());
+  write("interrupted.json", verify::sealed(part));
+  part["incomplete"] = "";
+  part["digest"] = json::parse(read("part2.json"))["digest"];
+  write("altered.json", part.dump());
   struct {
     const char *parts, *says;
   } const wrong[]{{"part1.json", "shard 2/2 is missing"},
@@ -102,6 +107,7 @@ TEST_F(Merge, WrongPartsAreRefused) {
                   {"part1.json other.json", "shard 2/2 is of another plan than shard 1/2"},
                   {"part1.json less.json", "shard 2/2 is incomplete"},
                   {"part1.json interrupted.json", "is incomplete: interrupted by SIGINT"},
+                  {"part1.json altered.json", "altered.json: it was altered or damaged"},
                   {"part1.json whole.json", "whole.json: this is no part that --shard has made"},
                   {"part1.json nothing.json", "nothing.json"}};
   for (const auto& [parts, says] : wrong) {

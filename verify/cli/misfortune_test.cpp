@@ -255,7 +255,7 @@ TEST_F(Misfortune, ASignalLeavesAPartialReportAndNoProcess) {
       "&\nwait\n");
   for (const auto& [signal, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}, std::pair{"HUP", 129}}) {
     const Outcome o = shell(
-        "rm -f asked\nenv --default-signal '" LIMITCHECK_PROGRAM
+        "rm -f asked r.jsonl\nenv --default-signal '" LIMITCHECK_PROGRAM
         "' audit --program 'bash mute.sh' tetrahedron icosahedron --depth 1 --level quick --json r.json &\n"
         "while [ ! -e asked ]; do sleep 0.05; done\nsleep 0.2\nkill -" +
         std::string(signal) + " $!\nwait $!\ncode=$?\n" +

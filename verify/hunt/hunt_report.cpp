@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "data/error.h"
+#include "verify/shard/seal.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -50,7 +51,7 @@ Json to_json(const HuntFinding& f) {
           {"command", f.command}};
 }
 
-HuntFinding finding_of(const Json& json) {
+HuntFinding finding_of(const nlohmann::json& json) {
   HuntFinding f;
   const auto get = [&](const char* key, auto& to) { json.at(key).get_to(to); };
   get("signature", f.signature), get("check", f.check), get("status", f.status), get("scheme", f.scheme);
@@ -149,11 +150,11 @@ std::string to_json(const HuntReport& r, bool list_of_kinds) {
                   {"findings", findings},
                   {"seconds", r.seconds},
                   {"incomplete", r.incomplete}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return sealed(json, 1);
 }
 
 HuntReport read_hunt_report(const std::string& text) try {
-  const Json json = Json::parse(text);
+  const nlohmann::json json = unsealed(text, /*digest_may_lack=*/true);
   if (json.at("program") != "limitcheck hunt") throw data::ArgumentError("this is no report of a hunt");
   HuntReport r;
   json.at("version").get_to(r.version), json.at("subject").get_to(r.subject);
@@ -162,7 +163,7 @@ HuntReport read_hunt_report(const std::string& text) try {
   json.at("shard").at("index").get_to(r.shard.index), json.at("shard").at("count").get_to(r.shard.count);
   json.at("cases").get_to(r.cases), json.at("next").get_to(r.next), json.at("judged").get_to(r.judged);
   if (json.at("edge_kinds").is_array()) json.at("edge_kinds").get_to(r.kinds);
-  for (const Json& f : json.at("findings")) take(r.findings, finding_of(f));
+  for (const auto& f : json.at("findings")) take(r.findings, finding_of(f));
   json.at("seconds").get_to(r.seconds), json.at("incomplete").get_to(r.incomplete);
   return r;
 } catch (const Json::exception& error) {

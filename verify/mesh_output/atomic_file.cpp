@@ -65,6 +65,9 @@ AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), buf
   stream_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   stream_.open(temporary_.empty() ? file_ : temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) refuse();
+  // What takes the place of a file is as private as that was.
+  if (type == std::filesystem::file_type::regular)
+    std::filesystem::permissions(temporary_, std::filesystem::status(file_, error).permissions(), error);
 }
 
 AtomicFile::~AtomicFile() {

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "data/error.h"
-#include "data/json_nesting.h"
+#include "data/untrusted_json.h"
 #include "verify/row/explain.h"
 
 namespace limitcheck::verify {
@@ -51,28 +51,16 @@ bool is_a_day(const std::string& date) {
       .ok();
 }
 
-// If a key occurs twice, the parser would silently keep one of the two values.
-nlohmann::json parse_without_duplicates(const std::string& text) {
-  using Json = nlohmann::json;
-  if (data::json_nesting(text) > 32) throw data::ArgumentError("waivers: brackets nest more than 32 deep");
-  std::vector<std::set<std::string>> keys;
-  return Json::parse(
-      text,
-      [&](int, Json::parse_event_t event, Json& value) {
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-          throw data::ArgumentError(
-              fmt::format("waivers: \"{}\" stands twice in one object", value.get<std::string>()));
-        return true;
-      },
-      false);
+nlohmann::json parse(const std::string& text) try {
+  return data::parse_untrusted(text);
+} catch (const data::ArgumentError& error) {
+  throw data::ArgumentError(fmt::format("waivers: {}", error.what()));
 }
 
 }  // namespace
 
 std::vector<Waiver> parse_waivers(const std::string& text) {
-  const auto json = parse_without_duplicates(text);
+  const auto json = parse(text);
   if (json.is_discarded() || !json.is_object() || !json.contains("waivers") || !json["waivers"].is_array())
     throw data::ArgumentError("waivers: not a JSON object with an array \"waivers\"");
   static const std::set<std::string> known{"subject", "versions", "check", "shape",

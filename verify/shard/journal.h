@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -29,15 +30,15 @@ struct Plan {
 };
 
 /// The results of units, by number; in a file of JSON lines, too, if there is one. The first line says what
-/// is done, each other line holds one unit: {"unit", "result"}. A line is written whole and flushed. If the
-/// file cannot be written, the work goes on without it.
+/// is done, each other line holds one unit: {"unit", "result"}; each line is sealed (seal.h). A line is written
+/// whole and flushed. If the file cannot be written, the work goes on without it. The file is locked.
 class Journal {
  public:
   /// In memory only.
   explicit Journal(Plan plan) : plan_(std::move(plan)) {}
-  /// Begins a new file. With `resume`, reads the lines of an existing file and appends to them; a line that
-  /// is incomplete is dropped with all behind it. Throws data::ArgumentError: with `resume`, there is no such file, or it is of
-  /// another plan or shard.
+  /// Begins a new file. With `resume`, reads the lines of an existing file and appends to them; what is torn
+  /// behind the last whole line is cut off. Throws data::ArgumentError: there is such a file already, a link or another
+  /// run's; with `resume`, there is none, it is of another plan or shard, or a line was altered.
   ///   remember   false: results() need not have what is kept from now on
   Journal(Plan plan, std::filesystem::path file, bool resume, bool remember = true);
 
@@ -52,11 +53,16 @@ class Journal {
 
  private:
   std::string first_line() const;
+  void read();
+  void write(const std::string& line);
 
   Plan plan_;
   std::filesystem::path file_;
   bool remember_ = true;
-  std::ofstream out_;
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> out_;
   std::map<std::size_t, nlohmann::json> results_;
 };
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "data/error.h"
+#include "data/untrusted_json.h"
+#include "verify/shard/seal.h"
 
 namespace limitcheck::verify {
 
@@ -26,13 +28,14 @@ std::string to_json(const PartReport& part) {
                   {"shard", part.plan.shard.text()}, {"seconds", part.seconds},
                   {"containment", part.containment}, {"printed", part.printed},
                   {"incomplete", part.incomplete},   {"results", std::move(results)}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return sealed(json);
 }
 
 PartReport read_part(const std::string& text) try {
-  Json json = Json::parse(text);
+  Json json = data::parse_untrusted(text);
   if (!json.contains("shard") || !json.contains("together"))
     throw data::ArgumentError("this is no part that --shard has made");
+  json = unsealed_object(std::move(json));
   PartReport part;
   json.at("program").get_to(part.plan.program);
   part.plan.what = std::move(json.at("plan"));
@@ -41,7 +44,9 @@ PartReport read_part(const std::string& text) try {
   json.at("seconds").get_to(part.seconds), json.at("containment").get_to(part.containment);
   json.at("printed").get_to(part.printed), json.at("incomplete").get_to(part.incomplete);
   if (part.plan.together == 0) throw data::ArgumentError("this is no part that --shard has made");
-  for (Json& pair : json.at("results")) part.results[pair.at(0).get<std::size_t>()] = std::move(pair.at(1));
+  for (Json& pair : json.at("results"))
+    if (!part.results.emplace(pair.at(0).get<std::size_t>(), std::move(pair.at(1))).second)
+      throw data::ArgumentError("it has a unit twice");
   return part;
 } catch (const Json::exception& error) {
   throw data::ArgumentError(fmt::format("this is no part that --shard has made: {}", error.what()));

@@ -127,13 +127,75 @@ TEST_F(JournalTest, KnowsWhatWasDoneBeforeTheProgramEnded) {
     EXPECT_EQ(again.recall(4), nullptr);
     again.keep(4, "y");
   }
-  std::ofstream(file_, std::ios::app) << "{\"nothing\": 1}\n";
-  Journal third(plan({}), file_, true);
-  EXPECT_EQ(third.results().size(), 3U);
   EXPECT_THROW(Journal(plan({}, 2), file_, true), data::ArgumentError) << "of another plan";
   EXPECT_THROW(Journal(plan({0, 2}), file_, true), data::ArgumentError) << "of another shard";
+  Journal third(plan({}), file_, true);
+  EXPECT_EQ(third.results().size(), 3U);
+  EXPECT_THROW(Journal(plan({}), file_, true), data::ArgumentError) << "another run is writing it";
   third.remove();
   EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+TEST_F(JournalTest, TouchesNoFileThatIsNotItsOwn) {
+  std::ofstream(file_) << "somebody's notes\n";
+  EXPECT_THROW(Journal(plan({}), file_, false), data::ArgumentError);
+  EXPECT_THROW(Journal(plan({}), file_, true), data::ArgumentError);
+  const std::filesystem::path link = file_.string() + "-link";
+  std::filesystem::create_symlink(file_, link);
+  EXPECT_THROW(Journal(plan({}), link, false), data::ArgumentError);
+  EXPECT_THROW(Journal(plan({}), link, true), data::ArgumentError);
+  std::filesystem::remove(link);
+  EXPECT_EQ(text(), "somebody's notes\n");
+}
+
+TEST_F(JournalTest, BelievesNoLineThatWasAltered) {
+  {
+    Journal journal(plan({}), file_, false);
+    for (std::size_t unit = 0; unit < 7; ++unit) journal.keep(unit, Json{{"worst", 1.5 * unit}});
+  }
+  const std::string whole = text();
+  std::vector<std::string> altered;
+  const std::size_t second = whole.find('\n') + 1, third = whole.find('\n', second) + 1;
+  std::string line = whole.substr(second, third - second);
+  altered.push_back(whole + line);  // twice
+  line.replace(line.find("\"unit\":0"), 8, "\"unit\":5");
+  altered.push_back(whole.substr(0, second) + line);  // the result of another unit
+  for (std::size_t k = 0; k < 300; ++k) {
+    altered.push_back(whole);
+    altered.back()[(k * 7919) % (whole.size() - 1)] ^= static_cast<char>(1 << (k % 7));
+  }
+  for (const std::string& content : altered) {
+    std::ofstream(file_, std::ios::trunc | std::ios::binary) << content;
+    try {
+      const Journal journal(plan({}), file_, true);
+      for (const auto& [unit, result] : journal.results())  // white space was altered, or the end
+        ASSERT_EQ(result, (Json{{"worst", 1.5 * static_cast<double>(unit)}})) << content;
+    } catch (const data::ArgumentError&) {
+    }
+  }
+}
+
+TEST(Part, BelievesNoBitThatWasAltered) {
+  const PartReport before = part({0, 2});
+  const std::string text = to_json(before);
+  std::size_t accepted = 0;
+  for (std::size_t k = 0; k < 10000; ++k) {
+    std::string altered = text;
+    altered[(k * 7919) % text.size()] ^= static_cast<char>(1 << (k % 8));
+    try {
+      const PartReport after = read_part(altered);
+      ASSERT_EQ(to_json(after), text) << altered;
+      ++accepted;
+    } catch (const data::ArgumentError&) {
+    }
+  }
+  EXPECT_LT(accepted, 100U) << "the new line at the end, as another white space";
+}
+
+TEST(Part, NestedWithoutEndIsRefused) {
+  EXPECT_THROW(read_part(std::string(200000, '[')), data::ArgumentError);
+  EXPECT_THROW(read_part("{\"shard\":" + std::string(200000, '[') + std::string(200000, ']') + "}"),
+               data::ArgumentError);
 }
 
 TEST_F(JournalTest, WithoutAFileIsInMemoryOnly) {

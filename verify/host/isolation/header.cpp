@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "data/json_nesting.h"
+#include "data/error.h"
+#include "data/untrusted_json.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify::protocol {
@@ -16,18 +17,11 @@ std::string to_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-namespace {
-
-constexpr std::size_t kDeepest = 32;  // no answer needs more, and what is deep is not safe to print
-
-}  // namespace
-
-Header::Header(const std::string& line) {
-  if (const std::size_t depth = data::json_nesting(line); depth > kDeepest)
-    throw Error(fmt::format("its JSON nests {} deep; {} are read", depth, kDeepest));
-  json_ = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+Header::Header(const std::string& line) try : json_(data::parse_untrusted(line)) {
   if (!json_.is_object())
     throw Error(fmt::format("where a line with a JSON object belongs it wrote \"{}\"", printable(line, 80)));
+} catch (const data::ArgumentError& error) {
+  throw Error(error.what());
 }
 
 const nlohmann::json& Header::at(const char* key) const {

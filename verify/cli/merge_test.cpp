@@ -163,7 +163,8 @@ TEST_F(Merge, ProofsAreTheWhole) {
   const auto merged_with = [&](const std::function<void(json&)>& edit) {
     json edited = parts[holder];
     edit(last(edited)[1]);
-    write("edited.json", edited.dump());
+    edited.erase("digest");  // written again by one who knows how: the figures are judged all the same
+    write("edited.json", verify::sealed(edited));
     return run("merge edited.json " + sound + " -o edited-whole.json");
   };
   EXPECT_EQ(merged_with([](json&) {}).code, 0);

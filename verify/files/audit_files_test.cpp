@@ -319,6 +319,7 @@ using Writing = double (*)(double);
 const std::map<std::string, Writing> kWritings{
     {"float", [](double x) { return static_cast<double>(static_cast<float>(x)); }},
     {"decimals", [](double x) { return std::stod(fmt::format("{:.6f}", x)); }},
+    {"four decimals", [](double x) { return std::stod(fmt::format("{:.4f}", x)); }},
     {"digits", [](double x) { return std::stod(fmt::format("{:.6g}", x)); }},
     {"float's nine digits", [](double x) { return std::stod(fmt::format("{:.9g}", static_cast<float>(x))); }},
     {"double", [](double x) { return x; }}};
@@ -348,6 +349,7 @@ TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
     for (const auto& [writing, written] : kWritings) {
       const bool all = c.mesh == std::string("quad-cube") || c.mesh == std::string("holes");
       if (!all && writing != "float") continue;
+      if (writing == "four decimals" && c.mesh == std::string("holes")) continue;  // flat but for its rims
       const auto mesh = data::named_mesh(c.mesh);
       FilesOptions quick;
       quick.measures_hausdorff = false;
@@ -357,7 +359,7 @@ TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
       const Result& held = row(right, "file-recognised");
       EXPECT_EQ(held.status, Status::kHeld) << name << ": " << held.message << " within " << *held.bound;
       EXPECT_EQ(held.of, static_cast<std::int64_t>(t.positions.size())) << name;
-      EXPECT_LE(*held.bound, 1e-5) << name;
+      EXPECT_LE(*held.bound, writing == "four decimals" ? 1e-4 : 1e-5) << name;
       ASSERT_TRUE(held.recognised) << name;
       EXPECT_EQ(held.recognised->scheme, word(c.scheme));
       EXPECT_EQ(held.recognised->steps, c.steps);
@@ -399,6 +401,9 @@ TEST(AuditFiles, ReadsOffTheCoordinatesHowTheyWereWritten) {
   EXPECT_EQ(of("double").precision, LC_FLOAT64);
   EXPECT_DOUBLE_EQ(of("decimals").last, 5e-7);
   EXPECT_DOUBLE_EQ(of("digits").last, 5e-6);  // 9.94987
+  std::vector<Vector> round{{1, .5, .25}, {2, 0, -.75}};
+  EXPECT_DOUBLE_EQ(written(round).last, 5e-6) << "nobody can tell";
+  EXPECT_DOUBLE_EQ(written(round, 0, true).last, .05);
   EXPECT_LE(of("double").last, 1e-14);
   EXPECT_LE(of("float").last, 1e-14);
 }

@@ -205,7 +205,7 @@ Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess
 
 }  // namespace
 
-Written written(const std::vector<Vector>& points, double share) {
+Written written(const std::vector<Vector>& points, double share, bool few_digits) {
   std::vector<int> digits, decimals;
   double size = 0;
   for (const Vector& p : points)
@@ -228,9 +228,12 @@ Written written(const std::vector<Vector>& points, double share) {
     std::nth_element(list.begin(), list.end() - 1 - otherwise, list.end());
     return list[list.size() - 1 - static_cast<std::size_t>(otherwise)];
   };
-  const double last =
-      std::max(std::pow(10, -most(decimals)), std::pow(10, std::floor(std::log10(size)) + 1 - most(digits))) /
-      2;
+  const double first = std::floor(std::log10(size)) + 1;
+  const auto half = [&](int places, int of_all) {
+    return std::max(std::pow(10, -places), std::pow(10, first - of_all)) / 2;
+  };
+  const double told = half(most(decimals), most(digits));
+  const double last = few_digits ? told : std::min(told, half(6, 6));
   std::ptrdiff_t no_floats = 0;
   for (const Vector& p : points)
     for (const double x : p)  // a little more, since halves of the last digit are rounded
@@ -249,14 +252,15 @@ Diagnosis diagnose(const FileEvidence& e) {
   const double size = e.surface.diagonal();
   const auto [guesses, refined] = guess(e, sampled);
   const Scheme own = own_scheme(e);
-  // As all coordinates were written; or all but some, which may be those of wrong points.
+  // As all coordinates were written; or all but some, which may be those of wrong points; or in few digits.
   const std::vector<Vector>& points = e.tessellation.positions;
-  for (const Written& how : {written(points), written(points, .05)}) {
+  for (const Written& how : {written(points), written(points, .05), written(points, .05, true)}) {
     const Guess* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
     bool convincing = false;
     for (const Guess& g : guesses) {
-      Likeness like(rounding(how, g.steps, magnitude(e.control)), e.tolerance * size);
+      const double bound = rounding(how, g.steps, magnitude(e.control));
+      Likeness like(bound, std::max(bound, e.tolerance * size));
       for (std::size_t k = 0; k < g.off.size(); ++k) like.add(g.off[k], sampled.off[k]);
       // Of schemes that make the same points, as where all edges are still sharp, the file's own.
       const double misfit = like.misfit() + (g.scheme == own ? 0 : 1e-9);

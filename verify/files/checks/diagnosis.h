@@ -29,8 +29,9 @@ struct Written {
   lc_precision precision = LC_FLOAT64;  // float, if all are floats but for the digits that are missing
   double last = 0;  // half of the last digit: of so many decimals, or of so many digits of the largest
 };
-///   share   of the coordinates that may be otherwise: those of points that are wrong
-Written written(const std::vector<Vector>& points, double share = 0);
+///   share        of the coordinates that may be otherwise: those of points that are wrong
+///   few_digits   believe fewer than six digits and decimals; round numbers look as if they were written so
+Written written(const std::vector<Vector>& points, double share = 0, bool few_digits = false);
 
 /// How far rounding may bring the points of a file from what a right program makes in so many steps, in the unit
 /// of the coordinates: position_bound (verify/row/bounds.h), and what writing leaves out in three coordinates.

@@ -286,7 +286,11 @@ Around::Around(const data::ControlMesh& of, data::Scheme by, int at_depth)
       semi_sharp(infinite.size()),
       held(infinite.size()),
       component(infinite.size()) {
-  const auto count = [&](std::vector<int>& to, std::int32_t a, std::int32_t b) { ++to[a], ++to[b]; };
+  // Tags that name no vertex are for the sound subject to refuse.
+  const auto known = [&](std::int32_t v) { return v >= 0 && static_cast<std::size_t>(v) < held.size(); };
+  const auto count = [&](std::vector<int>& to, std::int32_t a, std::int32_t b) {
+    if (known(a) && known(b)) ++to[a], ++to[b];
+  };
   std::map<std::pair<std::int32_t, std::int32_t>, bool> boundary;
   for (const reference::Edge& e : topology.edges())
     if (e.on_boundary()) {
@@ -296,7 +300,8 @@ Around::Around(const data::ControlMesh& of, data::Scheme by, int at_depth)
   for (const Edge& e : mesh.sharpness.edges)
     if (e.sharpness > 0 && !boundary.contains(std::minmax(e.a, e.b)))
       count(lasts(e.sharpness) ? infinite : semi_sharp, e.a, e.b);
-  for (const Vertex& v : mesh.sharpness.vertices) held[v.vertex] = v.sharpness;
+  for (const Vertex& v : mesh.sharpness.vertices)
+    if (known(v.vertex)) held[v.vertex] = v.sharpness;
 
   // The least number of a vertex that is joined to it, then numbered.
   std::vector<std::int32_t> root(infinite.size());

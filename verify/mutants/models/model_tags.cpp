@@ -68,7 +68,8 @@ ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology,
     if (is("tags_lost_at_corner_0") && left.front() == e.b && left.back() == e.a) edge_[k] = 0;
   }
   for (const data::SharpVertex& v : sharpness.vertices)
-    if (!is("vertices_not_sharp"))
+    if (!is("vertices_not_sharp") && v.vertex >= 0 &&
+        topology.vertex_count() > static_cast<std::size_t>(v.vertex))
       vertex_[v.vertex] =
           std::max(vertex_[v.vertex], is("vertices_never_fall") ? kForEver : value(v.sharpness));
 }

@@ -66,6 +66,7 @@ class EmbreeSubject {
  public:
   static constexpr std::int32_t kSchemes = LC_DOES_CATMULL_CLARK;
   static constexpr std::int32_t kSharp = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CORNERS;
+  static constexpr bool kTakesAnyEdge = true;  // a fault of its own (verify/peers/findings)
 
   static lc_capabilities capabilities(Options&, lc_scheme) {
     return {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 0};

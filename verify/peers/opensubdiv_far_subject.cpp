@@ -41,6 +41,7 @@ struct Child {
 class FarSubject {
  public:
   static constexpr std::int32_t kSharp = kOpenSubdivSharp;
+  static constexpr bool kTakesAnyEdge = true;  // a fault of its own (verify/peers/findings)
 
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;

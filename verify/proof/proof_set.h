@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "data/scheme.h"
-#include "verify/proof/maps/prove_map.h"
 #include "verify/proof/certified_comparison.h"
+#include "verify/proof/maps/prove_map.h"
 
 namespace limitcheck::verify {
 

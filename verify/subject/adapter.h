@@ -51,7 +51,8 @@ inline void refuse_unusable(const lc_mesh& mesh) {
 }
 
 /// The same for tags that mean nothing.
-inline void refuse_unusable_tags(const lc_mesh& mesh) {
+///   any_edge   whether there is such an edge is left to the tessellator, if its ends exist
+inline void refuse_unusable_tags(const lc_mesh& mesh, bool any_edge = false) {
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
   const std::int32_t* corner = mesh.corners;
   for (std::int64_t f = 0; mesh.sharp_edge_count > 0 && f < mesh.face_count; corner += mesh.face_sizes[f++])
@@ -59,7 +60,9 @@ inline void refuse_unusable_tags(const lc_mesh& mesh) {
       edges.insert(std::minmax(corner[k], corner[(k + 1) % n]));
   for (std::int64_t k = 0; k < mesh.sharp_edge_count; ++k) {
     const lc_sharp_edge& e = mesh.sharp_edges[k];
-    if (!edges.contains(std::minmax(e.a, e.b))) throw SubjectError(LC_INVALID_INPUT, "a sharp edge is none");
+    const bool ends_exist = std::min(e.a, e.b) >= 0 && std::max(e.a, e.b) < mesh.vertex_count;
+    if (!(any_edge ? ends_exist : edges.contains(std::minmax(e.a, e.b))))
+      throw SubjectError(LC_INVALID_INPUT, "a sharp edge is none");
     if (!(e.sharpness > 0)) throw SubjectError(LC_INVALID_INPUT, "the sharpness of an edge is not above 0");
   }
   for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k) {
@@ -176,7 +179,8 @@ lc_subject make_subject(const char* name, const char* description, const char* o
       if (!does(has, scheme_of(mesh->scheme)))
         throw SubjectError(LC_NOT_SUPPORTED, "does not do this scheme");
       refuse_unusable(*mesh);
-      refuse_unusable_tags(*mesh);
+      refuse_unusable_tags(
+          *mesh, requires { T::kTakesAnyEdge; });
       *instance = new T(*mesh, options);
     });
   };

@@ -1,93 +1,131 @@
 // SPDX-License-Identifier: MIT
 #include "data/known_answers.h"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "data/error.h"
+#include "data/untrusted_json.h"
 
 namespace limitcheck::data {
 namespace {
 
 using Json = nlohmann::json;
 
+// Members of an object: key, where it goes, and so on.
+template <class To, class... More>
+void take(const Json& json, const char* key, To& to, More&&... more) {
+  json.at(key).get_to(to);
+  if constexpr (sizeof...(more) > 0) take(json, more...);
+}
+
+// Hands every case of a file of answers to `read`.
+template <class Read>
+void for_each_case(const std::filesystem::path& file, Read&& read) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, "cannot be opened for reading");
+  try {
+    const Json json = parse_untrusted(std::string(std::istreambuf_iterator<char>(stream), {}));
+    for (const Json& one : json.at("cases")) read(one);
+  } catch (const std::exception& error) {
+    throw InputError("FILE_SYNTAX", file.string(), 0, error.what());
+  }
+}
+
 InteriorRingAnswer interior_ring(const Json& json) {
-  const Json& expected = json.at("expected");
-  InteriorRingAnswer answer;
-  json.at("id").get_to(answer.id);
-  json.at("valence").get_to(answer.valence);
-  json.at("center").get_to(answer.center);
-  json.at("ring_ccw").get_to(answer.ring);
-  expected.at("limit_position").get_to(answer.limit_position);
-  expected.at("C").get_to(answer.c);
-  expected.at("S").get_to(answer.s);
-  expected.at("paper_u1").get_to(answer.paper_u1);
-  expected.at("paper_u2").get_to(answer.paper_u2);
-  expected.at("unit_normal").get_to(answer.unit_normal);
-  return answer;
+  InteriorRingAnswer a;
+  take(json, "id", a.id, "valence", a.valence, "center", a.center, "ring_ccw", a.ring);
+  take(json.at("expected"), "limit_position", a.limit_position, "C", a.c, "S", a.s, "paper_u1", a.paper_u1,
+       "paper_u2", a.paper_u2, "unit_normal", a.unit_normal);
+  return a;
 }
 
 BoundaryRingAnswer boundary_ring(const Json& json) {
-  const Json& expected = json.at("expected");
-  BoundaryRingAnswer answer;
-  json.at("id").get_to(answer.id);
-  json.at("triangles").get_to(answer.faces);
-  json.at("center").get_to(answer.center);
-  json.at("ring_ccw").get_to(answer.ring);
-  expected.at("limit_position").get_to(answer.limit_position);
-  expected.at("along").get_to(answer.along);
-  expected.at("across").get_to(answer.across);
-  expected.at("unit_normal").get_to(answer.unit_normal);
-  return answer;
+  BoundaryRingAnswer a;
+  take(json, "id", a.id, "triangles", a.faces, "center", a.center, "ring_ccw", a.ring);
+  take(json.at("expected"), "limit_position", a.limit_position, "along", a.along, "across", a.across,
+       "unit_normal", a.unit_normal);
+  return a;
 }
 
 SurfaceAnswer surface(const Json& json, bool at_boundary) {
-  SurfaceAnswer answer;
-  answer.at_boundary = at_boundary;
-  json.at("id").get_to(answer.id);
-  json.at("vertices").get_to(answer.vertices);
-  json.at("faces").get_to(answer.faces);
-  json.at("face").get_to(answer.face);
+  SurfaceAnswer a;
+  a.at_boundary = at_boundary;
+  take(json, "id", a.id, "vertices", a.vertices, "faces", a.faces, "face", a.face);
   for (const Json& expected : json.at("expected")) {
-    SurfaceSample sample;
-    expected.at("barycentric").get_to(sample.barycentric);
-    expected.at("position").get_to(sample.position);
-    expected.at("d_dl1").get_to(sample.d_dl1);
-    expected.at("d_dl2").get_to(sample.d_dl2);
-    expected.at("unit_normal").get_to(sample.unit_normal);
-    answer.samples.push_back(std::move(sample));
+    SurfaceSample& s = a.samples.emplace_back();
+    take(expected, "barycentric", s.barycentric, "position", s.position, "d_dl1", s.d_dl1, "d_dl2", s.d_dl2,
+         "unit_normal", s.unit_normal);
   }
-  return answer;
+  return a;
 }
 
 ClosedMeshAnswer closed_mesh(const Json& json) {
   const Json& expected = json.at("expected");
-  ClosedMeshAnswer answer;
-  json.at("id").get_to(answer.id);
-  json.at("vertices").get_to(answer.vertices);
-  json.at("faces").get_to(answer.faces);
-  expected.at("step1_vertex_points").get_to(answer.step1_vertex_points);
+  ClosedMeshAnswer a;
+  take(json, "id", a.id, "vertices", a.vertices, "faces", a.faces);
+  take(expected, "step1_vertex_points", a.step1_vertex_points, "limit_positions", a.limit_positions,
+       "face0_center_limit", a.face0_center_limit);
   for (const auto& [edge, point] : expected.at("step1_edge_points").items()) {
     const std::size_t dash = edge.find('-');
     if (dash == std::string::npos) throw ArgumentError("edge \"" + edge + "\" is not of the form a-b");
-    answer.step1_edge_points.push_back(
+    a.step1_edge_points.push_back(
         {std::stoi(edge.substr(0, dash)), std::stoi(edge.substr(dash + 1)), point.get<Numeral3>()});
   }
-  expected.at("limit_positions").get_to(answer.limit_positions);
-  expected.at("face0_center_limit").get_to(answer.face0_center_limit);
-  return answer;
+  return a;
 }
 
 BasisAnswer basis(const Json& json) {
-  BasisAnswer answer;
-  json.at("id").get_to(answer.id);
-  json.at("alpha").get_to(answer.alpha);
-  json.at("beta").get_to(answer.beta);
-  json.at("b").get_to(answer.b);
-  json.at("db_dalpha").get_to(answer.db_dalpha);
-  json.at("db_dbeta").get_to(answer.db_dbeta);
-  return answer;
+  BasisAnswer a;
+  take(json, "id", a.id, "alpha", a.alpha, "beta", a.beta, "b", a.b, "db_dalpha", a.db_dalpha, "db_dbeta",
+       a.db_dbeta);
+  return a;
+}
+
+QuadSample quad_sample(const Json& json) {
+  QuadSample s;
+  take(json, "face", s.face, "position", s.position);
+  s.corner = json.value("subface", 0);
+  if (json.contains("uv")) {
+    take(json, "uv", s.uv);
+  } else {
+    s.uv = {json.at("barycentric").at(1).get<Numeral>(), json.at("barycentric").at(2).get<Numeral>()};
+  }
+  s.at_vertex = json.contains("at_vertex");
+  s.no_tangent_plane = json.value("no_tangent_plane", false);
+  for (const auto& [key, to] : {std::pair{"unit_normal", &s.normal},
+                                {"d_du", &s.du},
+                                {"d_dv", &s.dv},
+                                {"d2_dudu", &s.dudu},
+                                {"d2_dudv", &s.dudv},
+                                {"d2_dvdv", &s.dvdv},
+                                {"d_dl1", &s.du},
+                                {"d_dl2", &s.dv},
+                                {"d2_dl1dl1", &s.dudu},
+                                {"d2_dl1dl2", &s.dudv},
+                                {"d2_dl2dl2", &s.dvdv}})
+    if (json.contains(key) && !json.at(key).is_null()) *to = json.at(key).get<Numeral3>();
+  return s;
+}
+
+QuadAnswer quad_answer(const Json& json) {
+  QuadAnswer a;
+  take(json, "id", a.id, "scheme", a.scheme, "boundary", a.boundary, "triangles", a.triangles, "creasing",
+       a.creasing, "vertices", a.vertices);
+  const auto sharpness = [](const Json& one) {
+    const auto text = one.at("sharpness").get<std::string>();
+    return text == "inf" ? "10" : text;
+  };
+  for (const Json& one : json.at("creases"))
+    a.sharp_edges.push_back({one.at("edge").at(0), one.at("edge").at(1), sharpness(one)});
+  for (const Json& one : json.at("corners"))
+    a.sharp_vertices.push_back({one.at("vertex"), -1, sharpness(one)});
+  for (const Json& face : json.at("faces")) a.faces.push_back(face.get<std::vector<std::int32_t>>());
+  for (const Json& one : json.at("expected")) a.samples.push_back(quad_sample(one));
+  return a;
 }
 
 }  // namespace
@@ -100,31 +138,40 @@ std::filesystem::path known_answers_path() {
 }
 
 KnownAnswers load_known_answers(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, "cannot be opened for reading");
   KnownAnswers answers;
-  try {
-    const Json json = Json::parse(stream);
-    for (const Json& one : json.at("cases")) {
-      const std::string kind = one.at("kind");
-      if (kind == "interior_vertex_ring") {
-        answers.interior_rings.push_back(interior_ring(one));
-      } else if (kind == "boundary_vertex_ring") {
-        answers.boundary_rings.push_back(boundary_ring(one));
-      } else if (kind == "surface_point" || kind == "surface_point_boundary_face") {
-        answers.surfaces.push_back(surface(one, kind == "surface_point_boundary_face"));
-      } else if (kind == "closed_mesh") {
-        answers.closed_meshes.push_back(closed_mesh(one));
-      } else if (kind == "basis_values") {
-        answers.basis.push_back(basis(one));
-      } else {
-        throw ArgumentError("unknown kind \"" + kind + "\"");
-      }
+  for_each_case(file, [&](const Json& one) {
+    const std::string kind = one.at("kind");
+    if (kind == "interior_vertex_ring") {
+      answers.interior_rings.push_back(interior_ring(one));
+    } else if (kind == "boundary_vertex_ring") {
+      answers.boundary_rings.push_back(boundary_ring(one));
+    } else if (kind == "surface_point" || kind == "surface_point_boundary_face") {
+      answers.surfaces.push_back(surface(one, kind == "surface_point_boundary_face"));
+    } else if (kind == "closed_mesh") {
+      answers.closed_meshes.push_back(closed_mesh(one));
+    } else if (kind == "basis_values") {
+      answers.basis.push_back(basis(one));
+    } else {
+      throw ArgumentError("unknown kind \"" + kind + "\"");
     }
-  } catch (const std::exception& error) {
-    throw InputError("FILE_SYNTAX", file.string(), 0, error.what());
-  }
+  });
   return answers;
+}
+
+std::vector<QuadAnswer> load_quad_answers() {
+  std::vector<QuadAnswer> answers;
+  for_each_case(known_answers_path().replace_filename("known_answers_catmull_clark.json"),
+                [&](const Json& one) { answers.push_back(quad_answer(one)); });
+  return answers;
+}
+
+std::vector<std::string> worst_case_meshes() {
+  std::vector<std::string> names;
+  for_each_case(known_answers_path().replace_filename("worst_cases.json"), [&](const Json& one) {
+    std::string name = one.at("mesh");
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  });
+  return names;
 }
 
 ControlMesh control_mesh(const std::vector<Numeral3>& vertices,

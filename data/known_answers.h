@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Known answers: points, tangents and normals of Loop surfaces to 42 digits, each computed by two independent
-// routes outside this project. Standard boundary rule; Stam's order for the regular patch.
+// Known answers: points, derivatives and normals of limit surfaces to 42 digits, each computed by two independent
+// routes outside this project. Loop's: standard boundary rule; Stam's order for the regular patch.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,7 @@ struct BasisAnswer {
   std::array<Numeral, 12> b, db_dalpha, db_dbeta;
 };
 
-/// The whole file.
+/// All of Loop's without sharp edges.
 struct KnownAnswers {
   std::vector<InteriorRingAnswer> interior_rings;
   std::vector<BoundaryRingAnswer> boundary_rings;
@@ -91,11 +92,49 @@ struct KnownAnswers {
   std::vector<BasisAnswer> basis;
 };
 
-/// data/known_answers.json in the source tree, or where it was installed.
+/// One point of a surface, and what lies there.
+struct QuadSample {
+  int face = 0;
+  int corner = 0;             ///< of a face that is no quad: whose sub-quad (u, v) is in
+  std::array<Numeral, 2> uv;  ///< Loop's: (l1, l2), and du is by l1
+  bool at_vertex = false;     ///< an extraordinary vertex itself: no derivatives
+  bool no_tangent_plane = false;
+  Numeral3 position;
+  std::optional<Numeral3> normal, du, dv, dudu, dudv, dvdv;
+};
+
+/// An edge (a, b) or a vertex (a, -1), and its sharpness: "23/10"; infinite is "10".
+struct SharpnessAnswer {
+  std::int32_t a, b;
+  Numeral sharpness;
+};
+
+/// A mesh and samples on it.
+struct QuadAnswer {
+  std::string id;
+  std::string scheme;     ///< "catmull-clark" or "loop"
+  std::string boundary;   ///< "edge": vertices of one face are smooth; "edge+corner": they are held
+  std::string triangles;  ///< "catmark" or "smooth"
+  std::string creasing;   ///< "uniform" or "chaikin"
+  std::vector<SharpnessAnswer> sharp_edges, sharp_vertices;
+  std::vector<Numeral3> vertices;
+  Faces faces;
+  std::vector<QuadSample> samples;
+
+  bool has_sharp() const { return !sharp_edges.empty() || !sharp_vertices.empty(); }
+};
+
+/// data/known_answers.json in the source tree, or where it was installed; the other files stand beside it.
 std::filesystem::path known_answers_path();
 
-/// Throws InputError (FILE_CANNOT_OPEN, FILE_SYNTAX) if the file is absent or not of this form.
+// All throw InputError (FILE_CANNOT_OPEN, FILE_SYNTAX) if the file is absent or not of its form.
+
 KnownAnswers load_known_answers(const std::filesystem::path& file = known_answers_path());
+/// Catmull-Clark's, and Loop's with sharp edges: the cases of known_answers_catmull_clark.json.
+std::vector<QuadAnswer> load_quad_answers();
+/// The meshes on which tessellators have come nearest to their bounds, or failed, so far: the names
+/// (generators/named_mesh.h) in worst_cases.json, each once, in the order of the file.
+std::vector<std::string> worst_case_meshes();
 
 /// The vertices rounded to double, with the faces: what an evaluator takes.
 ControlMesh control_mesh(const std::vector<Numeral3>& vertices,

@@ -3,20 +3,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "data/error.h"
-#include "data/rounded.h"
+#include "data/building_blocks.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::data {
 namespace {
-
-constexpr std::int64_t kMostFaces = 10'000'000;
-
-void require(bool condition, const std::string& message) {
-  if (!condition) throw InputError("NAME_BAD_PARAMETER", "", 0, message);
-}
 
 std::array<double, 2> on_circle(double turns) {
   const double angle = 2 * std::numbers::pi * turns;
@@ -59,13 +51,6 @@ ControlMesh sectors_of_lattice(const std::vector<std::array<double, 2>>& directi
     }
   }
   return mesh;
-}
-
-void append(ControlMesh& mesh, const ControlMesh& other, double shift_x) {
-  const auto offset = static_cast<std::int32_t>(mesh.positions.size());
-  for (const auto& p : other.positions) mesh.positions.push_back({rounded(p[0] + shift_x), p[1], p[2]});
-  for (const auto& t : triangles_of(other))
-    mesh.faces.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }
 
 // A sheet without the squares for which `absent` holds; vertices that no face uses are dropped.
@@ -210,11 +195,8 @@ ControlMesh strip(int n) {
   ControlMesh mesh;
   for (int i = 0; i < n + 2; ++i) mesh.positions.push_back({i / 2.0, i % 2 == 0 ? 0.0 : 1.0, 0});
   for (int i = 0; i < n; ++i) {
-    if (i % 2 == 0) {
-      mesh.faces.push_back({i, i + 2, i + 1});
-    } else {
-      mesh.faces.push_back({i, i + 1, i + 2});
-    }
+    const int odd = i % 2;
+    mesh.faces.push_back({i, i + 2 - odd, i + 1 + odd});
   }
   add_bumps(mesh);
   return mesh;
@@ -256,7 +238,7 @@ ControlMesh triangle_pair() {
 
 ControlMesh two_components() {
   ControlMesh mesh = tetrahedron();
-  append(mesh, wheel(5, 2), 8);
+  append(mesh, wheel(5, 2), {8, 0, 0});
   return mesh;
 }
 

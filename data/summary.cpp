@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "data/bounding_box.h"
+#include "data/building_blocks.h"
 
 namespace limitcheck::data {
 namespace {
 
 using Point = std::array<double, 3>;
-using Edge = std::pair<std::int32_t, std::int32_t>;  // the smaller number first
 
 constexpr double kFewSteps = 16;
 
@@ -73,19 +73,6 @@ std::vector<std::int32_t> first_at_place(const ControlMesh& mesh) {
   return first;
 }
 
-// All edges, each as often as it has faces, sorted.
-std::vector<Edge> sides(const ControlMesh& mesh) {
-  std::vector<Edge> list;
-  list.reserve(mesh.faces.corners().size());
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto face = mesh.faces[f];
-    for (std::size_t k = 0; k < face.size(); ++k)
-      list.push_back(std::minmax({face[k], face[(k + 1) % face.size()]}));
-  }
-  std::sort(list.begin(), list.end());
-  return list;
-}
-
 }  // namespace
 
 MeshSummary summarise(const ControlMesh& mesh) {
@@ -119,9 +106,9 @@ MeshSummary summarise(const ControlMesh& mesh) {
     for (const double x : p) s.largest = std::max(s.largest, std::abs(x));
   if (s.largest > 0) s.float_step = std::ldexp(1.0, std::ilogb(s.largest) - 23);
   const std::vector<std::int32_t> place = first_at_place(mesh);
-  const std::vector<Edge> list = sides(mesh);
+  const std::vector<VertexPair> list = sides_of(mesh.faces);
   std::vector<bool> on_boundary(n, false);
-  std::map<Edge, std::int64_t> boundary_at;  // by the places of both ends
+  std::map<VertexPair, std::int64_t> boundary_at;  // by the places of both ends
   Groups loops(n);
   for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end) {
     const auto [a, b] = list[begin];

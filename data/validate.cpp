@@ -4,17 +4,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <map>
 #include <utility>
-
-#include "data/validate_tags.h"
 
 namespace limitcheck::data {
 namespace {
 
-constexpr std::size_t kMostFacesInMessage = 8;
+constexpr std::size_t kMostInMessage = 8;
 
 // A stable counting sort of `items` by key(item) in 0..keys-1: linear where std::sort is not, for a hub of
 // any valence.
@@ -28,13 +27,12 @@ void sort_by(std::vector<std::int32_t>& items, std::size_t keys, Key key) {
   items.swap(sorted);
 }
 
-std::string listed(const std::vector<std::int64_t>& faces) {
+template <class List, class Number>
+std::string listed(const List& list, Number number) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(faces.size(), kMostFacesInMessage); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "" : ", ", faces[i]);
-  }
-  if (faces.size() > kMostFacesInMessage) text += ", …";
-  return text;
+  for (std::size_t i = 0; i < std::min(list.size(), kMostInMessage); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", number(list[i]));
+  return list.size() > kMostInMessage ? text + ", …" : text;
 }
 
 class Validator {
@@ -60,6 +58,7 @@ class Validator {
     check_fans();
     check_isolated();
     check_tags();
+    check_holes();
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const MeshFinding& a, const MeshFinding& b) { return a.fault < b.fault; });
     return std::move(findings_);
@@ -71,11 +70,10 @@ class Validator {
   std::int64_t face(std::int64_t f) const {
     return (numbering_.face.empty() ? f : numbering_.face[f]) + numbering_.first;
   }
-  template <class Faces>
-  std::string faces(const Faces& list) const {
-    std::vector<std::int64_t> numbers;
-    for (const auto f : list) numbers.push_back(face(f));
-    return listed(numbers);
+  bool is_vertex(std::int64_t v) const { return v >= 0 && static_cast<std::size_t>(v) < vertices_; }
+  template <class List>
+  std::string faces(const List& list) const {
+    return listed(list, [&](std::int64_t f) { return face(f); });
   }
 
   void report(MeshFault fault, std::vector<std::int64_t> elements, std::string message, std::int64_t face,
@@ -86,9 +84,8 @@ class Validator {
   // The vertices of a face left out have lost part of their surroundings: no verdict on their fans.
   void remove(std::size_t face) {
     removed_[face] = true;
-    for (const std::int32_t v : mesh_.faces[face]) {
-      if (v >= 0 && static_cast<std::size_t>(v) < vertices_) tainted_[v] = true;
-    }
+    for (const std::int32_t v : mesh_.faces[face])
+      if (is_vertex(v)) tainted_[v] = true;
   }
 
   void check_positions() {
@@ -105,12 +102,9 @@ class Validator {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       const auto t = mesh_.faces[f];
       const auto at = static_cast<std::int64_t>(f);
-      const auto wrong = std::find_if(t.begin(), t.end(), [&](std::int32_t v) {
-        return v < 0 || static_cast<std::size_t>(v) >= vertices_;
-      });
-      for (const std::int32_t v : t) {
-        if (v >= 0 && static_cast<std::size_t>(v) < vertices_) used_[v] = true;
-      }
+      const auto wrong = std::find_if(t.begin(), t.end(), [&](std::int32_t v) { return !is_vertex(v); });
+      for (const std::int32_t v : t)
+        if (is_vertex(v)) used_[v] = true;
       if (wrong != t.end()) {
         report(MeshFault::kIndexOutOfRange, {at, *wrong},
                fmt::format("face {} names vertex {}, the mesh has {}", face(at), vertex(*wrong), vertices_),
@@ -204,7 +198,8 @@ class Validator {
     }
     if (low) return;
     report(MeshFault::kDuplicateFace, {first, later},
-           fmt::format("face {} has the vertices of face {} ({})", face(later), face(first), vertices_of(b)),
+           fmt::format("face {} has the vertices of face {} ({})", face(later), face(first),
+                       listed(b, [&](std::int64_t v) { return vertex(v); })),
            later);
   }
 
@@ -253,20 +248,16 @@ class Validator {
                face_of_[b]);
         tainted_[v0] = tainted_[v1] = true;
       } else if (end - begin > 2) {
-        report_nonmanifold(v0, v1, std::vector(half_edges.begin() + begin, half_edges.begin() + end));
+        std::vector<std::int32_t> its;
+        for (std::size_t k = begin; k < end; ++k) its.push_back(face_of_[half_edges[k]]);
+        std::vector<std::int64_t> elements = {v0, v1};
+        elements.insert(elements.end(), its.begin(), its.end());
+        report(MeshFault::kNonmanifoldEdge, std::move(elements),
+               fmt::format("edge {}–{} has {} faces ({})", vertex(v0), vertex(v1), its.size(), faces(its)),
+               its[2]);
         tainted_[v0] = tainted_[v1] = true;
       }
     }
-  }
-
-  void report_nonmanifold(std::int32_t v0, std::int32_t v1, std::vector<std::int32_t> at_edge) {
-    for (std::int32_t& h : at_edge) h = face_of_[h];
-    std::vector<std::int64_t> elements = {v0, v1};
-    elements.insert(elements.end(), at_edge.begin(), at_edge.end());
-    report(
-        MeshFault::kNonmanifoldEdge, std::move(elements),
-        fmt::format("edge {}–{} has {} faces ({})", vertex(v0), vertex(v1), at_edge.size(), faces(at_edge)),
-        at_edge[2]);
   }
 
   // Walks round every vertex from its first corner; a corner that no walk reached belongs to another fan.
@@ -324,22 +315,57 @@ class Validator {
     }
   }
 
-  // Sharp edges and vertices, and holes (validate_tags.h).
+  // Sharp edges and vertices: tags of no edge or vertex, below 0, or of which two disagree.
   void check_tags() {
-    using Key = std::pair<std::int32_t, std::int32_t>;
-    std::set<Key> tagged, edges;
-    for (const SharpEdge& e : mesh_.sharpness.edges) tagged.insert(std::minmax(e.a, e.b));
-    for (std::size_t h = 0; !tagged.empty() && h < face_of_.size(); ++h)
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();  // until a tag has been seen
+    struct Tagged {
+      bool exists = false;
+      float sharpness = kNone;
+    };
+    std::map<std::pair<std::int32_t, std::int32_t>, Tagged> edges;
+    for (const SharpEdge& e : mesh_.sharpness.edges) edges[std::minmax(e.a, e.b)];
+    for (std::size_t h = 0; !edges.empty() && h < face_of_.size(); ++h)
       if (!removed_[face_of_[h]])
-        if (const Key key = edge(static_cast<std::int32_t>(h)); tagged.contains(key)) edges.insert(key);
-    for (MeshFinding& finding : tag_findings(mesh_, edges, numbering_.first))
-      findings_.push_back(std::move(finding));
+        if (const auto at = edges.find(edge(static_cast<std::int32_t>(h))); at != edges.end())
+          at->second.exists = true;
+    std::int64_t tag = 0;
+    const auto look = [&](const std::string& what, std::vector<std::int64_t> elements, Tagged& before,
+                          float value) {
+      std::string fault;
+      if (!before.exists)
+        fault = fmt::format("{} has a sharpness and is none", what);
+      else if (!(value >= 0))
+        fault = fmt::format("{} has the sharpness {}", what, value);
+      else if (before.sharpness != value && !std::isnan(before.sharpness))
+        fault = fmt::format("{} has the sharpness {} and {}", what, before.sharpness, value);
+      else
+        before.sharpness = value;
+      if (!fault.empty()) {
+        report(MeshFault::kSharpness, std::move(elements), std::move(fault), -1);
+        findings_.back().tag = tag;
+      }
+      ++tag;
+    };
+    for (const SharpEdge& e : mesh_.sharpness.edges)
+      look(fmt::format("edge {}–{}", vertex(e.a), vertex(e.b)), {e.a, e.b}, edges[std::minmax(e.a, e.b)],
+           e.sharpness);
+    std::map<std::int32_t, Tagged> vertices;
+    for (const SharpVertex& v : mesh_.sharpness.vertices) {
+      Tagged& before = vertices[v.vertex];
+      before.exists = is_vertex(v.vertex);
+      look(fmt::format("vertex {}", vertex(v.vertex)), {v.vertex}, before, v.sharpness);
+    }
   }
 
-  std::string vertices_of(std::span<const std::int32_t> corners) const {
-    std::vector<std::int64_t> numbers;
-    for (const std::int32_t v : corners) numbers.push_back(vertex(v));
-    return listed(numbers);
+  void check_holes() {
+    std::int32_t before = -1;
+    for (const std::int32_t f : mesh_.holes) {
+      if (f < 0 || static_cast<std::size_t>(f) >= mesh_.faces.size())
+        report(MeshFault::kHole, {f}, fmt::format("the hole {} is no face", f + numbering_.first), -1);
+      else if (f <= before)
+        report(MeshFault::kHole, {f}, fmt::format("the hole {} is out of order", f + numbering_.first), f);
+      before = f;
+    }
   }
 
   const ControlMesh& mesh_;
@@ -356,6 +382,25 @@ class Validator {
 };
 
 }  // namespace
+
+std::string_view code(MeshFault fault) {
+  constexpr std::array<std::string_view, 14> kCodes{"MESH_EMPTY",
+                                                    "MESH_TOO_LARGE",
+                                                    "MESH_INDEX_OUT_OF_RANGE",
+                                                    "MESH_NOT_FINITE",
+                                                    "MESH_DEGENERATE_FACE",
+                                                    "MESH_DUPLICATE_FACE",
+                                                    "MESH_NONMANIFOLD_EDGE",
+                                                    "MESH_ORIENTATION_CLASH",
+                                                    "MESH_BOWTIE_VERTEX",
+                                                    "MESH_LOW_VALENCE",
+                                                    "MESH_POLYGON",
+                                                    "MESH_ISOLATED_VERTEX",
+                                                    "MESH_SHARPNESS",
+                                                    "MESH_HOLE"};
+  static_assert(kCodes.size() == static_cast<std::size_t>(MeshFault::kHole) + 1);
+  return kCodes[static_cast<std::size_t>(fault)];
+}
 
 std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces, std::int64_t corners) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();

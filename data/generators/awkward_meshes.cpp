@@ -5,10 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <string>
-#include <vector>
 
-#include "data/error.h"
+#include "data/building_blocks.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
@@ -18,33 +16,15 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-void require(bool condition, const std::string& message) {
-  if (!condition) throw InputError("NAME_BAD_PARAMETER", "", 0, message);
-}
-
 ControlMesh moved(ControlMesh mesh, const std::function<Point(const Point&)>& there) {
   for (Point& p : mesh.positions) p = there(p);
   return mesh;
-}
-
-ControlMesh shifted(ControlMesh mesh, double x, double y, double z) {
-  return moved(std::move(mesh), [&](const Point& p) { return Point{p[0] + x, p[1] + y, p[2] + z}; });
 }
 
 ControlMesh scaled(ControlMesh mesh, int exponent) {
   return moved(std::move(mesh), [&](const Point& p) {
     return Point{std::ldexp(p[0], exponent), std::ldexp(p[1], exponent), std::ldexp(p[2], exponent)};
   });
-}
-
-void append(ControlMesh& mesh, const ControlMesh& other) {
-  const auto first = static_cast<std::int32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-  for (std::size_t f = 0; f < other.faces.size(); ++f) {
-    std::vector<std::int32_t> face(other.faces[f].begin(), other.faces[f].end());
-    for (std::int32_t& v : face) v += first;
-    mesh.faces.push_back(face);
-  }
 }
 
 }  // namespace
@@ -98,13 +78,13 @@ ControlMesh handles(int genus) {
 
 ControlMesh three_components() {
   ControlMesh mesh = two_components();
-  append(mesh, shifted(octahedron(), 0, 16, 0));
+  append(mesh, octahedron(), {0, 16, 0});
   return mesh;
 }
 
 ControlMesh touching_components() {
   ControlMesh mesh = octahedron();
-  append(mesh, shifted(octahedron(), 2, 0, 0));
+  append(mesh, octahedron(), {2, 0, 0});
   return mesh;
 }
 
@@ -119,7 +99,9 @@ ControlMesh needles() {
 }
 
 ControlMesh far_box() {
-  return shifted(cube(), 64, -128, 192);
+  ControlMesh mesh;
+  append(mesh, cube(), {64, -128, 192});
+  return mesh;
 }
 
 ControlMesh zero_edge() {
@@ -157,7 +139,7 @@ ControlMesh crowd(int count, bool quads) {
   const ControlMesh one = quads ? quad_cube() : tetrahedron();
   ControlMesh mesh;
   for (int k = 0; k < count; ++k)
-    append(mesh, shifted(one, 3. * (k % side), 3. * (k / side % side), 3. * (k / side / side)));
+    append(mesh, one, {3. * (k % side), 3. * (k / side % side), 3. * (k / side / side)});
   return mesh;
 }
 

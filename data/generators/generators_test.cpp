@@ -11,22 +11,26 @@
 #include "data/generators/mixed_mesh.h"
 #include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
-#include "data/generators/test_hash.h"
 #include "data/io/write.h"
 #include "data/shapes.h"
 #include "data/summary.h"
+#include "data/test_meshes.h"
 #include "data/validate.h"
 
 namespace limitcheck::data {
 namespace {
 
-std::string code_of(const std::string& specification) {
+// The code, or all that is said, of the refusal; "made" if there is none.
+std::string refusal(const std::string& specification, bool all) {
   try {
     named_mesh(specification);
   } catch (const InputError& error) {
-    return error.code();
+    return all ? error.what() : error.code();
   }
   return "made";
+}
+std::string code_of(const std::string& specification) {
+  return refusal(specification, false);
 }
 
 // [C71]
@@ -97,13 +101,9 @@ TEST(Sec6_BumpySphere, IsTheSameWithEveryCompiler) {
 }
 
 TEST(NamedMesh, EveryStockShapeIsTheSameWithEveryCompilerAndValid) {
-  std::uint64_t all = 0;
-  for (const std::string& name : stock_shapes()) {
-    const ControlMesh mesh = named_mesh(name);
-    EXPECT_TRUE(validate(mesh).empty()) << name;
-    all = all * 31 + hash(mesh);
-  }
-  EXPECT_EQ(all, 13078540767126251187u);
+  std::vector<ControlMesh> all;
+  for (const std::string& name : stock_shapes()) expect_valid(all.emplace_back(named_mesh(name)), name);
+  EXPECT_EQ(hash_of_all(all), 13078540767126251187u);
 }
 
 TEST(NamedMesh, ParametersFollowBehindColons) {
@@ -175,6 +175,34 @@ TEST(NamedMesh, WhatCannotBeMadeIsAnError) {
                            "mixed",
                            "mixed:1:0"}) {
     EXPECT_EQ(code_of(name), "NAME_BAD_PARAMETER") << name;
+  }
+}
+
+TEST(NamedMesh, ANumberThatIsTooLargeIsNamedAndNotCutDown) {
+  EXPECT_EQ(refusal("bumpy:20:18446744073709551615", true), "made");
+  EXPECT_EQ(
+      refusal("bumpy:20:18446744073709551616", true),
+      "NAME_BAD_PARAMETER: 18446744073709551616 is more than 18446744073709551615 (bumpy:FACES[:SEED])");
+  EXPECT_EQ(refusal("wheel:4294967299", true),
+            "NAME_BAD_PARAMETER: 4294967299 is more than 2147483647 (wheel:N[:RINGS])");
+  EXPECT_EQ(refusal("corner:1048577", true), "NAME_BAD_PARAMETER: a corner has 2 to 1048576 sharp edges");
+  EXPECT_EQ(code_of("turned:18446744073709551616:cube"), "NAME_BAD_PARAMETER");
+  EXPECT_EQ(code_of("star:18446744073709551616:.3"), "NAME_BAD_PARAMETER");
+}
+
+// However long the name, reading it takes no stack.
+TEST(NamedMesh, AMeshOfAMeshOfAMeshHasALimitThatIsStated) {
+  const auto nested = [](int times, const std::string& word) {
+    std::string name;
+    for (int k = 0; k < times; ++k) name += word;
+    return refusal(name + "icosahedron", true);
+  };
+  for (const std::string word : {"dual:", "stretched:1:", "handled:0:", "turned:1:", "tagged:1:"}) {
+    EXPECT_EQ(nested(32, word), "made") << word;
+    for (const int times : {33, 10'000, 100'000})
+      EXPECT_EQ(nested(times, word),
+                "NAME_BAD_PARAMETER: a mesh is made of another one, and that of another, 32 times at most")
+          << word;
   }
 }
 

@@ -6,22 +6,19 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <utility>
 
-#include "data/error.h"
+#include "data/building_blocks.h"
 #include "data/generators/awkward_meshes.h"
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/mixed_mesh.h"
-#include "data/generators/planned_stars.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/generators/star_meshes.h"
 #include "data/generators/surgery.h"
 #include "data/io/polygon_soup.h"
-#include "data/scheme.h"
 #include "data/shapes.h"
 #include "data/summary.h"
 #include "data/triangulate.h"
@@ -30,277 +27,292 @@
 namespace limitcheck::data {
 namespace {
 
-using Parameters = std::span<const std::uint64_t>;
+constexpr std::uint64_t kMostOfAll = std::numeric_limits<std::uint64_t>::max();
 
-struct Entry {
-  const char* name;
-  const char* usage;
-  const char* description;
-  std::size_t least, most;  // number of parameters
-  std::function<ControlMesh(Parameters)> make;
+// The whole of a text as a number. `about` says in what.
+std::uint64_t number_in(std::string_view text, const std::string& about) {
+  std::uint64_t value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  require(stop == text.data() + text.size() && error != std::errc::invalid_argument,
+          "\"" + std::string(text) + "\" is not a whole number" + about);
+  require(error == std::errc(), std::string(text) + " is more than " + std::to_string(kMostOfAll) + about);
+  return value;
+}
+
+// The parameters behind a name. One that is not given has a value that the caller says.
+class Parameters {
+ public:
+  Parameters(std::vector<std::uint64_t> values, std::string about)
+      : values_(std::move(values)), about_(std::move(about)) {}
+
+  std::uint64_t at(std::size_t k, std::uint64_t otherwise = 1) const {
+    return k < values_.size() ? values_[k] : otherwise;
+  }
+  // Of what is counted.
+  int count(std::size_t k, int otherwise = 0) const {
+    constexpr auto kMost = std::numeric_limits<int>::max();
+    const std::uint64_t value = at(k, static_cast<std::uint64_t>(otherwise));
+    require(value <= kMost, std::to_string(value) + " is more than " + std::to_string(kMost) + about_);
+    return static_cast<int>(value);
+  }
+
+ private:
+  std::vector<std::uint64_t> values_;
+  std::string about_;
 };
 
-int as_int(std::uint64_t value) {
-  return static_cast<int>(std::min<std::uint64_t>(value, std::numeric_limits<int>::max()));
+struct Entry {
+  std::string_view usage;  // the name, and its parameters: "bumpy:FACES[:SEED]"
+  std::string_view description;
+  std::function<ControlMesh(const Parameters&)> make;
+
+  std::string_view name() const { return usage.substr(0, usage.find_first_of(":[")); }
+  // How many parameters there must and may be.
+  auto least() const { return std::count(usage.begin(), std::find(usage.begin(), usage.end(), '['), ':'); }
+  auto most() const { return std::count(usage.begin(), usage.end(), ':'); }
+};
+
+auto plain(ControlMesh (*make)()) {
+  return [make](const Parameters&) { return make(); };
+}
+
+using P = const Parameters&;
+
+ControlMesh random_of(P p) {
+  return random_mesh(p.at(0), {.faces = p.count(1, 200)});
+}
+ControlMesh mixed_of(P p) {
+  return mixed_mesh(p.at(0), {.faces = p.count(1, 200)});
+}
+
+ControlMesh smooth_triangles(P p) {
+  ControlMesh mesh = with_random_sharpness(mixed_of(p), p.at(0));
+  mesh.sharpness.triangles = TriangleRule::kSmooth;
+  return mesh;
 }
 
 ControlMesh planned(std::uint64_t k, bool triangles) {
   const auto& all = planned_stars(triangles);
-  if (k < 1 || k > all.size())
-    throw InputError("NAME_BAD_PARAMETER", "", 0, "there are stars 1 to " + std::to_string(all.size()));
+  require(k >= 1 && k <= all.size(), "there are stars 1 to " + std::to_string(all.size()));
   return star_mesh(parse_stars(all[k - 1].stars), triangles);
 }
 
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
-      {"bumpy", "bumpy:FACES[:SEED]",
-       "the paper's bumpy sphere, radii 0.5 to 1.5, FACES even; seed 1 unless given", 1, 2,
-       [](Parameters p) { return bumpy_sphere(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
-      {"bumpy-vertices", "bumpy-vertices:V[:SEED]", "the same with 2V - 4 faces", 1, 2,
-       [](Parameters p) { return bumpy_sphere_of_vertices(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
-      {"tetrahedron", "tetrahedron", "4 vertices of valence 3", 0, 0,
-       [](Parameters) { return tetrahedron(); }},
-      {"octahedron", "octahedron", "6 vertices of valence 4", 0, 0, [](Parameters) { return octahedron(); }},
-      {"icosahedron", "icosahedron", "12 vertices of valence 5", 0, 0,
-       [](Parameters) { return icosahedron(); }},
-      {"cube", "cube", "a triangulated cube: valences 4 and 6", 0, 0, [](Parameters) { return cube(); }},
-      {"torus", "torus[:AROUND:ALONG]", "a regular torus, 12 x 6 unless given", 0, 2,
-       [](Parameters p) { return torus(p.empty() ? 12 : as_int(p[0]), p.size() < 2 ? 6 : as_int(p[1])); }},
-      {"bipyramid", "bipyramid:N", "two apices of valence N, an equator of valence 4", 1, 1,
-       [](Parameters p) { return bipyramid(as_int(p[0])); }},
-      {"wheel", "wheel:N[:RINGS]", "an interior vertex of valence N amid 3 rings of a regular lattice", 1, 2,
-       [](Parameters p) { return wheel(as_int(p[0]), p.size() > 1 ? as_int(p[1]) : 3); }},
-      {"fan", "fan:K[:RINGS]", "a boundary vertex with K faces amid 3 half rings of a regular lattice", 1, 2,
-       [](Parameters p) { return fan(as_int(p[0]), p.size() > 1 ? as_int(p[1]) : 3); }},
-      {"sheet", "sheet[:NX:NY]", "a regular sheet of NX x NY squares, 6 x 6 unless given", 0, 2,
-       [](Parameters p) { return sheet(p.empty() ? 6 : as_int(p[0]), p.size() < 2 ? 6 : as_int(p[1])); }},
-      {"holes", "holes", "a sheet with two holes", 0, 0, [](Parameters) { return holes(); }},
-      {"strip", "strip:N", "N triangles in a row, all vertices on the boundary", 1, 1,
-       [](Parameters p) { return strip(as_int(p[0])); }},
-      {"ragged-disc", "ragged-disc", "a disc with boundary vertices of 1 to 8 faces", 0, 0,
-       [](Parameters) { return ragged_disc(); }},
-      {"triangle", "triangle", "one triangle", 0, 0, [](Parameters) { return triangle(); }},
-      {"triangle-pair", "triangle-pair", "two triangles sharing an edge", 0, 0,
-       [](Parameters) { return triangle_pair(); }},
-      {"random", "random:SEED[:FACES]",
-       "any valid mesh: irregular, closed or open, valences 3 to 50; about 200 faces unless given", 1, 2,
-       [](Parameters p) { return random_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}); }},
-      {"two-components", "two-components", "a tetrahedron and a wheel of valence 5", 0, 0,
-       [](Parameters) { return two_components(); }},
-      {"three-components", "three-components", "these two and an octahedron", 0, 0,
-       [](Parameters) { return three_components(); }},
-      {"touching-components", "touching-components", "two octahedra with a vertex at the same place", 0, 0,
-       [](Parameters) { return touching_components(); }},
-      {"handles", "handles:G", "a closed irregular block with G holes through it", 1, 1,
-       [](Parameters p) { return handles(as_int(p[0])); }},
-      {"stellated", "stellated", "an octahedron with a vertex of valence 3 above each face", 0, 0,
-       [](Parameters) { return stellated(); }},
-      {"flat", "flat", "a wheel of valence 5 in a plane", 0, 0, [](Parameters) { return flat(); }},
-      {"needles", "needles", "a sheet of triangles 16384 times as long as wide", 0, 0,
-       [](Parameters) { return needles(); }},
-      {"zero-edge", "zero-edge", "an icosahedron with an edge of length 0", 0, 0,
-       [](Parameters) { return zero_edge(); }},
-      {"far-box", "far-box", "a cube some 100 times its side away from the origin", 0, 0,
-       [](Parameters) { return far_box(); }},
-      {"tiny-box", "tiny-box", "a cube of about 1e-25", 0, 0, [](Parameters) { return tiny_box(); }},
-      {"huge-box", "huge-box", "a cube of about 1e20", 0, 0, [](Parameters) { return huge_box(); }},
-      {"quad-cube", "quad-cube", "a cube of six quads; also called cube-quads", 0, 0,
-       [](Parameters) { return quad_cube(); }},
-      {"quad-torus", "quad-torus[:AROUND:ACROSS]", "a regular torus of quads, 12 x 6 unless given", 0, 2,
-       [](Parameters p) {
-         return quad_torus(p.empty() ? 12 : as_int(p[0]), p.size() < 2 ? 6 : as_int(p[1]));
-       }},
-      {"quad-wheel", "quad-wheel:N[:SEED]", "an interior vertex of valence N amid two rings of quads", 1, 2,
-       [](Parameters p) { return quad_wheel(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
-      {"quad-fan", "quad-fan:K[:SEED]", "a boundary vertex with K quads amid two half rings of quads", 1, 2,
-       [](Parameters p) { return quad_fan(as_int(p[0]), p.size() > 1 ? p[1] : 1); }},
-      {"prism", "prism:N", "two faces of N corners and N quads", 1, 1,
-       [](Parameters p) { return polygon_prism(as_int(p[0])); }},
-      {"pawn", "pawn[:N]", "a chess pawn of quads, its poles of valence N, 8 unless given", 0, 1,
-       [](Parameters p) { return pawn(p.empty() ? 8 : as_int(p[0])); }},
-      {"mixed-pawn", "mixed-pawn[:N]",
-       "the same with N triangles at the head and a face of N corners at the foot, 16 unless given", 0, 1,
-       [](Parameters p) { return mixed_pawn(p.empty() ? 16 : as_int(p[0])); }},
-      {"mixed", "mixed:SEED[:FACES]",
-       "triangles, quads and faces of up to 8 corners: random:SEED[:FACES] with edges dissolved", 1, 2,
-       [](Parameters p) { return mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}); }},
-      {"creased-cube", "creased-cube[:S]", "quad-cube with edges of sharpness S, infinite unless given", 0, 1,
-       [](Parameters p) { return creased_cube(p.empty() ? 10 : p[0]); }},
-      {"crease-ring", "crease-ring[:S[:TENTHS]]",
-       "quad-torus with a crease of sharpness S around it, infinite unless given", 0, 2,
-       [](Parameters p) { return crease_ring(p.empty() ? 10 : p[0], p.size() > 1 ? p[1] : 0); }},
-      {"open-crease", "open-crease[:EDGES]",
-       "quad-torus with a crease of 5 edges that starts and ends, or of so many", 0, 1,
-       [](Parameters p) { return with_open_crease(quad_torus(12, 6), p.empty() ? 5 : as_int(p[0])); }},
-      {"bumpy-crease", "bumpy-crease:FACES[:EDGES]",
-       "bumpy:FACES with a crease that starts and ends, of 5 edges", 1, 2,
-       [](Parameters p) {
-         return with_open_crease(bumpy_sphere(as_int(p[0]), 1), p.size() < 2 ? 5 : as_int(p[1]));
-       }},
-      {"dart", "dart:N", "wheel:N with one sharp edge at the vertex of valence N", 1, 1,
-       [](Parameters p) { return dart(as_int(p[0]), true); }},
-      {"quad-dart", "quad-dart:N", "quad-wheel:N with one sharp edge at the vertex of valence N", 1, 1,
-       [](Parameters p) { return dart(as_int(p[0]), false); }},
-      {"corner", "corner:K", "wheel:2K with K sharp edges at its centre, every second one", 1, 1,
-       [](Parameters p) { return corner(as_int(std::min<std::uint64_t>(p[0], 1U << 20)), true); }},
-      {"quad-corner", "quad-corner:K", "quad-wheel:2K with K sharp edges at its centre", 1, 1,
-       [](Parameters p) { return corner(as_int(std::min<std::uint64_t>(p[0], 1U << 20)), false); }},
-      {"sharp", "sharp:SEED[:FACES]", "random:SEED[:FACES] with sharp edges and vertices", 1, 2,
-       [](Parameters p) {
-         return with_random_sharpness(random_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
-       }},
-      {"mixed-sharp", "mixed-sharp:SEED[:FACES]", "mixed:SEED[:FACES] with sharp edges and vertices", 1, 2,
-       [](Parameters p) {
-         return with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
-       }},
-      {"creased", "creased:SEED[:FACES]", "sharp:SEED[:FACES] with everything sharp that is so for ever", 1,
-       2,
-       [](Parameters p) {
-         return with_random_creases(random_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
-       }},
-      {"mixed-creased", "mixed-creased:SEED[:FACES]",
-       "mixed-sharp:SEED[:FACES] with everything sharp that is so for ever", 1, 2,
-       [](Parameters p) {
-         return with_random_creases(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
-       }},
-      {"smooth-triangles", "smooth-triangles:SEED[:FACES]",
-       "mixed-sharp:SEED[:FACES] with OpenSubdiv's smooth rule for triangles", 1, 2,
-       [](Parameters p) {
-         ControlMesh mesh =
-             with_random_sharpness(mixed_mesh(p[0], {.faces = p.size() > 1 ? as_int(p[1]) : 200}), p[0]);
-         mesh.sharpness.triangles = TriangleRule::kSmooth;
-         return mesh;
-       }},
-      {"stars", "stars:K", "vertices of many kinds amid their triangles, which an audit without meshes takes",
-       1, 1, [](Parameters p) { return planned(p[0], true); }},
-      {"quad-stars", "quad-stars:K", "the same amid quads and other faces", 1, 1,
-       [](Parameters p) { return planned(p[0], false); }},
-      {"crowd", "crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number", 1,
-       1, [](Parameters p) { return crowd(as_int(p[0])); }},
-      {"quad-crowd", "quad-crowd:N", "N cubes of quads apart: beyond 8192 the same", 1, 1,
-       [](Parameters p) { return crowd(as_int(p[0]), true); }},
+      {"bumpy:FACES[:SEED]", "the paper's bumpy sphere, radii 0.5 to 1.5, FACES even; seed 1 unless given",
+       [](P p) { return bumpy_sphere(p.count(0), p.at(1)); }},
+      {"bumpy-vertices:V[:SEED]", "the same with 2V - 4 faces",
+       [](P p) { return bumpy_sphere_of_vertices(p.count(0), p.at(1)); }},
+      {"tetrahedron", "4 vertices of valence 3", plain(tetrahedron)},
+      {"octahedron", "6 vertices of valence 4", plain(octahedron)},
+      {"icosahedron", "12 vertices of valence 5", plain(icosahedron)},
+      {"cube", "a triangulated cube: valences 4 and 6", plain(cube)},
+      {"torus[:AROUND:ALONG]", "a regular torus, 12 x 6 unless given",
+       [](P p) { return torus(p.count(0, 12), p.count(1, 6)); }},
+      {"bipyramid:N", "two apices of valence N, an equator of valence 4",
+       [](P p) { return bipyramid(p.count(0)); }},
+      {"wheel:N[:RINGS]", "an interior vertex of valence N amid 3 rings of a regular lattice",
+       [](P p) { return wheel(p.count(0), p.count(1, 3)); }},
+      {"fan:K[:RINGS]", "a boundary vertex with K faces amid 3 half rings of a regular lattice",
+       [](P p) { return fan(p.count(0), p.count(1, 3)); }},
+      {"sheet[:NX:NY]", "a regular sheet of NX x NY squares, 6 x 6 unless given",
+       [](P p) { return sheet(p.count(0, 6), p.count(1, 6)); }},
+      {"holes", "a sheet with two holes", plain(holes)},
+      {"strip:N", "N triangles in a row, all vertices on the boundary",
+       [](P p) { return strip(p.count(0)); }},
+      {"ragged-disc", "a disc with boundary vertices of 1 to 8 faces", plain(ragged_disc)},
+      {"triangle", "one triangle", plain(triangle)},
+      {"triangle-pair", "two triangles sharing an edge", plain(triangle_pair)},
+      {"random:SEED[:FACES]",
+       "any valid mesh: irregular, closed or open, valences 3 to 50; about 200 faces unless given",
+       random_of},
+      {"two-components", "a tetrahedron and a wheel of valence 5", plain(two_components)},
+      {"three-components", "these two and an octahedron", plain(three_components)},
+      {"touching-components", "two octahedra with a vertex at the same place", plain(touching_components)},
+      {"handles:G", "a closed irregular block with G holes through it",
+       [](P p) { return handles(p.count(0)); }},
+      {"stellated", "an octahedron with a vertex of valence 3 above each face", plain(stellated)},
+      {"flat", "a wheel of valence 5 in a plane", plain(flat)},
+      {"needles", "a sheet of triangles 16384 times as long as wide", plain(needles)},
+      {"zero-edge", "an icosahedron with an edge of length 0", plain(zero_edge)},
+      {"far-box", "a cube some 100 times its side away from the origin", plain(far_box)},
+      {"tiny-box", "a cube of about 1e-25", plain(tiny_box)},
+      {"huge-box", "a cube of about 1e20", plain(huge_box)},
+      {"quad-cube", "a cube of six quads; also called cube-quads", plain(quad_cube)},
+      {"quad-torus[:AROUND:ACROSS]", "a regular torus of quads, 12 x 6 unless given",
+       [](P p) { return quad_torus(p.count(0, 12), p.count(1, 6)); }},
+      {"quad-wheel:N[:SEED]", "an interior vertex of valence N amid two rings of quads",
+       [](P p) { return quad_wheel(p.count(0), p.at(1)); }},
+      {"quad-fan:K[:SEED]", "a boundary vertex with K quads amid two half rings of quads",
+       [](P p) { return quad_fan(p.count(0), p.at(1)); }},
+      {"prism:N", "two faces of N corners and N quads", [](P p) { return polygon_prism(p.count(0)); }},
+      {"pawn[:N]", "a chess pawn of quads, its poles of valence N, 8 unless given",
+       [](P p) { return pawn(p.count(0, 8)); }},
+      {"mixed-pawn[:N]",
+       "the same with N triangles at the head and a face of N corners at the foot, 16 unless given",
+       [](P p) { return mixed_pawn(p.count(0, 16)); }},
+      {"mixed:SEED[:FACES]",
+       "triangles, quads and faces of up to 8 corners: random:SEED[:FACES] with edges dissolved", mixed_of},
+      {"creased-cube[:S]", "quad-cube with edges of sharpness S, infinite unless given",
+       [](P p) { return creased_cube(p.at(0, 10)); }},
+      {"crease-ring[:S[:TENTHS]]", "quad-torus with a crease of sharpness S around it, infinite unless given",
+       [](P p) { return crease_ring(p.at(0, 10), p.at(1, 0)); }},
+      {"open-crease[:EDGES]", "quad-torus with a crease of 5 edges that starts and ends, or of so many",
+       [](P p) { return with_open_crease(quad_torus(12, 6), p.count(0, 5)); }},
+      {"bumpy-crease:FACES[:EDGES]", "bumpy:FACES with a crease that starts and ends, of 5 edges",
+       [](P p) { return with_open_crease(bumpy_sphere(p.count(0), 1), p.count(1, 5)); }},
+      {"dart:N", "wheel:N with one sharp edge at the vertex of valence N",
+       [](P p) { return dart(p.count(0), true); }},
+      {"quad-dart:N", "quad-wheel:N with one sharp edge at the vertex of valence N",
+       [](P p) { return dart(p.count(0), false); }},
+      {"corner:K", "wheel:2K with K sharp edges at its centre, every second one",
+       [](P p) { return corner(p.count(0), true); }},
+      {"quad-corner:K", "quad-wheel:2K with K sharp edges at its centre",
+       [](P p) { return corner(p.count(0), false); }},
+      {"sharp:SEED[:FACES]", "random:SEED[:FACES] with sharp edges and vertices",
+       [](P p) { return with_random_sharpness(random_of(p), p.at(0)); }},
+      {"mixed-sharp:SEED[:FACES]", "mixed:SEED[:FACES] with sharp edges and vertices",
+       [](P p) { return with_random_sharpness(mixed_of(p), p.at(0)); }},
+      {"creased:SEED[:FACES]", "sharp:SEED[:FACES] with everything sharp that is so for ever",
+       [](P p) { return with_random_creases(random_of(p), p.at(0)); }},
+      {"mixed-creased:SEED[:FACES]", "mixed-sharp:SEED[:FACES] with everything sharp that is so for ever",
+       [](P p) { return with_random_creases(mixed_of(p), p.at(0)); }},
+      {"smooth-triangles:SEED[:FACES]",
+       "mixed-sharp:SEED[:FACES] with OpenSubdiv's smooth rule for triangles", smooth_triangles},
+      {"stars:K", "vertices of many kinds amid their triangles, which an audit without meshes takes",
+       [](P p) { return planned(p.at(0), true); }},
+      {"quad-stars:K", "the same amid quads and other faces", [](P p) { return planned(p.at(0), false); }},
+      {"crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number",
+       [](P p) { return crowd(p.count(0)); }},
+      {"quad-crowd:N", "N cubes of quads apart: beyond 8192 the same",
+       [](P p) { return crowd(p.count(0), true); }},
   };
   return all;
 }
 
-[[noreturn]] void bad_parameter(const Entry& entry, const std::string& why) {
-  throw InputError("NAME_BAD_PARAMETER", "", 0, why + " (" + entry.usage + ")");
-}
+// A mesh made of another, whose name follows: "dual:NAME...", "stretched:K:NAME...".
+struct Operation {
+  std::string_view word, usage, description;
+  std::uint64_t most;  // of the number K; 0: there is none
+  ControlMesh (*apply)(ControlMesh mesh, std::uint64_t number, const std::string& name);
+};
+constexpr std::size_t kMostOperations = 32;  // one inside the other
 
-// Another name that users know a mesh by.
-std::string without_alias(const std::string& name) {
-  return name == "cube-quads" ? "quad-cube" : name;
-}
-
-// "dual:NAME..." and so on: the specifications that contain another.
-constexpr std::string_view kDual = "dual:", kStretched = "stretched:", kHandled = "handled:",
-                           kTurned = "turned:", kTagged = "tagged:", kStar = "star:",
-                           kQuadStar = "quad-star:";
-
-ControlMesh dual_of(const std::string& name) {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError("NAME_BAD_PARAMETER", "", 0, "dual:" + name + ": " + why);
-  };
-  if (name.empty()) refuse("the name of a mesh is missing (dual:NAME...)");
-  const ControlMesh mesh = named_mesh(name);
-  const MeshSummary summary = summarise(mesh);
-  if (summary.boundary_edges > 0)
-    refuse("the dual is for closed meshes, and " + name + " has " + std::to_string(summary.boundary_edges) +
-           " boundary edges");
+ControlMesh dual_of(ControlMesh mesh, std::uint64_t, const std::string& name) {
+  const std::int64_t open = summarise(mesh).boundary_edges;
+  require(open == 0, "dual:" + name + ": the dual is for closed meshes, and " + name + " has " +
+                         std::to_string(open) + " boundary edges");
   ControlMesh result = dual(mesh);
-  if (const auto faults = validate(result); !faults.empty())
-    refuse("two faces of " + name + " share more than one edge: " + faults[0].message);
+  const auto faults = validate(result);
+  require(faults.empty(), faults.empty() ? ""
+                                         : "dual:" + name + ": two faces of " + name +
+                                               " share more than one edge: " + faults[0].message);
   return result;
 }
 
-struct NumberedName {
+ControlMesh stretched(ControlMesh mesh, std::uint64_t k, const std::string&) {
+  for (auto& p : mesh.positions) p[0] *= static_cast<double>(1U << k);
+  return mesh;
+}
+
+const std::vector<Operation>& operations() {
+  static const std::vector<Operation> all{
+      {"dual:", "dual:NAME...", "the dual of a closed mesh: dual:bumpy:800 has a face around each vertex", 0,
+       dual_of},
+      {"stretched:", "stretched:K:NAME...",
+       "a mesh 2^K times as long along x: stretched:10:random:1 has needles", 30, stretched},
+      {"handled:", "handled:K:NAME...", "a mesh with up to K tubes more, each in the place of two faces",
+       1000,
+       [](ControlMesh mesh, std::uint64_t k, const std::string&) {
+         return with_handles(std::move(mesh), static_cast<int>(k), k);
+       }},
+      {"turned:", "turned:SEED:NAME...",
+       "a mesh with some inner edges between other corners of the faces beside them", kMostOfAll,
+       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
+         return with_turned_edges(std::move(mesh), seed);
+       }},
+      {"tagged:", "tagged:SEED:NAME...",
+       "a mesh with any sharp edges, vertices and options in place of its own", kMostOfAll,
+       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
+         return with_any_tags(std::move(mesh), seed);
+       }}};
+  return all;
+}
+
+// An operation of a name, what it is done with, and the name of the mesh that it is done to.
+struct Step {
+  const Operation* operation;
   std::uint64_t number = 0;
   std::string name;
 };
 
-// "K:NAME..." behind `word`.
-NumberedName numbered(std::string_view word, const std::string& what, std::uint64_t most) {
-  NumberedName result;
-  const char* const end = what.data() + what.size();
-  const auto [stop, error] = std::from_chars(what.data(), end, result.number);
-  if (error != std::errc() || result.number > most || end - stop < 2 || *stop != ':')
-    throw InputError("NAME_BAD_PARAMETER", "", 0,
-                     std::string(word) + what + ": a number K from 0 to " + std::to_string(most) +
-                         " and the name of a mesh are needed (" + std::string(word) + "K:NAME...)");
-  result.name = stop + 1;
-  return result;
+// Whether a name begins with a word that ends in a colon, or is that word; then it is taken off.
+bool take(std::string_view& name, std::string_view word) {
+  if (name != word.substr(0, word.size() - 1) && !name.starts_with(word)) return false;
+  name.remove_prefix(std::min(word.size(), name.size()));
+  return true;
 }
 
-// x coordinates times 2^K.
-ControlMesh stretched(const std::string& what) {
-  const NumberedName at = numbered(kStretched, what, 30);
-  ControlMesh mesh = named_mesh(at.name);
-  for (auto& p : mesh.positions) p[0] *= static_cast<double>(1U << at.number);
-  return mesh;
-}
-
-ControlMesh handled(const std::string& what) {
-  const NumberedName at = numbered(kHandled, what, 1000);
-  return with_handles(named_mesh(at.name), static_cast<int>(at.number), at.number);
-}
-
-ControlMesh turned(const std::string& what) {
-  const NumberedName at = numbered(kTurned, what, std::numeric_limits<std::uint64_t>::max());
-  return with_turned_edges(named_mesh(at.name), at.number);
-}
-
-ControlMesh tagged(const std::string& what) {
-  const NumberedName at = numbered(kTagged, what, std::numeric_limits<std::uint64_t>::max());
-  return with_any_tags(named_mesh(at.name), at.number);
-}
-
-ControlMesh star(const std::string& what) {
-  return star_mesh(parse_stars(what), true);
-}
-ControlMesh quad_star(const std::string& what) {
-  return star_mesh(parse_stars(what), false);
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == ':') {
-      parts.emplace_back();
+// Takes the outermost operation off a name; nothing if there is none.
+bool take_step(std::string_view& name, Step& step) {
+  for (const Operation& o : operations()) {
+    if (!take(name, o.word)) continue;
+    step.operation = &o;
+    if (o.most == 0) {
+      require(!name.empty(), "dual:: the name of a mesh is missing (dual:NAME...)");
     } else {
-      parts.back() += c;
+      const char* const end = name.data() + name.size();
+      const auto [stop, error] = std::from_chars(name.data(), end, step.number);
+      require(error == std::errc() && step.number <= o.most && end - stop >= 2 && *stop == ':',
+              std::string(o.word) + std::string(name) + ": a number K from 0 to " + std::to_string(o.most) +
+                  " and the name of a mesh are needed (" + std::string(o.word) + "K:NAME...)");
+      name.remove_prefix(static_cast<std::size_t>(stop + 1 - name.data()));
     }
+    step.name = name;
+    return true;
   }
+  return false;
+}
+
+std::vector<std::string> split(std::string_view text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) c == ':' ? void(parts.emplace_back()) : parts.back().push_back(c);
   return parts;
+}
+
+// A mesh that is made of no other.
+ControlMesh plain_mesh(std::string_view name) {
+  if (std::string_view stars = name; take(stars, "star:"))
+    return star_mesh(parse_stars(std::string(stars)), true);
+  if (std::string_view stars = name; take(stars, "quad-star:"))
+    return star_mesh(parse_stars(std::string(stars)), false);
+  std::vector<std::string> parts = split(name);
+  if (parts[0] == "cube-quads") parts[0] = "quad-cube";  // users know it by this name, too
+  for (const Entry& entry : entries()) {
+    if (parts[0] != entry.name()) continue;
+    const std::string about = " (" + std::string(entry.usage) + ")";
+    std::vector<std::uint64_t> values;
+    for (std::size_t i = 1; i < parts.size(); ++i) values.push_back(number_in(parts[i], about));
+    require(std::ssize(values) >= entry.least(), "a parameter is missing" + about);
+    require(std::ssize(values) <= entry.most(), "too many parameters" + about);
+    return entry.make({std::move(values), about});
+  }
+  throw InputError("NAME_UNKNOWN", "", 0,
+                   "no mesh is called \"" + parts[0] + "\"; \"limitcheck generate --list\" names them all");
 }
 
 }  // namespace
 
 ControlMesh named_mesh(const std::string& specification) {
-  for (const auto& [word, make] :
-       {std::pair{kDual, &dual_of}, std::pair{kStretched, &stretched}, std::pair{kHandled, &handled},
-        std::pair{kTurned, &turned}, std::pair{kTagged, &tagged}, std::pair{kStar, &star},
-        std::pair{kQuadStar, &quad_star}})
-    if (specification == word.substr(0, word.size() - 1) || specification.starts_with(word))
-      return make(specification.substr(std::min(word.size(), specification.size())));
-  std::vector<std::string> parts = split(specification);
-  parts[0] = without_alias(parts[0]);
-  for (const Entry& entry : entries()) {
-    if (parts[0] != entry.name) continue;
-    std::vector<std::uint64_t> parameters;
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-      std::uint64_t value = 0;
-      const char* end = parts[i].data() + parts[i].size();
-      const auto [stop, error] = std::from_chars(parts[i].data(), end, value);
-      if (error != std::errc() || stop != end)
-        bad_parameter(entry, "\"" + parts[i] + "\" is not a whole number");
-      parameters.push_back(value);
-    }
-    if (parameters.size() < entry.least) bad_parameter(entry, "a parameter is missing");
-    if (parameters.size() > entry.most) bad_parameter(entry, "too many parameters");
-    return entry.make(parameters);
-  }
-  throw InputError("NAME_UNKNOWN", "", 0,
-                   "no mesh is called \"" + parts[0] + "\"; \"limitcheck generate --list\" names them all");
+  std::string_view name = specification;
+  std::vector<Step> steps;  // from the outside inwards
+  for (Step step; take_step(name, step); steps.push_back(step))
+    require(steps.size() < kMostOperations, "a mesh is made of another one, and that of another, " +
+                                                std::to_string(kMostOperations) + " times at most");
+  ControlMesh mesh = plain_mesh(name);
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
+    mesh = step->operation->apply(std::move(mesh), step->number, step->name);
+  return mesh;
 }
 
 OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& options) {
@@ -329,15 +341,8 @@ OpenedMesh open_mesh(const std::string& file_or_name, const ReadOptions& options
 
 std::vector<NamedMesh> named_meshes() {
   std::vector<NamedMesh> list;
-  for (const Entry& entry : entries()) list.push_back({entry.usage, entry.description});
-  list.push_back({"dual:NAME...", "the dual of a closed mesh: dual:bumpy:800 has a face around each vertex"});
-  list.push_back(
-      {"stretched:K:NAME...", "a mesh 2^K times as long along x: stretched:10:random:1 has needles"});
-  list.push_back({"handled:K:NAME...", "a mesh with up to K tubes more, each in the place of two faces"});
-  list.push_back(
-      {"turned:SEED:NAME...", "a mesh with some inner edges between other corners of the faces beside them"});
-  list.push_back(
-      {"tagged:SEED:NAME...", "a mesh with any sharp edges, vertices and options in place of its own"});
+  for (const Entry& e : entries()) list.push_back({std::string(e.usage), std::string(e.description)});
+  for (const Operation& o : operations()) list.push_back({std::string(o.usage), std::string(o.description)});
   list.push_back(
       {"star:SEED[c][h][s]:STAR[_STAR...]",
        "vertices amid their triangles, each edge with its sharpness (c: Chaikin's creasing, h: corners "

@@ -9,20 +9,15 @@
 #include <string>
 #include <utility>
 
-#include "data/error.h"
-#include "data/rounded.h"
+#include "data/building_blocks.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::data {
 namespace {
 
-constexpr std::int64_t kMostFaces = 10'000'000;
-
-void require(std::int64_t faces, int number, int least, const char* what) {
-  if (number < least)
-    throw InputError("NAME_BAD_PARAMETER", "", 0,
-                     std::string(what) + " must be " + std::to_string(least) + " or more");
-  if (faces > kMostFaces) throw InputError("NAME_BAD_PARAMETER", "", 0, "more than 10 million faces");
+void require_faces(std::int64_t faces, int number, int least, const char* what) {
+  require(number >= least, std::string(what) + " must be " + std::to_string(least) + " or more");
+  require(faces <= kMostFaces, "more than 10 million faces");
 }
 
 ControlMesh with_rounded_positions(ControlMesh mesh) {
@@ -103,7 +98,7 @@ ControlMesh quad_cube() {
 }
 
 ControlMesh quad_torus(int around, int across) {
-  require(std::int64_t{around} * across, std::min(around, across), 3, "both numbers of quads");
+  require_faces(std::int64_t{around} * across, std::min(around, across), 3, "both numbers of quads");
   ControlMesh mesh;
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j) {
@@ -119,17 +114,17 @@ ControlMesh quad_torus(int around, int across) {
 }
 
 ControlMesh quad_wheel(int n, std::uint64_t seed) {
-  require(std::int64_t{4} * n, n, 3, "the valence");
+  require_faces(std::int64_t{4} * n, n, 3, "the valence");
   return two_rings(n, false, seed);
 }
 
 ControlMesh quad_fan(int faces, std::uint64_t seed) {
-  require(std::int64_t{4} * faces, faces, 1, "the number of faces");
+  require_faces(std::int64_t{4} * faces, faces, 1, "the number of faces");
   return two_rings(faces, true, seed);
 }
 
 ControlMesh polygon_prism(int n) {
-  require(n, n, 3, "the number of sides");
+  require_faces(n, n, 3, "the number of sides");
   ControlMesh mesh;
   for (int i = 0; i < 2 * n; ++i) {
     const double t = 2 * std::numbers::pi * (i % n) / n;
@@ -178,7 +173,7 @@ ControlMesh dual(const ControlMesh& mesh) {
 }
 
 ControlMesh pawn(int n) {
-  require(std::int64_t{2} * n * kRings, n, 3, "the valence of the poles");
+  require_faces(std::int64_t{2} * n * kRings, n, 3, "the valence of the poles");
   const int columns = 2 * n, last = (kRings - 1) * columns;
   ControlMesh mesh = lathe(columns);
   const auto foot = static_cast<std::int32_t>(mesh.positions.size()), head = foot + 1;
@@ -193,7 +188,7 @@ ControlMesh pawn(int n) {
 }
 
 ControlMesh mixed_pawn(int n) {
-  require(std::int64_t{n} * kRings, n, 3, "the valence of the pole");
+  require_faces(std::int64_t{n} * kRings, n, 3, "the valence of the pole");
   const int last = (kRings - 1) * n;
   ControlMesh mesh = lathe(n);
   const auto head = static_cast<std::int32_t>(mesh.positions.size());

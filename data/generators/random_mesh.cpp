@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "data/error.h"
+#include "data/building_blocks.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 
@@ -294,11 +294,10 @@ constexpr std::size_t kClosed = 8;
 }  // namespace
 
 ControlMesh random_mesh(std::uint64_t seed, const RandomMeshOptions& options) {
-  const auto refuse = [](const std::string& why) { throw InputError("NAME_BAD_PARAMETER", "", 0, why); };
-  if (options.faces < 1 || options.faces > 1'000'000)
-    refuse("a random mesh has 1 to 1000000 faces, not " + std::to_string(options.faces));
-  if (options.max_valence < kLeastMaxValence)
-    refuse("a random mesh has a largest valence of 12 or more, not " + std::to_string(options.max_valence));
+  require(options.faces >= 1 && options.faces <= 1'000'000,
+          "a random mesh has 1 to 1000000 faces, not " + std::to_string(options.faces));
+  require(options.max_valence >= kLeastMaxValence,
+          "a random mesh has a largest valence of 12 or more, not " + std::to_string(options.max_valence));
 
   SplitMix64 random(seed);
   const std::uint64_t choice = random.next();

@@ -7,11 +7,10 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "data/error.h"
+#include "data/building_blocks.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
@@ -23,25 +22,16 @@ float as_sharpness(std::uint64_t s) {
   return static_cast<float>(std::min<std::uint64_t>(s, 10));
 }
 
-/// All edges, each from its lower to its higher vertex.
-std::vector<std::pair<std::int32_t, std::int32_t>> edges_of(const ControlMesh& mesh) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto face = mesh.faces[f];
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const std::int32_t a = face[k], b = face[(k + 1) % face.size()];
-      edges.emplace_back(std::min(a, b), std::max(a, b));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
+/// All edges.
+std::vector<VertexPair> edges_of(const ControlMesh& mesh) {
+  std::vector<VertexPair> edges = sides_of(mesh.faces);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
 /// The neighbours of vertex 0 of a closed fan, counter-clockwise.
 std::vector<std::int32_t> spokes(const ControlMesh& mesh) {
-  std::vector<std::pair<std::int32_t, std::int32_t>>
-      next;  // from one neighbour to the one before the far corner
+  std::vector<VertexPair> next;  // from one neighbour to the one before the far corner
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto face = mesh.faces[f];
     const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), 0) - face.begin());
@@ -56,10 +46,6 @@ std::vector<std::int32_t> spokes(const ControlMesh& mesh) {
   return order;
 }
 
-void check(bool good, const std::string& why) {
-  if (!good) throw InputError("NAME_BAD_PARAMETER", "", 0, why);
-}
-
 }  // namespace
 
 ControlMesh creased_cube(std::uint64_t sharpness) {
@@ -69,14 +55,14 @@ ControlMesh creased_cube(std::uint64_t sharpness) {
 }
 
 ControlMesh dart(int n, bool triangles) {
-  check(n >= 3, "a dart has 3 faces and more");
+  require(n >= 3, "a dart has 3 faces and more");
   ControlMesh mesh = triangles ? wheel(n, 3) : quad_wheel(n, 1);
   mesh.sharpness.edges.push_back({0, spokes(mesh).front(), kInfiniteSharpness});
   return mesh;
 }
 
 ControlMesh corner(int k, bool triangles) {
-  check(k >= 2, "a corner has 2 sharp edges and more");
+  require(k >= 2 && k <= 1 << 20, "a corner has 2 to 1048576 sharp edges");
   ControlMesh mesh = triangles ? wheel(2 * k, 3) : quad_wheel(2 * k, 1);
   const std::vector<std::int32_t> ends = spokes(mesh);
   for (std::size_t i = 0; i < ends.size(); i += 2)
@@ -85,7 +71,7 @@ ControlMesh corner(int k, bool triangles) {
 }
 
 ControlMesh crease_ring(std::uint64_t sharpness, std::uint64_t tenths) {
-  check(tenths < 10, "a sharpness has 9 tenths at most");
+  require(tenths < 10, "a sharpness has 9 tenths at most");
   const float s = std::min(as_sharpness(sharpness) + static_cast<float>(tenths) / 10, kInfiniteSharpness);
   ControlMesh mesh = quad_torus(12, 6);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {  // edges between vertices 0, 6, 12, ..
@@ -157,13 +143,11 @@ ControlMesh with_random_creases(ControlMesh mesh, std::uint64_t seed) {
 ControlMesh with_open_crease(ControlMesh mesh, int edges) {
   using Point = std::array<double, 3>;
   std::map<std::int32_t, std::set<std::int32_t>> neighbours;
-  std::map<std::pair<std::int32_t, std::int32_t>, int> sides;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::size_t k = 0; k < mesh.faces[f].size(); ++k) {
-      const std::int32_t a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % mesh.faces[f].size()];
-      neighbours[a].insert(b), neighbours[b].insert(a);
-      ++sides[std::minmax(a, b)];
-    }
+  std::map<VertexPair, int> sides;
+  for_each_side(mesh.faces, [&](std::int32_t a, std::int32_t b) {
+    neighbours[a].insert(b), neighbours[b].insert(a);
+    ++sides[std::minmax(a, b)];
+  });
   std::set<std::int32_t> taken;
   for (const auto& [edge, count] : sides)
     if (count < 2) taken.insert({edge.first, edge.second});  // the boundary
@@ -192,7 +176,7 @@ ControlMesh with_open_crease(ControlMesh mesh, int edges) {
       const double cosine = along / std::sqrt(std::max(length * before, 1e-300));
       if (cosine > straightest && !taken.contains(v)) straightest = cosine, best = v;
     }
-    check(best >= 0, "the crease has no way on");
+    require(best >= 0, "the crease has no way on");
     for (std::size_t c = 0; c < 3; ++c)
       ahead[c] = mesh.positions[static_cast<std::size_t>(best)][c] - from[c];
     mesh.sharpness.edges.push_back({at, best, kInfiniteSharpness});

@@ -10,19 +10,14 @@
 #include <string_view>
 #include <utility>
 
-#include "data/error.h"
-#include "data/rounded.h"
+#include "data/building_blocks.h"
 #include "data/sharpness_classes.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::data {
 namespace {
 
-constexpr std::size_t kMostFaces = 1'000'000;
-
-void check(bool good, const std::string& why) {
-  if (!good) throw InputError("NAME_BAD_PARAMETER", "", 0, why);
-}
+constexpr std::size_t kMostFacesOfStars = 1'000'000;
 
 // Reads a text from its beginning.
 class Text {
@@ -36,8 +31,8 @@ class Text {
     return true;
   }
   char letter() {
-    check(!left_.empty() && sharpness_of(left_[0]) >= 0,
-          "\"" + std::string(left_.substr(0, 1)) + "\" is no letter of a sharpness");
+    require(!left_.empty() && sharpness_of(left_[0]) >= 0,
+            "\"" + std::string(left_.substr(0, 1)) + "\" is no letter of a sharpness");
     const char c = left_[0];
     left_.remove_prefix(1);
     return c;
@@ -48,7 +43,7 @@ class Text {
   std::uint64_t number(std::uint64_t most) {
     std::uint64_t value = 0;
     const auto [stop, error] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
-    check(error == std::errc() && value <= most, "a number up to " + std::to_string(most) + " is missing");
+    require(error == std::errc() && value <= most, "a number up to " + std::to_string(most) + " is missing");
     left_.remove_prefix(static_cast<std::size_t>(stop - left_.data()));
     return value;
   }
@@ -73,7 +68,7 @@ Star parse_star(std::string_view text) {
     } else {
       do star.corners.push_back(static_cast<int>(in.number(100'000)));
       while (in.take('-'));
-      check(in.empty(), "behind the corners of a star there is something else");
+      require(in.empty(), "behind the corners of a star there is something else");
     }
   }
   return star;
@@ -87,7 +82,7 @@ class Builder {
 
   void add(const Star& star, double height) {
     const std::size_t spokes = star.spokes.size(), faces = star.faces();
-    check(star.spokes.size() >= (star.open ? 2U : 3U), "a star has 3 spokes and more, on a boundary 2");
+    require(star.spokes.size() >= (star.open ? 2U : 3U), "a star has 3 spokes and more, on a boundary 2");
     const double whole =
         2 * std::numbers::pi * (star.open ? std::min(0.9, 0.22 * static_cast<double>(faces)) : 1);
     turn_ = whole / static_cast<double>(faces);
@@ -102,7 +97,8 @@ class Builder {
     for (std::size_t i = 0; i < faces; ++i) {
       const std::size_t next = (i + 1) % spokes;
       const int corners = i < star.corners.size() ? star.corners[i] : triangles_ ? 3 : 4;
-      check(corners >= 3 && (!triangles_ || corners == 3), "a star has a face of no such number of corners");
+      require(corners >= 3 && (!triangles_ || corners == 3),
+              "a star has a face of no such number of corners");
       const std::vector<std::int32_t> outline = sides(i, end[i], end[next], corners - 3);
       std::vector<std::int32_t> face{centre};
       face.insert(face.end(), outline.begin(), outline.end());
@@ -114,7 +110,7 @@ class Builder {
   /// The second rings.
   void finish() {
     for (const auto& face : outer_) mesh_.faces.push_back(face);
-    check(mesh_.faces.size() <= kMostFaces, "the stars have more than a million faces");
+    require(mesh_.faces.size() <= kMostFacesOfStars, "the stars have more than a million faces");
   }
 
  private:
@@ -215,14 +211,14 @@ std::string Stars::text() const {
 
 Stars parse_stars(const std::string& text) {
   const std::size_t colon = text.find(':');
-  check(colon != std::string::npos, "a seed and a star are needed, as in star:1:J.J.3");
+  require(colon != std::string::npos, "a seed and a star are needed, as in star:1:J.J.3");
   Text in(std::string_view(text).substr(0, colon));
   Stars stars;
   stars.seed = in.number(~std::uint64_t{0});
   stars.chaikin = in.take('c');
   stars.corners_held = in.take('h');
   stars.smooth_triangles = in.take('s');
-  check(in.empty(), "behind the seed there are c, h and s at most");
+  require(in.empty(), "behind the seed there are c, h and s at most");
   for (std::size_t begin = colon + 1; begin <= text.size();) {
     const std::size_t stop = std::min(text.find('_', begin), text.size());
     stars.stars.push_back(parse_star(std::string_view(text).substr(begin, stop - begin)));
@@ -240,6 +236,11 @@ ControlMesh star_mesh(const Stars& stars, bool triangles) {
   for (std::size_t k = 0; k < stars.stars.size(); ++k) builder.add(stars.stars[k], static_cast<double>(k));
   builder.finish();
   return mesh;
+}
+
+const std::vector<PlannedStars>& planned_stars(bool triangles) {
+#include "data/generators/planned_stars.inc"
+  return triangles ? loop : quads;
 }
 
 }  // namespace limitcheck::data

@@ -51,4 +51,14 @@ Stars parse_stars(const std::string& text);
 /// face of fewer than 3 corners, or of more than 3 amid triangles; more than a million faces.
 ControlMesh star_mesh(const Stars& stars, bool triangles);
 
+/// The stars of the audit without meshes: every kind of neighbourhood, as few meshes as possible. Mesh k is
+/// called "stars:k", from 1 on, or "quad-stars:k".
+struct PlannedStars {
+  const char* stars;   ///< as parse_stars() reads it
+  int depth;           ///< at which the audit asks for it ..
+  const char* depths;  ///< .. and how the depths of its faces are chosen, as --depths takes it
+};
+/// Found by `limitcheck_make_plan` (verify/audit/cover.h).
+const std::vector<PlannedStars>& planned_stars(bool triangles);
+
 }  // namespace limitcheck::data

@@ -7,19 +7,17 @@
 #include <utility>
 #include <vector>
 
-#include "data/error.h"
+#include "data/building_blocks.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::data {
 namespace {
 
 using Face = std::vector<std::int32_t>;
-using Edge = std::pair<std::int32_t, std::int32_t>;
-
 constexpr int kAttempts = 50;  // to find two faces for a tube
 
-Edge between(std::int32_t a, std::int32_t b) {
-  return {std::min(a, b), std::max(a, b)};
+VertexPair between(std::int32_t a, std::int32_t b) {
+  return std::minmax(a, b);
 }
 
 std::vector<Face> faces_of(const ControlMesh& mesh) {
@@ -31,6 +29,12 @@ std::vector<Face> faces_of(const ControlMesh& mesh) {
   return faces;
 }
 
+ControlMesh with_faces(ControlMesh mesh, const std::vector<Face>& faces) {
+  mesh.faces.clear();
+  for (const Face& f : faces) mesh.faces.push_back(f);
+  return mesh;
+}
+
 template <class Do>
 void for_each_side(const Face& face, Do&& what) {
   for (std::size_t k = 0; k < face.size(); ++k) what(face[k], face[(k + 1) % face.size()]);
@@ -39,12 +43,11 @@ void for_each_side(const Face& face, Do&& what) {
 }  // namespace
 
 ControlMesh with_handles(ControlMesh mesh, int count, std::uint64_t seed) {
-  if (count < 0 || count > 1000) throw InputError("NAME_BAD_PARAMETER", "", 0, "handles: 0 to 1000");
+  require(count >= 0 && count <= 1000, "handles: 0 to 1000");
   const bool triangles = mesh.faces.are_triangles();
   std::vector<Face> faces = faces_of(mesh);
-  std::set<Edge> edges;
-  for (const Face& f : faces)
-    for_each_side(f, [&](std::int32_t a, std::int32_t b) { edges.insert(between(a, b)); });
+  const std::vector<VertexPair> sides = sides_of(mesh.faces);
+  std::set<VertexPair> edges(sides.begin(), sides.end());
   const auto apart = [&](const Face& f, const Face& g) {
     return std::all_of(f.begin(), f.end(), [&](std::int32_t a) {
       return std::all_of(g.begin(), g.end(),
@@ -77,29 +80,27 @@ ControlMesh with_handles(ControlMesh mesh, int count, std::uint64_t seed) {
     fixed.resize(faces.size(), false);
     --count;
   }
-  mesh.faces.clear();
-  for (const Face& f : faces) mesh.faces.push_back(f);
-  return mesh;
+  return with_faces(std::move(mesh), faces);
 }
 
 ControlMesh with_turned_edges(ControlMesh mesh, std::uint64_t seed) {
   std::vector<Face> faces = faces_of(mesh);
-  std::map<Edge, std::vector<std::size_t>> of_edge;
+  std::map<VertexPair, std::vector<std::size_t>> of_edge;
   std::vector<int> count(mesh.positions.size(), 0), least(mesh.positions.size(), 3);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (const std::int32_t v : faces[f]) ++count[v];
     for_each_side(faces[f], [&](std::int32_t a, std::int32_t b) { of_edge[between(a, b)].push_back(f); });
   }
-  std::set<Edge> fixed;
+  std::set<VertexPair> fixed;
   for (const SharpEdge& e : mesh.sharpness.edges) fixed.insert(between(e.a, e.b));
-  std::vector<Edge> inner;
+  std::vector<VertexPair> inner;
   for (const auto& [edge, its] : of_edge) {
     if (its.size() < 2) least[edge.first] = least[edge.second] = 1;
     if (its.size() == 2 && !fixed.contains(edge)) inner.push_back(edge);
   }
   SplitMix64 random(seed);
   for (std::size_t turns = inner.size() / 4 + 1; turns > 0 && !inner.empty(); --turns) {
-    const Edge edge = inner[random.next() % inner.size()];
+    const VertexPair edge = inner[random.next() % inner.size()];
     const std::uint64_t where = random.next();
     const auto at = of_edge.find(edge);
     if (at == of_edge.end() || count[edge.first] <= least[edge.first] ||
@@ -122,7 +123,7 @@ ControlMesh with_turned_edges(ControlMesh mesh, std::uint64_t seed) {
     const std::size_t n = both.size();
     if (std::set<std::int32_t>(both.begin(), both.end()).size() != n) continue;
     const std::size_t first = where % n, steps = 2 + where / n % (n - 3);
-    const Edge turned = between(both[first], both[(first + steps) % n]);
+    const VertexPair turned = between(both[first], both[(first + steps) % n]);
     if (of_edge.contains(turned)) continue;
     Face one, other;
     for (std::size_t k = 0; k <= steps; ++k) one.push_back(both[(first + k) % n]);
@@ -140,9 +141,7 @@ ControlMesh with_turned_edges(ControlMesh mesh, std::uint64_t seed) {
     ++count[turned.first], ++count[turned.second];
     inner.push_back(turned);
   }
-  mesh.faces.clear();
-  for (const Face& f : faces) mesh.faces.push_back(f);
-  return mesh;
+  return with_faces(std::move(mesh), faces);
 }
 
 }  // namespace limitcheck::data

@@ -69,11 +69,7 @@ class ObjReader {
   // x y z, then nothing, a weight (which polygons do not use), a colour, or both.
   void read_vertex() {
     const double x = scanner_.number("x"), y = scanner_.number("y"), z = scanner_.number("z");
-    for (int more = 0;; ++more) {
-      const std::string_view word = scanner_.word();
-      if (word.empty()) break;
-      if (more == 4 || !to_double(word)) scanner_.syntax_error(fmt::format("unexpected {}", quoted(word)));
-    }
+    scanner_.pass_numbers(4);
     soup_.positions.push_back({x, y, z});
     soup_.position_lines.push_back(scanner_.line());
   }

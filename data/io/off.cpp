@@ -81,15 +81,8 @@ class OffReader {
 
   void read_vertex(const Extra& extra) {
     const double x = scanner_.number("x"), y = scanner_.number("y"), z = scanner_.number("z");
-    for (int more = 0;; ++more) {
-      const std::string_view word = scanner_.word();
-      if (word.empty()) {
-        if (more < extra.least) scanner_.syntax_error("too few numbers for a vertex");
-        break;
-      }
-      if (more == extra.most || !to_double(word))
-        scanner_.syntax_error(fmt::format("unexpected {}", quoted(word)));
-    }
+    if (scanner_.pass_numbers(extra.most) < extra.least)
+      scanner_.syntax_error("too few numbers for a vertex");
     soup_.positions.push_back({x, y, z});
     soup_.position_lines.push_back(scanner_.line());
   }
@@ -98,11 +91,7 @@ class OffReader {
   void read_face() {
     const std::int64_t corners = scanner_.integer("the number of corners");
     for (std::int64_t k = 0; k < corners; ++k) soup_.corners.push_back(scanner_.integer("a corner"));
-    for (int more = 0;; ++more) {
-      const std::string_view word = scanner_.word();
-      if (word.empty()) break;
-      if (more == 4 || !to_double(word)) scanner_.syntax_error(fmt::format("unexpected {}", quoted(word)));
-    }
+    scanner_.pass_numbers(4);
     soup_.close_polygon(scanner_.line());
   }
 

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
+#include <set>
 #include <span>
 #include <utility>
 
-#include "data/error.h"
+#include "data/building_blocks.h"
 #include "data/triangulate.h"
 #include "data/validate.h"
 
@@ -31,36 +31,26 @@ bool has_larger_polygons(const PolygonSoup& soup) {
   return false;
 }
 
-// Before triangulation, which would hide both: every index exists, and no corner occurs twice.
-class PolygonChecker {
- public:
-  PolygonChecker(std::size_t vertices, std::int64_t first) : last_polygon_(vertices, -1), first_(first) {}
-
-  // The fault of the polygon as code and message, or an empty code.
-  std::pair<std::string, std::string> fault(Corners polygon, std::int64_t polygon_number) {
-    const std::int64_t shown = polygon_number + first_;
-    if (polygon.size() < 3)
-      return {std::string(code(MeshFault::kDegenerateFace)),
-              fmt::format("face {} has {} corners", shown, polygon.size())};
-    const auto vertices = static_cast<std::int64_t>(last_polygon_.size());
-    for (const std::int64_t v : polygon) {
-      if (v < 0 || v >= vertices) {
-        return {std::string(code(MeshFault::kIndexOutOfRange)),
-                fmt::format("face {} names vertex {}, the mesh has {}", shown, v + first_, vertices)};
-      }
-      if (last_polygon_[v] == polygon_number) {
-        return {std::string(code(MeshFault::kDegenerateFace)),
-                fmt::format("face {} names vertex {} twice", shown, v + first_)};
-      }
-      last_polygon_[v] = polygon_number;
-    }
-    return {};
+// What is wrong with a polygon by itself, before triangulation, which would hide it: an index that does not
+// exist, a corner twice, too few corners. The first fault as code and message; an empty message if there is none.
+//   last   of each vertex, the last polygon that named it, before this one
+std::pair<MeshFault, std::string> fault_of(Corners polygon, std::int64_t number, std::int64_t first,
+                                           std::vector<std::int64_t>& last) {
+  if (polygon.size() < 3)
+    return {MeshFault::kDegenerateFace,
+            fmt::format("face {} has {} corners", number + first, polygon.size())};
+  const auto vertices = static_cast<std::int64_t>(last.size());
+  for (const std::int64_t v : polygon) {
+    if (v < 0 || v >= vertices)
+      return {MeshFault::kIndexOutOfRange,
+              fmt::format("face {} names vertex {}, the mesh has {}", number + first, v + first, vertices)};
+    if (last[v] == number)
+      return {MeshFault::kDegenerateFace,
+              fmt::format("face {} names vertex {} twice", number + first, v + first)};
+    last[v] = number;
   }
-
- private:
-  std::vector<std::int64_t> last_polygon_;  // that named the vertex
-  std::int64_t first_;
-};
+  return {};
+}
 
 // A mesh has no tags of unused vertices but sharp vertices.
 void leave_out(ControlMesh& mesh, const std::vector<SoupFault>& unused) {
@@ -82,17 +72,16 @@ void leave_out(ControlMesh& mesh, const std::vector<SoupFault>& unused) {
 
 // The faces that a mesh does not show whose boundary is not interpolated (PolygonSoup::hides_boundary).
 std::vector<bool> beside_boundary(const ControlMesh& mesh) {
-  using Edge = std::pair<std::int32_t, std::int32_t>;
-  const auto edge = [](std::int32_t a, std::int32_t b) { return Edge(std::min(a, b), std::max(a, b)); };
-  std::map<Edge, int> faces;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::size_t k = 0, n = mesh.faces[f].size(); k < n; ++k)
-      ++faces[edge(mesh.faces[f][k], mesh.faces[f][(k + 1) % n])];
+  std::set<VertexPair> lasting;
   for (const SharpEdge& e : mesh.sharpness.edges)
-    if (e.sharpness >= kInfiniteSharpness) faces[edge(e.a, e.b)] = 2;
+    if (e.sharpness >= kInfiniteSharpness) lasting.insert(std::minmax(e.a, e.b));
   std::vector<bool> at(mesh.positions.size(), false), result(mesh.faces.size(), false);
-  for (const auto& [e, count] : faces)
-    if (count == 1) at[e.first] = at[e.second] = true;
+  const std::vector<VertexPair> sides = sides_of(mesh.faces);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end] == sides[begin]) ++end;
+    if (end - begin == 1 && !lasting.contains(sides[begin]))
+      at[sides[begin].first] = at[sides[begin].second] = true;
+  }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     result[f] =
         std::any_of(mesh.faces[f].begin(), mesh.faces[f].end(), [&](std::int32_t v) { return at[v]; });
@@ -142,16 +131,15 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   std::vector<std::int64_t> polygon_of;  // each face
   polygon_of.reserve(polygons);
   std::vector<bool> of_a_bad_polygon(soup.positions.size(), false);
-  PolygonChecker checker(soup.positions.size(), soup.first);
+  std::vector<std::int64_t> last_polygon(soup.positions.size(), -1);
   std::vector<std::int32_t> face;
   std::size_t begin = 0;
   for (std::size_t i = 0; i < polygons; begin = soup.polygon_end[i++]) {
     const auto number = static_cast<std::int64_t>(i);
     const Corners polygon(soup.corners.data() + begin, soup.polygon_end[i] - begin);
-    auto [fault, message] = checker.fault(polygon, number);
-    if (!fault.empty()) {
+    if (auto [fault, message] = fault_of(polygon, number, soup.first, last_polygon); !message.empty()) {
       result.faults.push_back(
-          {std::move(fault), line_of(soup.polygon_lines, number), std::move(message), -1});
+          {std::string(code(fault)), line_of(soup.polygon_lines, number), std::move(message), -1});
       for (const std::int64_t v : polygon)
         if (v >= 0 && v < static_cast<std::int64_t>(of_a_bad_polygon.size())) of_a_bad_polygon[v] = true;
       continue;
@@ -174,14 +162,15 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
     for (const auto& tag : soup.sharp)
       if ((tag.b < 0) == of_vertices) tag_lines.push_back(tag.line);
 
-  for (const auto& hole : soup.holes)
-    if (hole.polygon < 0 || hole.polygon >= static_cast<std::int64_t>(polygons))
+  std::vector<bool> is_hole(polygons, false);
+  for (const auto& hole : soup.holes) {
+    if (hole.polygon >= 0 && hole.polygon < faces)
+      is_hole[hole.polygon] = true;
+    else
       result.faults.push_back(
           {std::string(code(MeshFault::kHole)), hole.line,
            fmt::format("the hole {} is no face (holes have numbers from 0)", hole.polygon), -1});
-  std::vector<bool> is_hole(polygons, false);
-  for (const auto& hole : soup.holes)
-    if (hole.polygon >= 0 && hole.polygon < static_cast<std::int64_t>(polygons)) is_hole[hole.polygon] = true;
+  }
   const std::vector<bool> hidden =
       soup.hides_boundary ? beside_boundary(mesh) : std::vector<bool>(mesh.faces.size());
   for (std::size_t f = 0; f < polygon_of.size(); ++f)

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "data/io/read.h"
 
-#include "data/io/format.h"
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "data/error.h"
 #include "data/io/polygon_soup.h"
 #include "data/io/whole_content.h"
 
 namespace limitcheck::data {
 namespace {
+
+// The content is held in memory, and what is made of it takes up to twelve times as much.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;
 
 io::PolygonSoup parse(std::string_view content, FileFormat format, const std::string& name) {
   switch (format) {
@@ -23,6 +36,48 @@ io::PolygonSoup parse(std::string_view content, FileFormat format, const std::st
 }
 
 }  // namespace
+
+FileFormat io::format_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".obj") return FileFormat::kObj;
+  if (extension == ".off") return FileFormat::kOff;
+  if (extension == ".ply") return FileFormat::kPly;
+  if (extension == ".stl") return FileFormat::kStl;
+  throw InputError("FILE_UNKNOWN_FORMAT", file.string(), 0,
+                   "the name does not end in .obj, .off, .ply or .stl");
+}
+
+std::string io::whole_content(const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError("FILE_CANNOT_OPEN", file.string(), 0, why);
+  };
+  std::error_code ignored;
+  const auto type = std::filesystem::status(file, ignored).type();
+  // A pipe is welcome; a device might never end.
+  if (type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::regular &&
+      type != std::filesystem::file_type::fifo) {
+    refuse("not a file");
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  if (!stream) refuse(std::strerror(errno));
+  std::string content;
+  const auto size = std::filesystem::file_size(file, ignored);
+  const auto too_large = [&] {
+    throw InputError("FILE_TOO_LARGE", file.string(), 0,
+                     fmt::format("more than {} GiB, the largest file that is read", kMostBytes >> 30));
+  };
+  if (!ignored && size > kMostBytes) too_large();
+  if (!ignored) content.reserve(size);
+  char buffer[1 << 16];
+  for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, stream.get())) > 0;) {
+    if (content.size() + count > kMostBytes) too_large();  // of a pipe
+    content.append(buffer, count);
+  }
+  if (std::ferror(stream.get()) != 0) refuse(std::strerror(errno));
+  return content;
+}
 
 io::PolygonSoup io::read_soup(const std::filesystem::path& file) {
   const FileFormat format = format_of(file);

@@ -93,20 +93,32 @@ std::string_view TextScanner::word() {
   return result;
 }
 
-double TextScanner::number(std::string_view what) {
+std::string_view TextScanner::word_due(std::string_view what) {
   const std::string_view text = word();
   if (text.empty()) syntax_error(fmt::format("the line ends where {} is due", what));
+  return text;
+}
+
+double TextScanner::number(std::string_view what) {
+  const std::string_view text = word_due(what);
   const auto value = to_double(text);
   if (!value) syntax_error(fmt::format("{} is not a number: {}", what, quoted(text)));
   return *value;
 }
 
 std::int64_t TextScanner::integer(std::string_view what) {
-  const std::string_view text = word();
-  if (text.empty()) syntax_error(fmt::format("the line ends where {} is due", what));
+  const std::string_view text = word_due(what);
   const auto value = to_integer(text);
   if (!value) syntax_error(fmt::format("{} is not a whole number: {}", what, quoted(text)));
   return *value;
+}
+
+int TextScanner::pass_numbers(int most) {
+  for (int count = 0;; ++count) {
+    const std::string_view text = word();
+    if (text.empty()) return count;
+    if (count == most || !to_double(text)) syntax_error(fmt::format("unexpected {}", quoted(text)));
+  }
 }
 
 void TextScanner::end_of_line() {

@@ -32,6 +32,9 @@ class TextScanner {
   /// names it.
   double number(std::string_view what);
   std::int64_t integer(std::string_view what);
+  /// Passes the rest of the line, at most so many numbers, and says how many. Throws FILE_SYNTAX: it has more, or
+  /// other words.
+  int pass_numbers(int most);
 
   /// Throws FILE_SYNTAX if the line has more words.
   void end_of_line();
@@ -46,6 +49,7 @@ class TextScanner {
   std::string_view raw_line();
   std::string_view without_comment(std::string_view line) const;
   std::size_t word_length() const;
+  std::string_view word_due(std::string_view what);
 
   std::string_view text_;
   std::string name_;

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "data/error.h"
-#include "data/io/format.h"
+#include "data/io/whole_content.h"
 
 namespace limitcheck::data {
 namespace {

@@ -14,8 +14,8 @@
 #include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/known_answers.h"
 #include "data/numeral.h"
-#include "data/quad_answers.h"
 #include "data/splitmix64.h"
 #include "fast/window/quad_edge.h"
 

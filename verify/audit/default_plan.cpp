@@ -8,8 +8,8 @@
 #include <string>
 
 #include "data/generators/named_mesh.h"
-#include "data/generators/planned_stars.h"
-#include "data/worst_cases.h"
+#include "data/generators/star_meshes.h"
+#include "data/known_answers.h"
 #include "verify/host/host.h"
 
 namespace limitcheck::verify {

@@ -12,7 +12,7 @@ namespace limitcheck::verify {
 /// The cases, those of the same mesh one after the other: the worst cases known (data/worst_cases.h; not at
 /// kQuick), the stock shapes (data/generators/named_mesh.h), deep levels, unequal depths, awkward topology and
 /// geometry, what the relations need, the stars that look at all other kinds of neighbourhood (cover.h,
-/// data/generators/planned_stars.h), and parts of meshes whose indices need more than 16 bits.
+/// data/generators/star_meshes.h), and parts of meshes whose indices need more than 16 bits.
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
 

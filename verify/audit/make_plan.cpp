@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the stars of the plan: limitcheck_make_plan [SEED] > data/generators/planned_stars.cpp
+// Finds the stars of the plan: limitcheck_make_plan [SEED] > data/generators/planned_stars.inc
 #include <fmt/core.h>
 
 #include <cstdlib>
@@ -10,16 +10,9 @@ int main(int count, char** arguments) {
   using namespace limitcheck;
   using namespace limitcheck::verify;
   const std::uint64_t seed = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 1;
-  fmt::print(R"(// SPDX-License-Identifier: MIT
-// Written by `limitcheck_make_plan {}`, and not to be edited.
-#include "data/generators/planned_stars.h"
-
-namespace limitcheck::data {{
-
-// clang-format off
-const std::vector<PlannedStars>& planned_stars(bool triangles) {{
-)",
-             seed);
+  fmt::print(
+      "// SPDX-License-Identifier: MIT\n// Written by `limitcheck_make_plan {}`, and not to be edited.\n",
+      seed);
   for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
     std::vector<Looked> known;
     for (const AuditMesh& m : default_plan(Level::kQuick))
@@ -37,6 +30,4 @@ const std::vector<PlannedStars>& planned_stars(bool triangles) {{
                      cells(scheme)[k].name());
     }
   }
-  fmt::print(
-      "  return triangles ? loop : quads;\n}}\n// clang-format on\n\n}}  // namespace limitcheck::data\n");
 }

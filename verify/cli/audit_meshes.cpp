@@ -13,7 +13,7 @@
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
-#include "data/worst_cases.h"
+#include "data/known_answers.h"
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit_depths.h"
 #include "verify/host/coordinate_range.h"

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
-// What is cut out of a valid mesh is valid, whatever the faces; and nothing else is changed.
-#include "data/cut_out.h"
+// Faces cut out of a mesh, and cut into triangles.
+#include "data/faces.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
+#include "data/cut_out.h"
+#include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "data/validate.h"
+#include "data/test_meshes.h"
+#include "data/triangulate.h"
 
 namespace limitcheck::data {
 namespace {
 
+// What is cut out of a valid mesh is valid, whatever the faces; and nothing else is changed.
 TEST(CutOut, AnyFacesOfAValidMeshAreAValidMeshWithTheSameCorners) {
   SplitMix64 random(7);
   for (const ControlMesh& whole : {tetrahedron(), octahedron(), torus(3, 3), bipyramid(3), bipyramid(5),
@@ -29,8 +33,7 @@ TEST(CutOut, AnyFacesOfAValidMeshAreAValidMeshWithTheSameCorners) {
       for (std::size_t f = 0; f < faces.size(); ++f)
         for (std::size_t k = 0; k < 3; ++k)
           EXPECT_EQ(part.vertices[part.faces[f][k]], whole.faces[faces[f]][k]);
-      const auto findings = validate(ControlMesh{part.of(whole.positions), part.faces});
-      EXPECT_TRUE(findings.empty()) << findings.front().message;
+      expect_valid({part.of(whole.positions), part.faces}, std::to_string(whole.faces.size()));
     }
 }
 
@@ -57,6 +60,46 @@ TEST(CutOut, TakesFacesOfAnyNumberOfCorners) {
   const CutOut part = cut_out(whole, std::vector<std::int32_t>{2, 0, 3});
   EXPECT_EQ(part.faces, (Faces{{0, 1, 2, 3, 4}, {10, 5, 6, 7}, {8, 9, 11}}));
   EXPECT_EQ(part.vertices, (std::vector<std::int32_t>{0, 5, 6, 7, 8, 1, 2, 3, 9, 10, 0, 0}));
+}
+
+TEST(Triangulate, EveryTriangleNamesTheFaceThatItWasCutFrom) {
+  const ControlMesh prism = polygon_prism(5);  // two pentagons, five quads
+  const Triangulated cut = triangulate(prism, Triangulation::kFan);
+  EXPECT_EQ(cut.cut, 7);
+  EXPECT_EQ(cut.face, (std::vector<std::int64_t>{0, 0, 0, 1, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6}));
+  EXPECT_TRUE(validate({prism.positions, cut.faces}, Scheme::kLoop).empty());
+  for (std::size_t t = 0; t < 3; ++t)
+    EXPECT_EQ(cut.faces[t][0], prism.faces[0][0]) << "a fan starts at the first corner";
+}
+
+TEST(Triangulate, TakesQuadsThatNameVerticesWhichDoNotExist) {
+  const ControlMesh mesh{quad_cube().positions, {{0, 1, 99, 3}, {0, -1, 2, 3}}};
+  EXPECT_EQ(triangulate(mesh, Triangulation::kShortestDiagonal).faces,
+            (Faces{{0, 1, 99}, {0, 99, 3}, {0, -1, 2}, {0, 2, 3}}));
+}
+
+TEST(Triangulate, TrianglesAndWhatIsToBeKeptStayWhatTheyAre) {
+  for (const Triangulation rule : {Triangulation::kFan, Triangulation::kShortestDiagonal}) {
+    const Triangulated same = triangulate(octahedron(), rule);
+    EXPECT_EQ(same.faces, octahedron().faces);
+    EXPECT_EQ(same.cut, 0);
+  }
+  EXPECT_EQ(triangulate(quad_cube(), Triangulation::kKeep).faces, quad_cube().faces);
+}
+
+// The build must round where the source says so: g++ 12 with its basic-block vectoriser does not.
+[[gnu::noinline]] void round_to_float(std::vector<std::array<double, 3>>& points) {
+  for (auto& point : points) {
+    for (double& x : point) x = static_cast<float>(x);
+  }
+}
+
+TEST(Build, RoundsEveryCoordinateToFloat) {
+  std::vector<std::array<double, 3>> points(10, {0.1, 0.1, 0.1});
+  round_to_float(points);
+  for (const auto& point : points) {
+    for (const double x : point) EXPECT_EQ(x, 0x1.99999ap-4);
+  }
 }
 
 }  // namespace

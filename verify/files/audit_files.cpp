@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "verify/files/checks/blind_spots.h"
 #include "verify/files/checks/diagnosis.h"
 #include "verify/files/checks/hausdorff.h"
 #include "verify/interrupt/interrupt.h"
@@ -127,19 +126,16 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   }
 
   Result& distance = row(audit, distance_row(provenance));
-  const auto say = [&](const std::string& sentence) {
-    if (!sentence.empty()) distance.message += (distance.message.empty() ? "" : "; ") + sentence;
-  };
   if (distance.status == Status::kFinding) {
     step("diagnosis", 0, 1);
     Diagnosis diagnosis = diagnose(e);
-    for (const std::string& sentence : diagnosis.sentences) say(sentence);
+    for (const std::string& sentence : diagnosis.sentences) say(distance, sentence);
     distance.recognised = std::move(diagnosis.recognised);
     for (const Result& r : diagnosis.rows)
       if (is_bad(r)) audit.notes.push_back(r.message);
     append(audit.results, std::move(diagnosis.rows));  // `distance` is none of them any more
   } else if (const std::string unseen = blind_spots(e); !unseen.empty()) {
-    say(unseen);
+    say(distance, unseen);
     audit.notes.push_back(unseen);
   }
   audit.per_vertex = per_vertex(e);

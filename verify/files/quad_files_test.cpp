@@ -10,7 +10,7 @@
 #include "verify/files/checks/hausdorff.h"
 #include "verify/files/read/test_quad_files.h"
 #include "verify/files/test_files.h"
-#include "verify/projection/test_quad_meshes.h"
+#include "verify/projection/test_meshes.h"
 #include "verify/recognise/schemes.h"
 
 namespace limitcheck::verify {
@@ -26,7 +26,7 @@ FilesAudit audit_quads(const data::ControlMesh& mesh, FileTessellation t) {
 }
 
 TEST(QuadFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
-  for (const QuadMesh& m : quad_meshes())
+  for (const TestMesh& m : quad_meshes())
     for (const int depth : {0, 1, 2, 3}) {
       if (depth % 2 == 1 && !m.name.starts_with("quad") && m.name != "prism 5" && m.name != "dual") continue;
       const FilesAudit a = audit_quads(m.mesh, quad_file(m.mesh, depth));
@@ -41,7 +41,7 @@ TEST(QuadFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
 }
 
 TEST(QuadFiles, RefinedPointsAreNamedAndTheirBoundaryIsNoCrack) {
-  for (const QuadMesh& m : quad_meshes())
+  for (const TestMesh& m : quad_meshes())
     for (const int depth : {1, 2}) {
       if (m.name != (depth == 1 ? "quad cube" : "fan 2") && m.name != "wheel 5" && m.name != "dual") continue;
       const FilesAudit a = audit_quads(m.mesh, quad_file(m.mesh, depth, false));
@@ -148,7 +148,7 @@ TEST(QuadFiles, ProvenanceIsHeldAgainstTheExactEvaluationThere) {
 
 // Quads of the file count as two triangles; along which diagonal is the file's choice.
 TEST(QuadFiles, TheDiagonalOfAQuadIsTheFilesChoice) {
-  for (const QuadMesh& m : quad_meshes()) {
+  for (const TestMesh& m : quad_meshes()) {
     if (m.name != "quad cube" && m.name != "wheel 5" && m.name != "fan 3" && m.name != "dual") continue;
     FileTessellation t = quad_file(m.mesh, 2);
     for (std::size_t k = 0; k < t.triangles.size(); k += 2) {
@@ -186,7 +186,7 @@ TEST(QuadFiles, TheSchemeIsTheControlMeshsUnlessOneIsAskedFor) {
 }
 
 TEST(QuadFiles, HausdorffsBracketsHoldDenseSamplesOfBothSides) {
-  for (const QuadMesh& m : quad_meshes()) {
+  for (const TestMesh& m : quad_meshes()) {
     if (m.name == "dual" || m.name.starts_with("fan")) continue;
     const FileTessellation t = quad_file(m.mesh, 1);
     const ClosestPoint surface(m.mesh, data::Scheme::kCatmullClark, 1 << 12);

@@ -10,14 +10,14 @@
 #include "data/generators/sharp_meshes.h"
 #include "verify/files/read/test_sharp_files.h"
 #include "verify/files/test_files.h"
-#include "verify/projection/test_sharp_meshes.h"
+#include "verify/projection/test_meshes.h"
 
 namespace limitcheck::verify {
 namespace {
 
 using namespace test;
 
-FilesAudit audit_sharp(const SharpMesh& m, FileTessellation t) {
+FilesAudit audit_sharp(const TestMesh& m, FileTessellation t) {
   FilesOptions options;
   options.scheme = m.scheme;
   options.needs_normals = true;
@@ -32,15 +32,15 @@ std::string said(const FilesAudit& a) {
   return text;
 }
 
-SharpMesh named(const std::string& name) {
-  for (SharpMesh& m : sharp_meshes())
+TestMesh named(const std::string& name) {
+  for (TestMesh& m : sharp_meshes())
     if (m.name == name) return std::move(m);
   throw std::out_of_range(name);
 }
 
 TEST(SharpFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
   double worst = 0;
-  for (const SharpMesh& m : sharp_meshes()) {
+  for (const TestMesh& m : sharp_meshes()) {
     const FilesAudit a = audit_sharp(m, sharp_file(m.mesh, m.scheme, 2));
     EXPECT_EQ(findings(a), "") << m.name << ": " << said(a);
     worst = std::max(worst, *row(a, "file-distance").worst);
@@ -54,13 +54,13 @@ TEST(SharpFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
 // A vertex on an edge that stays sharp has two normals; a file with one of them is not to be blamed.
 TEST(SharpFiles, OneNormalForBothSidesOfACreaseIsCountedAndNotJudged) {
   for (const char* name : {"cube 10", "dart 5", "corner 3", "dart 4 of triangles", "ring 10"}) {
-    const SharpMesh m = named(name);
+    const TestMesh m = named(name);
     const FilesAudit a = audit_sharp(m, with_one_normal_each(sharp_file(m.mesh, m.scheme, 2)));
     EXPECT_EQ(findings(a), "") << m.name << ": " << said(a);
     EXPECT_NE(row(a, "file-normals").message.find("stand for both sides"), std::string::npos)
         << m.name << ": " << row(a, "file-normals").message;
   }
-  const SharpMesh smooth = named("cube 2");
+  const TestMesh smooth = named("cube 2");
   const FilesAudit a = audit_sharp(smooth, with_one_normal_each(sharp_file(smooth.mesh, smooth.scheme, 2)));
   EXPECT_EQ(row(a, "file-normals").message.find("both sides"), std::string::npos)
       << "a semi-sharp edge has one normal";
@@ -68,7 +68,7 @@ TEST(SharpFiles, OneNormalForBothSidesOfACreaseIsCountedAndNotJudged) {
 
 // Files of the wrong surface; the control mesh is right.
 TEST(SharpFiles, ASurfaceOfOtherTagsIsFound) {
-  const auto with = [](const SharpMesh& m, auto&& fault) {
+  const auto with = [](const TestMesh& m, auto&& fault) {
     data::ControlMesh wrong = m.mesh;
     fault(wrong.sharpness);
     return findings(audit_sharp(m, sharp_file(wrong, m.scheme, 2)));
@@ -79,14 +79,14 @@ TEST(SharpFiles, ASurfaceOfOtherTagsIsFound) {
   };
   for (const char* name :
        {"cube 0.500000", "cube 10", "dart 4", "dart 3 of triangles", "cone", "corners kept"}) {
-    const SharpMesh m = named(name);
+    const TestMesh m = named(name);
     EXPECT_TRUE(with(m, smooth).starts_with("file-distance")) << m.name << " as if smooth";
   }
   for (const char* name : {"cube 1", "cube 3.000000", "dart of triangles 2.250000"}) {
-    const SharpMesh m = named(name);
+    const TestMesh m = named(name);
     EXPECT_TRUE(with(m, one_less).starts_with("file-distance")) << m.name << " one level short";
   }
-  SharpMesh chaikin = named("cube 1");  // edges of 1/2, 3/2 and 5/2 in turn, so that they meet
+  TestMesh chaikin = named("cube 1");  // edges of 1/2, 3/2 and 5/2 in turn, so that they meet
   for (std::size_t k = 0; k < chaikin.mesh.sharpness.edges.size(); ++k)
     chaikin.mesh.sharpness.edges[k].sharpness = .5F + static_cast<float>(k % 3);
   chaikin.mesh.sharpness.creasing = data::Creasing::kChaikin;
@@ -101,7 +101,7 @@ TEST(SharpFiles, RoundedToFloatRandomOnesHaveNoFindingEither) {
   for (const bool mixed : {false, true}) {
     const data::ControlMesh plain =
         mixed ? data::mixed_mesh(34, {.faces = 100}) : data::random_mesh(34, {.faces = 100});
-    const SharpMesh m{"34", data::with_random_sharpness(plain, 34), data::natural_scheme(plain)};
+    const TestMesh m{"34", data::with_random_sharpness(plain, 34), data::natural_scheme(plain)};
     FileTessellation t = sharp_file(m.mesh, m.scheme, 3);
     for (Vector& p : t.positions)
       for (int c = 0; c < 3; ++c) p[c] = static_cast<float>(p[c]);
@@ -113,7 +113,7 @@ TEST(SharpFiles, RoundedToFloatRandomOnesHaveNoFindingEither) {
 // What a file looks like is said with the tags of the control mesh, and without them.
 TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
   for (const char* name : {"cube 10", "cube 2", "dart 4 of triangles"}) {
-    const SharpMesh m = named(name);
+    const TestMesh m = named(name);
     data::ControlMesh smooth = m.mesh;
     smooth.sharpness = {};
     const FilesAudit ignored = audit_sharp(m, sharp_file(smooth, m.scheme, 2));
@@ -146,7 +146,7 @@ TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
 // The limit of a dart's vertex is not where the mask of a smooth one puts it.
 TEST(SharpFiles, ADartAtTheLimitOfASmoothVertexIsFound) {
   for (const int n : {3, 4, 5, 7}) {
-    const SharpMesh m = named("dart " + std::to_string(n));
+    const TestMesh m = named("dart " + std::to_string(n));
     FileTessellation t = sharp_file(m.mesh, m.scheme, 2);
     reference::catmull_clark::RefinedMesh<double> refined(
         m.mesh.faces, reference::positions_of<double>(m.mesh), m.mesh.sharpness);
@@ -166,7 +166,7 @@ TEST(SharpFiles, ADartAtTheLimitOfASmoothVertexIsFound) {
 
 TEST(SharpFiles, TheNormalsOfTheTwoSidesExchangedAreFound) {
   for (const char* name : {"cube 10", "dart 5", "dart 4 of triangles", "ring 10"}) {
-    const SharpMesh m = named(name);
+    const TestMesh m = named(name);
     FileTessellation t = sharp_file(m.mesh, m.scheme, 2);
     // Two corners at one vertex whose normals differ: each gets the other's.
     bool swapped = false;
@@ -184,15 +184,15 @@ TEST(SharpFiles, TheNormalsOfTheTwoSidesExchangedAreFound) {
   }
 }
 
-SharpMesh with_holes(const std::string& name, std::vector<std::int32_t> holes) {
-  SharpMesh m =
-      name == "torus" ? SharpMesh{"torus", data::quad_torus(6, 5), data::Scheme::kCatmullClark} : named(name);
+TestMesh with_holes(const std::string& name, std::vector<std::int32_t> holes) {
+  TestMesh m =
+      name == "torus" ? TestMesh{"torus", data::quad_torus(6, 5), data::Scheme::kCatmullClark} : named(name);
   m.mesh.holes = std::move(holes);
   return m;
 }
 
 TEST(SharpFiles, AHoleIsToBeLeftOpen) {
-  for (const SharpMesh& m :
+  for (const TestMesh& m :
        {with_holes("cube 10", {2}), with_holes("cube 2", {0, 5}), with_holes("torus", {3, 4}),
         with_holes("random prism", {1, 2}), with_holes("dart 5 of triangles", {0})}) {
     const FilesAudit open = audit_sharp(m, sharp_file(m.mesh, m.scheme, 2));
@@ -214,7 +214,7 @@ TEST(SharpFiles, AHoleIsToBeLeftOpen) {
 
 // Two holes that touch in a corner leave a vertex with two fans of faces.
 TEST(SharpFiles, HolesThatTouchInACornerAreNoBowTie) {
-  SharpMesh m = with_holes("torus", {});
+  TestMesh m = with_holes("torus", {});
   const data::Faces& faces = m.mesh.faces;
   for (std::int32_t f = 1; f < static_cast<std::int32_t>(faces.size()) && m.mesh.holes.empty(); ++f) {
     int common = 0;

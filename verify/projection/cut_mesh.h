@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "reference/mesh/sharpness.h"
-#include "verify/projection/patch_bound.h"
 
 namespace limitcheck::verify {
 
@@ -52,49 +50,6 @@ std::optional<reference::Sharpness> refine_tagged(Refined& refined, const refere
     sharpness = sharpness->refined(before, refined.topology());
   }
   return sharpness;
-}
-
-/// The edges of a face that stay sharp, as tags of a mesh in which it has the corners `named`.
-inline void add_lasting_edges(reference::SharpTags& tags, const reference::Topology& topology,
-                              const reference::Sharpness& sharpness, std::int32_t face,
-                              std::span<const std::int32_t> named) {
-  for (std::size_t k = 0; k < named.size(); ++k) {
-    const std::int32_t e = topology.edge(static_cast<std::size_t>(face), k);
-    if (topology.edges()[static_cast<std::size_t>(e)].on_boundary() ||
-        !reference::Sharpness::is_infinite(sharpness.edge(e)))
-      continue;
-    tags.edges.push_back({named[k], named[(k + 1) % named.size()], 10.0});
-  }
-}
-
-/// A vertex (number 0) with the faces around it and some beyond, refined again and again on the spot.
-struct Surroundings {
-  std::vector<reference::Vec3<double>> positions;
-  data::Faces faces;
-  reference::SharpTags tags;
-};
-
-/// Some faces of a mesh, as surroundings of a vertex of theirs.
-inline Surroundings surroundings_of(const reference::Topology& topology,
-                                    std::span<const reference::Vec3<double>> positions, std::int32_t vertex,
-                                    std::span<const std::int32_t> faces, const SharpVertexOf& sharp) {
-  Surroundings s;
-  std::unordered_map<std::int32_t, std::int32_t> number{{vertex, 0}};
-  s.positions.push_back(positions[vertex]);
-  std::vector<std::int32_t> corners;
-  for (const std::int32_t f : faces) {
-    const auto face = topology.faces()[static_cast<std::size_t>(f)];
-    corners.assign(face.begin(), face.end());
-    for (std::int32_t& v : corners) {
-      const auto [it, is_new] = number.try_emplace(v, static_cast<std::int32_t>(s.positions.size()));
-      if (is_new) s.positions.push_back(positions[v]);
-      v = it->second;
-    }
-    s.faces.push_back(corners);
-    if (sharp.sharpness != nullptr) add_lasting_edges(s.tags, topology, *sharp.sharpness, f, corners);
-  }
-  if (sharp.held) s.tags.vertices.push_back({0, 10.0});
-  return s;
 }
 
 }  // namespace limitcheck::verify

@@ -2,6 +2,7 @@
 // The limit surface of a control mesh over a domain whose faces are all alike.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,12 +10,42 @@
 #include "data/control_mesh.h"
 #include "data/scheme.h"
 #include "reference/mesh/sharp_tags.h"
+#include "reference/mesh/topology.h"
 #include "reference/surface/surface.h"
 #include "verify/evidence/vector.h"
 #include "verify/projection/domain.h"
-#include "verify/projection/hub.h"
 
 namespace limitcheck::verify {
+
+/// The limit surface near a vertex of very many faces, in a time that does not grow with their number.
+///
+/// Stam's method sums over as many modes as the vertex has faces, for each point near it. But the mesh around
+/// the vertex after j steps has the same surface, and on its faces at the vertex Stam's method takes the
+/// points of the outer three quarters from polynomials. So a point is evaluated on the mesh after the steps
+/// that bring it there; positions differ from Stam's by the rounding of these steps.
+class HighValenceVertex {
+ public:
+  /// Of a mesh without sharp edges. O(faces at the vertex) steps, and what the evaluator costs, for each level.
+  HighValenceVertex(const data::ControlMesh& mesh, const reference::Topology& topology, data::Scheme scheme,
+                    std::int32_t vertex);
+
+  /// At a point of a face at the vertex, with the derivatives by the second and third coordinate of `at`.
+  ///   corner   of the face that is the vertex
+  /// Nothing where the mesh itself has polynomials, and very near the vertex.
+  std::optional<reference::SurfacePoint<double>> evaluate(std::int32_t face, int corner,
+                                                          const Chart::Affine& at,
+                                                          reference::Order order) const;
+
+ private:
+  struct Level {
+    data::ControlMesh mesh;
+    std::unique_ptr<reference::Surface> surface;
+  };
+
+  data::Scheme scheme_;
+  std::vector<std::int32_t> faces_;  // at the vertex, ascending; they are the first of each level's, in order
+  std::vector<Level> levels_;        // after 1, 2 .. steps
+};
 
 /// The faces of the domain are
 ///   of Loop's scheme         the control mesh's triangles
@@ -75,8 +106,9 @@ class LimitSurface {
     data::ControlMesh mesh;
     reference::SharpTags tags;
   };
-  void make_hubs();
-  std::optional<reference::SurfacePoint<double>> near_hub(const FacePoint& at, reference::Order order) const;
+  void look_for_high_valences();
+  std::optional<reference::SurfacePoint<double>> near_high_valence(const FacePoint& at,
+                                                                   reference::Order order) const;
   static std::unique_ptr<const Refined> refined_once(const data::ControlMesh& mesh, data::Scheme scheme);
 
   const data::ControlMesh& control_;
@@ -87,8 +119,9 @@ class LimitSurface {
   std::vector<bool> hole_;                  // of each control face; empty if there is none
   Domain domain_;
   reference::Surface surface_;
-  std::vector<std::unique_ptr<const Hub>> hubs_;
-  std::vector<std::int32_t> hub_of_;  // of each vertex of mesh(), -1: none; empty if no vertex has one
+  std::vector<std::unique_ptr<const HighValenceVertex>> high_valence_;
+  std::vector<std::int32_t>
+      high_valence_of_;  // of each vertex of mesh(), -1: none; empty if no vertex has one
 };
 
 }  // namespace limitcheck::verify

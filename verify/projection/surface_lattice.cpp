@@ -11,11 +11,124 @@
 #include "reference/loop/refine.h"
 #include "reference/loop/triangles.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/projection/quad_bound.h"
-#include "verify/projection/quad_cell.h"
-#include "verify/projection/sharp_pieces.h"
+#include "verify/projection/cut_mesh.h"
 
 namespace limitcheck::verify {
+namespace {
+
+Chart::Affine middle(const Chart::Affine& a, const Chart::Affine& b) {
+  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+}
+
+// What the sharp edges and vertices of a refined mesh mean for its pieces.
+struct SharpPieces {
+  using Points = std::vector<reference::Vec3<double>>;
+  const reference::Topology& topology;
+  const Points& positions;
+  const reference::Sharpness& sharpness;
+  CutMesh cut;
+  std::vector<bool> rough;  // of each face
+
+  SharpPieces(const reference::Topology& whole, const Points& points, const reference::Sharpness& sharp)
+      : topology(whole),
+        positions(points),
+        sharpness(sharp),
+        cut(whole, points, sharp),
+        rough(sharp.needs_a_step(whole)) {}
+
+  // Whether bounds are wanted for the vertex: in one of its sectors it is extraordinary, and no semi-sharp
+  // tags are near.
+  //   inside, boundary   the faces of an ordinary sector
+  bool is_irregular(std::int32_t v, std::size_t inside, std::size_t boundary) const {
+    const auto& sector = topology.sector(v).faces;
+    for (const std::int32_t f : sector)
+      for (const std::int32_t near : topology.faces()[f])
+        if (near != v || sector.size() < 3)
+          for (const std::int32_t other : topology.sector(near).faces)
+            if (rough[other]) return false;
+    if (cut.states[v] != reference::VertexState::kOrdinary) return true;
+    return std::any_of(sector.begin(), sector.end(), [&](std::int32_t f) {
+      const auto corners = cut.topology.faces()[f];
+      const std::int32_t copy =
+          *std::find_if(corners.begin(), corners.end(), [&](std::int32_t c) { return cut.origin[c] == v; });
+      const reference::Sector its = cut.topology.sector(copy);
+      return its.faces.size() != (its.closed ? inside : boundary);
+    });
+  }
+  SharpVertexOf at(std::int32_t v) const {
+    return {&sharpness, cut.states[v] == reference::VertexState::kHeld};
+  }
+
+  // Of a face without an extraordinary vertex: as a polynomial, or, near semi-sharp tags, by its hull.
+  struct Bound {
+    double size;
+    bool rough;
+  };
+  template <class Regular>
+  Bound bound(std::size_t face, Regular regular) const {
+    if (!rough[face])
+      if (const std::optional<double> size = regular(cut)) return {*size, false};
+    return {hull(static_cast<std::int32_t>(face)), true};
+  }
+  // The size of what the surface over a face depends on, a bound for all pieces of it.
+  double hull(std::int32_t face) const {
+    const auto corners = topology.faces()[face];
+    double radius = 0;
+    for (const std::int32_t corner : corners)
+      for (const std::int32_t f : topology.sector(corner).faces)
+        for (const std::int32_t v : topology.faces()[f]) {
+          const auto to = positions[v] - positions[corners[0]];
+          radius = std::max(radius, std::sqrt(dot(to, to)));
+        }
+    return 2 * radius;
+  }
+};
+
+// A quad of a face's lattice, its corners from the one at which its diagonal begins: the one nearest to a corner of
+// the face.
+struct QuadCell {
+  std::array<std::array<int, 2>, 4> corner;
+};
+
+// Of the i-th column and the j-th row of n.
+QuadCell cell(int i, int j, int n) {
+  constexpr std::array<std::array<int, 2>, 4> kCorner{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  const bool right = 2 * i >= n, up = 2 * j >= n;
+  const int nearest = up ? (right ? 2 : 3) : (right ? 1 : 0);
+  QuadCell c;
+  for (int k = 0; k < 4; ++k) {
+    const auto& [x, y] = kCorner[(nearest + k) % 4];
+    c.corner[k] = {i + x, j + y};
+  }
+  return c;
+}
+
+// The corners of its two triangles.
+constexpr std::array<std::array<int, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
+
+// The quad of the cut mesh that is a given one of the mesh, corner by corner. The third corner has few faces.
+template <class Corners>
+struct CutFace {
+  std::int32_t face;
+  Corners corners;
+};
+CutFace<Quad> cut_face(const SharpPieces& sharp, std::size_t, const Quad& quad) {
+  for (const std::int32_t f : sharp.topology.sector(quad[2]).faces) {
+    const auto whole = sharp.topology.faces()[f], cut = sharp.cut.topology.faces()[f];
+    const auto at = std::find(whole.begin(), whole.end(), quad[0]) - whole.begin();
+    if (at == 4 || whole[(at + 2) % 4] != quad[2]) continue;
+    CutFace<Quad> found{f, {}};
+    for (std::size_t k = 0; k < 4; ++k) found.corners[k] = cut[(static_cast<std::size_t>(at) + k) % 4];
+    return found;
+  }
+  throw std::logic_error("a quad of the lattice is no face of the refined mesh");
+}
+CutFace<reference::Triangle> cut_face(const SharpPieces& sharp, std::size_t face,
+                                      const reference::Triangle&) {
+  return {static_cast<std::int32_t>(face), reference::triangle_of(sharp.cut.topology, face)};
+}
+
+}  // namespace
 
 int SurfaceLattice::depth_for(const data::ControlMesh& mesh, std::size_t pieces,
                               const reference::SharpTags& tags) {
@@ -35,124 +148,79 @@ int SurfaceLattice::depth_for(const data::ControlMesh& mesh, std::size_t pieces,
 
 SurfaceLattice::SurfaceLattice(const data::ControlMesh& mesh, int depth, const reference::SharpTags& tags)
     : depth_(depth), chart_(mesh.faces.are_triangles() ? Chart::triangle() : Chart::square()) {
-  if (chart_.is_square())
-    subdivide_quads(mesh, tags);
-  else
-    subdivide_triangles(mesh, tags);
-}
-
-void SurfaceLattice::subdivide_triangles(const data::ControlMesh& mesh, const reference::SharpTags& tags) {
-  reference::RefinedMesh<double> refined(reference::positions_of<double>(mesh),
-                                         data::triangles_of(mesh).to_vector(), reference::Weights::kLoop,
-                                         tags);
-  const auto sharpness = refine_tagged(refined, tags, depth_);
-  triangles_ = refined.triangles();
-  for (const auto& p : refined.limits().positions) limits_.push_back(vector_of(p));
-
-  const reference::Topology& topology = refined.topology();
-  const auto sharp = sharp_pieces(topology, refined.positions(), sharpness);
-  const auto vertices = mesh.positions.size();
-  bounds_.resize(vertices);
-  tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
-    end_if_interrupted();
-    const auto id = static_cast<std::int32_t>(v);
-    if (sharp ? sharp->is_irregular(id, 6, 3)
-              : topology.ring(id).size() != (topology.on_boundary(id) ? 4U : 6U))
-      bounds_[v] = corner_bounds(topology, refined.positions(), id, sharp ? sharp->at(id) : SharpVertexOf{});
-  });
-  deviation_.resize(triangles_.size());
-  irregular_.assign(triangles_.size(), -1);
-  if (sharp) rough_.assign(triangles_.size(), 0);
-  end_if_interrupted();
-  tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t t) {
-    for (const std::int32_t v : triangles_[t])
-      if (static_cast<std::size_t>(v) < vertices && !bounds_[v].corner.empty()) irregular_[t] = v;
-    if (irregular_[t] >= 0) {
-      deviation_[t] = bounds_[irregular_[t]].corner[0];
-    } else if (!sharp) {
-      deviation_[t] = regular_bound(topology, refined.positions(), triangles_[t]).value();
-    } else {
-      const auto bound = sharp->bound(t, [&](const CutMesh& cut) {
-        return regular_bound(cut.topology, cut.positions, reference::triangle_of(cut.topology, t),
-                             cut.states);
-      });
-      deviation_[t] = bound.size;
-      rough_[t] = bound.rough ? 1 : 0;
-    }
-  });
-}
-
-namespace {
-
-// The quad of the cut mesh that is a given one of the mesh, corner by corner. The third corner has few faces.
-struct CutQuad {
-  std::int32_t face;
-  Quad corners;
-};
-CutQuad cut_quad(const SharpPieces& sharp, const Quad& quad) {
-  for (const std::int32_t f : sharp.topology.sector(quad[2]).faces) {
-    const auto whole = sharp.topology.faces()[f], cut = sharp.cut.topology.faces()[f];
-    const auto at = std::find(whole.begin(), whole.end(), quad[0]) - whole.begin();
-    if (at == 4 || whole[(at + 2) % 4] != quad[2]) continue;
-    CutQuad found{f, {}};
-    for (std::size_t k = 0; k < 4; ++k) found.corners[k] = cut[(static_cast<std::size_t>(at) + k) % 4];
-    return found;
+  const auto positions = reference::positions_of<double>(mesh);
+  if (chart_.is_square()) {
+    reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, positions, tags);
+    const int n = 1 << depth_;
+    subdivide<Quad>(mesh, refined, tags, [&](std::size_t c) {
+      const auto within = static_cast<int>(c & ((std::size_t{1} << (2 * depth_)) - 1));
+      const QuadCell at = cell(within % n, within / n, n);
+      Quad quad{};
+      for (std::size_t k = 0; k < 4; ++k)
+        quad[k] = refined.vertex(c >> (2 * depth_), 0, at.corner[k][0], at.corner[k][1]);
+      return quad;
+    });
+  } else {
+    reference::RefinedMesh<double> refined(positions, data::triangles_of(mesh).to_vector(),
+                                           reference::Weights::kLoop, tags);
+    subdivide<reference::Triangle>(mesh, refined, tags,
+                                   [&](std::size_t c) { return refined.triangles()[c]; });
   }
-  throw std::logic_error("a quad of the lattice is no face of the refined mesh");
 }
 
-}  // namespace
-
-void SurfaceLattice::subdivide_quads(const data::ControlMesh& mesh, const reference::SharpTags& tags) {
-  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh),
-                                                        tags);
+// `cell`: the vertices of one of the cells of the lattice, 4^depth for each face; of a quad the first is the one at
+// which its diagonal begins.
+template <class Corners, class Refined, class Cell>
+void SurfaceLattice::subdivide(const data::ControlMesh& mesh, Refined& refined,
+                               const reference::SharpTags& tags, Cell cell) {
+  constexpr bool kQuads = Corners().size() == 4;
+  constexpr std::size_t kInside = kQuads ? 4 : 6, kBoundary = kQuads ? 2 : 3;  // faces of a regular vertex
+  constexpr data::Scheme kScheme = kQuads ? data::Scheme::kCatmullClark : data::Scheme::kLoop;
   const auto sharpness = refine_tagged(refined, tags, depth_);
   for (const auto& p : refined.limits().positions) limits_.push_back(vector_of(p));
 
   const reference::Topology& topology = refined.topology();
-  const auto sharp = sharp_pieces(topology, refined.positions(), sharpness);
+  std::optional<SharpPieces> sharp;
+  if (sharpness) sharp.emplace(topology, refined.positions(), *sharpness);
   const auto vertices = mesh.positions.size();
   bounds_.resize(vertices);
   tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
     end_if_interrupted();
     const auto id = static_cast<std::int32_t>(v);
     const auto sector = topology.sector(id);
-    if (sharp ? sharp->is_irregular(id, 4, 2)
-              : !sector.faces.empty() && sector.faces.size() != (sector.closed ? 4U : 2U))
+    if (sharp ? sharp->is_irregular(id, kInside, kBoundary)
+              : !sector.faces.empty() && sector.faces.size() != (sector.closed ? kInside : kBoundary))
       bounds_[v] =
-          quad_corner_bounds(topology, refined.positions(), id, sharp ? sharp->at(id) : SharpVertexOf{});
+          corner_bounds(kScheme, topology, refined.positions(), id, sharp ? sharp->at(id) : SharpVertexOf{});
   });
   end_if_interrupted();
-  const int n = 1 << depth_;
+  constexpr std::size_t kEach = kQuads ? 2 : 1;  // triangles of a cell
   const std::size_t cells = mesh.faces.size() << (2 * depth_);
-  triangles_.resize(2 * cells);
-  deviation_.resize(2 * cells);
-  irregular_.assign(2 * cells, -1);
-  if (sharp) rough_.assign(2 * cells, 0);
+  triangles_.resize(kEach * cells);
+  deviation_.resize(kEach * cells);
+  irregular_.assign(kEach * cells, -1);
+  if (sharp) rough_.assign(kEach * cells, 0);
   tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t c) {
-    const auto within = static_cast<int>(c & ((std::size_t{1} << (2 * depth_)) - 1));
-    const QuadCell at = cell(within % n, within / n, n);
-    Quad quad{};
-    for (std::size_t k = 0; k < 4; ++k)
-      quad[k] = refined.vertex(c >> (2 * depth_), 0, at.corner[k][0], at.corner[k][1]);
-    // Only where the diagonal begins can there be a vertex of the mesh.
-    const std::int32_t v = quad[0];
-    const CutQuad cut = sharp ? cut_quad(*sharp, quad) : CutQuad{-1, quad};
-    const bool irregular = static_cast<std::size_t>(v) < vertices && !bounds_[v].corner.empty();
+    const Corners corners = cell(c);
+    std::int32_t irregular = -1;
+    for (const std::int32_t v : corners)
+      if (static_cast<std::size_t>(v) < vertices && !bounds_[v].corner.empty()) irregular = v;
     SharpPieces::Bound bound{0, false};
-    if (irregular)
-      bound.size = bounds_[v].corner[0];
-    else if (!sharp)
-      bound.size = regular_bound(topology, refined.positions(), quad).value();
-    else
+    if (irregular >= 0) {
+      bound.size = bounds_[irregular].corner[0];
+    } else if (!sharp) {
+      bound.size = regular_bound(topology, refined.positions(), corners).value();
+    } else {
+      const auto cut = cut_face(*sharp, c, corners);
       bound = sharp->bound(static_cast<std::size_t>(cut.face), [&](const CutMesh& whole) {
         return regular_bound(whole.topology, whole.positions, cut.corners, whole.states);
       });
-    for (std::size_t half = 0; half < 2; ++half) {
-      const std::size_t t = 2 * c + half;
-      for (std::size_t k = 0; k < 3; ++k) triangles_[t][k] = quad[kHalves[half][k]];
+    }
+    for (std::size_t half = 0; half < kEach; ++half) {
+      const std::size_t t = kEach * c + half;
+      for (std::size_t k = 0; k < 3; ++k) triangles_[t][k] = corners[kHalves[half][k]];
       deviation_[t] = bound.size;
-      if (irregular) irregular_[t] = v;
+      irregular_[t] = irregular;
       if (bound.rough) rough_[t] = 1;
     }
   });
@@ -160,6 +228,99 @@ void SurfaceLattice::subdivide_quads(const data::ControlMesh& mesh, const refere
 
 double SurfaceLattice::largest_deviation() const {
   return *std::max_element(deviation_.begin(), deviation_.end());
+}
+
+FacePoint Piece::parameter(const std::array<double, 3>& weight) const {
+  FacePoint p{face, {}};
+  for (int k = 0; k < 3; ++k) p.l[k] = weight[0] * at[0][k] + weight[1] * at[1][k] + weight[2] * at[2][k];
+  p.l = chart.clamp(p.l);
+  return p;
+}
+
+std::array<Vector, 3> SurfaceLattice::corners(std::size_t index) const {
+  const auto& t = triangles_[index];
+  return {limits_[t[0]], limits_[t[1]], limits_[t[2]]};
+}
+
+Piece SurfaceLattice::piece(std::size_t index) const {
+  const auto n = std::int64_t{1} << depth_;
+  const double s = std::ldexp(1.0, -depth_);
+  Piece p;
+  p.chart = chart_;
+  p.corner = corners(index);
+  p.deviation = deviation_[index];
+  p.irregular = irregular_[index];
+  p.rough = !rough_.empty() && rough_[index] != 0;
+  if (chart_.is_square()) {
+    const auto quad = static_cast<std::int64_t>(index / 2), within_face = quad % (n * n);
+    p.face = static_cast<std::int32_t>(quad / (n * n));
+    const QuadCell its =
+        cell(static_cast<int>(within_face % n), static_cast<int>(within_face / n), static_cast<int>(n));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& [i, j] = its.corner[kHalves[index % 2][k]];
+      p.at[k] = Chart::at(i * s, j * s);
+    }
+    return p;
+  }
+  // Of a triangle, first the upright triangles, rows of equal j, then the others.
+  const auto within = static_cast<std::int64_t>(index) % (n * n);
+  const std::int64_t upright = n * (n + 1) / 2;
+  std::int64_t left = within < upright ? within : within - upright, i = 0, j = 0;
+  for (std::int64_t row = within < upright ? n : n - 1; left >= row; --row, ++j) left -= row;
+  i = left;
+  p.face = static_cast<std::int32_t>(static_cast<std::int64_t>(index) / (n * n));
+  const auto at = [&](std::int64_t a, std::int64_t b) {
+    return Chart::Affine{static_cast<double>(n - a - b) * s, static_cast<double>(a) * s,
+                         static_cast<double>(b) * s};
+  };
+  if (within < upright)
+    p.at = {at(i, j), at(i + 1, j), at(i, j + 1)};
+  else
+    p.at = {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+  return p;
+}
+
+std::array<Piece, 4> SurfaceLattice::split(const Piece& piece, const LimitSurface& surface) const {
+  std::array<Chart::Affine, 3> at;  // middles of the edges 01, 12, 20
+  std::array<Vector, 3> point;
+  for (int k = 0; k < 3; ++k) {
+    at[k] = middle(piece.at[k], piece.at[(k + 1) % 3]);
+    point[k] = surface.position({piece.face, at[k]});
+  }
+  std::array<Piece, 4> child;
+  for (int k = 0; k < 3; ++k) {
+    child[k].at[k] = piece.at[k];
+    child[k].corner[k] = piece.corner[k];
+    for (const int other : {k, (k + 2) % 3}) {  // middles of the two edges at corner k
+      const int place = other == k ? (k + 1) % 3 : (k + 2) % 3;
+      child[k].at[place] = at[other];
+      child[k].corner[place] = point[other];
+    }
+  }
+  child[3].at = at;
+  child[3].corner = point;
+  for (Piece& c : child) {
+    c.chart = piece.chart;
+    c.face = piece.face;
+    c.rough = piece.rough;
+    // Regular: second derivatives per edge fall to a quarter.
+    c.deviation = piece.rough ? piece.deviation : piece.deviation / 4;
+  }
+  if (piece.irregular < 0) return child;
+  // Which corner is extraordinary: the one that is a corner of the face.
+  const CornerBounds& bounds = bounds_[piece.irregular];
+  const int step = piece.steps + 1;
+  const bool known = step < static_cast<int>(bounds.corner.size());
+  for (int k = 0; k < 4; ++k) {
+    if (k < 3 && chart_.corner_at(piece.at[k]) >= 0) {
+      child[k].irregular = piece.irregular;
+      child[k].steps = step;
+      child[k].deviation = known ? bounds.corner[step] : piece.deviation;
+    } else {
+      child[k].deviation = known ? bounds.outer[step] : piece.deviation;
+    }
+  }
+  return child;
 }
 
 }  // namespace limitcheck::verify

@@ -9,8 +9,7 @@
 
 #include "data/control_mesh.h"
 #include "verify/projection/limit_surface.h"
-#include "verify/projection/patch_bound.h"
-#include "verify/projection/triangle.h"
+#include "verify/projection/piece_bounds.h"
 
 namespace limitcheck::verify {
 
@@ -60,8 +59,9 @@ class SurfaceLattice {
   std::array<Piece, 4> split(const Piece& piece, const LimitSurface& surface) const;
 
  private:
-  void subdivide_triangles(const data::ControlMesh& mesh, const reference::SharpTags& tags);
-  void subdivide_quads(const data::ControlMesh& mesh, const reference::SharpTags& tags);
+  template <class Corners, class Refined, class Cell>
+  void subdivide(const data::ControlMesh& mesh, Refined& refined, const reference::SharpTags& tags,
+                 Cell cell);
 
   int depth_;
   Chart chart_;

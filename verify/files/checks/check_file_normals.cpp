@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "verify/files/checks/file_evidence.h"
-#include "verify/files/checks/nearby_normal.h"
 #include "verify/recognise/normal_origin.h"
 #include "verify/row/bounds.h"
 #include "verify/row/statistics.h"
@@ -16,8 +16,58 @@
 namespace limitcheck::verify {
 namespace {
 
-std::vector<double> list(const Vector& v) {
-  return {v.begin(), v.end()};
+// Steps in the parameters that move a point by `radius` in the direction in which it moves fastest, and in the
+// one in which it moves slowest: the axes of an ellipse, which is long where tangents are nearly parallel.
+struct Axes {
+  double fast[2], slow[2];
+
+  Axes(const LimitSurface& surface, const FacePoint& at, double radius) {
+    const auto p = surface.evaluate(at, reference::Order::kFirst);
+    const Vector d1 = vector_of(p.t1), d2 = vector_of(p.t2);
+    const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);
+    const double turn = std::atan2(2 * b, a - c) / 2, middle = (a + c) / 2,
+                 spread = std::hypot((a - c) / 2, b);
+    const auto length = [&](double square) {
+      constexpr double kMost = .25;  // of a face
+      return square * kMost * kMost > radius * radius ? radius / std::sqrt(square) : kMost;
+    };
+    const double most = length(middle + spread), least = length(middle - spread);
+    fast[0] = most * std::cos(turn), fast[1] = most * std::sin(turn);
+    slow[0] = -least * std::sin(turn), slow[1] = least * std::cos(turn);
+  }
+};
+
+// The smallest angle, in degrees, between a direction and the normals of points of the surface within
+// `radius` of a foot: a position that was rounded by so much may have been any of them. A descent in the
+// parameters, which ends when the angle is at most `enough`, or as soon as the surface is seen not to turn.
+double least_angle_nearby(const ClosestPoint& surface, const Foot& foot, const Vector& direction,
+                          double radius, double enough) {
+  constexpr int kDirections = 8, kSteps = 64;
+  constexpr int kSeen = 12;          // steps after which it is seen: where tangents are nearly parallel the
+                                     // surface bends away long before the end of a slow one
+  constexpr double kWorthIt = 1e-3;  // of what is missing, gained by a step, or by all of these
+  const double first = angle_degrees(direction, foot.normal);
+  double angle = first, scale = .5;
+  FacePoint best = foot.at;
+  for (int i = 0; i < kSteps && angle > enough; ++i) {
+    const Axes axes(surface.surface(), best, radius);
+    double least = angle;
+    FacePoint there = best;
+    for (int k = 0; k < kDirections; ++k) {
+      const double turn = 2 * std::numbers::pi * k / kDirections, c = scale * std::cos(turn),
+                   s = scale * std::sin(turn);
+      const double x = c * axes.fast[0] + s * axes.slow[0], y = c * axes.fast[1] + s * axes.slow[1];
+      const FacePoint at = surface.domain().walk(best, {-x - y, x, y});
+      const Foot other = surface.at(at, foot.position);
+      if (!other.has_normal || other.distance > radius) continue;
+      const double its = angle_degrees(direction, other.normal);
+      if (its < least) least = its, there = at;
+    }
+    if (i == kSeen && first - least < kWorthIt * (first - enough)) return least;
+    scale = angle - least > kWorthIt * (angle - enough) ? std::min(1., 2 * scale) : scale / 2;
+    angle = least, best = there;
+  }
+  return angle;
 }
 
 // A length of 1 + x is as far from the exact unit vector as a direction that is off by x radians. So both
@@ -26,15 +76,9 @@ std::vector<double> list(const Vector& v) {
 constexpr double kLengthBound = 1e-3;
 
 Result length_row(const FileEvidence& e) {
-  Result r = e.result("file-normal-length");
-  r.unit = "|n| - 1";
-  r.bound = kLengthBound;
+  Result r = e.result("file-normal-length", "|n| - 1", kLengthBound);
   const auto& normals = e.tessellation.normals;
-  if (normals.empty()) {
-    r.status = Status::kNotSupported;
-    r.message = "the file has no normals";
-    return r;
-  }
+  if (lacks(normals, "normals", r)) return r;
   std::vector<double> error;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for (const auto& n : normals) {
@@ -75,7 +119,7 @@ std::map<std::int32_t, std::set<std::int32_t>> faces_of_cut_normals(const FileEv
     for (std::size_t c = 0; c < 3; ++c) {
       const auto its = faces.find(t.corner_normals.empty() ? of_vertex[v[c]] : t.corner_normals[i][c]);
       if (its == faces.end()) continue;
-      if (placed.face < 0) placed = place_triangle(e, {e.point_of(v[0]), e.point_of(v[1]), e.point_of(v[2])});
+      if (placed.face < 0) placed = place_triangle(e, e.points_of(v));
       if (placed.face >= 0 && !placed.crosses) its->second.insert(placed.face);
     }
   }
@@ -119,15 +163,9 @@ double rounding(const FileEvidence& e, const Vector& at) {
 }  // namespace
 
 std::vector<Result> check_file_normals(const FileEvidence& e) {
-  Result r = e.result("file-normals");
-  r.unit = "degrees";
-  r.bound = normal_bound(LC_FLOAT32, 5);
+  Result r = e.result("file-normals", "degrees", normal_bound(LC_FLOAT32, 5));
   const auto& normals = e.tessellation.normals;
-  if (normals.empty()) {
-    r.status = Status::kNotSupported;
-    r.message = "the file has no normals";
-    return {r, length_row(e)};
-  }
+  if (lacks(normals, "normals", r)) return {r, length_row(e)};
   std::vector<double> angle(normals.size(), -1);
   std::vector<Vector> expected(normals.size());
   std::int64_t undefined = 0, shared = 0;
@@ -184,11 +222,10 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
     r.witness->expected = list(expected[s.worst_at]);
     r.witness->got = list(normals[s.worst_at].direction);
   }
-  if (undefined > 0) r.message = fmt::format("{} more where the surface has no normal", undefined);
+  if (undefined > 0) say(r, fmt::format("{} more where the surface has no normal", undefined));
   if (shared > 0)
-    r.message +=
-        fmt::format("{}{} more on edges that stay sharp stand for both sides, which have two normals",
-                    r.message.empty() ? "" : "; ", shared);
+    say(r,
+        fmt::format("{} more on edges that stay sharp stand for both sides, which have two normals", shared));
   if (s.bad == 0) return {r, length_row(e)};
 
   const FileTessellation& t = e.tessellation;
@@ -199,9 +236,7 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
     const std::int32_t face = e.surface.surface().control_face(at.face);
     delivered.push_back({normals[k].vertex, normals[k].direction, expected[k], face, at.l[1], at.l[2]});
   }
-  const std::string origin =
-      origin_of_normals(delivered, e.control, t.positions, t.triangles, e.merged.point_of);
-  if (!origin.empty()) r.message += (r.message.empty() ? "" : "; ") + origin;
+  say(r, origin_of_normals(delivered, e.control, t.positions, t.triangles, e.merged.point_of));
   return {r, length_row(e)};
 }
 

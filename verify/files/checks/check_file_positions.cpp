@@ -15,16 +15,10 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-std::vector<double> list(const Vector& v) {
-  return {v.begin(), v.end()};
-}
-
 // Errors of vertices (negative: not looked at) as a row; `expected(vertex)` is for the witness.
 template <class Expected>
 Result row(const FileEvidence& e, const char* check, const std::vector<double>& error, Expected&& expected) {
-  Result r = e.result(check);
-  r.unit = "diagonal";
-  r.bound = e.tolerance;
+  Result r = e.result(check, "diagonal", e.tolerance);
   const Statistics s = summarise(error, e.tolerance);
   take(r, s);
   if (s.worst_at >= 0) {
@@ -40,9 +34,7 @@ Result row(const FileEvidence& e, const char* check, const std::vector<double>& 
 }  // namespace
 
 std::vector<Result> check_file_finite(const FileEvidence& e) {
-  Result r = e.result("file-finite");
-  r.unit = "vectors";
-  r.bound = 0;
+  Result r = e.result("file-finite", "vectors", 0);
   const auto look = [&](const Vector& v, std::int32_t vertex) {
     ++r.of;
     if (is_finite(v)) return;
@@ -59,9 +51,7 @@ std::vector<Result> check_file_finite(const FileEvidence& e) {
 }
 
 std::vector<Result> check_file_unused(const FileEvidence& e) {
-  Result r = e.result("file-unused");
-  r.unit = "vertices";
-  r.bound = 0;
+  Result r = e.result("file-unused", "vertices", 0);
   const auto& used = e.tessellation.used;
   r.of = static_cast<std::int64_t>(used.size());
   r.bad = std::count(used.begin(), used.end(), false);

@@ -194,9 +194,8 @@ Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess
   std::optional<Witness> worst;
   if (const auto k = statistics.worst_at; k >= 0) {
     worst = e.at_vertex(static_cast<std::int32_t>(e.merged.vertex_of[sampled.placed[k]]));
-    const Vector &expected = cloud[there[k].index], &got = points[k];
-    worst->expected = {expected.begin(), expected.end()};
-    worst->got = {got.begin(), got.end()};
+    worst->expected = list(cloud[there[k].index]);
+    worst->got = list(points[k]);
   }
   Result row = e.result("file-recognised");
   say_recognised(row, what, statistics, bound, worst);
@@ -293,6 +292,34 @@ Diagnosis diagnose(const FileEvidence& e) {
         own == Scheme::kLoop ? "Loop" : "Catmull-Clark", refined.steps, owner(own), refined.worst / size,
         sampled.worst / size));
   return {told, std::nullopt, {}};
+}
+
+std::string blind_spots(const FileEvidence& e) {
+  const Chart chart = e.surface.domain().chart();
+  bool beside_corners = false;
+  for (const FacePoint& at : e.place) {
+    if (at.face < 0) continue;
+    int sides = 0;
+    for (int k = 0; k < chart.corners(); ++k)
+      sides += chart.height(k, at.l) == 0 && e.surface.surface().on_control_edge(at.face, k);
+    if (sides == 0) return "";
+    beside_corners = beside_corners || sides == 1;
+  }
+  const Scheme scheme = e.scheme() == data::Scheme::kLoop ? Scheme::kLoop : Scheme::kCatmullClark;
+  const auto refined = scheme_points(e.control, scheme, beside_corners ? 1 : 0, false);
+  const auto limits = scheme_points(e.control, scheme, beside_corners ? 1 : 0, true);
+  double farthest = 0;
+  for (std::size_t v = 0; v < limits.size(); ++v) farthest = std::max(farthest, norm(limits[v] - refined[v]));
+  std::string text =
+      beside_corners ? "no vertex lies inside a control face, only at its corners and on its edges: the "
+                       "surface inside of faces was not looked at"
+                     : "all vertices are limits of control vertices: the surface along the edges and inside "
+                       "of faces was not looked at";
+  if (farthest > 0)
+    text +=
+        fmt::format("; limit weights that are off by less than {:.1g} of themselves are within the tolerance",
+                    e.tolerance * e.surface.diagonal() / farthest);
+  return text;
 }
 
 }  // namespace limitcheck::verify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recognises a tessellation that is not one of the limit surface.
+// Recognises a tessellation that is not one of the limit surface; and which faults one is too coarse to show.
 #pragma once
 
 #include <optional>
@@ -37,5 +37,13 @@ Written written(const std::vector<Vector>& points, double share = 0, bool few_di
 /// of the coordinates: position_bound (verify/row/bounds.h), and what writing leaves out in three coordinates.
 ///   magnitude   largest coordinate of the control mesh
 double rounding(const Written& how, int steps, double magnitude);
+
+/// Where no vertex lies inside a control face, as in tessellations of depth 0 and 1: a sentence that says so,
+/// and how wrong the limit weights may be without a vertex leaving the tolerance. Else empty.
+///   A limit point is (1 - b) v + b r, v the vertex and r the mean of its ring. If b is b (1 + x), the point
+///   moves by x b |r - v| = x |limit - v|; so x is not seen if x times the largest |limit - v| of the file's
+///   depth is within the tolerance.
+/// The evidence has its places.
+std::string blind_spots(const FileEvidence& e);
 
 }  // namespace limitcheck::verify

@@ -14,13 +14,15 @@
 
 namespace limitcheck::verify {
 
-Result FileEvidence::result(std::string check) const {
+Result FileEvidence::result(std::string check, std::string unit, std::optional<double> bound) const {
   Result r;
   r.subject = tessellation.name;
   r.mesh = control_name;
   r.check = std::move(check);
   r.scheme = scheme();
   r.status = Status::kHeld;
+  r.unit = std::move(unit);
+  r.bound = bound;
   return r;
 }
 
@@ -192,11 +194,6 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
                         [&](std::int32_t p, std::int32_t q) { return faces_of(p) < faces_of(q); });
   std::vector<std::int32_t> candidates = faces_with(domain, e.place[with_fewest]);
   // Three points of one edge, or of its ends, lie in both of its faces, and in the wrong one have no area.
-  const auto area_of = [](const auto& l) {
-    return l[0][0] * (l[1][1] * l[2][2] - l[1][2] * l[2][1]) -
-           l[0][1] * (l[1][0] * l[2][2] - l[1][2] * l[2][0]) +
-           l[0][2] * (l[1][0] * l[2][1] - l[1][1] * l[2][0]);
-  };
   for (const bool unfold : {false, true}) {
     if (unfold) add_neighbours(domain, candidates);
     for (const std::int32_t face : candidates) {
@@ -225,7 +222,7 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
         }
       }
       if (!all) continue;
-      const double area = area_of(l) / chart.area();
+      const double area = determinant(l[0], l[1], l[2]) / chart.area();
       if (placed.face >= 0 && std::abs(area) <= std::abs(placed.area)) continue;
       placed = {face, unfold, l, area};
     }

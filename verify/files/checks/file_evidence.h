@@ -2,6 +2,7 @@
 // What the checks of a tessellation file look at.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -36,10 +37,34 @@ struct FileEvidence {
   const Vector& position(std::int32_t point) const { return tessellation.positions[merged.vertex_of[point]]; }
 
   data::Scheme scheme() const { return surface.surface().scheme(); }
-  Result result(std::string check) const;
+  /// The point of each corner of a triangle.
+  std::array<std::int32_t, 3> points_of(const std::array<std::int32_t, 3>& triangle) const {
+    return {point_of(triangle[0]), point_of(triangle[1]), point_of(triangle[2])};
+  }
+  Result result(std::string check, std::string unit = {}, std::optional<double> bound = {}) const;
   Witness at_vertex(std::int32_t vertex) const;
   Witness at_point(const FacePoint& at) const;
 };
+
+/// Whether two corners of a triangle are one point.
+inline bool is_collapsed(const std::array<std::int32_t, 3>& p) {
+  return p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+}
+/// Whether the file has none of what a row looks at, which the row then says.
+template <class T>
+bool lacks(const std::vector<T>& list, const char* what, Result& row) {
+  if (!list.empty()) return false;
+  row.status = Status::kNotSupported;
+  row.message = std::string("the file has no ") + what;
+  return true;
+}
+/// Adds a sentence, unless it is empty, to the message of a row.
+inline void say(Result& row, const std::string& sentence, const char* between = "; ") {
+  if (!sentence.empty()) row.message += (row.message.empty() ? "" : between) + sentence;
+}
+inline std::vector<double> list(const Vector& v) {
+  return {v.begin(), v.end()};
+}
 
 /// How feet are looked for.
 enum class Search {

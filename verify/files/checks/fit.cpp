@@ -4,7 +4,8 @@
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -88,7 +89,7 @@ std::vector<Eigen::Matrix3d> orientations(Fit kind) {
 Similarity normal_step(const std::vector<Vector>& points, const std::vector<Foot>& foot,
                        const Similarity& map, Fit kind, const Vector& centre, double size) {
   const int unknowns = kind == Fit::kScale ? 4 : 7;
-  Eigen::MatrixXd a(points.size(), unknowns);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, 7> a(points.size(), unknowns);
   Eigen::VectorXd b(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vector mapped = map(points[k]);
@@ -99,9 +100,11 @@ Similarity normal_step(const std::vector<Vector>& points, const std::vector<Foot
     if (unknowns == 7) a.block<1, 3>(row, 4) = x.cross(n).transpose();
     b[row] = dot(foot[k].normal, foot[k].position - mapped) / size;
   }
-  // Directions in which the surface can slide along itself stay as they are.
-  const Eigen::VectorXd delta =
-      a.bdcSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).setThreshold(1e-9).solve(b);
+  // The shortest solution: directions in which the surface can slide along itself stay as they are.
+  Eigen::CompleteOrthogonalDecomposition<decltype(a)> orthogonal;
+  orthogonal.setThreshold(1e-9);
+  orthogonal.compute(a);
+  const Eigen::VectorXd delta = orthogonal.solve(b);
   const double scale = 1 + delta[0];
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (unknowns == 7) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "verify/files/checks/hausdorff.h"
 
+#include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
-#include "verify/files/checks/one_polygon.h"
 #include "verify/files/checks/overlay.h"
 
 namespace limitcheck::verify {
@@ -179,6 +182,66 @@ class OneWay {
   Bracket bracket_;
 };
 
+// Triangles that lie together. Few are gone through, many are found by their boxes.
+class Polygon {
+ public:
+  explicit Polygon(std::vector<std::array<Vector, 3>> triangles) : triangles_(std::move(triangles)) {
+    if (triangles_.size() <= kFew) return;
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(triangles_.size());
+    for (const auto& t : triangles_) boxes.push_back(BoxTree::around({t[0], t[1], t[2]}));
+    tree_.emplace(boxes);
+  }
+
+  double distance(const Vector& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    const auto look = [&](std::size_t k) {
+      return least = std::min(least, closest_on_triangle(p, triangles_[k]).distance);
+    };
+    if (tree_) tree_->near(p, look);
+    for (std::size_t k = 0; k < triangles_.size() && !tree_; ++k) look(k);
+    return least;
+  }
+
+ private:
+  static constexpr std::size_t kFew = 16;
+  std::vector<std::array<Vector, 3>> triangles_;
+  std::optional<BoxTree> tree_;
+};
+
+// A control face as one flat polygon of the limits of its corners, cut as files are: a fan from the first.
+std::vector<std::array<Vector, 3>> one_polygon(const FileEvidence& e, std::int32_t face) {
+  const LimitSurface& surface = e.surface.surface();
+  std::vector<Vector> corner;
+  for (std::size_t k = 0; k < e.control.faces[face].size(); ++k)
+    corner.push_back(e.surface.at(surface.control_corner(face, static_cast<int>(k)), {}).position);
+  std::vector<std::array<Vector, 3>> fan;
+  for (std::size_t k = 1; k + 1 < corner.size(); ++k) fan.push_back({corner[0], corner[k], corner[k + 1]});
+  return fan;
+}
+
+// The largest distance, at most, from the surface over a control face, holes left out, to one flat polygon of
+// the limits of that face's corners; in the mesh's unit.
+double from_one_polygon_each(const FileEvidence& e) {
+  std::vector<std::optional<Polygon>> polygons(e.control.faces.size());
+  tbb::parallel_for(std::size_t{0}, polygons.size(), [&](std::size_t f) {
+    polygons[f].emplace(one_polygon(e, static_cast<std::int32_t>(f)));
+  });
+  const LimitSurface& surface = e.surface.surface();
+  const SurfaceLattice& lattice = e.surface.lattice();
+  std::vector<double> apart(static_cast<std::size_t>(e.surface.domain().face_count()), 0);
+  const std::size_t per_face = lattice.size() / apart.size();
+  tbb::parallel_for(std::size_t{0}, apart.size(), [&](std::size_t f) {
+    const auto face = static_cast<std::int32_t>(f);
+    if (surface.is_hole(face)) return;
+    const Polygon& polygon = *polygons[surface.control_face(face)];
+    for (std::size_t k = f * per_face; k < (f + 1) * per_face; ++k)
+      for (const Vector& corner : lattice.corners(k))
+        apart[f] = std::max(apart[f], polygon.distance(corner) + lattice.deviation(k));
+  });
+  return *std::max_element(apart.begin(), apart.end());
+}
+
 }  // namespace
 
 Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick, double tightness) {
@@ -196,6 +259,44 @@ Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick, do
   result.from_triangles = OneWay(e, overlay, bounds, true, tightness, tick).run();
   result.from_surface = OneWay(e, overlay, bounds, false, tightness, tick).run();
   return result;
+}
+
+std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
+                                         const std::function<void()>& tick) {
+  Result r = e.result("file-hausdorff", "diagonal");
+  if (lacks(e.tessellation.triangles, "faces", r)) return {r};
+  const Hausdorff h = hausdorff(e, tick);
+  const double size = e.surface.diagonal();
+  const bool forwards = h.from_triangles.at_least >= h.from_surface.at_least;
+  const Bracket& larger = forwards ? h.from_triangles : h.from_surface;
+  r.of = 1;
+  r.worst = r.rms = larger.at_least / size;
+  r.worst_absolute = larger.at_least;
+  r.bound = bound >= 0 ? bound : h.one_polygon_each / size + e.tolerance;
+  const double most = std::max(h.from_triangles.at_most, h.from_surface.at_most) / size;
+  r.message = fmt::format(
+      "Hausdorff distance between {:.3e} and {:.3e} diagonals (triangles to surface {:.3e} to {:.3e}, "
+      "surface to triangles {:.3e} to {:.3e})",
+      *r.worst, most, h.from_triangles.at_least / size, h.from_triangles.at_most / size,
+      h.from_surface.at_least / size, h.from_surface.at_most / size);
+  const bool loop = e.scheme() == data::Scheme::kLoop;
+  if (bound < 0)
+    r.message += fmt::format("; the bound is that of one {} per control face", loop ? "triangle" : "polygon");
+  const std::size_t triangles_each = e.control.faces.corners().size() - 2 * e.control.faces.size();
+  if (bound < 0 && e.tessellation.triangles.size() <= triangles_each)
+    r.message += ", which this file is: only --max-deviation can judge it";
+  if (h.loose > 0)
+    r.message += fmt::format(
+        "; {} triangles reach over several control faces or cover none, which makes the upper ends large",
+        h.loose);
+  if (*r.worst > *r.bound) {
+    r.status = Status::kFinding;
+    r.bad = 1;
+  } else if (most > *r.bound) {
+    r.message += "; the bound lies in between: not decided, taken as held";
+  }
+  r.witness = e.at_point(larger.where);
+  return {r};
 }
 
 }  // namespace limitcheck::verify

@@ -25,7 +25,7 @@ struct Hausdorff {
 /// The triangles are laid over the domain by their placed corners and cut along the pieces of the surface
 /// lattice. On a part that lies in one triangle T and one flat piece P, the distance from the part of P to T
 /// is largest at one of its corners, because the distance to a convex set is a convex function; likewise from
-/// the part of T to P; and the surface deviates from P by no more than patch_bound.h proves. Parts of the
+/// the part of T to P; and the surface deviates from P by no more than piece_bounds.h proves. Parts of the
 /// surface that no triangle covers are bounded by the distance at their middle and their size (of a triangle
 /// taken out of a plane the bracket is 0.996 to 1.075 times the radius of its inscribed circle, which is the
 /// distance). The lower bounds are exact distances at the most promising corners; pieces whose upper bound is

@@ -9,11 +9,24 @@
 #include <vector>
 
 #include "verify/files/checks/file_evidence.h"
-#include "verify/files/checks/triangle_overlap.h"
 #include "verify/projection/box_tree.h"
 #include "verify/projection/surface_lattice.h"
 
 namespace limitcheck::verify {
+
+/// Of triangles barycentric; in the domain affine, as Chart has them.
+using Barycentric = std::array<double, 3>;
+
+/// A triangle of the tessellation over one face, its corners in the coordinates of that face, perhaps beyond
+/// its edges.
+struct Over {
+  std::int32_t triangle;
+  std::array<Barycentric, 3> l;
+};
+
+inline Vector mix(const std::array<Vector, 3>& corner, const Barycentric& weight) {
+  return weight[0] * corner[0] + weight[1] * corner[1] + weight[2] * corner[2];
+}
 
 /// Upper bounds of the distances between one piece of the surface and the triangles over it, in the mesh's unit.
 struct Bound {

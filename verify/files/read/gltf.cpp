@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/files/read/gltf.h"
+#include "verify/files/read/tessellation_file.h"
 
 #include <fmt/core.h>
 #include <tiny_gltf.h>
@@ -18,7 +18,7 @@
 #include "data/error.h"
 #include "data/io/text_scanner.h"
 #include "data/io/whole_content.h"
-#include "data/json_nesting.h"
+#include "data/untrusted_json.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -43,6 +43,53 @@ std::string_view json_of(std::string_view content, bool binary) {
   std::uint32_t length = 0;
   std::memcpy(&length, content.data() + 12, sizeof length);
   return content.substr(20, length);
+}
+
+// The whole numbers of a glTF that are read here, and what they may be: "*" stands for every element.
+struct IntegerField {
+  std::string_view path;
+  std::int64_t most = std::numeric_limits<int>::max(), least = 0;
+};
+constexpr std::int64_t kMostBytes = std::int64_t{1} << 53;
+constexpr IntegerField kIntegers[] = {
+    {"scene"},
+    {"scenes/*/nodes/*"},
+    {"nodes/*/mesh"},
+    {"nodes/*/children/*"},
+    {"meshes/*/primitives/*/attributes/*"},
+    {"meshes/*/primitives/*/indices"},
+    {"meshes/*/primitives/*/mode", TINYGLTF_MODE_TRIANGLE_FAN},
+    {"accessors/*/bufferView"},
+    {"accessors/*/byteOffset", kMostBytes},
+    {"accessors/*/componentType", TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_BYTE},
+    {"accessors/*/count", kMostBytes},
+    {"bufferViews/*/buffer"},
+    {"bufferViews/*/byteOffset", kMostBytes},
+    {"bufferViews/*/byteLength", kMostBytes},
+    {"bufferViews/*/byteStride", 252},
+    {"buffers/*/byteLength", kMostBytes}};
+
+// What is wrong with the numbers of a field, below `json` at `path`; tinygltf takes them modulo 2^32, or for none.
+std::string wrong_integer(const nlohmann::json& json, std::string_view path, const IntegerField& field,
+                          const std::string& where = {}) {
+  if (path.empty()) {
+    const bool whole = json.is_number_integer();
+    if (json.is_number_unsigned() ? json.get<std::uint64_t>() <= static_cast<std::uint64_t>(field.most) &&
+                                        json.get<std::uint64_t>() >= static_cast<std::uint64_t>(field.least)
+                                  : whole && json.get<std::int64_t>() >= field.least)
+      return "";
+    return fmt::format("{} is {}, not a whole number from {} to {}", data::io::quoted(where),
+                       data::io::quoted(json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)),
+                       field.least, field.most);
+  }
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  const std::string_view key = path.substr(0, slash), rest = path.substr(std::min(slash + 1, path.size()));
+  for (const auto& [name, value] : json.items()) {
+    if (key != "*" && key != name) continue;
+    std::string wrong = wrong_integer(value, rest, field, where.empty() ? name : where + "/" + name);
+    if (!wrong.empty()) return wrong;
+  }
+  return "";
 }
 
 // Extensions that a viewer needs but that do not change the shape.
@@ -91,8 +138,10 @@ class Reader {
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
     loader.SetFsCallbacks({&is_beside, &tinygltf::ExpandFilePath, &read_beside, nullptr, nullptr});
-    if (const std::size_t depth = data::json_nesting(json_of(content, binary)); depth > kDeepestJson)
+    const std::string_view json = json_of(content, binary);
+    if (const std::size_t depth = data::json_nesting(json); depth > kDeepestJson)
       refuse("FILE_UNSUPPORTED", fmt::format("its JSON nests {} deep; {} are read", depth, kDeepestJson));
+    check_integers(json);
     if (content.size() > std::numeric_limits<unsigned>::max()) refuse("FILE_TOO_LARGE", "more than 4 GiB");
     const auto size = static_cast<unsigned>(content.size());
     std::string error, warning;
@@ -122,6 +171,15 @@ class Reader {
  private:
   [[noreturn]] void refuse(const char* code, const std::string& why) const {
     throw data::InputError(code, name_, 0, why);
+  }
+  // What is no JSON is left to the reader of glTF.
+  void check_integers(std::string_view text) const try {
+    const nlohmann::json json = data::parse_untrusted(text, kDeepestJson);
+    for (const IntegerField& field : kIntegers)
+      if (const std::string wrong = wrong_integer(json, field.path, field); !wrong.empty())
+        refuse("FILE_SYNTAX", wrong);
+  } catch (const data::ArgumentError& error) {
+    refuse("FILE_SYNTAX", error.what());
   }
   template <class T>
   const T& element(const std::vector<T>& list, int index, const char* what) const {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "data/error.h"
 #include "verify/files/read/tessellation_file.h"
@@ -163,6 +164,52 @@ TEST_F(Gltf, BrokenFilesAreRefused) {
   std::ofstream(folder_ / "torn.glb") << "glTF";
   EXPECT_THROW(read_tessellation(folder_ / "torn.glb"), data::InputError);
   EXPECT_THROW(read_tessellation(folder_ / "absent.gltf"), data::InputError);
+}
+
+// As text, because no writer writes them: each number once as something that it must not be. Some were taken for
+// none, or modulo 2^32.
+TEST_F(Gltf, WholeNumbersThatAreNegativeOrBrokenOrTooLargeAreRefused) {
+  (void)read("t.gltf");
+  std::ifstream in(folder_ / "t.gltf");
+  const std::string good{std::istreambuf_iterator<char>(in), {}};
+  const auto said = [&](const std::string& field, const std::string& number, const std::string& instead) {
+    const std::string old = "\"" + field + "\":" + number;
+    const std::size_t at = good.find(old);
+    if (at == std::string::npos) return "no " + old + " in " + good;
+    std::ofstream(folder_ / "wrong.gltf") << std::string(good).replace(at, old.size(), instead);
+    try {
+      (void)read_tessellation(folder_ / "wrong.gltf");
+    } catch (const data::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  struct Field {
+    std::string name, number, most;
+  };
+  for (const Field& f : std::vector<Field>{{"mode", "4", "7"},
+                                           {"mesh", "0", "2147483648"},
+                                           {"indices", "2", "4294967298"},
+                                           {"POSITION", "0", "4294967296"},
+                                           {"bufferView", "0", "4294967296"},
+                                           {"componentType", "5126", "4294972422"},
+                                           {"count", "4", "9007199254740993"},
+                                           {"buffer", "0", "4294967296"},
+                                           {"byteLength", "48", "18446744073709551664"},
+                                           {"scene", "0", "4294967296"}}) {
+    const std::string name = "\"" + f.name + "\":";
+    EXPECT_EQ(said(f.name, f.number, name + f.number), "accepted");
+    for (const std::string& wrong : {f.most, "-" + f.most, std::string("-1"), f.number + ".5",
+                                     "\"" + f.number + "\"", std::string("null"), "[" + f.number + "]"})
+      EXPECT_NE(said(f.name, f.number, name + wrong).find("not a whole number from"), std::string::npos)
+          << f.name << " " << wrong << ": " << said(f.name, f.number, name + wrong);
+  }
+  for (const std::string wrong : {"-12", "256", "12.5", "4294967308"})
+    EXPECT_NE(said("byteLength", "48", "\"byteLength\":48,\"byteStride\":" + wrong).find("byteStride\" is"),
+              std::string::npos)
+        << wrong;
+  EXPECT_EQ(said("byteLength", "48", "\"byteLength\":48,\"byteStride\":12"), "accepted");
+  EXPECT_NE(said("mode", "4", "\"mode\":4,\"mode\":1").find("stands twice"), std::string::npos);
 }
 
 // Sixty nodes that each hold the next one twice are 2^60 paths to the last.

@@ -7,7 +7,6 @@
 
 #include "data/error.h"
 #include "data/io/polygon_soup.h"
-#include "verify/files/read/gltf.h"
 
 namespace limitcheck::verify {
 

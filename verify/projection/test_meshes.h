@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Control meshes with sharp edges and vertices, of both schemes. For tests.
+// Control meshes of either scheme, of all valences and boundaries, without and with sharp edges. For tests.
 #pragma once
 
 #include <string>
@@ -7,21 +7,53 @@
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
 
 namespace limitcheck::verify::test {
 
-struct SharpMesh {
+struct TestMesh {
   std::string name;
   data::ControlMesh mesh;
   data::Scheme scheme;
 };
 
-inline std::vector<SharpMesh> sharp_meshes() {
+/// Of names, each of the scheme that it is meant for.
+inline std::vector<TestMesh> meshes_named(const std::vector<std::string>& names) {
+  std::vector<TestMesh> all;
+  for (const std::string& name : names) {
+    data::ControlMesh mesh = data::named_mesh(name);
+    const data::Scheme scheme = data::natural_scheme(mesh);
+    all.push_back({name, std::move(mesh), scheme});
+  }
+  return all;
+}
+
+/// The stock shapes, and some more of triangles.
+inline std::vector<TestMesh> loop_meshes() {
+  std::vector<std::string> names = data::stock_shapes();
+  names.insert(names.end(), {"bumpy:20", "bumpy:200", "wheel:17", "fan:9"});
+  return meshes_named(names);
+}
+
+inline std::vector<TestMesh> quad_meshes() {
+  constexpr auto kQuads = data::Scheme::kCatmullClark;
+  std::vector<TestMesh> all{{"quad cube", data::quad_cube(), kQuads},
+                            {"quad torus", data::quad_torus(4, 3), kQuads}};
+  for (const int n : {3, 5, 6, 8, 12})
+    all.push_back({"wheel " + std::to_string(n), data::quad_wheel(n, 1), kQuads});
+  for (int k = 1; k <= 6; ++k) all.push_back({"fan " + std::to_string(k), data::quad_fan(k, 1), kQuads});
+  for (const int n : {3, 5, 7}) all.push_back({"prism " + std::to_string(n), data::polygon_prism(n), kQuads});
+  all.push_back({"triangles", data::octahedron(), kQuads});
+  all.push_back({"dual", data::dual(data::bumpy_sphere(40, 1)), kQuads});
+  return all;
+}
+
+inline std::vector<TestMesh> sharp_meshes() {
   constexpr auto kLoop = data::Scheme::kLoop, kQuads = data::Scheme::kCatmullClark;
-  std::vector<SharpMesh> all;
+  std::vector<TestMesh> all;
   const auto add = [&](std::string name, data::ControlMesh mesh, data::Scheme scheme) {
     all.push_back({std::move(name), std::move(mesh), scheme});
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Evaluation near vertices of very many faces against Stam's method.
-#include "verify/projection/hub.h"
+#include "verify/projection/limit_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,11 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/splitmix64.h"
-#include "verify/projection/limit_surface.h"
 
 namespace limitcheck::verify {
 namespace {
 
-TEST(Hub, GivesThePointsAndDerivativesOfStamsMethod) {
+TEST(HighValenceVertex, GivesThePointsAndDerivativesOfStamsMethod) {
   double worst = 0, worst_first = 0, worst_second = 0;
   int near = 0;
   for (const char* name :

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "data/error.h"
-#include "verify/files/read/gltf.h"
+#include "verify/files/read/tessellation_file.h"
 
 using namespace limitcheck;
 

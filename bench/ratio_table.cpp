@@ -112,7 +112,7 @@ void RatioTable::print_triangles() const {
         .45);
   print("depth 5, rows / write-only in 16 KB, bytes", rate(w, steady(rows, 5)),
         rate(w, "write-only/first-level"), 0);
-  for (const char* form : {"row-stream/whole-pairs", "row-stream/streamed", "row-stream/compact"}) {
+  for (const char* form : {"row-stream/whole-pairs", "row-stream/streamed"}) {
     print(("depth 5, " + std::string(form) + " / write-only to memory, bytes").c_str(),
           rate(w, steady(form, 5)), rate(w, "write-only/memory"),
           std::string(form) == "row-stream/streamed" ? .5 : 0);

@@ -7,7 +7,6 @@
 
 #include "bench/contenders/contender.h"
 #include "bench/contenders/pool.h"
-#include "fast/stream/kernel/compact_vertex.h"
 #include "fast/stream/row_stream.h"
 #include "fast/window/sliding_window.h"
 #include "reference/loop/naive.h"
@@ -29,7 +28,7 @@ double per_pair(std::size_t pairs, int depth) {
 /// Adjacency, uniform pairing, rings and vertex limits; then rows or whole pairs.
 class RowStreaming final : public Contender {
  public:
-  enum class Form { kRows, kWhole, kStreamed, kCompact };
+  enum class Form { kRows, kWhole, kStreamed };
 
   RowStreaming(const data::ControlMesh& mesh, int depth, int threads, const rs::Kernel& kernel, Form form)
       : depth_(depth),
@@ -39,7 +38,6 @@ class RowStreaming final : public Contender {
         pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids),
         stream_(mesh, adjacency_, kernel) {
     if (form == Form::kWhole || form == Form::kStreamed) out_.resize(evaluated());
-    if (form == Form::kCompact) compact_.resize(evaluated());
   }
 
   void run() override {
@@ -66,9 +64,6 @@ class RowStreaming final : public Contender {
         case Form::kStreamed:
           stream_.streamed(some, depth_, *workspace, out_.data() + start);
           break;
-        case Form::kCompact:
-          stream_.streamed(some, depth_, *workspace, compact_.data() + start);
-          break;
       }
       pool_.give(std::move(workspace));
     });
@@ -84,7 +79,6 @@ class RowStreaming final : public Contender {
   rs::RowStream stream_;
   Pool<rs::Workspace> pool_;
   std::vector<rs::Vertex> out_;
-  std::vector<rs::CompactVertex> compact_;
 };
 
 /// The paper's scheme, one point after the other, strips looked at and forgotten.
@@ -147,7 +141,7 @@ std::vector<Route> our_routes() {
   const auto add = [&](std::string name, std::string what, const rs::Kernel& kernel,
                        RowStreaming::Form form) {
     using Form = RowStreaming::Form;
-    const double bytes = form == Form::kRows ? 0 : form == Form::kCompact ? 16 : 24;
+    const double bytes = form == Form::kRows ? 0 : 24;
     routes.push_back({std::move(name), std::move(what), kernel.fused ? 5. : 100., bytes, true,
                       [&kernel, form](const auto& mesh, int depth, int threads) {
                         return std::make_unique<RowStreaming>(mesh, depth, threads, kernel, form);
@@ -160,8 +154,6 @@ std::vector<Route> our_routes() {
       RowStreaming::Form::kWhole);
   add("row-stream/streamed", "row streaming, all vertices kept, written past the caches",
       rs::kernels().front(), RowStreaming::Form::kStreamed);
-  add("row-stream/compact", "row streaming, 16 bytes a vertex, written past the caches",
-      rs::kernels().front(), RowStreaming::Form::kCompact);
   routes.push_back({"sliding-window", "the paper's scheme, scalar float, strips overwritten", 35, 0, true,
                     [](const auto& mesh, int depth, int threads) {
                       return std::make_unique<Window>(mesh, depth, threads);

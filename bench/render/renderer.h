@@ -11,7 +11,7 @@
 #include "bench/render/gl_context.h"
 #include "bench/render/image.h"
 #include "fast/frame/sink.h"
-#include "fast/plan/camera.h"
+#include "fast/plan/depth.h"
 
 namespace limitcheck::bench {
 

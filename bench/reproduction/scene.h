@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "fast/plan/camera.h"
 #include "fast/plan/depth.h"
 #include "fast/window/tessellator.h"
 #include "verify/picture/judge.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fast/mesh/point3.h"
+#include "fast/mesh/vec3.h"
 #include "reference/loop/stam.h"
 #include "verify/evidence/lattice.h"
 

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "data/control_mesh.h"
-#include "fast/plan/camera.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/depth.h"
 #include "fast/window/tessellator.h"

@@ -8,7 +8,7 @@
 
 #include "data/error.h"
 #include "fast/plan/crack.h"
-#include "fast/rules/corner.h"
+#include "fast/rules/prepared_mesh.h"
 
 namespace limitcheck::fast {
 

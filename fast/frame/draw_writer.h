@@ -12,8 +12,8 @@
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/patch.h"
 #include "fast/frame/sink.h"
-#include "fast/frame/vertex_copy.h"
-#include "fast/mesh/placement.h"
+#include "fast/frame/stores.h"
+#include "fast/mesh/vec3.h"
 
 namespace limitcheck::fast {
 

@@ -14,7 +14,7 @@
 #include "data/error.h"
 #include "fast/frame/engine_state.h"
 #include "fast/frame/frame_engine.h"
-#include "fast/frame/patch_frame.h"
+#include "fast/frame/patch_store.h"
 
 namespace limitcheck::fast {
 namespace {

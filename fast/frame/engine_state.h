@@ -14,7 +14,7 @@
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/index_writer.h"
 #include "fast/frame/patch_writer.h"
-#include "fast/mesh/triangle_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/plan/printed_rules.h"
 
 namespace limitcheck::fast {

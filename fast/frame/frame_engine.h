@@ -11,12 +11,11 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/frame/frame_options.h"
+#include "fast/frame/engine.h"
 #include "fast/frame/patch_store.h"
-#include "fast/frame/patch_target.h"
 #include "fast/frame/sink.h"
-#include "fast/frame/vertex_copy.h"
-#include "fast/mesh/placement.h"
+#include "fast/frame/stores.h"
+#include "fast/mesh/vec3.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/pairing.h"
 

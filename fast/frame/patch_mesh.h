@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "fast/frame/compact_vertex.h"
 #include "fast/frame/sink.h"
+#include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast {
 
@@ -25,7 +25,7 @@ inline constexpr std::uint16_t kRestartIndex16 = 0xffff;
 struct PatchOptions {
   IndexForm form = IndexForm::kTriangles;
   bool narrow = false;       // indices of 16 bits as well: depths of 7 and less
-  bool compact = false;      // vertices of 16 bytes (compact_vertex.h); of float
+  bool compact = false;      // vertices of 16 bytes (CompactVertex); of float
   bool incremental = false;  // patches that are as they were in the frame before keep their places
   /// Faces stay paired as long as neither of them wants another depth, in place of pairs that depend on the
   /// frame alone: fewer patches change from frame to frame, for about 2 per cent more triangles.

@@ -3,7 +3,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <string>
+#include <type_traits>
 #include <utility>
+
+#include "data/error.h"
+#include "fast/frame/frame_engine.h"
 
 namespace limitcheck::fast {
 
@@ -87,5 +97,154 @@ void PatchStore::evict(std::int64_t most) {
     hidden_.pop_back();
   }
 }
+
+namespace {
+
+// Memory on the heap, which grows by half.
+class HeapMemory final : public VertexMemory {
+ public:
+  std::byte* reserve(std::size_t bytes, std::size_t keep) override {
+    if (bytes > size_) {
+      const std::size_t size = (std::max(bytes, size_ + size_ / 2) + kLine - 1) / kLine * kLine;
+      std::unique_ptr<std::byte, Free> larger(static_cast<std::byte*>(std::aligned_alloc(kLine, size)));
+      if (!larger) throw std::bad_alloc();
+      if (keep > 0) std::memcpy(larger.get(), memory_.get(), keep);
+      memory_ = std::move(larger);
+      size_ = size;
+    }
+    return memory_.get();
+  }
+
+ private:
+  static constexpr std::size_t kLine = 64;
+  struct Free {
+    void operator()(std::byte* p) const { std::free(p); }
+  };
+  std::unique_ptr<std::byte, Free> memory_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace
+
+template <class Real>
+PatchMesh<Real>::PatchMesh(const PatchOptions& options, VertexMemory* memory)
+    : options_(options),
+      memory_(memory),
+      own_(memory == nullptr ? std::make_unique<HeapMemory>() : nullptr),
+      store_(std::make_unique<PatchStore>()) {
+  if (memory_ == nullptr) memory_ = own_.get();
+}
+template <class Real>
+PatchMesh<Real>::~PatchMesh() = default;
+template <class Real>
+PatchMesh<Real>::PatchMesh(PatchMesh&&) noexcept = default;
+template <class Real>
+PatchMesh<Real>& PatchMesh<Real>::operator=(PatchMesh&&) noexcept = default;
+
+template <class Real>
+void PatchMesh<Real>::clear() {
+  *store_ = PatchStore();  // not {}: clang 14 then leaves the destructor out of a template
+  draws_.clear(), changed_.clear();
+  indices_.clear(), indices16_.clear();
+  vertices_ = {}, compact_ = {};
+  provenance_.clear();
+  first_new_index_ = 0;
+}
+
+template <class Real>
+bool PatchFrame<Real>::continues() const {
+  return out_.options_.incremental && out_.store_->writer == engine_.version;
+}
+
+template <class Real>
+std::vector<Grid> PatchFrame<Real>::pairs_to_keep(std::span<const std::int32_t> depth) const {
+  const PatchStore& store = *out_.store_;
+  std::vector<Grid> pairs;
+  if (!out_.options_.sticky || store.mesh != engine_.id || store.depths.size() != depth.size()) return pairs;
+  const auto stays = [&](std::int32_t f) { return depth[f] >= 0 && depth[f] == store.depths[f]; };
+  for (const Grid& grid : store.pairs)
+    if (!grid.singleton() && stays(grid.face0) && stays(grid.face1)) pairs.push_back(grid);
+  return pairs;
+}
+
+template <class Real>
+std::int64_t PatchFrame<Real>::write(std::span<const std::int32_t> depth) {
+  if (out_.options_.compact && !std::is_same_v<Real, float>)
+    throw data::ArgumentError("frame: compact vertices are made of floats only");
+  PatchStore& store = *out_.store_;
+  engine_.list_patches(store.list);
+  std::int64_t vertices = 0;
+  for (const PatchWanted& patch : store.list) {
+    vertices += patch.size;
+    if (out_.options_.narrow && patch.size > std::numeric_limits<std::uint16_t>::max())
+      throw data::ArgumentError("frame: " + std::to_string(patch.size) +
+                                " vertices of a patch are more than 16-bit indices reach");
+  }
+  if (store.mesh != engine_.id) {
+    store.indices = PatchIndices();
+    out_.indices_.clear(), out_.indices16_.clear();
+  }
+  const bool reuse = continues();
+  store.writer = 0;  // until all is well
+  const std::int64_t before = store.end;
+  store.place(static_cast<std::size_t>(engine_.face_count()), reuse);
+  make_room(reuse ? static_cast<std::size_t>(before) : 0);
+  engine_.write_patches(store.places, {out_.vertices_.data(), out_.compact_.data(),
+                                       out_.provenance_.empty() ? nullptr : out_.provenance_.data()});
+  add_draws();
+  list_changes();
+  store.pairs = engine_.pairing.grids;
+  store.depths.assign(depth.begin(), depth.end());
+  store.writer = engine_.version;
+  store.mesh = engine_.id;
+  return vertices;
+}
+
+template <class Real>
+void PatchFrame<Real>::make_room(std::size_t keep) {
+  const auto count = static_cast<std::size_t>(out_.store_->end);
+  const std::size_t size = out_.options_.compact ? sizeof(CompactVertex) : sizeof(SurfaceVertex<Real>);
+  std::byte* memory = out_.memory_->reserve(count * size, std::min(keep, count) * size);
+  if (out_.options_.compact)
+    out_.compact_ = {reinterpret_cast<CompactVertex*>(memory), count};
+  else
+    out_.vertices_ = {reinterpret_cast<SurfaceVertex<Real>*>(memory), count};
+  out_.provenance_.resize(engine_.options.provenance ? count : 0);
+}
+
+template <class Real>
+void PatchFrame<Real>::add_draws() {
+  PatchStore& store = *out_.store_;
+  out_.draws_.clear();
+  out_.first_new_index_ = out_.indices_.size();
+  engine_.add_patch_draws(store.places, out_.options_.form, store.indices, out_.indices_, out_.draws_);
+  if (!out_.options_.narrow) return;
+  for (std::size_t i = out_.indices16_.size(); i < out_.indices_.size(); ++i)
+    out_.indices16_.push_back(static_cast<std::uint16_t>(out_.indices_[i]));
+}
+
+template <class Real>
+void PatchFrame<Real>::list_changes() {
+  auto& changed = out_.changed_;
+  changed.clear();
+  const PatchStore& store = *out_.store_;
+  for (std::size_t i = 0; i < store.list.size(); ++i)
+    if (store.places[i].fresh) changed.push_back({store.places[i].first, store.list[i].size});
+  std::sort(changed.begin(), changed.end(),
+            [](const VertexRange& a, const VertexRange& b) { return a.first < b.first; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < changed.size(); ++i) {
+    if (changed[last].first + changed[last].count == changed[i].first)
+      changed[last].count += changed[i].count;
+    else
+      changed[++last] = changed[i];
+  }
+  if (!changed.empty()) changed.resize(last + 1);
+}
+
+template class PatchMesh<float>;
+template class PatchMesh<double>;
+template class PatchFrame<float>;
+template class PatchFrame<double>;
 
 }  // namespace limitcheck::fast

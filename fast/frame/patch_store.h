@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Where the patches of a mesh lie in a buffer of vertices, and what they showed when they were written there.
+// Brings a PatchMesh from one frame of an engine to the next: where the patches of a mesh lie in a buffer of vertices,
+// what they showed when they were written there, and how their points get there.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "fast/frame/patch_indices.h"
 #include "fast/frame/patch_mesh.h"
+#include "fast/frame/stores.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/grid.h"
+#include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast {
+
+template <class Real>
+struct FrameEngine;
 
 /// All that the points of a patch depend on, but for the control mesh: two patches of equal keys have equal
 /// bits.
@@ -72,5 +81,58 @@ struct PatchStore {
   std::vector<std::pair<std::uint32_t, std::size_t>> hidden_;  // age and face, while evict() is at it
   std::uint32_t frame_ = 0;
 };
+
+/// One of `vertices` and `compact`, which only float has, and provenance or null.
+template <class Real>
+struct PatchTarget {
+  SurfaceVertex<Real>* vertices = nullptr;
+  CompactVertex* compact = nullptr;
+  LatticePoint* provenance = nullptr;
+  CompactRow compact_row = &fast::compact_row;  // or one that gives the same bits sooner
+
+  /// Whether whole vertices alone are wanted, so that who computes them may put them there.
+  bool takes_vertices() const { return vertices != nullptr && compact == nullptr && provenance == nullptr; }
+
+  PatchTarget from(std::int64_t first) const {
+    return {vertices != nullptr ? vertices + first : nullptr, compact != nullptr ? compact + first : nullptr,
+            provenance != nullptr ? provenance + first : nullptr, compact_row};
+  }
+  /// Vertices at .. at + count - 1.
+  void put(std::uint32_t at, const SurfaceVertex<Real>* from, std::size_t count) const {
+    if constexpr (std::is_same_v<Real, float>)
+      if (compact != nullptr) return compact_row(from, count, compact + at);
+    copy_vertices(from, count, vertices + at, Stores::kOrdinary);
+  }
+  void put(std::uint32_t at, const SurfaceVertex<Real>& vertex) const {
+    if constexpr (std::is_same_v<Real, float>)
+      if (compact != nullptr) return void(compact[at] = compacted(vertex));
+    copy_vertices(&vertex, 1, vertices + at, Stores::kOrdinary);
+  }
+};
+
+template <class Real>
+class PatchFrame {
+ public:
+  PatchFrame(FrameEngine<Real>& engine, PatchMesh<Real>& out) : engine_(engine), out_(out) {}
+
+  /// The pairs of the last frame that stay: those of faces that want the same depth again.
+  std::vector<Grid> pairs_to_keep(std::span<const std::int32_t> depth) const;
+
+  /// When the engine has planned its frame at these depths. Returns the number of vertices of the patches.
+  ///   throws   data::ArgumentError: a patch of more vertices than narrow indices reach; what memory throws
+  std::int64_t write(std::span<const std::int32_t> depth);
+
+ private:
+  bool continues() const;
+  void make_room(std::size_t keep);
+  void add_draws();
+  void list_changes();
+
+  FrameEngine<Real>& engine_;
+  PatchMesh<Real>& out_;
+};
+
+extern template class PatchFrame<float>;
+extern template class PatchFrame<double>;
 
 }  // namespace limitcheck::fast

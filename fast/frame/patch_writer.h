@@ -10,7 +10,6 @@
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/patch_indices.h"
 #include "fast/frame/patch_store.h"
-#include "fast/frame/patch_target.h"
 
 namespace limitcheck::fast {
 

@@ -9,7 +9,6 @@
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/patch_indices.h"
 #include "fast/frame/patch_store.h"
-#include "fast/frame/patch_target.h"
 #include "fast/frame/quad_patch.h"
 
 namespace limitcheck::fast {

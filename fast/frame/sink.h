@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "fast/plan/lattice_point.h"
+#include "fast/plan/grid.h"
 #include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast {

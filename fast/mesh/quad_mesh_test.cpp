@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 
 #include <gtest/gtest.h>
 

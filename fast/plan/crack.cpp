@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "data/error.h"
-#include "fast/mesh/triangle_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/plan/printed_rules.h"
 #include "fast/plan/quad_faces.h"
 

@@ -16,7 +16,7 @@
 
 #include "data/error.h"
 #include "data/splitmix64.h"
-#include "fast/mesh/box.h"
+#include "fast/mesh/vec3.h"
 #include "fast/plan/quad_depth.h"
 #include "fast/rules/ring.h"
 

@@ -1,23 +1,54 @@
 // SPDX-License-Identifier: MIT
-// How deep each control face is subdivided: the heuristics of section 4.1. [mueller2000, 4.1; C22-C33, C82]
+// How deep each control face is subdivided, for which viewer: the heuristics of section 4.1. [mueller2000, 4.1;
+// C22-C33, C82]
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "data/error.h"
 #include "fast/mesh/adjacency.h"
-#include "fast/mesh/point3.h"
-#include "fast/mesh/vertex_kind.h"
-#include "fast/plan/camera.h"
+#include "fast/mesh/sharpness.h"
+#include "fast/mesh/vec3.h"
 
 namespace limitcheck::fast {
+
+/// A perspective view.
+struct Camera {
+  Point3 eye{0, 0, 4};
+  Point3 target{0, 0, 0};
+  Point3 up{0, 1, 0};
+  double field_of_view = 45;  // vertical, degrees, in (0, 180)
+  int width = 1024;           // viewport, pixels
+  int height = 768;
+  double near = 0.01;  // nothing is taken to be nearer to the eye than this
+
+  /// Pixels that a length of 1 at distance 1 covers: height / (2 tan(field_of_view / 2)).
+  double focal_pixels() const { return height / (2 * std::tan(field_of_view * std::numbers::pi / 360)); }
+
+  /// Throws data::ArgumentError and says which value makes no view: eye equal to target, up along the view,
+  /// field of view outside (0, 180), a viewport without pixels, near not positive, anything not finite.
+  void validate() const {
+    const auto refuse = [](const char* what) { throw data::ArgumentError(std::string("camera: ") + what); };
+    if (!is_finite(eye) || !is_finite(target) || !is_finite(up)) refuse("eye, target and up must be finite");
+    if (eye == target) refuse("eye and target are the same point");
+    if (length(cross(target - eye, up)) == 0) refuse("up points along the view");
+    if (!(field_of_view > 0 && field_of_view < 180))
+      refuse("the field of view must lie between 0 and 180 degrees");
+    if (width <= 0 || height <= 0) refuse("the viewport has no pixels");
+    if (!(near > 0) || !std::isfinite(near)) refuse("near must be positive");
+  }
+};
 
 class Ring;
 

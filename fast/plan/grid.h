@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: MIT
-// What a kernel evaluates at a time: a square grid of points over two neighbouring faces.
+// A place on a control face, and what a kernel evaluates at a time: a square grid of points over two
+// neighbouring faces.
 #pragma once
 
 #include <cstdint>
 
 namespace limitcheck::fast {
+
+/// Where a vertex lies on `face`: l1 = i / denominator, l2 = j / denominator, or (u, v) likewise on a quad.
+/// Lattice points of depth d have denominator 2^d, the centre of a triangle's fan i = j = 1 and denominator
+/// 3. A face of Catmull-Clark's scheme that is no quad has a quad at each `corner`, with a (u, v) of its own
+/// whose denominator is 2^(d-1), at least 1.
+struct LatticePoint {
+  std::int32_t face = -1;
+  std::uint32_t i = 0, j = 0;
+  std::uint32_t denominator = 1;
+  std::int32_t corner = 0;
+  friend constexpr bool operator==(const LatticePoint&, const LatticePoint&) = default;
+};
 
 /// (2^depth + 1)^2 points with corners A B C D over two neighbouring faces, which share the diagonal A C; or
 /// a face alone (a singleton), which has the upper left half of the points.

@@ -7,7 +7,7 @@
 
 #include "fast/plan/depth.h"
 #include "fast/plan/quad_faces.h"
-#include "fast/rules/quad_ring.h"
+#include "fast/rules/ring.h"
 
 namespace limitcheck::fast {
 

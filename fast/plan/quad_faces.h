@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "data/faces.h"
-#include "fast/mesh/quad_mesh.h"
-#include "fast/plan/lattice_point.h"
+#include "fast/mesh/cut_mesh.h"
+#include "fast/plan/grid.h"
 
 namespace limitcheck::fast {
 

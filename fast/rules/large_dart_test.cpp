@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fast/rules/large_dart.h"
+#include "fast/rules/quad_limit.h"
 
 #include <gtest/gtest.h>
 

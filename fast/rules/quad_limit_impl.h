@@ -10,9 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "fast/rules/large_dart.h"
-#include "fast/rules/left_eigenvectors.h"
 #include "fast/rules/quad_limit.h"
+#include "fast/rules/vertex_limit.h"
 
 namespace limitcheck::fast::detail {
 

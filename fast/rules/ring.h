@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A vertex and its neighbours: the paper's "vertex mask-like structure", subdivided in place. [mueller2000,
-// 4.1]
+// A vertex and its neighbours: the paper's "vertex mask-like structure", subdivided in place, for the depth heuristics
+// of either scheme. [mueller2000, 4.1; C21]
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
-#include "fast/mesh/point3.h"
-#include "fast/rules/sharp_limit.h"
+#include "fast/mesh/vec3.h"
+#include "fast/rules/prepared_quads.h"
 #include "fast/rules/surface_vertex.h"
 #include "fast/rules/vertex_limit.h"
 
@@ -74,6 +75,39 @@ class Ring {
   VertexKind kind_ = VertexKind::kPlain;
   RingWeightTable<double> weights_;
   mutable DartWeightTable<double> darts_;
+};
+
+/// As Ring, of Catmull-Clark's scheme. A vertex without faces is a ring without points.
+class QuadRing {
+ public:
+  void gather(const QuadMesh& mesh, const SemiSharp& semi_sharp, std::int32_t v);
+
+  const Point3& centre() const { return own_.star.centre; }
+  int faces() const { return own_.star.faces; }
+
+  /// Semi-sharp edges become less sharp. In a mesh that was cut by a step the first one does nothing: its
+  /// star is that after the step already.
+  void subdivide();
+
+  Point3 limit_position();
+  /// Unit limit normal of the centre; `degenerate`: whether the tangents vanish or are parallel. [D12]
+  Point3 limit_normal(bool* degenerate = nullptr);
+
+  /// Both.
+  SurfaceVertex<double> limit_vertex(bool* degenerate = nullptr, double farthest = 0);
+
+  /// The smallest cosine between `normal` and the normals of the faces with area; 1 if there is none.
+  double cone_cosine(const Point3& normal) const;
+
+ private:
+  /// The star when nothing about it is semi-sharp any more.
+  void gather_final();
+  LimitFrame<double> limit();
+
+  std::span<const StarTags> tags_;
+  int taken_ = 0;  // steps that the mesh has taken before
+  OwnQuadStar<double> own_, final_;
+  StarWeightTable<double> weights_;
 };
 
 }  // namespace limitcheck::fast

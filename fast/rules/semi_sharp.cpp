@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "fast/rules/semi_sharp.h"
+#include "fast/rules/prepared_quads.h"
 
 #include <algorithm>
 #include <cstddef>
 
-#include "fast/mesh/sharp_polygons.h"
+#include "fast/mesh/sharpness.h"
 
 namespace limitcheck::fast {
 

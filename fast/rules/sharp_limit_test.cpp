@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "fast/rules/sharp_limit.h"
+#include "fast/rules/vertex_limit.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "fast/rules/vertex_normal.h"
+#include "fast/rules/limit.h"
 
 namespace limitcheck::fast {
 namespace {

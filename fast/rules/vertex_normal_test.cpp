@@ -2,7 +2,7 @@
 // Claim D12 has one rule: the sliding window, row streaming and the depth heuristics take the same normal
 // where the tangents of a control vertex vanish, and find the same vertices where they do. The rings are
 // turned and shifted, so that nothing cancels exactly.
-#include "fast/rules/vertex_normal.h"
+#include "fast/rules/limit.h"
 
 #include <gtest/gtest.h>
 

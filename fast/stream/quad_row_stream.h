@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/surface_vertex.h"
 #include "fast/stream/gather/quad_rings.h"
-#include "fast/stream/kernel/quad_targets.h"
+#include "fast/stream/kernel/targets.h"
 #include "fast/stream/row_stream.h"
 
 namespace limitcheck::fast::row_stream {
@@ -43,7 +43,7 @@ struct QuadRowView {
 ///
 /// Error in float, against the exact limit: position 1e-7 of the mesh's box; normals of regular quads 1e-6
 /// rad at every depth, of others 1e-5 for 99.9 % of the points to depth 5 from where they have origins of
-/// their own (local_origin.h); tables in NOTES.md.
+/// their own (rings.cpp); tables in NOTES.md.
 class QuadRowStream {
  public:
   /// Keeps references to the kernel and, if something is semi-sharp, to the mesh, which must outlive it.
@@ -58,8 +58,7 @@ class QuadRowStream {
     return rings_.placement()(Vec3<float>{x[0], x[1], x[2]});
   }
   SurfaceVertex<float> limit(std::int32_t v) const {
-    const float* x = rings_.head(v) + QuadCornerBlock::kLimit;
-    return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+    return vertex_from(rings_.head(v) + QuadCornerBlock::kLimit);
   }
 
   /// The faces in an order in which neighbours in the list are quads of like valences, which makes the best

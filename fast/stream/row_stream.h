@@ -11,13 +11,12 @@
 #include "data/control_mesh.h"
 #include "fast/frame/stores.h"
 #include "fast/mesh/adjacency.h"
-#include "fast/mesh/triangle_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/gather/rings.h"
-#include "fast/stream/kernel/compact_vertex.h"
+#include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/targets.h"
-#include "fast/stream/kernel/vertex.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -90,9 +89,8 @@ struct RowView {
 /// beyond a border, which would give its two sides other bits.
 ///
 /// The same points come out in several forms: rows() hands over each row in a buffer that the next one
-/// overwrites; whole() and streamed() write whole grids to memory, for which grid_indices.h has the index
-/// buffers that all grids of a depth share; and StreamTessellator makes strips, or an indexed mesh in which
-/// shared points appear once.
+/// overwrites; whole() and streamed() write whole grids to memory; and StreamTessellator makes strips, patches, or an
+/// indexed mesh in which shared points appear once.
 class RowStream {
  public:
   /// Keeps references to the adjacency and the kernel, which must outlive it. The mesh has a position for
@@ -131,8 +129,6 @@ class RowStream {
   /// the caches and that nobody reads soon. Nothing beyond the grids is touched. Other threads see the output
   /// when they see what this thread writes afterwards.
   void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const;
-  /// The same in 16 bytes per vertex, see compact_vertex.h.
-  void streamed(std::span<const Grid> grids, int depth, Workspace& workspace, CompactVertex* out) const;
 
   /// The points of control edges at a depth of their own: those of half_edges[e], from its origin to its
   /// target, from out[e * side]. The same bits as a grid of that depth gives them.

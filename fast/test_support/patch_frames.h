@@ -16,7 +16,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/scheme.h"
-#include "fast/frame/frame_options.h"
+#include "fast/frame/engine.h"
 #include "fast/frame/patch_mesh.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"

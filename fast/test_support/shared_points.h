@@ -12,7 +12,7 @@
 
 #include "data/control_mesh.h"
 #include "data/splitmix64.h"
-#include "fast/stream/kernel/lattice.h"
+#include "fast/frame/patch.h"
 #include "fast/stream/row_stream.h"
 
 namespace limitcheck::fast::row_stream {

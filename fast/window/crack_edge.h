@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/error.h"
-#include "fast/rules/corner.h"
+#include "fast/rules/prepared_mesh.h"
 
 namespace limitcheck::fast {
 

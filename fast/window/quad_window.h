@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "data/error.h"
-#include "fast/window/counting.h"
 #include "fast/window/quad_rows.h"
+#include "fast/window/sliding_window.h"
 
 namespace limitcheck::fast {
 

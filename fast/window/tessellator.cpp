@@ -16,7 +16,7 @@
 #include "data/error.h"
 #include "fast/frame/engine_state.h"
 #include "fast/frame/quad_state.h"
-#include "fast/mesh/box.h"
+#include "fast/mesh/vec3.h"
 #include "fast/window/frame_worker.h"
 #include "fast/window/quad_frame_worker.h"
 

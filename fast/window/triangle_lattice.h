@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/rules/corner.h"
+#include "fast/rules/prepared_mesh.h"
 
 namespace limitcheck::fast {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fast/frame/sink.h"
-#include "fast/plan/camera.h"
+#include "fast/plan/depth.h"
 #include "verify/picture/picture.h"
 
 namespace limitcheck::verify {

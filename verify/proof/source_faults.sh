@@ -20,13 +20,12 @@ flags=(-std=c++20 -I "$copy" -ffp-contract=off -MD)
 # What a finder is made of: a program or a test, and the sources that faults are planted in or that include them.
 declare -A sources=(
   [map]="verify/proof/source_fault_probe.cpp verify/proof/maps/prove_map_residues.cpp"
-  [quads]="verify/proof/maps/quad_map_test.cpp fast/mesh/adjacency.cpp fast/mesh/quad_mesh.cpp
-    fast/mesh/sharp_polygons.cpp fast/rules/quad_limit_double.cpp fast/rules/semi_sharp.cpp"
+  [quads]="verify/proof/maps/quad_map_test.cpp fast/mesh/adjacency.cpp fast/mesh/cut_mesh.cpp
+    fast/mesh/sharpness.cpp fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp"
   [shipped]="verify/proof/bounds/shipped_kernels_test.cpp verify/proof/bounds/shipped_kernels.cpp fast/stream/kernel/targets.cpp
-    fast/stream/kernel/quad_targets.cpp fast/stream/gather/rings.cpp fast/stream/gather/quad_rings_instances.cpp
-    fast/rules/quad_limit_double.cpp"
+    fast/stream/kernel/quad_targets.cpp fast/stream/gather/rings.cpp fast/rules/quad_limit.cpp"
   [bits]="fast/stream/host/row_stream_test.cpp fast/stream/gather/rings.cpp"
-  [darts]="fast/rules/large_dart_test.cpp fast/rules/large_dart.cpp")
+  [darts]="fast/rules/large_dart_test.cpp fast/rules/quad_limit.cpp")
 
 # compile FINDER FOLDER FILE: its objects, into the folder those alone that depend on the file.
 compile() {

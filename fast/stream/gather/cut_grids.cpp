@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "fast/stream/gather/rounded_vertex.h"
-
 namespace limitcheck::fast::row_stream {
 
 CutGrids::CutGrids(const TriangleMesh& mesh)
@@ -36,9 +34,7 @@ CutGridEvaluator::CutGridEvaluator(const CutGrids& mesh, const Rings& rings, int
       line_((std::size_t{1} << depth) + 1) {}
 
 Vertex CutGridEvaluator::corner(std::int32_t v) const {
-  Vertex out;
-  std::memcpy(&out, rings_.corner(v).head.data() + CornerBlock::kLimit, sizeof out);
-  return out;
+  return vertex_from(rings_.corner(v).head.data() + CornerBlock::kLimit);
 }
 
 void CutGridEvaluator::edge(std::int32_t h, Vertex* out) {

@@ -6,18 +6,24 @@
 #include <span>
 #include <vector>
 
-#include "fast/mesh/triangle_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/plan/grid.h"
 #include "fast/rules/prepared_mesh.h"
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/gather/rings.h"
 #include "fast/stream/kernel/layout.h"
-#include "fast/stream/kernel/vertex.h"
 #include "fast/window/crack_edge.h"
 #include "fast/window/sliding_window.h"
 #include "fast/window/triangle_lattice.h"
 
 namespace limitcheck::fast::row_stream {
+
+/// A vertex of the sliding window in double, as row streaming delivers it. Zeros have no sign.
+inline Vertex rounded(const SurfaceVertex<double>& v) {
+  const auto number = [](double x) { return static_cast<float>(x) + 0.F; };
+  return {{number(v.position.x), number(v.position.y), number(v.position.z)},
+          {number(v.normal.x), number(v.normal.y), number(v.normal.z)}};
+}
 
 /// The mesh for these rules, and what is next to a cut: what the kernels make of a boundary has other bits on
 /// its other side. Keeps references to the mesh. Read-only afterwards.

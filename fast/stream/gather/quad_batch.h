@@ -9,8 +9,7 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/gather/quad_rings.h"
-#include "fast/stream/gather/transpose.h"
-#include "fast/stream/kernel/quad_layout.h"
+#include "fast/stream/kernel/layout.h"
 
 namespace limitcheck::fast::row_stream {
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 
 #include "fast/stream/gather/rings.h"
-#include "fast/stream/kernel/quad_layout.h"
+#include "fast/stream/kernel/layout.h"
 
 namespace limitcheck::fast {
 template <class W>
@@ -27,7 +27,7 @@ enum class QuadClass : std::uint8_t {
   kRegular,   ///< all interior, of four quads: a bicubic polynomial
   kClosed,    ///< all interior
   kOpen,      ///< some vertex on a boundary or a cut
-  kSemiSharp  ///< some vertex in semi_sharp.h's steps: not for the kernels
+  kSemiSharp  ///< some vertex with steps of SemiSharp: not for the kernels
 };
 
 /// place_points, with local origins sooner where two sides of a quad span a low triangle.

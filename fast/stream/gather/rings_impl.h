@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "data/error.h"
-#include "fast/rules/vertex_normal.h"
+#include "fast/rules/limit.h"
 #include "fast/stream/gather/rings.h"
 
 namespace limitcheck::fast::row_stream {

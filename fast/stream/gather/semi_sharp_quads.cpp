@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "fast/stream/gather/rounded_vertex.h"
+#include "fast/stream/gather/cut_grids.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -30,9 +30,7 @@ SemiSharpEvaluator::SemiSharpEvaluator(const SemiSharpQuads& quads, const QuadRi
       line_((std::size_t{1} << depth) + 1) {}
 
 Vertex SemiSharpEvaluator::corner(std::int32_t h) const {
-  Vertex v;
-  std::memcpy(&v, rings_.head(rings_.corner(h).vertex) + QuadCornerBlock::kLimit, sizeof v);
-  return v;
+  return vertex_from(rings_.head(rings_.corner(h).vertex) + QuadCornerBlock::kLimit);
 }
 
 void SemiSharpEvaluator::side(std::int32_t h, Vertex* out) {

@@ -7,12 +7,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/prepared_quads.h"
 #include "fast/stream/gather/quad_rings.h"
-#include "fast/stream/kernel/quad_layout.h"
-#include "fast/stream/kernel/quad_targets.h"
-#include "fast/stream/kernel/vertex.h"
+#include "fast/stream/kernel/layout.h"
+#include "fast/stream/kernel/targets.h"
 #include "fast/window/quad_edge.h"
 #include "fast/window/quad_window.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "data/error.h"
-#include "fast/stream/kernel/lattice.h"
+#include "fast/frame/patch.h"
 #include "fast/test_support/global_refinement.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"

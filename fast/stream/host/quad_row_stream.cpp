@@ -8,7 +8,7 @@
 #include "data/error.h"
 #include "fast/stream/gather/quad_batch.h"
 #include "fast/stream/gather/semi_sharp_quads.h"
-#include "fast/stream/kernel/memory_stream.h"
+#include "fast/stream/kernel/output_targets.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -61,7 +61,8 @@ void evaluate_sides(const QuadRings& rings, const QuadKernel& kernel,
                     std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
                     Vertex* const* out) {
   std::array<float*, kMaxLanes> lane;
-  for (std::size_t k = 0; k < lane.size(); ++k) lane[k] = out[std::min(k, half_edges.size() - 1)]->position;
+  for (std::size_t k = 0; k < lane.size(); ++k)
+    lane[k] = &out[std::min(k, half_edges.size() - 1)]->position.x;
   const auto batch = gather_sides<float>(rings, half_edges, depth, kernel.lanes, workspace.input.data());
   kernel.sides(batch, rings.placement(), workspace.work.data(), {lane.data(), 0, nullptr, nullptr});
 }
@@ -90,7 +91,7 @@ struct Evaluation {
     const QuadTarget<float> target{lane.data(), 6 * n, nullptr, nullptr};
     Queue::go(rings, faces, kernel.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
       for (std::size_t k = 0; k < lane.size(); ++k)
-        lane[k] = at(index[std::min(k, index.size() - 1)])->position;
+        lane[k] = &at(index[std::min(k, index.size() - 1)])->position.x;
       if (!stores || !kernel.quad_lines || kind == QuadClass::kSemiSharp) return run(kind, index, target);
       (kind == QuadClass::kRegular ? kernel.patch_lines : kernel.quad_lines)(
           gathered(kind, index), rings.placement(), workspace.work.data(), lane.data(), *stores);

@@ -17,7 +17,7 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "fast/stream/gather/quad_batch.h"
-#include "fast/stream/kernel/quad_kernel.h"
+#include "fast/stream/kernel/kernel.h"
 #include "fast/test_support/quad_meshes.h"
 #include "fast/test_support/refined_quads.h"
 #include "fast/test_support/shared_points.h"
@@ -309,7 +309,7 @@ TEST(QuadStreamBits, PositionsAreEqualOnBothSidesOfACut) {
         stream.edges({&h, 1}, depth, workspace, here.data());
         stream.edges({&quads.cut_twin[h], 1}, depth, workspace, there.data());
         for (std::size_t k = 0; k < n; ++k, ++compared)
-          EXPECT_EQ(std::memcmp(here[k].position, there[n - 1 - k].position, sizeof here[k].position), 0);
+          EXPECT_EQ(std::memcmp(&here[k].position, &there[n - 1 - k].position, sizeof here[k].position), 0);
       }
     }
   }

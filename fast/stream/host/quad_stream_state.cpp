@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "fast/stream/kernel/compact_vertex.h"
+#include "fast/stream/kernel/output_targets.h"
 
 namespace limitcheck::fast::row_stream {
 

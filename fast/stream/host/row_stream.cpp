@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "fast/stream/row_stream.h"
-
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "data/error.h"
 #include "fast/stream/gather/cut_grids.h"
+#include "fast/stream/kernel/output_targets.h"
+#include "fast/stream/row_stream.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -32,6 +34,45 @@ void visit_row(void* context, int j) {
   Rows& rows = *static_cast<Rows*>(context);
   rows.view.j = j;
   rows.visit(rows.context, rows.view);
+}
+
+// Rows of at most kMaxLanes whole grids, each as a run from its place on.
+struct Runs {
+  const Grid* first;
+  Vertex* const* places;
+  Stores stores;
+  std::array<LineStream, kMaxLanes> lines = {};
+
+  static void visit(void* context, const RowView& view) {
+    Runs& runs = *static_cast<Runs*>(context);
+    const auto length = static_cast<std::size_t>(side(view.depth));
+    const auto first_grid = static_cast<std::size_t>(view.grids.data() - runs.first);
+    for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
+      Vertex* const to = runs.places[first_grid + lane];
+      const Vertex* const row = view.vertices(lane);
+      if (runs.stores == Stores::kOrdinary) {
+        std::copy_n(row, length, to + static_cast<std::size_t>(view.j) * length);
+        continue;
+      }
+      LineStream& lines = runs.lines[lane];
+      if (view.j == 0) lines.start(reinterpret_cast<std::byte*>(to));
+      lines.append(reinterpret_cast<const std::byte*>(row), length * sizeof(Vertex));
+      if (view.j + 1 == side(view.depth)) lines.finish();
+    }
+  }
+};
+
+// write(grids, places) for at most kMaxLanes grids at a time, which lie one after the other.
+template <class Write>
+void one_after_the_other(std::span<const Grid> grids, int depth, Vertex* out, const Write& write) {
+  const auto length = static_cast<std::size_t>(side(depth)), size = length * length;
+  std::array<Vertex*, kMaxLanes> places;
+  while (!grids.empty()) {
+    const std::size_t count = std::min(grids.size(), places.size());
+    for (std::size_t k = 0; k < count; ++k) places[k] = out + k * size;
+    write(grids.first(count), places.data());
+    grids = grids.subspan(count), out += count * size;
+  }
 }
 
 }  // namespace
@@ -133,7 +174,7 @@ void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspa
   for (std::size_t first = 0; first < full; first += lanes) {
     gather(adjacency_, rings_, grids.subspan(first, lanes), depth, kernel.lanes, workspace.input.data(),
            Order::kFromA);
-    const Target<float> target{out[first * grid_size].position, 6 * static_cast<std::ptrdiff_t>(grid_size),
+    const Target<float> target{&out[first * grid_size].position.x, 6 * static_cast<std::ptrdiff_t>(grid_size),
                                6 * side(depth), nullptr, nullptr};
     kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
@@ -149,7 +190,7 @@ void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspa
         const auto n = static_cast<std::size_t>(side(view.depth)), j = static_cast<std::size_t>(view.j);
         for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
           const auto grid = static_cast<std::size_t>(&view.grids[lane] - to.grids);
-          std::memcpy(to.out + (grid * n + j) * n, view.vertices(lane), n * sizeof(Vertex));
+          std::copy_n(view.vertices(lane), n, to.out + (grid * n + j) * n);
         }
       },
       &rest, Order::kFromA, Kept::kOneRow);
@@ -178,11 +219,40 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
     const bool full = batch.size() == lanes;
     Vertex* to = out + first * length;
     kernel.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
-                     full ? to->position : rest.base,
+                     full ? &to->position.x : rest.base,
                      full ? 6 * static_cast<std::ptrdiff_t>(length) : rest.pitch);
     for (std::size_t e = 0; e < batch.size() && !full; ++e)
-      std::memcpy(to + e * length, rest.row(e, 0), length * sizeof(Vertex));
+      std::copy_n(rest.row(e, 0), length, to + e * length);
   }
+}
+
+void RowStream::put(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* const* places,
+                    Order order, Stores stores) const {
+  workspace.prepare(depth, kernel_.lanes);
+  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
+  std::size_t count = 0;
+  for (; !grids.empty(); grids = grids.subspan(count), places += count) {
+    count = together(grids, lanes);
+    const std::span<const Grid> batch = grids.first(count);
+    if (kernel_.run_lines == nullptr || (cut_ && cut_->touches(batch.front()))) {
+      Runs runs{batch.data(), places, stores};
+      rows(batch, depth, workspace, &Runs::visit, &runs, order);
+      continue;
+    }
+    std::array<float*, kMaxLanes> lane;  // those beyond the last grid repeat it, place and all
+    for (std::size_t k = 0; k < lanes; ++k) lane[k] = &places[std::min(k, count - 1)]->position.x;
+    gather(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data(), order);
+    kernel_.run_lines(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), lane.data(),
+                      stores);
+  }
+}
+
+void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const {
+  workspace.prepare(depth, kernel_.lanes);
+  one_after_the_other(grids, depth, out, [&](std::span<const Grid> some, Vertex* const* places) {
+    put(some, depth, workspace, places, Order::kFromA, Stores::kPastCaches);
+  });
+  fence(Stores::kPastCaches);
 }
 
 }  // namespace limitcheck::fast::row_stream

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "fast/frame/patch.h"
 #include "fast/stream/host/number_stream.h"
-#include "fast/stream/kernel/lattice.h"
 #include "fast/test_support/global_refinement.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"

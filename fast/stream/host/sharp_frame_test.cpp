@@ -14,7 +14,7 @@
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "fast/mesh/triangle_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/global_refinement.h"

@@ -9,17 +9,15 @@
 #include <vector>
 
 #include "fast/frame/engine_state.h"
-#include "fast/stream/gather/stream_batches.h"
-#include "fast/stream/host/grid_indices.h"
 #include "fast/stream/host/quad_stream_state.h"
 #include "fast/stream/host/stream_hooks.h"
 #include "fast/stream/host/stream_worker.h"
+#include "fast/stream/kernel/output_targets.h"
 
 namespace limitcheck::fast::row_stream {
 
 namespace {
 
-static_assert(sizeof(SurfaceVertex<float>) == sizeof(Vertex));
 static_assert(kMaxDepth == kDeepest);
 
 // The variant of four lanes of the same instructions, or the kernel itself.
@@ -88,7 +86,8 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
       fresh_grids.push_back(pairing.grids[i]);
       fresh_patches.push_back(patches[i]);
       firsts.push_back(places[i].first);
-      if (patches[i].full()) bytes += sizeof(Vertex) * base_vertex(1, patches[i].depth);
+      if (patches[i].full())
+        bytes += sizeof(Vertex) * static_cast<std::size_t>(GridBlock{1 << patches[i].depth}.size());
     }
     // Past the caches row by row is slower than through them.
     stores = stream.kernel().run_lines != nullptr ? stores_for(bytes) : Stores::kOrdinary;
@@ -101,8 +100,7 @@ struct StreamTessellator::State final : EngineState<float>, StreamHooks {
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
-    const float* x = stream.rings().corner(v).head.data() + CornerBlock::kLimit;
-    return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+    return vertex_from(stream.rings().corner(v).head.data() + CornerBlock::kLimit);
   }
 
   std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One thread's part of a frame: evaluates a batch and hands its points to the patches' writers.
+// One thread's part of a frame of triangles: the patches in batches, the borders of its repaired faces, and how the points
+// of a batch reach the writers of its patches.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +13,137 @@
 
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/draw_writer.h"
-#include "fast/stream/gather/stream_batches.h"
-#include "fast/stream/host/border_points.h"
+#include "fast/frame/patch.h"
+#include "fast/stream/gather/batch.h"
 #include "fast/stream/row_stream.h"
 
 namespace limitcheck::fast::row_stream {
 
+/// How the points of a batch reach their writers. A draw list takes the rows of a half from its own first on,
+/// which for face0 is the row at C.
+enum class Delivery : std::uint8_t {
+  kPlaced,     // both faces, straight to their place
+  kRowsFromC,  // face0, or both faces: as the rows come
+  kRowsFromA,  // face1 alone: as the rows come
+  kWhole,      // stitched faces: from whole grids, one after the other
+  kNothing     // fans alone: nothing for the kernel
+};
+inline constexpr std::size_t kDeliveries = 5;
+
+struct Batch {
+  Delivery delivery;
+  int depth;
+  std::span<const std::size_t> patches;
+};
+
+/// Batches of at most `lanes` patches, or `narrow` of those delivered whole. In a fixed order.
+class StreamBatches {
+ public:
+  /// placed: patches of two displayed faces have a place each, where the rows lie as they come from C.
+  void make(std::span<const Patch> patches, std::size_t lanes, std::size_t narrow, bool placed) {
+    for (auto& list : sorted_) list.clear();
+    batches_.clear();
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      sorted_[static_cast<std::size_t>(delivery_of(patches[i], placed)) +
+              kDeliveries * static_cast<std::size_t>(patches[i].depth)]
+          .push_back(i);
+    // A remainder joins the row batches, which would leave lanes empty, too.
+    for (std::size_t depth = 0; depth <= kMaxDepth && placed; ++depth) {
+      auto& pairs = sorted_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kPlaced)];
+      auto& rows = sorted_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kRowsFromC)];
+      const std::size_t full = pairs.size() / lanes * lanes;
+      rows.insert(rows.end(), pairs.begin() + static_cast<std::ptrdiff_t>(full), pairs.end());
+      pairs.resize(full);
+    }
+    for (std::size_t k = 0; k < sorted_.size(); ++k) {
+      const auto delivery = static_cast<Delivery>(k % kDeliveries);
+      const std::size_t most = delivery == Delivery::kWhole ? narrow : lanes;
+      const std::span<const std::size_t> list(sorted_[k]);
+      for (std::size_t first = 0; first < list.size(); first += most)
+        batches_.push_back({delivery, static_cast<int>(k / kDeliveries),
+                            list.subspan(first, std::min(most, list.size() - first))});
+    }
+  }
+  const std::vector<Batch>& list() const { return batches_; }
+
+ private:
+  static Delivery delivery_of(const Patch& patch, bool placed) {
+    if (placed && patch.full()) return Delivery::kPlaced;
+    const Half &first = patch.half[0], &second = patch.half[1];
+    if (!first.uses_window() && !second.uses_window()) return Delivery::kNothing;
+    if (first.display == Display::kStitch || second.display == Display::kStitch) return Delivery::kWhole;
+    return first.uses_window() ? Delivery::kRowsFromC : Delivery::kRowsFromA;
+  }
+
+  std::array<std::vector<std::size_t>, kDeliveries*(kMaxDepth + 1)> sorted_;
+  std::vector<Batch> batches_;
+};
+
+/// The border points of a batch's repaired faces: edges of one depth go together, one in each lane.
+class BorderPoints {
+ public:
+  /// Evaluates the edges of all faces in the patches of a batch that are repaired. The narrow kernel takes
+  /// what is left when there are not enough edges for the other.
+  void evaluate(const RowStream& stream, const Kernel& narrow, std::span<const Patch> patches,
+                const CrackPlan& plan, std::span<const std::size_t> batch, Workspace& workspace) {
+    for (auto& edges : of_depth_) edges.clear();
+    std::size_t points = 0;
+    for (std::size_t lane = 0; lane < batch.size(); ++lane) {
+      for (int s = 0; s < 2; ++s) {
+        const Half& half = patches[batch[lane]].half[s];
+        for (int e = 0; half.repaired() && e < 3; ++e) {
+          const int depth = edge_depth(plan, half.face, e);
+          of_depth_[depth].push_back({3 * half.face + e, &border_[lane][s][e]});
+          points += static_cast<std::size_t>(side(depth));
+        }
+      }
+    }
+    if (points > points_.size()) points_.resize(points);
+    Vertex* to = points_.data();
+    for (int depth = 0; depth <= kMaxDepth; ++depth) {
+      const auto& edges = of_depth_[depth];
+      if (edges.empty()) continue;
+      half_edges_.clear();
+      const auto length = static_cast<std::size_t>(side(depth));
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        half_edges_.push_back(edges[i].half_edge);
+        *edges[i].points = to + i * length;
+      }
+      // Whole batches of the wide kernel, the rest by the one that is full sooner.
+      const auto wide = static_cast<std::size_t>(stream.kernel().lanes);
+      const auto few = static_cast<std::size_t>(narrow.lanes);
+      const std::size_t rest = edges.size() % wide, with_wide = edges.size() - (rest <= few ? rest : 0);
+      const std::span<const std::int32_t> all(half_edges_);
+      stream.edges(all.first(with_wide), depth, workspace, to);
+      stream.edges(all.subspan(with_wide), depth, workspace, to + with_wide * length, &narrow);
+      to += edges.size() * length;
+    }
+  }
+
+  /// Of half s of the patch in a lane.
+  const Border<float>& of(std::size_t lane, int s) const { return border_[lane][s]; }
+
+  std::size_t bytes() const {
+    std::size_t count = sizeof(Vertex) * points_.capacity();
+    for (const auto& edges : of_depth_) count += sizeof(Edge) * edges.capacity();
+    return count;
+  }
+
+ private:
+  struct Edge {
+    std::int32_t half_edge;
+    const Vertex** points;
+  };
+
+  std::array<std::vector<Edge>, kMaxDepth + 1> of_depth_;
+  std::array<std::array<Border<float>, 2>, kMaxLanes> border_;
+  std::vector<std::int32_t> half_edges_;
+  std::vector<Vertex> points_;
+};
+
 /// The centre of a face's fan, once it has been evaluated.
 struct CachedCentre {
-  SurfaceVertex<float> point;
+  Vertex point;
   bool known = false;
 };
 
@@ -39,8 +163,6 @@ struct StreamFrame {
 
 class StreamWorker {
  public:
-  using Point = SurfaceVertex<float>;
-
   DrawWriter<float>::Scratch& scratch() { return scratch_; }
 
   /// make_writer(patch index, worker) gives each patch its writer.
@@ -69,7 +191,7 @@ class StreamWorker {
 
   /// Bytes of its own, writers aside.
   std::size_t bytes() const {
-    return workspace_.bytes() + border_.bytes() + sizeof(Point) * scratch_.inner.capacity();
+    return workspace_.bytes() + border_.bytes() + sizeof(Vertex) * scratch_.inner.capacity();
   }
 
  private:
@@ -83,7 +205,7 @@ class StreamWorker {
     collect(frame, batch);
     std::array<Vertex*, kMaxLanes> places;
     for (std::size_t lane = 0; lane < batch.patches.size(); ++lane)
-      places[lane] = reinterpret_cast<Vertex*>(make_writer(batch.patches[lane], *this).grid());
+      places[lane] = make_writer(batch.patches[lane], *this).grid();
     frame.stream.put(grids_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
   }
 
@@ -116,15 +238,12 @@ class StreamWorker {
   static void take_rows(const Patch& patch, const RowView& view, std::size_t lane, Delivery delivery,
                         Writer& writer) {
     const int last = 1 << view.depth;
-    const RowPair<float> strip{points_of(view.before(lane)) + last, points_of(view.vertices(lane)) + last,
-                               -1};
+    const RowPair<float> strip{view.before(lane) + last, view.vertices(lane) + last, -1};
     if (patch.full())
       writer.whole_strip(view.j - 1, strip);
     else
       writer.half_strip(delivery == Delivery::kRowsFromC ? 0 : 1, view.j - 1, strip);
   }
-
-  static const Point* points_of(const Vertex* v) { return reinterpret_cast<const Point*>(v); }
 
   void evaluate_whole(const StreamFrame& frame, const Batch& batch) {
     collect(frame, batch);
@@ -140,11 +259,11 @@ class StreamWorker {
   template <class Writer>
   void whole(const Patch& patch, std::size_t lane, Writer& writer) {
     const int k = 1 << patch.depth;
-    const Point* points = points_of(whole_ + lane * static_cast<std::size_t>((k + 1) * (k + 1)));
+    const Vertex* points = whole_ + lane * static_cast<std::size_t>((k + 1) * (k + 1));
     for (int h = 0; h < 2; ++h) {
       if (!patch.half[h].uses_window()) continue;
       for (int row = 0; row < k; ++row) {
-        const Point *first = points + (k - row) * (k + 1), *last = points + row * (k + 1) + k;
+        const Vertex *first = points + (k - row) * (k + 1), *last = points + row * (k + 1) + k;
         writer.half_strip(
             h, row,
             h == 0 ? RowPair<float>{first, first - (k + 1), 1} : RowPair<float>{last, last + (k + 1), -1});
@@ -162,7 +281,7 @@ class StreamWorker {
     }
   }
 
-  const Point& centre(const StreamFrame& frame, std::int32_t face) {
+  const Vertex& centre(const StreamFrame& frame, std::int32_t face) {
     CachedCentre& cached = frame.centres[face];
     if (!cached.known) {
       if (!centre_) centre_.emplace(frame.adjacency.max_valence());

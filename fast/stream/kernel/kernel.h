@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The row-streaming kernel for any number type, one grid at a time, in namespace generic.
+// The row-streaming kernels of both schemes for any number type, one grid or quad at a time, in namespace generic.
 #pragma once
 
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/number.h"
 
-// The kernel's text is shared with the vector targets. Here it is compiled for a target without Highway.
+// The kernels' text is shared with the vector targets. Here it is compiled for a target without Highway.
 #if defined(HWY_NAMESPACE) || defined(HWY_INLINE)
 #error "fast/stream/kernel/kernel.h comes before Highway's headers"
 #endif
@@ -15,6 +15,8 @@
 #define HWY_ATTR
 #define HWY_INLINE inline
 
+#include "fast/stream/kernel/quad_patch-inl.h"
+#include "fast/stream/kernel/quad_stream-inl.h"
 #include "fast/stream/kernel/stream-inl.h"
 
 #undef HWY_NAMESPACE
@@ -23,7 +25,11 @@
 #undef HWY_ATTR
 #undef HWY_INLINE
 // The vector targets include the same files anew.
-#undef LIMITCHECK_FAST_STREAM_EDGE_INL_H_
 #undef LIMITCHECK_FAST_STREAM_ROWS_INL_H_
 #undef LIMITCHECK_FAST_STREAM_RULES_INL_H_
 #undef LIMITCHECK_FAST_STREAM_STREAM_INL_H_
+#undef LIMITCHECK_FAST_STREAM_QUAD_PATCH_INL_H_
+#undef LIMITCHECK_FAST_STREAM_QUAD_ROWS_INL_H_
+#undef LIMITCHECK_FAST_STREAM_QUAD_RULES_INL_H_
+#undef LIMITCHECK_FAST_STREAM_QUAD_SIDE_INL_H_
+#undef LIMITCHECK_FAST_STREAM_QUAD_STREAM_INL_H_

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Where the numbers of one batch of grids lie: shared by the gatherer, which fills them, and the kernels.
+// Where the numbers of one batch of grids or quads lie: shared by the gatherer, which fills them, and the kernels.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
-#include "fast/mesh/placement.h"
+#include "fast/mesh/vec3.h"
+#include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast::row_stream {
+
+/// What row streaming delivers; and one from its six numbers.
+using Vertex = SurfaceVertex<float>;
+inline Vertex vertex_from(const float* x) {
+  return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+}
 
 inline constexpr int kMaxDepth = 10;
 inline constexpr int kMaxLanes = 16;
@@ -132,6 +141,158 @@ template <class T>
 struct Target {
   T* base = nullptr;
   std::ptrdiff_t lane_stride = 0;
+  std::ptrdiff_t row_stride = 0;
+  void (*row)(void* context, int j) = nullptr;
+  void* context = nullptr;
+  int row_mask = kEveryRow;
+
+  std::ptrdiff_t row_offset(int j) const { return (j & row_mask) * row_stride; }
+};
+
+/// A quad on its lattice, N = 2^depth, corners in the face's own order. The neighbourhood of a corner is seen
+/// in a frame of its own, turned by as many quarters as the corner's number: x along the side that begins
+/// there.
+///
+///        D (0,N) ---- C (N,N)          f' -- e' -- f         e = e_k, f = f_k, e' = e_{k+1}, f' = f_{k+1},
+///          |            |              |     |     |         e'' = e_{k+2}, e- = e_{k-1}, f- = f_{k-1}:
+///          |            |              e'' - c --- e         entries of the ring from the corner's own k
+///          |            |                    |     |         on
+///        A (0,0) ---- B (N,0)                e- -- f-
+///
+/// Rows -1 and N+1, columns -1 and N+1 are the points across the border. The point diagonally beyond a corner
+/// is never read: it does not exist unless four quads meet there.
+enum QuadSide { kAB = 0, kBC = 1, kCD = 2, kDA = 3 };  // side k begins at corner k
+
+/// Points that a level takes from the ring of each corner: c, then seven entries from e- on.
+constexpr int kQuadCore = 7;
+constexpr int kQuadBorder = 3 * (1 + kQuadCore);
+enum RingPoint { kHub = 0, kEBefore, kFBefore, kE, kF, kEAfter, kFAfter, kEBeyond };
+
+/// Each level loses an e and an f at either end of a window.
+constexpr int quad_window_width(int depth) {
+  return kQuadCore + 4 * depth;
+}
+
+/// Input of a batch at a corner, in units of `lanes` numbers. With De the sum of the differences from c to
+/// the e (on a boundary: to the two ends of the ring), Df of those to the f,
+///   c' = 4 c + k0 De + k1 Df, De' = k2 De + k3 Df, Df' = k2 De + k4 Df,     all times 4 per level.
+struct QuadCornerBlock {
+  static constexpr int kWeights = 0;  // k0 .. k4
+  static constexpr int kCentre = 5;   // c
+  static constexpr int kEdges = 8;    // De
+  static constexpr int kFaces = 11;   // Df
+  static constexpr int kLimit = 14;   // limit position and unit normal, in the caller's coordinates
+  static constexpr int kHead = 20;    // so much is the vertex' own
+  static constexpr int kEnds = 20;    // which entries of the window are the ends of an open ring
+  static constexpr int kWindow = 22;  // entries e f e f .. e; overwritten
+};
+constexpr int quad_block_size(int depth) {
+  return QuadCornerBlock::kWindow + 3 * quad_window_width(depth);
+}
+
+/// Of quads that are streamed: four corner blocks, then per side 1 where it is sharp (a boundary or one side
+/// of a cut), then per side 1 where it is a polynomial, then per corner 1 where it is a dart, and for each
+/// level from 1 on how far its centre has moved since the level before.
+constexpr int quad_sharp_offset(int depth) {
+  return 4 * quad_block_size(depth);
+}
+constexpr int quad_polynomial_offset(int depth) {
+  return quad_sharp_offset(depth) + 4;
+}
+constexpr int quad_dart_size(int depth) {
+  return 1 + 3 * depth;
+}
+constexpr int quad_dart_offset(int depth) {
+  return quad_polynomial_offset(depth) + 4;
+}
+/// Of regular quads: 4 x 4 points, the row below A B first, then the limits of the four corners.
+constexpr int kPatchLimits = 48;
+constexpr int kPatchSize = kPatchLimits + 24;
+
+constexpr int quad_input_size(int depth) {
+  return std::max(quad_dart_offset(depth) + 4 * quad_dart_size(depth), kPatchSize);
+}
+
+/// A batch of quads of one depth, in a form in which the lanes differ in numbers alone. Bits: corner or
+/// side k.
+template <class T>
+struct QuadBatch {
+  T* input;
+  int depth;
+  std::array<int, 4>
+      period;          // entries of the ring at a corner, if all lanes have as many and the window would
+                       // be longer; the window is the ring then, from e- on. Else 0.
+  unsigned open = 0;   // corners where some lane's ring is open
+  unsigned darts = 0;  // corners that are darts in some lane
+  unsigned sharp = 0;  // sides that are sharp in some lane
+  unsigned some_polynomial = 0, all_polynomial = 0;  // sides that are polynomials in some lane, in all
+};
+
+/// Along a side between two interior vertices of four quads the surface is a polynomial of the 12 points
+/// around it: from an origin near the side, numbers of three coordinates.
+struct QuadCurve {
+  static constexpr int kPoints = 0;   // 4 points of the curve, times 6
+  static constexpr int kAlong = 12;   // their 3 differences
+  static constexpr int kAcross = 21;  // 4 derivatives across, to the left
+  static constexpr int kOrigin = 33;  // in the caller's coordinates
+  static constexpr int kSize = 36;
+};
+
+/// From this depth on the limits inside a quad come from the level before the last, whose points make the
+/// last level's: half the memory, and fewer operations. Rows and columns next to the sides are as ever.
+constexpr int kFusedFrom = 5;
+
+/// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, or, before the
+/// rows begin, what a side needs by itself (two corners, and three rows of two levels in turn); what the
+/// levels take from the corners; the curves of the sides.
+constexpr int quad_row_size(int level) {
+  return 3 * ((1 << level) + 3);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
+}
+constexpr int quad_rows_offset(int level) {
+  int offset = 0;
+  for (int l = 1; l < level; ++l) offset += 4 * quad_row_size(l);
+  return offset;
+}
+constexpr int quad_side_work_size(int depth) {
+  return 2 * quad_block_size(depth) + 6 * quad_row_size(depth);
+}
+constexpr int quad_border_offset(int depth) {
+  return std::max(quad_rows_offset(depth + 1), quad_side_work_size(depth));
+}
+constexpr int quad_curves_offset(int depth) {
+  return quad_border_offset(depth) + 4 * kQuadBorder * (depth + 1);
+}
+constexpr int quad_patch_offset(int depth) {
+  return quad_curves_offset(depth) + 4 * QuadCurve::kSize;
+}
+constexpr int kPatchWork = 48 + 24;  // coefficients of the patch, and of a row
+/// Points of sides that have origins of their own: of B C, C D and D A, for those of A B leave first.
+constexpr int quad_strips_offset(int depth) {
+  return quad_patch_offset(depth) + kPatchWork;
+}
+constexpr int quad_strip_size(int depth) {
+  return 6 * ((1 << depth) + 1);
+}
+constexpr int quad_work_size(int depth) {
+  return quad_strips_offset(depth) + 3 * quad_strip_size(depth);
+}
+
+/// The unit of limit points of a depth, which the rules leave 36 * 4^depth times too large.
+template <class T>
+T quad_unit(T unit, int depth) {
+  if constexpr (std::is_floating_point_v<T>)
+    return static_cast<T>(std::ldexp(static_cast<double>(unit) / 36, -2 * depth));
+  else
+    return unit / static_cast<T>(std::ldexp(36., 2 * depth));
+}
+
+/// Where the vertices of a batch go: vertex i of row j of the quad in lane k, position then unit normal,
+/// starts at lane[k] + (j & row_mask) * row_stride + 6 * i, in numbers: row_mask 0 reuses one row, 1 two in
+/// turn. Several lanes may go to the same place if they are the same quad. `row` is called, if set, after
+/// each row.
+template <class T>
+struct QuadTarget {
+  T* const* lane = nullptr;
   std::ptrdiff_t row_stride = 0;
   void (*row)(void* context, int j) = nullptr;
   void* context = nullptr;

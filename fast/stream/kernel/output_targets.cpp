@@ -3,8 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fast/stream/kernel/compact_vertex.h"
-#include "fast/stream/kernel/memory_stream.h"
+#include "fast/stream/kernel/output_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/stream/kernel/output_targets.cpp"
@@ -60,13 +59,13 @@ HWY_ATTR void compact_vectors(const Vertex* from, std::size_t count, CompactVert
   std::size_t k = 0;
   for (; k + lanes <= count; k += lanes) compact_one_vector(wide, in + 6 * k, out + 4 * k);
   for (; k + lanes_four <= count; k += lanes_four) compact_one_vector(four, in + 6 * k, out + 4 * k);
-  compact_row(reinterpret_cast<const SurfaceVertex<float>*>(from) + k, count - k, to + k);
+  compact_row(from + k, count - k, to + k);
 }
 
 #else
 
 void compact_vectors(const Vertex* from, std::size_t count, CompactVertex* to) {
-  compact_row(reinterpret_cast<const SurfaceVertex<float>*>(from), count, to);
+  compact_row(from, count, to);
 }
 
 #endif
@@ -85,12 +84,8 @@ void stream_lines(const std::byte* from, std::size_t lines, std::byte* to) {
   (reinterpret_cast<const float*>(from), 16 * lines, reinterpret_cast<float*>(to));
 }
 
-void compact(std::span<const Vertex> vertices, CompactVertex* out) {
-  HWY_DYNAMIC_DISPATCH(compact_vectors)(vertices.data(), vertices.size(), out);
-}
-
-void compact(const SurfaceVertex<float>* vertices, std::size_t count, CompactVertex* out) {
-  HWY_DYNAMIC_DISPATCH(compact_vectors)(reinterpret_cast<const Vertex*>(vertices), count, out);
+void compact(const Vertex* vertices, std::size_t count, CompactVertex* out) {
+  HWY_DYNAMIC_DISPATCH(compact_vectors)(vertices, count, out);
 }
 
 }  // namespace limitcheck::fast::row_stream

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernel of quads in double, where nothing hides behind the rounding of float.
-#include "fast/stream/kernel/quad_kernel.h"
+#include "fast/stream/kernel/kernel.h"
 
 #include <gtest/gtest.h>
 

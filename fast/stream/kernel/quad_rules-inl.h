@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Catmull-Clark's rules on the regular lattice, times 4 per level, and at a ring.
+// Catmull-Clark's rules on the regular lattice, times 4 per level, and at a ring; the neighbourhood of a corner from
+// level to level; and sides between two interior vertices of four quads, which are polynomials.
 //
 // Bits: every rule is first applied across a line and then along it. A point on a side, or next to one, takes
 // the side for that line; half a turn about the point then swaps the operands of every addition and negates
@@ -13,7 +14,8 @@
 #define LIMITCHECK_FAST_STREAM_QUAD_RULES_INL_H_
 #endif
 
-#include "fast/stream/kernel/quad_layout.h"
+#include "fast/stream/kernel/layout.h"
+#include "fast/stream/kernel/rows-inl.h"
 #include "fast/stream/kernel/rules-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -122,6 +124,134 @@ HWY_ATTR HWY_INLINE void side_limit(const typename N::Scalar* const (&at)[3][3],
     out.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), unit, centre[c]);
     along[c] = p[2] - p[0];
     across[c] = limit_filter<N>(q[0], q[1], q[2]);
+  }
+  out.set_normal(along, across);
+}
+
+/// Corner k of the quads of a batch, or a copy of it.
+template <class N>
+class QuadCorner {
+ public:
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  using Block = QuadCornerBlock;
+  static constexpr int L = N::lanes;
+
+  HWY_ATTR QuadCorner(const QuadBatch<Scalar>& batch, int corner)
+      : block_(batch.input + corner * quad_block_size(batch.depth) * L),
+        dart_(batch.darts >> corner & 1
+                  ? batch.input + (quad_dart_offset(batch.depth) + corner * quad_dart_size(batch.depth)) * L
+                  : nullptr),
+        depth_(batch.depth),
+        period_(batch.period[corner]),
+        open_(batch.open >> corner & 1) {}
+
+  const Scalar* centre() const { return block_ + Block::kCentre * L; }
+  const Scalar* limit() const { return block_ + Block::kLimit * L; }
+  /// Entry `core` of the ring, 0 for e- up to 7 for f''.
+  const Scalar* ring(int core) const {
+    const int t = period_ == 0 ? 2 * depth_ + core : core >= period_ ? core - period_ : core;
+    return block_ + (Block::kWindow + 3 * t) * L;
+  }
+  const Scalar* point(RingPoint p) const { return p == kHub ? centre() : ring(p - 1); }
+
+  /// Seen from an origin, in `to`, where it is from now on; that may be where it was. At level 0 only.
+  HWY_ATTR void move(const V* origin, Scalar* to) {
+    const int entries = period_ > 0 ? period_ : quad_window_width(depth_);
+    if (to != block_) {
+      for (int k = 0; k < Block::kWindow; ++k) N::store(N::load(block_ + k * L), to + k * L);
+    }
+    for (int c = 0; c < 3; ++c) {
+      N::store(N::load(centre() + c * L) - origin[c], to + (Block::kCentre + c) * L);
+      for (int t = Block::kWindow + c; t < Block::kWindow + 3 * entries; t += 3)
+        N::store(N::load(block_ + t * L) - origin[c], to + t * L);
+    }
+    block_ = to;
+  }
+
+  /// From a level to the next.
+  HWY_ATTR void refine(int level) {
+    // A ring that is there as a whole stays whole.
+    const int first = period_ > 0 ? 0 : 2 * level;
+    const int end = period_ > 0 ? period_ : quad_window_width(depth_) - 2 * level;
+    if (dart_ != nullptr) {
+      V before[3];
+      for (int c = 0; c < 3; ++c) before[c] = N::load(centre() + c * L);
+      refine_ring(first, end);
+      const V is_dart = N::load(dart_);
+      for (int c = 0; c < 3; ++c) {
+        const V moved = N::fma(N::splat(4), before[c], N::load(dart_ + (1 + 3 * level + c) * L));
+        N::store(N::select(is_dart, moved, N::load(centre() + c * L)), block_ + (Block::kCentre + c) * L);
+      }
+    } else {
+      refine_ring(first, end);
+    }
+  }
+
+ private:
+  HWY_ATTR HWY_INLINE void refine_ring(int first, int end) {
+    if (open_) {
+      refine_quad_ring<N, false, true>(block_, first, end);
+    } else if (period_ > 0) {
+      refine_quad_ring<N, true, false>(block_, first, end);
+    } else {
+      refine_quad_ring<N, false, false>(block_, first, end);
+    }
+  }
+
+  Scalar* block_;
+  const Scalar* dart_;
+  int depth_, period_;
+  bool open_;
+};
+
+/// Numbers of a side, see QuadCurve. at[r][k]: point k = -1 .. 2 along the side, which runs from 0 to 1; row
+/// 0 is right of it, row 2 left. Half a turn gives the same points in the opposite order, with the same bits.
+template <class N>
+HWY_ATTR void make_curve(const typename N::Scalar* const (&at)[3][4],
+                         const KernelPlacement<typename N::Scalar>& placement, typename N::Scalar* curve) {
+  using V = typename N::V;
+  constexpr int L = N::lanes;
+  V origin[3];
+  choose_middle<N>(at[1][1], at[1][2], origin);
+  for (int c = 0; c < 3; ++c) {
+    V p[4];
+    for (int k = 0; k < 4; ++k) {
+      const V r = N::load(at[0][k] + c * L) - origin[c], m = N::load(at[1][k] + c * L) - origin[c],
+              l = N::load(at[2][k] + c * L) - origin[c];
+      p[k] = limit_filter<N>(r, m, l);
+      N::store(p[k], curve + (QuadCurve::kPoints + 3 * k + c) * L);
+      N::store(l - r, curve + (QuadCurve::kAcross + 3 * k + c) * L);
+    }
+    for (int k = 0; k < 3; ++k) N::store(p[k + 1] - p[k], curve + (QuadCurve::kAlong + 3 * k + c) * L);
+    N::store(N::fma(origin[c], N::splat(placement.unit), N::splat(placement.centre[c])),
+             curve + (QuadCurve::kOrigin + c) * L);
+  }
+}
+
+/// Position and direction of the normal at t = k / 2^depth. The weights are those of cubic and quadratic
+/// B-splines, times 6 and 2; in float they are exact to depth 8, so the points of a depth are those of the
+/// next, bit by bit.
+template <class N>
+HWY_ATTR HWY_INLINE void curve_point(const typename N::Scalar* curve, int k, int depth, typename N::V unit,
+                                     Vertex<N>& out) {
+  using V = typename N::V;
+  constexpr int L = N::lanes;
+  const double t = k / static_cast<double>(1 << depth), u = 1 - t;
+  const auto outer = [](double x) { return x * x * x; };
+  const auto inner = [](double x) { return 4 + x * x * (3 * x - 6); };
+  const V w0 = N::splat(outer(u)), w1 = N::splat(inner(t)), w2 = N::splat(inner(u)), w3 = N::splat(outer(t));
+  const V b0 = N::splat(u * u), b1 = N::splat(1 + 2 * (t * u)), b2 = N::splat(t * t);
+  V along[3], across[3];
+  for (int c = 0; c < 3; ++c) {
+    const auto number = [&](int part, int i) HWY_ATTR { return N::load(curve + (part + 3 * i + c) * L); };
+    const auto blend = [&](int part) HWY_ATTR {
+      return (w0 * number(part, 0) + w3 * number(part, 3)) + (w1 * number(part, 1) + w2 * number(part, 2));
+    };
+    out.position[c] = N::fma(blend(QuadCurve::kPoints), unit, number(QuadCurve::kOrigin, 0));
+    along[c] = (b0 * number(QuadCurve::kAlong, 0) + b2 * number(QuadCurve::kAlong, 2)) +
+               b1 * number(QuadCurve::kAlong, 1);
+    across[c] = blend(QuadCurve::kAcross);
   }
   out.set_normal(along, across);
 }

@@ -10,10 +10,9 @@
 
 #include <cstddef>
 
-#include "fast/stream/kernel/quad_corner-inl.h"
-#include "fast/stream/kernel/quad_curve-inl.h"
-#include "fast/stream/kernel/quad_layout.h"
+#include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/quad_rows-inl.h"
+#include "fast/stream/kernel/quad_rules-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {

@@ -11,10 +11,9 @@
 #include <array>
 #include <cstddef>
 
-#include "fast/stream/kernel/quad_corner-inl.h"
-#include "fast/stream/kernel/quad_curve-inl.h"
-#include "fast/stream/kernel/quad_layout.h"
+#include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/quad_rows-inl.h"
+#include "fast/stream/kernel/quad_rules-inl.h"
 #include "fast/stream/kernel/quad_side-inl.h"
 
 HWY_BEFORE_NAMESPACE();

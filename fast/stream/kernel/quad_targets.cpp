@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "fast/stream/kernel/quad_targets.h"
+#include "fast/stream/kernel/targets.h"
 
 #include <cstring>
 #include <vector>
 
-#include "fast/stream/kernel/quad_kernel.h"
+#include "fast/stream/kernel/kernel.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/stream/kernel/quad_targets.cpp"
@@ -14,7 +14,6 @@
 #include <hwy/highway.h>
 
 #include "fast/stream/kernel/lanes-inl.h"
-#include "fast/stream/kernel/line_runs-inl.h"
 #include "fast/stream/kernel/quad_patch-inl.h"
 #include "fast/stream/kernel/quad_stream-inl.h"
 

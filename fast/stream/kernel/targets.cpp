@@ -16,7 +16,6 @@
 #include <hwy/highway.h>
 
 #include "fast/stream/kernel/lanes-inl.h"
-#include "fast/stream/kernel/line_runs-inl.h"
 #include "fast/stream/kernel/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();

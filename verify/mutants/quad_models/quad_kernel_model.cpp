@@ -6,7 +6,6 @@
 #include <cstddef>
 
 #include "fast/rules/prepared_quads.h"
-#include "fast/rules/quad_corner.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify {

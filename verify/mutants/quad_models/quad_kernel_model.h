@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/quad_limit.h"
 #include "fast/rules/quad_star.h"
 #include "fast/rules/surface_vertex.h"

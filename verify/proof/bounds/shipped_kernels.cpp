@@ -10,12 +10,11 @@
 #include <cstring>
 #include <numeric>
 
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/limit.h"
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/gather/quad_batch.h"
 #include "fast/stream/gather/quad_rings.h"
-#include "fast/stream/kernel/quad_targets.h"
 #include "fast/stream/kernel/targets.h"
 #include "fast/stream/row_stream.h"
 #include "verify/proof/maps/kernel_runs.h"

@@ -67,10 +67,6 @@ std::vector<MapRow<double>> exact_rows(const data::ControlMesh& mesh, const Kern
   return rows;
 }
 
-double length(const fast::Vec3<double>& a) {
-  return std::sqrt(fast::dot(a, a));
-}
-
 // Of two columns of two rows.
 double determinant(const Row& a, const Row& b, std::size_t p, std::size_t q) {
   return a[p] * b[q] - a[q] * b[p];

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/plan/lattice_point.h"
+#include "fast/plan/grid.h"
 #include "reference/point/surface_point.h"
 #include "verify/proof/numbers/coefficient.h"
 

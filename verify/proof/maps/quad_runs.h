@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/prepared_quads.h"
 #include "fast/stream/gather/quad_batch.h"
 #include "fast/stream/gather/quad_rings_impl.h"
-#include "fast/stream/kernel/quad_kernel.h"
+#include "fast/stream/kernel/kernel.h"
 #include "fast/window/quad_edge.h"
 #include "fast/window/quad_window.h"
 #include "verify/proof/maps/linear_surface.h"

@@ -11,7 +11,6 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/rules/limit.h"
 #include "fast/stream/host/number_stream.h"
-#include "fast/stream/kernel/lattice.h"
 
 namespace limitcheck::verify {
 

@@ -10,7 +10,7 @@
 
 #include "data/cut_out.h"
 #include "data/splitmix64.h"
-#include "fast/mesh/quad_mesh.h"
+#include "fast/mesh/cut_mesh.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "fast/rules/large_dart.h"
+// The weights of quad_limit.h in double, and those of a dart of many quads in time linear in its valence.
+
+#include "fast/rules/quad_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "fast/rules/quad_limit_impl.h"
+
 namespace limitcheck::fast::detail {
+
 namespace {
 
 using Row = std::vector<double>;
@@ -97,3 +102,9 @@ StarWeights<double> large_dart_weights(int n) {
 }
 
 }  // namespace limitcheck::fast::detail
+
+namespace limitcheck::fast {
+
+template StarWeights<double> star_weights(int, bool, VertexKind);
+
+}  // namespace limitcheck::fast

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes to memory past the caches, for output that is larger than they are and that nobody reads soon.
+// The output forms that have vector loops of their own: vertices in 16 bytes, many at a time; and memory written past
+// the caches, for output that is larger than they are and that nobody reads soon.
 #pragma once
 
 #include <array>
@@ -7,7 +8,14 @@
 #include <cstdint>
 #include <cstring>
 
+#include "fast/stream/kernel/layout.h"
+
 namespace limitcheck::fast::row_stream {
+
+using fast::CompactVertex, fast::compacted, fast::kCompactNormalBound, fast::unpacked_normal;
+
+/// `count` vertices into `out`, which holds as many: a CompactRow, with the bits of compacted() on every machine.
+void compact(const Vertex* vertices, std::size_t count, CompactVertex* out);
 
 /// `lines` times 64 bytes by non-temporal stores, see fence(). to: aligned to 64 bytes; from: to 4.
 void stream_lines(const std::byte* from, std::size_t lines, std::byte* to);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/plan/depth.h"
 #include "fast/plan/crack.h"
+#include "fast/plan/depth.h"
 #include "verify/picture/difference.h"
 
 namespace limitcheck::verify {

@@ -12,7 +12,7 @@
 #include "fast/stream/kernel/targets.h"
 #include "fast/stream/stream_tessellator.h"
 #include "verify/audit/audit.h"
-#include "verify/shared_bits/evaluate.h"
+#include "verify/shared_bits/test_support/evaluate.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

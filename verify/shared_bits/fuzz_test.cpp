@@ -15,7 +15,7 @@
 #include "fast/stream/kernel/targets.h"
 #include "verify/audit/audit.h"
 #include "verify/host/host.h"
-#include "verify/shared_bits/evaluate.h"
+#include "verify/shared_bits/test_support/evaluate.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

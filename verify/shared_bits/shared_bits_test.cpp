@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Claim D14 for row streaming, in numbers: how many shared points were compared, and how many bits differ.
-#include "verify/shared_bits/shared_bits.h"
+#include "verify/shared_bits/test_support/shared_bits.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/generators/random_mesh.h"
 #include "fast/stream/kernel/targets.h"
-#include "verify/shared_bits/evaluate.h"
+#include "verify/shared_bits/test_support/evaluate.h"
 
 namespace limitcheck::verify {
 namespace {

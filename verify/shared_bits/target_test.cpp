@@ -13,8 +13,8 @@
 #include "fast/stream/kernel/targets.h"
 #include "fast/stream/row_stream.h"
 #include "verify/host/host.h"
-#include "verify/shared_bits/profile.h"
-#include "verify/shared_bits/rewritten.h"
+#include "verify/shared_bits/test_support/evaluate.h"
+#include "verify/shared_bits/test_support/profile.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/shared_bits/shared_bits.h"
+#include "verify/shared_bits/test_support/shared_bits.h"
 
 #include <fmt/core.h>
 

@@ -5,7 +5,7 @@
 
 #include "fast/stream/row_stream.h"
 #include "verify/host/host.h"
-#include "verify/shared_bits/evaluate.h"
+#include "verify/shared_bits/test_support/evaluate.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -21,9 +21,9 @@ void add_frame(const Rewriting& mesh, std::span<const std::int32_t> depth, const
     const lc_provenance& at = t.provenance()[v];
     if (!std::has_single_bit(at.denominator)) continue;  // the centre of a fan
     fast::row_stream::Vertex vertex;
-    std::copy_n(positions.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, vertex.position);
-    std::copy_n(normals.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, vertex.normal);
-    bits.add(mesh.original(place_of(at)), vertex.position);
+    std::copy_n(positions.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, &vertex.position.x);
+    std::copy_n(normals.begin() + static_cast<std::ptrdiff_t>(3 * v), 3, &vertex.normal.x);
+    bits.add(mesh.original(place_of(at)), &vertex.position.x);
   }
 }
 

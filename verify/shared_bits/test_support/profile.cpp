@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/shared_bits/profile.h"
+#include "verify/shared_bits/test_support/profile.h"
 
 #include <dlfcn.h>
 #include <sys/time.h>

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "data/error.h"
-#include "fast/frame/engine_state.h"
 #include "fast/frame/frame_engine.h"
 #include "fast/frame/patch_store.h"
+#include "fast/frame/scheme_frames.h"
 
 namespace limitcheck::fast {
 namespace {
@@ -139,7 +139,8 @@ int Engine<Real>::face_count() const {
 }
 template <class Real>
 const Adjacency& Engine<Real>::adjacency() const {
-  if (const auto* state = dynamic_cast<const EngineState<Real>*>(state_.get())) return state->adjacency;
+  if (const auto* state = dynamic_cast<const SchemeFrames<Real, LoopScheme>*>(state_.get()))
+    return state->adjacency;
   throw data::ArgumentError("tessellator: a mesh of quads has no adjacency of triangles");
 }
 template <class Real>

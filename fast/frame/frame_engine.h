@@ -12,6 +12,7 @@
 
 #include "data/control_mesh.h"
 #include "fast/frame/engine.h"
+#include "fast/frame/patch.h"
 #include "fast/frame/patch_store.h"
 #include "fast/frame/sink.h"
 #include "fast/frame/stores.h"
@@ -20,11 +21,6 @@
 #include "fast/plan/pairing.h"
 
 namespace limitcheck::fast {
-
-/// What a patch takes in a draw list, or where it begins.
-struct DrawSize {
-  std::int64_t vertices = 0, draws = 0, triangles = 0;
-};
 
 /// A mesh, and the plan of the frame it is at.
 struct FrameState {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fast/frame/patch_indices.h"
 
-#include "fast/frame/crack_stitch.h"
 #include "fast/frame/quad_patch.h"
 
 namespace limitcheck::fast {
@@ -50,6 +49,32 @@ IndexPattern& at_least(std::vector<IndexPattern>& list, int number) {
   return list[n];
 }
 
+std::vector<int> stitched_key(int depth, int edge, const auto& face) {
+  std::vector<int> key{depth, edge};
+  for (int side = 0; side < face.sides(); ++side) key.push_back(face.depth(side));
+  return key;
+}
+
+// The outer ring of a face whose border points begin with number `border`: inner(side, t) is the index of point t of the
+// row next to a side. Returns the number of its triangles.
+template <class Faces, class Inner>
+std::int32_t add_ring(const FaceInRepair<Faces>& face, int depth, std::int32_t border, Inner&& inner,
+                      std::vector<std::uint32_t>& out) {
+  std::int64_t first = 0;
+  for (int side = 0; side < face.sides(); ++side) {
+    const auto point = [&](std::int64_t t, bool is_inner) {
+      if (is_inner) return inner(side, static_cast<int>(t));
+      return static_cast<std::uint32_t>(border + (first + t) % face.border());
+    };
+    face.stitch(1 << depth, side,
+                [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
+                  out.insert(out.end(), {point(a, ai), point(b, bi), point(c, ci)});
+                });
+    first += face.points(side);
+  }
+  return static_cast<std::int32_t>(face.ring_triangles(std::int64_t{1} << depth));
+}
+
 }  // namespace
 
 IndexPattern PatchIndices::grid(int depth, IndexForm form, std::vector<std::uint32_t>& out) {
@@ -82,34 +107,19 @@ IndexPattern PatchIndices::fan(int border, std::vector<std::uint32_t>& out) {
   });
 }
 
-IndexPattern PatchIndices::stitched(int depth, int edge, const std::array<int, 3>& edge_depth,
-                                    std::vector<std::uint32_t>& out) {
-  return once(stitched_[{depth, edge, edge_depth[0], edge_depth[1], edge_depth[2]}], out, [&] {
+IndexPattern PatchIndices::stitched(const Half& half, int depth, const LoopFaces& faces,
+                                    const CrackPlan& plan, std::vector<std::uint32_t>& out) {
+  const FaceInRepair<LoopFaces> face{faces, plan, half.face};
+  return once(stitched_[stitched_key(depth, half.edge, face)], out, [&] {
     const int k = 1 << depth;
     const HalfBlock block{k};
     add_half(
         1, k - 3, IndexForm::kTriangles, [&](int r, int c) { return block.at(r, c); }, out);
-    std::int32_t triangles = (k - 3) * (k - 3);
-    std::array<std::uint32_t, 4> first{
-        static_cast<std::uint32_t>(block.size())};  // of each edge, and the end
-    for (std::size_t e = 0; e < 3; ++e) first[e + 1] = first[e] + (1u << edge_depth[e]);
-    for (int e = 0; e < 3; ++e) {
-      const auto point = [&](std::int64_t t, bool is_inner) {
-        if (is_inner) {
-          // weights k - t - 2, t + 1, 1 at corners e, e + 1, e + 2, in the half's frame
-          const int w[3] = {k - static_cast<int>(t) - 2, static_cast<int>(t) + 1, 1};
-          return block.at(w[(edge - e + 3) % 3], w[(edge - e + 4) % 3]);
-        }
-        const std::uint32_t at = first[e] + static_cast<std::uint32_t>(t);
-        return at == first[3] ? first[0] : at;
-      };
-      stitch_edge(k, edge_depth[e],
-                  [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
-                    out.insert(out.end(), {point(a, ai), point(b, bi), point(c, ci)});
-                    ++triangles;
-                  });
-    }
-    return triangles;
+    const auto inner = [&](int e, int t) {
+      const auto [row, column] = half.beside(k, e, t);
+      return block.at(row, column);
+    };
+    return (k - 3) * (k - 3) + add_ring(face, depth, block.size(), inner, out);
   });
 }
 
@@ -140,33 +150,18 @@ IndexPattern PatchIndices::corners(int sides, std::vector<std::uint32_t>& out) {
 
 IndexPattern PatchIndices::stitched(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan,
                                     std::vector<std::uint32_t>& out) {
-  const int sides = faces.sides(patch.face);
-  std::vector<int> key{patch.depth};
-  for (int s = 0; s < sides; ++s) key.push_back(plan.edge_depth[faces.first[patch.face] + s]);
-  return once(stitched_faces_[key], out, [&] {
+  const FaceInRepair<QuadFaces> face{faces, plan, patch.face};
+  return once(stitched_[stitched_key(patch.depth, -1, face)], out, [&] {
     const int parts = faces.parts(patch.face);
     const PartBlock block{faces.part_size(patch.depth)};
-    const InnerCells inner(patch, faces);
+    const InnerCells cells(patch, faces);
     for (int part = 0; part < parts; ++part)
-      for (int j = inner.to; j > inner.from; --j) add_cells(block, part, inner.from, inner.to, j, out);
-    std::int32_t triangles = 2 * parts * inner.count() * inner.count();
-    const auto border = static_cast<std::uint32_t>(parts * block.size());
-    std::uint32_t first = border, points = 0;
-    for (int s = 0; s < sides; ++s) points += 1u << key[static_cast<std::size_t>(s) + 1];
-    for (int s = 0; s < sides; ++s) {
-      const int depth = key[static_cast<std::size_t>(s) + 1];
-      const auto point = [&](std::int64_t t, bool is_inner) {
-        if (is_inner) return block.at(faces.beside(patch.face, patch.depth, s, static_cast<int>(t)));
-        return border + (first - border + static_cast<std::uint32_t>(t)) % points;
-      };
-      stitch_side(1 << patch.depth, depth,
-                  [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
-                    out.insert(out.end(), {point(a, ai), point(b, bi), point(c, ci)});
-                    ++triangles;
-                  });
-      first += 1u << depth;
-    }
-    return triangles;
+      for (int j = cells.to; j > cells.from; --j) add_cells(block, part, cells.from, cells.to, j, out);
+    const auto inner = [&](int side, int t) {
+      return block.at(faces.beside(patch.face, patch.depth, side, t));
+    };
+    return 2 * parts * cells.count() * cells.count() +
+           add_ring(face, patch.depth, parts * block.size(), inner, out);
   });
 }
 

@@ -7,10 +7,9 @@
 #include <map>
 #include <vector>
 
+#include "fast/frame/patch.h"
 #include "fast/frame/patch_mesh.h"
-#include "fast/plan/crack.h"
 #include "fast/plan/depth.h"
-#include "fast/plan/quad_faces.h"
 
 namespace limitcheck::fast {
 
@@ -56,9 +55,8 @@ class PatchIndices {
   IndexPattern half(int depth, IndexForm form, std::vector<std::uint32_t>& out);
   IndexPattern fan(int border, std::vector<std::uint32_t>& out);
   /// A half whose interior is kept and whose outer ring is stitched to its border, the points of which
-  /// follow the HalfBlock: those of edge e = 0, 1, 2 of the face but for the end of each. `edge`: of the
-  /// half.
-  IndexPattern stitched(int depth, int edge, const std::array<int, 3>& edge_depth,
+  /// follow the HalfBlock: those of edge e = 0, 1, 2 of the face but for the end of each.
+  IndexPattern stitched(const Half& half, int depth, const LoopFaces& faces, const CrackPlan& plan,
                         std::vector<std::uint32_t>& out);
 
   /// Of Catmull-Clark's scheme: quads of each part, whose points lie row by row as the kernel delivers them,
@@ -72,9 +70,9 @@ class PatchIndices {
  private:
   std::array<std::array<IndexPattern, 2>, kDeepest + 1> grids_, halves_;  // by depth and form
   std::vector<IndexPattern> fans_, corners_;                              // by number of points
-  std::map<std::array<int, 5>, IndexPattern> stitched_;
   std::map<std::array<int, 3>, IndexPattern> quads_;
-  std::map<std::vector<int>, IndexPattern> stitched_faces_;
+  std::map<std::vector<int>, IndexPattern>
+      stitched_;  // by depth, the half's edge or -1, and the depths of sides
 };
 
 }  // namespace limitcheck::fast

@@ -5,33 +5,35 @@
 
 #include "data/error.h"
 #include "fast/mesh/cut_mesh.h"
+#include "fast/plan/faces.h"
 #include "fast/plan/printed_rules.h"
-#include "fast/plan/quad_faces.h"
 
 namespace limitcheck::fast {
 
 namespace {
 
-// Faces of any number of sides: first(f) is the number of the first, across(side) the face beyond or -1.
-template <class First, class Across>
-CrackPlan plan_over(std::size_t faces, First&& first, Across&& across, std::span<const std::int32_t> depth,
+// Faces of either scheme: across(side) is the face beyond, or -1.
+template <class Faces, class Across>
+CrackPlan plan_over(const Faces& faces, Across&& across, std::span<const std::int32_t> depth,
                     const CrackOptions& options, const PrintedRules& rules) {
-  if (depth.size() != faces) throw data::ArgumentError("cracks: not one depth per face");
+  if (depth.size() != static_cast<std::size_t>(faces.size()))
+    throw data::ArgumentError("cracks: not one depth per face");
   CrackPlan plan;
-  plan.edge_depth.assign(first(faces), -1);
-  plan.display.assign(faces, Display::kNothing);
-  for (std::size_t f = 0; f < faces; ++f) {
+  plan.edge_depth.assign(static_cast<std::size_t>(faces.first_side(faces.size())), -1);
+  plan.display.assign(depth.size(), Display::kNothing);
+  for (std::int32_t f = 0; f < faces.size(); ++f) {
     const std::int32_t own = depth[f];
     if (own < 0) continue;
-    const auto beyond = [&](std::size_t side) {
+    const auto beyond = [&](std::int32_t side) {
       const std::int32_t g = across(side);
       return g < 0 || depth[g] < 0 ? own : depth[g];
     };
     int deeper = 0;
-    for (std::size_t side = first(f); side < first(f + 1); ++side) deeper += beyond(side) > own ? 1 : 0;
+    const std::int32_t first = faces.first_side(f), end = faces.first_side(f + 1);
+    for (std::int32_t side = first; side < end; ++side) deeper += beyond(side) > own ? 1 : 0;
     const bool repaired =
         options.repair != Repair::kNone && deeper >= (rules.edge_depth == EdgeDepthRule::kTwoOrMore ? 2 : 1);
-    for (std::size_t side = first(f); side < first(f + 1); ++side) {
+    for (std::int32_t side = first; side < end; ++side) {
       const std::int32_t edge = !repaired ? own
                                 : rules.edge_depth == EdgeDepthRule::kRespective
                                     ? beyond(side)
@@ -53,9 +55,9 @@ CrackPlan plan_over(std::size_t faces, First&& first, Across&& across, std::span
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules) {
   return plan_over(
-      static_cast<std::size_t>(adjacency.face_count()), [](std::size_t f) { return 3 * f; },
-      [&](std::size_t side) {
-        const std::int32_t twin = adjacency.twin(static_cast<std::int32_t>(side));
+      LoopFaces{&adjacency},
+      [&](std::int32_t side) {
+        const std::int32_t twin = adjacency.twin(side);
         return twin < 0 ? -1 : Adjacency::face(twin);
       },
       depth, options, rules);
@@ -64,15 +66,14 @@ CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> 
 CrackPlan plan_cracks(const TriangleMesh& mesh, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules) {
   return plan_over(
-      static_cast<std::size_t>(mesh.adjacency().face_count()), [](std::size_t f) { return 3 * f; },
-      [&](std::size_t side) { return mesh.across(static_cast<std::int32_t>(side)); }, depth, options, rules);
+      LoopFaces{&mesh.adjacency()}, [&](std::int32_t side) { return mesh.across(side); }, depth, options,
+      rules);
 }
 
 CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,
                       const CrackOptions& options, const PrintedRules& rules) {
   return plan_over(
-      static_cast<std::size_t>(faces.size()), [&](std::size_t f) { return faces.first[f]; },
-      [&](std::size_t side) { return faces.across(static_cast<std::int32_t>(side)); }, depth, options, rules);
+      faces, [&](std::int32_t side) { return faces.across(side); }, depth, options, rules);
 }
 
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,

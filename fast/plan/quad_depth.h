@@ -6,7 +6,7 @@
 #include <span>
 
 #include "fast/plan/depth.h"
-#include "fast/plan/quad_faces.h"
+#include "fast/plan/faces.h"
 #include "fast/rules/ring.h"
 
 namespace limitcheck::fast {

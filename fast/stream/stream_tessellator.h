@@ -34,7 +34,6 @@ class StreamTessellator : public Engine<float> {
   std::size_t worker_bytes() const;
 
  private:
-  struct State;
   static std::unique_ptr<FrameEngine<float>> make_state(const data::ControlMesh& mesh,
                                                         const TessellatorOptions& options,
                                                         const Kernel& kernel);

@@ -5,7 +5,7 @@
 
 #include "data/error.h"
 #include "fast/frame/crack_centre.h"
-#include "fast/frame/crack_stitch.h"
+#include "fast/frame/patch.h"
 #include "fast/test_support/collecting_sink.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/crack_edge.h"
@@ -108,7 +108,7 @@ TEST(Sec5_Stitch, MakesTheRingOfTrianglesItAnnounces) {
     for (int edge = depth; edge <= 8; ++edge) {
       const int k = 1 << depth;
       std::int64_t triangles = 0, outer = 0, inner = 0;
-      stitch_edge(k, edge, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
+      stitch_rows(k, edge, 3, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
         ++triangles;
         EXPECT_FALSE(ai);
         EXPECT_TRUE(ci);
@@ -118,7 +118,7 @@ TEST(Sec5_Stitch, MakesTheRingOfTrianglesItAnnounces) {
       });
       EXPECT_EQ(outer, 1 << edge);
       EXPECT_EQ(inner, k - 3);
-      EXPECT_EQ(triangles, stitch_triangles(k, edge));
+      EXPECT_EQ(triangles, (std::int64_t{1} << edge) + k - 3);
     }
   }
 }

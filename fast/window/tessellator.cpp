@@ -14,11 +14,14 @@
 #include <vector>
 
 #include "data/error.h"
-#include "fast/frame/engine_state.h"
-#include "fast/frame/quad_state.h"
+#include "fast/frame/crack_centre.h"
+#include "fast/frame/scheme_frames.h"
 #include "fast/mesh/vec3.h"
-#include "fast/window/frame_worker.h"
-#include "fast/window/quad_frame_worker.h"
+#include "fast/window/crack_edge.h"
+#include "fast/window/quad_edge.h"
+#include "fast/window/quad_window.h"
+#include "fast/window/sliding_window.h"
+#include "fast/window/triangle_lattice.h"
 
 namespace limitcheck::fast {
 
@@ -68,28 +71,173 @@ std::vector<Vec3<Real>> place(std::span<const std::array<double, 3>> points, Pla
   return positions;
 }
 
-}  // namespace
-
+/// What a thread reuses from patch to patch of triangles.
 template <class Real>
-struct Tessellator<Real>::State final : EngineState<Real> {
-  using EngineState<Real>::adjacency, EngineState<Real>::arena, EngineState<Real>::max_depth,
-      EngineState<Real>::options, EngineState<Real>::patches, EngineState<Real>::placement,
-      EngineState<Real>::plan, EngineState<Real>::triangles;
+struct LoopWorker {
+  LoopWorker(const LoopScheme& scheme, int max_depth)
+      : window(max_depth, scheme.adjacency.max_valence()),
+        edge(max_depth, scheme.adjacency.max_valence()),
+        centre(scheme.adjacency.max_valence()) {
+    scratch.reserve(max_depth);
+    for (auto& b : border) b.resize((std::size_t{1} << max_depth) + 1);
+  }
 
-  State(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
-      : EngineState<Real>(given, with, by) {
-    prepare_points();
-    for (std::int32_t f = 0; f < adjacency.face_count(); ++f)
-      if (adjacency.neighbour(f, 0) < 0 && adjacency.neighbour(f, 1) < 0 && adjacency.neighbour(f, 2) < 0)
-        isolated_faces = true;
+  SlidingWindow<Real> window;
+  EdgeStrip<Real> edge;
+  FanCentreEvaluator<Real> centre;
+  std::optional<TriangleLattice<Real>> lattice;  // once a face without neighbours has come
+  typename LoopDrawWriter<Real>::Scratch scratch;
+  std::array<std::vector<SurfaceVertex<Real>>, 3> border;
+
+  std::int64_t zero_normals() const {
+    return window.zero_normals() + edge.zero_normals() + centre.zero_normals() +
+           (lattice ? lattice->zero_normals() : 0);
+  }
+};
+
+/// Evaluates one patch and hands every piece to the writer.
+template <class Real, class Writer>
+void evaluate(const PreparedMesh<Real>& mesh, const LoopPatch& patch, const LoopFaces& faces,
+              const CrackPlan& plan, FanCentre centre, LoopWorker<Real>& worker, Writer& writer) {
+  using Vertex = SurfaceVertex<Real>;
+  const int k = 1 << patch.depth;
+  if (patch.half[1].face < 0) {
+    if (patch.half[0].uses_window()) {
+      if (!worker.lattice) worker.lattice.emplace(worker.window.max_depth());
+      worker.lattice->run(mesh, patch.half[0].face, patch.depth, [&](int row, const Vertex* strip) {
+        writer.half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
+      });
+    }
+  } else if (patch.half[0].uses_window() || patch.half[1].uses_window()) {
+    const bool full = patch.full();
+    const std::int32_t h0 = 3 * patch.half[0].face + patch.half[0].edge;
+    worker.window.run(mesh, h0, patch.depth, [&](int row, const Vertex* strip) {
+      if (full) return writer.whole_strip(row, [&](int q) -> const Vertex& { return strip[q]; });
+      if (patch.half[0].uses_window())
+        writer.half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
+      if (patch.half[1].uses_window())
+        writer.half_strip(1, k - 1 - row, [&](int q) -> const Vertex& { return strip[2 * k + 1 - q]; });
+    });
+  }
+  for (int side = 0; side < 2; ++side) {
+    const Half& half = patch.half[side];
+    if (!half.repaired()) continue;
+    const FaceInRepair<LoopFaces> face{faces, plan, half.face};
+    Border<Real> border;
+    for (int e = 0; e < 3; ++e) {
+      auto& points = worker.border[e];
+      worker.edge.evaluate(mesh, 3 * half.face + e, face.depth(e), points.data());
+      border[e] = points.data();
+    }
+    if (half.display == Display::kFan)
+      writer.fan(side, worker.centre.evaluate(mesh, half.face, centre), border);
+    else
+      writer.ring(side, border);
+  }
+}
+
+/// What a thread reuses from face to face of Catmull-Clark's scheme.
+template <class Real>
+struct QuadWorker {
+  QuadWorker(const QuadScheme& scheme, int max_depth)
+      : window(std::max(max_depth, 1), scheme.quads.adjacency.max_valence()),
+        edge(max_depth, scheme.quads.adjacency.max_valence()) {}
+
+  QuadWindow<Real> window;
+  QuadEdge<Real> edge;
+  QuadBorder<Real> border;
+  FacePoints<Real> points;
+  typename QuadDrawWriter<Real>::Scratch scratch;
+
+  std::int64_t zero_normals() const { return window.zero_normals() + edge.zero_normals(); }
+};
+
+/// Evaluates one face and hands every piece to the writer.
+template <class Real, class Writer>
+void evaluate(const PreparedQuads<Real>& mesh, const QuadPatch& patch, const QuadFaces& faces,
+              const CrackPlan& plan, FanCentre centre, QuadWorker<Real>& worker, Writer& writer) {
+  using Vertex = SurfaceVertex<Real>;
+  const std::int32_t f = patch.face, first = faces.first_side(f);
+  const int m = faces.part_size(patch.depth), part_depth = patch.depth - (faces.cut() ? 1 : 0);
+  const auto limit = [&](std::int32_t v) -> const Vertex& { return mesh.limit(v); };
+  if (corners_only(patch, faces)) {
+    writer.corners([&](int k) -> const Vertex& { return mesh.limit(faces.vertex(first + k)); });
+    return;
+  }
+  if (patch.display == Display::kStrips) {
+    for (int part = 0; part < faces.parts(f); ++part)
+      worker.window.run(mesh, faces.quad(f, part), part_depth, [&](int row, const Vertex* strip) {
+        writer.strip(part, row, [&](int q) -> const Vertex& { return strip[q]; });
+      });
+    return;
+  }
+  const auto edge = [&](std::int32_t h, int depth, Vertex* out) {
+    worker.edge.evaluate(mesh, h, depth, out);
+  };
+  worker.border.resize(static_cast<std::size_t>(faces.sides(f)));
+  for (int side = 0; side < faces.sides(f); ++side)
+    evaluate_side<Real>(faces, first + side, plan.edge_depth[first + side], limit, edge, worker.border[side]);
+  if (patch.display == Display::kFan) {
+    const auto middle_of_quad = [&] {
+      Vertex middle;
+      worker.window.run(mesh, f, 1, [&](int row, const Vertex* strip) {
+        if (row == 0) middle = strip[3];
+      });
+      return middle;
+    };
+    writer.fan(face_centre<Real>(
+                   faces, f, centre, [&](std::int32_t v) { return mesh.position(v); }, limit, middle_of_quad),
+               worker.border);
+    return;
+  }
+  worker.points.resize(faces.parts(f), m);
+  for (int part = 0; part < faces.parts(f); ++part) {
+    worker.window.run(mesh, faces.quad(f, part), part_depth, [&](int row, const Vertex* strip) {
+      for (int i = 0; i <= m; ++i) {
+        worker.points.at({part, i, m - row}) = strip[2 * i];
+        worker.points.at({part, i, m - row - 1}) = strip[2 * i + 1];
+      }
+    });
+  }
+  writer.stitch(worker.points, worker.border);
+}
+
+/// The mesh as the windows of a scheme read it, and what evaluates its patches.
+template <class Real, class Scheme>
+struct WindowOf;
+template <class Real>
+struct WindowOf<Real, LoopScheme> {
+  using Mesh = PreparedMesh<Real>;
+  using Worker = LoopWorker<Real>;
+  static void prepare(const LoopScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
+    out.emplace(scheme.adjacency, place<Real>(scheme.triangles.points().positions, placement),
+                scheme.triangles.kinds());
+  }
+};
+template <class Real>
+struct WindowOf<Real, QuadScheme> {
+  using Mesh = PreparedQuads<Real>;
+  using Worker = QuadWorker<Real>;
+  static void prepare(const QuadScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
+    out.emplace(scheme.quads, place<Real>(scheme.quads.positions, placement));
+  }
+};
+
+template <class Real, class Scheme>
+struct WindowFrames final : SchemeFrames<Real, Scheme> {
+  using Base = SchemeFrames<Real, Scheme>;
+  using Window = WindowOf<Real, Scheme>;
+  using Worker = typename Window::Worker;
+  using Base::arena, Base::faces, Base::max_depth, Base::options, Base::patches, Base::placement, Base::plan;
+
+  WindowFrames(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
+      : Base(given, with, by) {
+    Window::prepare(*this, placement, prepared);
   }
 
   void points_moved() override {
-    EngineState<Real>::points_moved();
-    prepare_points();
-  }
-  void prepare_points() {
-    prepared.emplace(adjacency, place<Real>(triangles.points().positions, placement), triangles.kinds());
+    Base::points_moved();
+    Window::prepare(*this, placement, prepared);
   }
 
   /// Makes workers that are deep enough for the frame.
@@ -98,30 +246,29 @@ struct Tessellator<Real>::State final : EngineState<Real> {
       workers.clear();
       worker_depth = max_depth;
       for (int i = 0; i < arena.max_concurrency(); ++i)
-        workers.push_back(
-            std::make_unique<Worker<Real>>(worker_depth, adjacency.max_valence(), isolated_faces));
+        workers.push_back(std::make_unique<Worker>(*this, worker_depth));
     }
     zero_normals_before = 0;
     for (const auto& worker : workers) zero_normals_before += worker->zero_normals();
   }
 
   void draw(std::size_t first, std::size_t last, DrawList<Real>& out) override {
-    run(first, last, [&](std::size_t i, Worker<Real>& worker) {
-      return this->draw_writer(first, i, out, worker.scratch);
-    });
+    run(
+        last - first, [&](std::size_t k) { return first + k; },
+        [&](std::size_t i, Worker& worker) { return this->draw_writer(first, i, out, worker.scratch); });
   }
   void index(const IndexLayout& layout, IndexedMesh<Real>& out) override {
-    run(0, patches.size(), [&](std::size_t i, Worker<Real>&) { return this->index_writer(i, layout, out); });
+    run(
+        patches.size(), [](std::size_t i) { return i; },
+        [&](std::size_t i, Worker&) { return this->index_writer(i, layout, out); });
   }
   void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) override {
     fresh.clear();
     for (std::size_t i = 0; i < places.size(); ++i)
       if (places[i].fresh) fresh.push_back(i);
-    run_each(
-        0, fresh.size(), [&](std::size_t k) { return fresh[k]; },
-        [&](std::size_t i, Worker<Real>&) {
-          return PatchWriter<Real>(patches[i], plan, placement, out.from(places[i].first));
-        });
+    run(
+        fresh.size(), [&](std::size_t k) { return fresh[k]; },
+        [&](std::size_t i, Worker&) { return this->patch_writer(patches[i], places[i].first, out); });
   }
 
   SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }
@@ -132,121 +279,36 @@ struct Tessellator<Real>::State final : EngineState<Real> {
     return count;
   }
 
-  /// Evaluates patches first .. last - 1 in parallel, each into make_writer(i, worker); or those that
-  /// number(first) .. number(last - 1) name.
-  template <class MakeWriter>
-  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
-    run_each(
-        first, last, [](std::size_t i) { return i; }, make_writer);
-  }
+  /// Evaluates patches number(0) .. number(count - 1) in parallel, each into make_writer(i, worker).
   template <class Number, class MakeWriter>
-  void run_each(std::size_t first, std::size_t last, Number&& number, MakeWriter&& make_writer) {
-    const auto chunk = [&](std::size_t from, std::size_t to) {
-      Worker<Real>& worker = *workers[tbb::this_task_arena::current_thread_index()];
-      for (std::size_t k = from; k < to; ++k) {
+  void run(std::size_t count, Number&& number, MakeWriter&& make_writer) {
+    const auto chunk = [&](const tbb::blocked_range<std::size_t>& range) {
+      Worker& worker = *workers[tbb::this_task_arena::current_thread_index()];
+      for (std::size_t k = range.begin(); k < range.end(); ++k) {
         const std::size_t i = number(k);
         auto writer = make_writer(i, worker);
-        evaluate(*prepared, patches[i], plan, options.cracks.centre, worker, writer);
+        evaluate(*prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
       }
     };
-    arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, 16),
-                        [&](const tbb::blocked_range<std::size_t>& r) { chunk(r.begin(), r.end()); });
-    });
+    arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), chunk); });
   }
 
-  std::optional<PreparedMesh<Real>> prepared;
-  bool isolated_faces = false;
-  std::vector<std::unique_ptr<Worker<Real>>> workers;
+  std::optional<typename Window::Mesh> prepared;
+  std::vector<std::unique_ptr<Worker>> workers;
   int worker_depth = 0;
   std::int64_t zero_normals_before = 0;  // of the workers, in the frames before
   std::vector<std::size_t> fresh;        // patches that are to be evaluated
 };
 
-// The same with a grid for each quad.
-template <class Real>
-struct Tessellator<Real>::QuadState final : QuadEngineState<Real> {
-  using QuadEngineState<Real>::arena, QuadEngineState<Real>::faces, QuadEngineState<Real>::max_depth,
-      QuadEngineState<Real>::options, QuadEngineState<Real>::patches, QuadEngineState<Real>::placement,
-      QuadEngineState<Real>::plan, QuadEngineState<Real>::quads;
-
-  QuadState(const data::ControlMesh& given, const TessellatorOptions& with)
-      : QuadEngineState<Real>(given, with),
-        prepared(std::in_place, quads, place<Real>(quads.positions, placement)) {}
-
-  void points_moved() override {
-    QuadEngineState<Real>::points_moved();
-    prepared.emplace(quads, place<Real>(quads.positions, placement));
-  }
-
-  void prepare() override {
-    if (workers.empty() || max_depth > worker_depth) {
-      workers.clear();
-      worker_depth = max_depth;
-      for (int i = 0; i < arena.max_concurrency(); ++i)
-        workers.push_back(std::make_unique<QuadWorker<Real>>(worker_depth, quads.adjacency.max_valence()));
-    }
-    zero_normals_before = 0;
-    for (const auto& worker : workers) zero_normals_before += worker->zero_normals();
-  }
-
-  void draw(std::size_t first, std::size_t last, DrawList<Real>& out) override {
-    run(first, last, [&](std::size_t i) { return this->draw_writer(first, i, out); });
-  }
-  void index(const QuadIndexLayout& layout, IndexedMesh<Real>& out) override {
-    run(0, patches.size(), [&](std::size_t i) { return this->index_writer(i, layout, out); });
-  }
-  void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) override {
-    fresh.clear();
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i].fresh) fresh.push_back(i);
-    run_each(
-        0, fresh.size(), [&](std::size_t k) { return fresh[k]; },
-        [&](std::size_t i) {
-          return QuadPatchWriter<Real>(patches[i], faces, plan, placement, out.from(places[i].first));
-        });
-  }
-  SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }
-  std::int64_t zero_normals() const override {
-    std::int64_t count = prepared->zero_normals() - zero_normals_before;
-    for (const auto& worker : workers) count += worker->zero_normals();
-    return count;
-  }
-
-  /// Evaluates patches first .. last - 1 in parallel, each into make_writer(i).
-  template <class MakeWriter>
-  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer) {
-    run_each(
-        first, last, [](std::size_t i) { return i; }, make_writer);
-  }
-  template <class Number, class MakeWriter>
-  void run_each(std::size_t first, std::size_t last, Number&& number, MakeWriter&& make_writer) {
-    arena.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(first, last, 16), [&](const tbb::blocked_range<std::size_t>& r) {
-            QuadWorker<Real>& worker = *workers[tbb::this_task_arena::current_thread_index()];
-            for (std::size_t k = r.begin(); k < r.end(); ++k) {
-              const std::size_t i = number(k);
-              auto writer = make_writer(i);
-              evaluate(*prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
-            }
-          });
-    });
-  }
-
-  std::optional<PreparedQuads<Real>> prepared;
-  std::vector<std::unique_ptr<QuadWorker<Real>>> workers;
-  int worker_depth = 0;
-  std::int64_t zero_normals_before = 0;  // of the workers, in the frames before
-  std::vector<std::size_t> fresh;        // patches that are to be evaluated
-};
+}  // namespace
 
 template <class Real>
 std::unique_ptr<FrameEngine<Real>> Tessellator<Real>::make_state(const data::ControlMesh& mesh,
                                                                  const TessellatorOptions& options,
                                                                  const PrintedRules& rules) {
-  if (options.scheme == data::Scheme::kCatmullClark) return std::make_unique<QuadState>(mesh, options);
-  return std::make_unique<State>(mesh, options, rules);
+  if (options.scheme == data::Scheme::kCatmullClark)
+    return std::make_unique<WindowFrames<Real, QuadScheme>>(mesh, options, rules);
+  return std::make_unique<WindowFrames<Real, LoopScheme>>(mesh, options, rules);
 }
 
 template <class Real>

@@ -21,8 +21,6 @@ class Tessellator : public Engine<Real> {
   Tessellator(const data::ControlMesh& mesh, const TessellatorOptions& options, const PrintedRules& rules);
 
  private:
-  struct State;
-  struct QuadState;
   static std::unique_ptr<FrameEngine<Real>> make_state(const data::ControlMesh& mesh,
                                                        const TessellatorOptions& options,
                                                        const PrintedRules& rules);

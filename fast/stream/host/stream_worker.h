@@ -30,17 +30,17 @@ enum class Delivery : std::uint8_t {
 };
 inline constexpr std::size_t kDeliveries = 5;
 
-struct Batch {
+struct LoopBatch {
   Delivery delivery;
   int depth;
   std::span<const std::size_t> patches;
 };
 
-/// Batches of at most `lanes` patches, or `narrow` of those delivered whole. In a fixed order.
-class StreamBatches {
+/// Batches of at most `lanes` patches, or `few` of those delivered whole. In a fixed order.
+class LoopBatches {
  public:
   /// placed: patches of two displayed faces have a place each, where the rows lie as they come from C.
-  void make(std::span<const Patch> patches, std::size_t lanes, std::size_t narrow, bool placed) {
+  void make(std::span<const LoopPatch> patches, std::size_t lanes, std::size_t few, bool placed) {
     for (auto& list : sorted_) list.clear();
     batches_.clear();
     for (std::size_t i = 0; i < patches.size(); ++i)
@@ -57,17 +57,17 @@ class StreamBatches {
     }
     for (std::size_t k = 0; k < sorted_.size(); ++k) {
       const auto delivery = static_cast<Delivery>(k % kDeliveries);
-      const std::size_t most = delivery == Delivery::kWhole ? narrow : lanes;
+      const std::size_t most = delivery == Delivery::kWhole ? few : lanes;
       const std::span<const std::size_t> list(sorted_[k]);
       for (std::size_t first = 0; first < list.size(); first += most)
         batches_.push_back({delivery, static_cast<int>(k / kDeliveries),
                             list.subspan(first, std::min(most, list.size() - first))});
     }
   }
-  const std::vector<Batch>& list() const { return batches_; }
+  const std::vector<LoopBatch>& list() const { return batches_; }
 
  private:
-  static Delivery delivery_of(const Patch& patch, bool placed) {
+  static Delivery delivery_of(const LoopPatch& patch, bool placed) {
     if (placed && patch.full()) return Delivery::kPlaced;
     const Half &first = patch.half[0], &second = patch.half[1];
     if (!first.uses_window() && !second.uses_window()) return Delivery::kNothing;
@@ -76,15 +76,15 @@ class StreamBatches {
   }
 
   std::array<std::vector<std::size_t>, kDeliveries*(kMaxDepth + 1)> sorted_;
-  std::vector<Batch> batches_;
+  std::vector<LoopBatch> batches_;
 };
 
 /// The border points of a batch's repaired faces: edges of one depth go together, one in each lane.
 class BorderPoints {
  public:
-  /// Evaluates the edges of all faces in the patches of a batch that are repaired. The narrow kernel takes
+  /// Evaluates the edges of all faces in the patches of a batch that are repaired. The kernel of few lanes takes
   /// what is left when there are not enough edges for the other.
-  void evaluate(const RowStream& stream, const Kernel& narrow, std::span<const Patch> patches,
+  void evaluate(const RowStream& stream, const Kernel& few_lanes, std::span<const LoopPatch> patches,
                 const CrackPlan& plan, std::span<const std::size_t> batch, Workspace& workspace) {
     for (auto& edges : of_depth_) edges.clear();
     std::size_t points = 0;
@@ -92,7 +92,7 @@ class BorderPoints {
       for (int s = 0; s < 2; ++s) {
         const Half& half = patches[batch[lane]].half[s];
         for (int e = 0; half.repaired() && e < 3; ++e) {
-          const int depth = edge_depth(plan, half.face, e);
+          const int depth = plan.edge_depth[3 * half.face + e];
           of_depth_[depth].push_back({3 * half.face + e, &border_[lane][s][e]});
           points += static_cast<std::size_t>(side(depth));
         }
@@ -111,11 +111,11 @@ class BorderPoints {
       }
       // Whole batches of the wide kernel, the rest by the one that is full sooner.
       const auto wide = static_cast<std::size_t>(stream.kernel().lanes);
-      const auto few = static_cast<std::size_t>(narrow.lanes);
+      const auto few = static_cast<std::size_t>(few_lanes.lanes);
       const std::size_t rest = edges.size() % wide, with_wide = edges.size() - (rest <= few ? rest : 0);
       const std::span<const std::int32_t> all(half_edges_);
       stream.edges(all.first(with_wide), depth, workspace, to);
-      stream.edges(all.subspan(with_wide), depth, workspace, to + with_wide * length, &narrow);
+      stream.edges(all.subspan(with_wide), depth, workspace, to + with_wide * length, &few_lanes);
       to += edges.size() * length;
     }
   }
@@ -148,31 +148,31 @@ struct CachedCentre {
 };
 
 /// What all threads read; of `centres` each writes those of its own faces.
-struct StreamFrame {
+struct LoopStreamFrame {
   const Adjacency& adjacency;
   const RowStream& stream;
-  const Kernel& narrow;  // of few lanes, for grids that have to be kept whole
+  const Kernel& few_lanes;  // for grids that have to be kept whole
   const CrackPlan& plan;
   std::span<const Grid> grids;
-  std::span<const Patch> patches;
+  std::span<const LoopPatch> patches;
   const PreparedMesh<float>* control;  // for the centres of fans; null if there are none
   std::span<CachedCentre> centres;     // one per face, or none likewise
   FanCentre centre;
   Stores stores;  // of the patches that have a place each
 };
 
-class StreamWorker {
+class LoopStreamWorker {
  public:
-  DrawWriter<float>::Scratch& scratch() { return scratch_; }
+  LoopDrawWriter<float>::Scratch& scratch() { return scratch_; }
 
   /// make_writer(patch index, worker) gives each patch its writer.
   template <class MakeWriter>
-  void run(const StreamFrame& frame, const Batch& batch, MakeWriter&& make_writer) {
+  void run(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
     using Writer = decltype(make_writer(std::size_t{}, *this));
     if constexpr (requires(Writer writer) { writer.grid(); }) {
       if (batch.delivery == Delivery::kPlaced) return place(frame, batch, make_writer);
     }
-    border_.evaluate(frame.stream, frame.narrow, frame.patches, frame.plan, batch.patches, workspace_);
+    border_.evaluate(frame.stream, frame.few_lanes, frame.patches, frame.plan, batch.patches, workspace_);
     if (batch.delivery == Delivery::kRowsFromA || batch.delivery == Delivery::kRowsFromC) {
       std::vector<Writer> writers;
       writers.reserve(batch.patches.size());
@@ -195,13 +195,13 @@ class StreamWorker {
   }
 
  private:
-  void collect(const StreamFrame& frame, const Batch& batch) {
+  void collect(const LoopStreamFrame& frame, const LoopBatch& batch) {
     grids_.clear();
     for (const std::size_t i : batch.patches) grids_.push_back(frame.grids[i]);
   }
 
   template <class MakeWriter>
-  void place(const StreamFrame& frame, const Batch& batch, MakeWriter&& make_writer) {
+  void place(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
     collect(frame, batch);
     std::array<Vertex*, kMaxLanes> places;
     for (std::size_t lane = 0; lane < batch.patches.size(); ++lane)
@@ -211,11 +211,11 @@ class StreamWorker {
 
   // Two rows make a strip. Frames count columns from D's side, the kernel from the other.
   template <class Writer>
-  void rows(const StreamFrame& frame, const Batch& batch, std::vector<Writer>& writers) {
+  void rows(const LoopStreamFrame& frame, const LoopBatch& batch, std::vector<Writer>& writers) {
     collect(frame, batch);
     struct Context {
-      const StreamFrame& frame;
-      const Batch& batch;
+      const LoopStreamFrame& frame;
+      const LoopBatch& batch;
       std::vector<Writer>& writers;
       const Grid* grids;
     } context{frame, batch, writers, grids_.data()};
@@ -235,7 +235,7 @@ class StreamWorker {
   // Row r of either half's own frame is row r counted from the corner that the rows come from, and its
   // columns run the other way.
   template <class Writer>
-  static void take_rows(const Patch& patch, const RowView& view, std::size_t lane, Delivery delivery,
+  static void take_rows(const LoopPatch& patch, const RowView& view, std::size_t lane, Delivery delivery,
                         Writer& writer) {
     const int last = 1 << view.depth;
     const RowPair<float> strip{view.before(lane) + last, view.vertices(lane) + last, -1};
@@ -245,19 +245,19 @@ class StreamWorker {
       writer.half_strip(delivery == Delivery::kRowsFromC ? 0 : 1, view.j - 1, strip);
   }
 
-  void evaluate_whole(const StreamFrame& frame, const Batch& batch) {
+  void evaluate_whole(const LoopStreamFrame& frame, const LoopBatch& batch) {
     collect(frame, batch);
     const auto n = static_cast<std::size_t>(side(batch.depth));
     // The grids lie behind what the kernel needs of the same memory, so that frames need no more than rows.
-    const auto kernels_own = static_cast<std::size_t>(frame.narrow.lanes * work_size(batch.depth));
+    const auto kernels_own = static_cast<std::size_t>(frame.few_lanes.lanes * work_size(batch.depth));
     workspace_.work.grow(kernels_own + 6 * batch.patches.size() * n * n);
     whole_ = reinterpret_cast<Vertex*>(workspace_.work.data() + kernels_own);
-    frame.stream.whole(grids_, batch.depth, workspace_, whole_, &frame.narrow);
+    frame.stream.whole(grids_, batch.depth, workspace_, whole_, &frame.few_lanes);
   }
 
   // The strips of each half in its own frame: row r of face0's is our row k - r, of face1's our row r.
   template <class Writer>
-  void whole(const Patch& patch, std::size_t lane, Writer& writer) {
+  void whole(const LoopPatch& patch, std::size_t lane, Writer& writer) {
     const int k = 1 << patch.depth;
     const Vertex* points = whole_ + lane * static_cast<std::size_t>((k + 1) * (k + 1));
     for (int h = 0; h < 2; ++h) {
@@ -272,8 +272,8 @@ class StreamWorker {
   }
 
   template <class Writer>
-  void repairs(const StreamFrame& frame, const Batch& batch, std::size_t lane, Writer& writer) {
-    const Patch& patch = frame.patches[batch.patches[lane]];
+  void repairs(const LoopStreamFrame& frame, const LoopBatch& batch, std::size_t lane, Writer& writer) {
+    const LoopPatch& patch = frame.patches[batch.patches[lane]];
     for (int s = 0; s < 2; ++s) {
       const Half& half = patch.half[s];
       if (half.display == Display::kStitch) writer.ring(s, border_.of(lane, s));
@@ -281,7 +281,7 @@ class StreamWorker {
     }
   }
 
-  const Vertex& centre(const StreamFrame& frame, std::int32_t face) {
+  const Vertex& centre(const LoopStreamFrame& frame, std::int32_t face) {
     CachedCentre& cached = frame.centres[face];
     if (!cached.known) {
       if (!centre_) centre_.emplace(frame.adjacency.max_valence());
@@ -296,7 +296,7 @@ class StreamWorker {
   BorderPoints border_;
   std::vector<Grid> grids_;
   Vertex* whole_ = nullptr;  // in workspace_.work
-  DrawWriter<float>::Scratch scratch_;
+  LoopDrawWriter<float>::Scratch scratch_;
   std::optional<FanCentreEvaluator<float>> centre_;
 };
 

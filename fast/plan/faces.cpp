@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fast/plan/quad_faces.h"
+#include "fast/plan/faces.h"
 
 namespace limitcheck::fast {
 
@@ -24,8 +24,7 @@ std::int32_t QuadFaces::side_of(std::int32_t h) const {
   if (h < 0 || !cut()) return h;
   const std::int32_t c = h / 4;
   if (h % 4 == 0) return c;  // from its corner
-  return c == static_cast<std::int32_t>(first[face[c]]) ? static_cast<std::int32_t>(first[face[c] + 1]) - 1
-                                                        : c - 1;
+  return c == first_side(face[c]) ? first_side(face[c] + 1) - 1 : c - 1;
 }
 
 LatticePoint QuadFaces::lattice(std::int32_t f, int depth, PartPoint p) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The control faces of Catmull-Clark's scheme and the quads that each of them consists of.
+// The control faces of either scheme: their sides, where points lie on them, and the quads that each of those of
+// Catmull-Clark's consists of.
 #pragma once
 
 #include <array>
@@ -13,6 +14,32 @@
 
 namespace limitcheck::fast {
 
+/// The control faces of Loop's scheme, by the names of QuadFaces: side 3 f + k is half-edge k of face f. Refers to the
+/// adjacency.
+struct LoopFaces {
+  /// Along a side of a lattice of k cells the row next to it has k - kRowIsShorter inner edges: see stitch_rows().
+  static constexpr int kRowIsShorter = 3;
+
+  int size() const { return adjacency->face_count(); }
+  int vertex_count() const { return adjacency->vertex_count(); }
+  static int sides(std::int32_t /*f*/) { return 3; }
+  static std::int32_t first_side(std::int32_t f) { return 3 * f; }
+  static std::int32_t face_of(std::int32_t c) { return c / 3; }
+  static std::int32_t next(std::int32_t c) { return Adjacency::next(c); }
+  std::int32_t twin(std::int32_t c) const { return adjacency->twin(c); }
+  std::int32_t vertex(std::int32_t c) const { return adjacency->origin(c); }
+  static LatticePoint corner(std::int32_t f, int k) { return {f, k == 1 ? 1u : 0u, k == 2 ? 1u : 0u, 1}; }
+  static LatticePoint centre(std::int32_t f) { return {f, 1, 1, 3}; }
+  static LatticePoint on_side(std::int32_t f, int side, int t, int count) {
+    std::uint32_t w[3] = {};
+    w[side] = static_cast<std::uint32_t>(count - t);
+    w[(side + 1) % 3] = static_cast<std::uint32_t>(t);
+    return {f, w[1], w[2], static_cast<std::uint32_t>(count)};
+  }
+
+  const Adjacency* adjacency;
+};
+
 /// A point of one of the parts of a face, in steps of the part's grid.
 struct PartPoint {
   int part, i, j;
@@ -23,13 +50,17 @@ struct PartPoint {
 /// parts as it has corners, each a quad with its corner 0 there. Keeps a reference to the mesh, which must
 /// outlive it.
 struct QuadFaces {
+  static constexpr int kRowIsShorter = 2;
+
   QuadFaces(const data::Faces& faces, const QuadMesh& mesh);
 
+  int vertex_count() const { return mesh->adjacency.vertex_count(); }
+  std::int32_t first_side(std::int32_t f) const { return static_cast<std::int32_t>(first[f]); }
+  std::int32_t face_of(std::int32_t c) const { return face[c]; }
   int size() const { return static_cast<int>(first.size()) - 1; }
   int sides(std::int32_t f) const { return static_cast<int>(first[f + 1] - first[f]); }
   std::int32_t next(std::int32_t c) const {
-    return c + 1 == static_cast<std::int32_t>(first[face[c] + 1]) ? static_cast<std::int32_t>(first[face[c]])
-                                                                  : c + 1;
+    return c + 1 == first_side(face[c] + 1) ? first_side(face[c]) : c + 1;
   }
   /// The side on the other side; -1 at a boundary or, of twin(), at a cut.
   std::int32_t twin(std::int32_t c) const { return side_of(mesh->adjacency.twin(first_half(c))); }
@@ -47,9 +78,7 @@ struct QuadFaces {
 
   bool cut() const { return mesh->steps == 1; }
   int parts(std::int32_t f) const { return cut() ? sides(f) : 1; }
-  std::int32_t quad(std::int32_t f, int part) const {
-    return cut() ? static_cast<std::int32_t>(first[f]) + part : f;
-  }
+  std::int32_t quad(std::int32_t f, int part) const { return cut() ? first_side(f) + part : f; }
   /// Cells along a side of a part: 2^depth, or half of it.
   int part_size(int depth) const { return cut() ? (depth == 0 ? 0 : 1 << (depth - 1)) : 1 << depth; }
 

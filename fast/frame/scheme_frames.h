@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// Frames of either scheme, and what each kind of engine does in its own way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "fast/frame/draw_writer.h"
+#include "fast/frame/frame_engine.h"
+#include "fast/frame/index_writer.h"
+#include "fast/frame/patch_writer.h"
+#include "fast/mesh/cut_mesh.h"
+#include "fast/plan/printed_rules.h"
+#include "fast/plan/quad_depth.h"
+
+namespace limitcheck::fast {
+
+/// Of Loop's scheme: pairs of triangles.
+struct LoopScheme {
+  using Faces = LoopFaces;
+  using Patch = LoopPatch;
+  using Heuristics = DepthHeuristics;
+  template <class Real>
+  using DrawWriter = LoopDrawWriter<Real>;
+  template <class Real>
+  using IndexWriter = LoopIndexWriter<Real>;
+  template <class Real>
+  using PatchWriter = LoopPatchWriter<Real>;
+
+  /// Refers to the mesh. Throws data::ArgumentError: what TriangleMesh refuses.
+  LoopScheme(const data::ControlMesh& mesh, const PrintedRules& by) : rules(by), triangles(mesh) {}
+  void take_points(const data::ControlMesh& /*mesh*/) { triangles.points_moved(); }
+
+  PairingResult pair(std::span<const std::int32_t> depth, std::span<const Grid> keep) const {
+    return pair_faces(adjacency, depth, rules, keep);
+  }
+  CrackPlan plan_edges(std::span<const std::int32_t> depth, const CrackOptions& options) const {
+    return plan_cracks(triangles, depth, options, rules);
+  }
+  void make(std::optional<Heuristics>& heuristics, int max_depth) const {
+    heuristics.emplace(triangles.points(), adjacency, max_depth, triangles.kinds());
+  }
+
+  PrintedRules rules;
+  TriangleMesh triangles;
+  const Adjacency& adjacency = triangles.adjacency();
+  LoopFaces faces{&adjacency};
+};
+
+/// Of Catmull-Clark's: a grid for each quad. [C21]
+struct QuadScheme {
+  using Faces = QuadFaces;
+  using Patch = QuadPatch;
+  using Heuristics = QuadDepthHeuristics;
+  template <class Real>
+  using DrawWriter = QuadDrawWriter<Real>;
+  template <class Real>
+  using IndexWriter = QuadIndexWriter<Real>;
+  template <class Real>
+  using PatchWriter = QuadPatchWriter<Real>;
+
+  /// Throws data::ArgumentError: what QuadMesh refuses.
+  QuadScheme(const data::ControlMesh& mesh, const PrintedRules& /*by*/)
+      : quads(mesh), faces(mesh.faces, quads), semi_sharp(quads) {}
+  void take_points(const data::ControlMesh& mesh) {
+    quads = QuadMesh(mesh);
+  }  // the same but for the positions
+
+  /// One grid for each face that is displayed.
+  PairingResult pair(std::span<const std::int32_t> depth, std::span<const Grid> keep) const;
+  CrackPlan plan_edges(std::span<const std::int32_t> depth, const CrackOptions& options) const {
+    return plan_cracks(faces, depth, options, PrintedRules{});
+  }
+  void make(std::optional<Heuristics>& heuristics, int max_depth) const {
+    heuristics.emplace(faces, semi_sharp, max_depth);
+  }
+
+  QuadMesh quads;
+  QuadFaces faces;
+  SemiSharp semi_sharp;
+};
+
+/// An engine overrides how points are evaluated; Engine calls it.
+template <class Real, class Scheme>
+struct SchemeFrames : FrameEngine<Real>, Scheme {
+  using Patch = typename Scheme::Patch;
+  using DrawWriter = typename Scheme::template DrawWriter<Real>;
+  using IndexWriter = typename Scheme::template IndexWriter<Real>;
+  using PatchWriter = typename Scheme::template PatchWriter<Real>;
+  using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
+      FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
+      FrameEngine<Real>::plan, FrameEngine<Real>::stores, Scheme::faces;
+
+  /// throws   data::ArgumentError: what FrameState and the scheme refuse
+  SchemeFrames(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by = {})
+      : FrameEngine<Real>(given, with), Scheme(mesh, by) {}
+
+  int face_count() const final { return faces.size(); }
+  std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) final {
+    if (!heuristics_)
+      this->make(heuristics_, options.max_depth);
+    else if (heuristics_are_old_)
+      heuristics_->points_moved();
+    heuristics_are_old_ = false;
+    return heuristics_->depths(strategy, camera);
+  }
+  void points_moved() override {
+    this->take_points(mesh);
+    heuristics_are_old_ = true;
+  }
+  FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) final;
+  std::size_t patch_count() const final { return patches.size(); }
+  DrawSize patch_size(std::size_t i) const final { return draw_size(patches[i], faces, plan); }
+  DrawSize measure_index() final {
+    layout_ = IndexLayout::of(faces, pairing.depth, plan);
+    return {layout_.vertex_count, 0, layout_.triangle_count};
+  }
+  void write_index(IndexedMesh<Real>& out) final {
+    write_control_vertices(out);
+    index(layout_, out);
+  }
+
+  void list_patches(std::vector<PatchWanted>& out) const final {
+    out.clear();
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      out.push_back(wanted_patch(pairing.grids[i], patches[i], faces, plan));
+  }
+  void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
+                       std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const final {
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      fast::add_patch_draws(patches[i], faces, plan, places[i].first, form, patterns, indices, out);
+  }
+
+  /// Evaluates all patches into an indexed mesh that has room for them, through index_writer().
+  virtual void index(const IndexLayout& layout, IndexedMesh<Real>& out) = 0;
+  /// The limit point of a vertex of the adjacency, in the caller's coordinates.
+  virtual SurfaceVertex<Real> limit(std::int32_t v) const = 0;
+
+  /// Writes patch i to its place in a draw list that begins with patch `first`.
+  template <class Scratch>
+  DrawWriter draw_writer(std::size_t first, std::size_t i, DrawList<Real>& out, Scratch&& scratch) const {
+    const DrawSize& at = offsets[i - first];
+    const DrawPlace<Real> place{out.vertices.data() + at.vertices,
+                                options.provenance ? out.provenance.data() + at.vertices : nullptr,
+                                out.draws.data() + at.draws, at.vertices, stores};
+    return {patches[i], faces, plan, placement, place, scratch};
+  }
+  IndexWriter index_writer(std::size_t i, const IndexLayout& layout, IndexedMesh<Real>& out) const {
+    return {patches[i], faces, plan, layout, placement, out};
+  }
+  PatchWriter patch_writer(const Patch& patch, std::int64_t first, const PatchTarget<Real>& out) const {
+    return {patch, faces, plan, placement, out.from(first)};
+  }
+
+  std::vector<Patch> patches;  // one per grid
+
+ private:
+  void write_control_vertices(IndexedMesh<Real>& out) const;
+
+  std::optional<typename Scheme::Heuristics> heuristics_;
+  bool heuristics_are_old_ = false;  // the points have moved since
+  IndexLayout layout_;
+};
+
+extern template struct SchemeFrames<float, LoopScheme>;
+extern template struct SchemeFrames<double, LoopScheme>;
+extern template struct SchemeFrames<float, QuadScheme>;
+extern template struct SchemeFrames<double, QuadScheme>;
+
+}  // namespace limitcheck::fast

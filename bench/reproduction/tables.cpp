@@ -13,7 +13,7 @@
 #include "bench/reproduction/scene.h"
 #include "bench/reproduction/turning.h"
 #include "data/generators/bumpy_sphere.h"
-#include "verify/cli/progress.h"
+#include "verify/cli/screen.h"
 
 namespace limitcheck::bench {
 

@@ -8,7 +8,6 @@
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
-#include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/registry.h"
 

@@ -18,7 +18,6 @@
 #include "verify/checks/checks.h"
 #include "verify/evidence/vector.h"
 #include "verify/host/host.h"
-#include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/recognise/recognise.h"
 #include "verify/relations/relation_row.h"

@@ -14,7 +14,7 @@
 #include "verify/evidence/reference_surface.h"
 #include "verify/relations/refusal.h"
 #include "verify/row/result.h"
-#include "verify/shard/journal.h"
+#include "verify/shard/shard.h"
 
 namespace limitcheck::verify {
 

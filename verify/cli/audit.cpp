@@ -2,11 +2,10 @@
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
-#include <cstdlib>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -14,24 +13,17 @@
 #include "data/bounding_box.h"
 #include "data/error.h"
 #include "verify/audit/audit.h"
-#include "verify/cli/audit_depths.h"
-#include "verify/cli/audit_files.h"
-#include "verify/cli/audit_meshes.h"
-#include "verify/cli/audit_output.h"
-#include "verify/cli/audit_plan.h"
+#include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
-#include "verify/cli/progress.h"
-#include "verify/cli/shard_options.h"
 #include "verify/cli/subject_loader.h"
-#include "verify/cli/subject_output.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
-#include "verify/interrupt/abandon.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/refusal.h"
 #include "verify/report/coverage.h"
 #include "verify/report/json.h"
+#include "verify/report/junit.h"
 #include "verify/report/overview.h"
 #include "verify/report/table.h"
 #include "verify/subject/registry.h"
@@ -43,24 +35,9 @@ constexpr const char* kReportFile = "build/report/audit.json";
 constexpr const char* kPageFile = "build/report/audit.html";
 constexpr const char* kTextFile = "build/report/audit.txt";
 
-struct Arguments {
-  std::string subject;
-  std::vector<std::string> meshes, options;
-  MeshOptions mesh;
-  int depth = 4;
-  std::string depths = "uniform";
-  std::string sample;
-  bool plan = true;  // what is to be looked at is not said: neither meshes nor depths
-  int threads = 0;
-  ShardArguments shard;  // with the file of the report
-  bool each_mesh = false, details = false, must_refuse = false;
-  OutputArguments output;
-  SubjectArguments from;
-};
-
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
 // levels of isolation (Bfr's default), and isolated as deep as they are sampled.
-std::vector<verify::AuditSubject> subjects(const Arguments& a, SubjectLoader& loader) {
+std::vector<verify::AuditSubject> subjects(const AuditArguments& a, SubjectLoader& loader) {
   std::vector<verify::AuditSubject> list;
   if (a.subject == "all") {
     if (!a.options.empty()) throw data::ArgumentError("--option needs one subject, not all");
@@ -93,14 +70,14 @@ std::string built_in_names() {
 
 void check_json(const std::string& json) {
   if (!json.empty() && json != "-" && !json.ends_with(".json"))
-    throw data::ArgumentError(fmt::format(
-        "--json {0}: the file must end in .json, or be - for standard output (--json without a file "
-        "goes last: {0} --json)",
-        json));
+    throw data::ArgumentError(
+        fmt::format("--json {0}: the file must end in .json, or be - for standard output (--json without a "
+                    "file goes last: {0} --json)",
+                    json));
 }
 
 // The header of the report.
-verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
+verify::Report begin_report(const AuditArguments& a, const verify::Depths& depths,
                             const std::optional<Sampling>& sampling,
                             const std::vector<verify::AuditSubject>& subjects,
                             const std::vector<verify::AuditMesh>& meshes) {
@@ -124,16 +101,21 @@ verify::Report begin_report(const Arguments& a, const verify::Depths& depths,
   return report;
 }
 
-// The arguments as checked and completed before the first subject is called.
-struct Job {
-  Arguments arguments;  // with SUBJECT and --threads filled in
-  verify::Depths depths;
-  std::optional<Sampling> sampling;
-  bool whole = false;  // no subject was named: all of them, and the report in kReportFile
-};
+// --sample; nothing for an empty text.
+std::optional<Sampling> parse_sample(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  Sampling sampling;
+  const char* last = text.data() + text.size();
+  std::from_chars_result read = std::from_chars(text.data(), last, sampling.faces);
+  if (read.ec == std::errc() && read.ptr != last && *read.ptr == ':')
+    read = std::from_chars(read.ptr + 1, last, sampling.seed);
+  if (read.ec != std::errc() || read.ptr != last || sampling.faces == 0)
+    throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
+  return sampling;
+}
 
 // What a shard does not do: what needs all rows, and what has no units.
-void refuse_with_shards(const Arguments& a) {
+void refuse_with_shards(const AuditArguments& a) {
   if (a.shard.of().is_whole()) return;
   a.shard.check();
   for (const auto& [option, given] :
@@ -146,7 +128,7 @@ void refuse_with_shards(const Arguments& a) {
   if (a.must_refuse) throw data::ArgumentError("--must-refuse has no shards");
 }
 
-Job settle(Arguments a) {
+Job job_of(AuditArguments a) {
   refuse_one_file_for_two({{"--json", a.shard.json}, {"--junit", a.output.junit}, {"--html", a.output.html}});
   Job job;
   job.depths = verify::parse_depths(a.depths);
@@ -179,34 +161,32 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
 std::string where_the_rest_is(const Job& job) {
   if (job.whole)
     return fmt::format(
-        "{} shows the causes in a browser; {} has all tables, and each cause with the command that "
-        "shows it; {} is for programs.\n",
+        "{} shows the causes in a browser; {} has all tables, and each cause with the command that shows it; "
+        "{} is for programs.\n",
         kPageFile, kTextFile, kReportFile);
   return "--details prints all tables. --explain CHECK says what a check means.\n";
 }
 
 void print(const Job& job, const verify::Report& report, const std::string& scheme_line) {
-  const Arguments& a = job.arguments;
-  const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+  const AuditArguments& a = job.arguments;
   if (a.shard.json == "-")
     fmt::print("{}", verify::to_json(report, a.output.level));
   else if (a.details || a.each_mesh)
-    fmt::print("{}\n{}", scheme_line, verify::to_table(report, colour, a.each_mesh));
+    fmt::print("{}\n{}", scheme_line, verify::to_table(report, in_colour(), a.each_mesh));
   else
-    fmt::print("{}", verify::to_overview(report, verify::causes(report), colour, scheme_line, a.output.level,
-                                         where_the_rest_is(job)));
+    fmt::print("{}", verify::to_overview(report, verify::causes(report), in_colour(), scheme_line,
+                                         a.output.level, where_the_rest_is(job)));
 }
 
 // Everything that goes into files; if all is `done`, the report makes the journal superfluous. They are
 // written before the table, because a reader of the table may close the pipe. The table is printed even if a
 // file cannot be written: the error is returned.
-std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSubject>& audited,
-                               const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
-                               verify::Journal* journal, bool done) {
-  const Arguments& a = job.arguments;
+std::exception_ptr write_files(const Job& job, const Audited& audited, verify::Journal* journal, bool done) {
+  const AuditArguments& a = job.arguments;
+  const verify::Report& report = audited.report;
   const bool shard = !a.shard.of().is_whole();
   try {
-    write_junit(a.output, report);
+    if (!a.output.junit.empty()) verify::write_text(a.output.junit, verify::to_junit(report));
     if (shard)
       write_part(a.shard, *journal,
                  {{}, {}, report.seconds, report.containment, report.printed, report.incomplete});
@@ -220,8 +200,8 @@ std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSu
                              "Tables\n\n" + verify::to_table(report, false));
     }
     for (const std::string& html : {a.output.html, std::string(job.whole && !shard ? kPageFile : "")})
-      if (!html.empty()) write_html(html, audited, meshes, report, a.output.level, a.threads);
-    write_witnesses(a.output, audited, meshes, report, a.threads);
+      if (!html.empty()) write_html(html, audited, a.output.level);
+    write_witnesses(a.output, audited);
     if (journal != nullptr && done) journal->remove();
   } catch (const std::exception&) {
     return std::current_exception();
@@ -230,17 +210,13 @@ std::exception_ptr write_files(const Job& job, const std::vector<verify::AuditSu
 }
 
 int audit(const Job& job) {
-  const Arguments& a = job.arguments;
+  const AuditArguments& a = job.arguments;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(a.threads));
   SubjectLoader loader(a.from);
   const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  const AuditedMeshes asked =
-      a.plan
-          ? planned_meshes(a.mesh, level(a.output), audited)
-          : open_meshes({a.meshes, a.mesh, a.depth, job.depths, job.sampling, level(a.output), a.must_refuse},
-                        audited, progress);
+  const AuditedMeshes asked = meshes_of(job, audited, progress);
   const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
   const verify::CoverageQuestion coverage =
@@ -249,14 +225,13 @@ int audit(const Job& job) {
   // Look.
   const verify::InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
-  SubjectOutput output;
-  const ProgressTo screen(progress, output.screen());
+  SubjectOutput output(&progress);
   verify::Auditor auditor(
       a.depth, a.threads,
       [&](const verify::AuditStep& s) {
         progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
       },
-      level(a.output));
+      job.level());
   auditor.leave_what_is_interrupted();
   ShardArguments kept = a.shard;
   if (kept.json.empty() && job.whole) kept.json = kReportFile;
@@ -269,7 +244,6 @@ int audit(const Job& job) {
     report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
                                    : auditor.run(audited, meshes, journal.get());
   } catch (const verify::Interrupted&) {  // there is no half of an answer whether broken meshes are refused
-    screen.end();
     (void)output.take();
     fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
     return kSignalled + verify::interrupted();
@@ -277,18 +251,14 @@ int audit(const Job& job) {
   const auto finish = [&] {
     report.containment = loader.containment();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    screen.end();
     report.printed = output.take();
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;
     const bool whole = a.shard.of().is_whole();
     report.incomplete = incomplete(auditor, meshes, report, signal, whole);
     if (whole) report.coverage = verify::coverage_of(report.results, coverage);
-    const bool judged = judged_as_required(a.output, report);
-    waive(a.output, report);
-    compare(a.output, report);
-
+    const bool judged = settle(a.output, report);
     const bool done = signal == 0 && !auditor.out_of_memory();
-    const auto not_written = write_files(job, audited, meshes, report, journal.get(), done);
+    const auto not_written = write_files(job, {audited, meshes, report, a.threads}, journal.get(), done);
     print(job, report, asked.scheme_line);
     if (not_written) std::rethrow_exception(not_written);
     const int later = a.output.shrink_seconds > 0 ? verify::interrupted() : signal;
@@ -312,8 +282,15 @@ int audit(const Job& job) {
 
 }  // namespace
 
+verify::Level Job::level() const {
+  const std::string& level = arguments.output.level;
+  return level == "quick"      ? verify::Level::kQuick
+         : level == "thorough" ? verify::Level::kThorough
+                               : verify::Level::kStandard;
+}
+
 void add_audit(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<AuditArguments>();
   CLI::App* command = app.add_subcommand("audit", "Judge a tessellator against the exact surface");
   command->add_option(
       "SUBJECT", a->subject,
@@ -328,11 +305,8 @@ void add_audit(CLI::App& app, int& exit_code) {
       "meshes at other depths, at unequal ones and with culled faces)");
   add_mesh_options(*command, a->mesh);
   CLI::Option* depth =
-      command
-          ->add_option("--depth", a->depth,
-                       "Subdivision depth of every face, or of the deepest one if --depths is not uniform")
-          ->check(CLI::Range(0, 12))
-          ->capture_default_str();
+      add_number(*command, "--depth", a->depth, 0, 12,
+                 "Subdivision depth of every face, or of the deepest one if --depths is not uniform");
   CLI::Option* depths =
       command
           ->add_option(
@@ -343,15 +317,11 @@ void add_audit(CLI::App& app, int& exit_code) {
           ->capture_default_str();
   CLI::Option* sample =
       command
-          ->add_option(
-              "--sample", a->sample,
-              "Judge only about so many faces of each mesh, in patches around random vertices, and cull the "
-              "others: for meshes of millions of faces")
+          ->add_option("--sample", a->sample,
+                       "Judge only about so many faces of each mesh, in patches around random vertices, and "
+                       "cull the others: for meshes of millions of faces")
           ->type_name("FACES[:SEED]");
-  command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
+  add_subject_settings(*command, a->options);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")
       ->check(CLI::Range(1, 4096));
   add_json_option(*command, a->shard);
@@ -360,10 +330,9 @@ void add_audit(CLI::App& app, int& exit_code) {
                     "Print a table for each subject and each finding at its worst, not only the overview");
   command->add_flag("--each-mesh", a->each_mesh,
                     "As --details, with a line for every mesh and not only for the worst one");
-  command->add_flag(
-      "--must-refuse", a->must_refuse,
-      "The MESHes are files of broken meshes, which are handed over as they are: the subject must refuse "
-      "them");
+  command->add_flag("--must-refuse", a->must_refuse,
+                    "The MESHes are files of broken meshes, which are handed over as they are: the subject "
+                    "must refuse them");
   add_output_options(*command, a->output);
   add_subject_options(*command, a->from);
   auto files = std::make_shared<FilesArguments>();
@@ -375,10 +344,10 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->callback([=, &exit_code] {
     check_json(a->shard.json);
     a->plan = depth->count() + depths->count() + sample->count() == 0;
-    if (files->given())
+    if (!files->tessellation.empty())
       exit_code = audit_files(*files, a->mesh, a->shard.json, a->threads);
     else
-      exit_code = explained(a->output) ? kHeld : audit(settle(*a));
+      exit_code = explained(a->output) ? kHeld : audit(job_of(*a));
   });
 }
 

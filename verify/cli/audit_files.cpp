@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/audit_files.h"
+// `limitcheck audit --control cage.obj --tessellation out.ply`.
+#include "verify/files/audit_files.h"
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <exception>
 
-#include "verify/cli/audit_output.h"
+#include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/finite.h"
-#include "verify/cli/progress.h"
-#include "verify/files/audit_files.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/host/coordinate_range.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
@@ -24,56 +21,59 @@ namespace limitcheck::cli {
 
 void add_files_options(CLI::App& audit, FilesArguments& files) {
   const char* group = "A finished tessellation (instead of SUBJECT)";
+  verify::FilesOptions& options = files.options;
   auto* control = audit.add_option("--control", files.control, "Control mesh: a file or a generator's name")
                       ->group(group);
   auto* tessellation =
       audit
           .add_option("--tessellation", files.tessellation,
-                      "A tessellation of it by any program: PLY, OBJ, OFF, STL, glTF or "
-                      "GLB; larger polygons count as fans of triangles from their first corner")
-          ->group(group);
+                      "A tessellation of it by any program: PLY, OBJ, OFF, STL, glTF or GLB; larger polygons "
+                      "count as fans of triangles from their first corner")
+          ->group(group)
+          ->needs(control);
   control->needs(tessellation);
-  tessellation->needs(control);
   const auto option = [&](CLI::Option* o) { return o->group(group)->needs(tessellation); };
   option(
-      audit.add_flag("--normals", files.normals,
+      audit.add_flag("--normals", options.needs_normals,
                      "Report a file without normals as a finding (normals that it has are always judged)"));
-  option(audit.add_option(
-      "--provenance", files.provenance,
-      "CSV that says where each vertex lies: vertex,face,l1,l2 or "
-      "vertex,face,i,j,denominator; without it the closest point of the surface is found. Of "
-      "Catmull-Clark's scheme u and v, and of a face that is no quad a column corner"));
-  option(audit.add_option("--fit", files.fit,
-                          "Undo a scale and an offset first (scale), or also a rotation (similarity)"))
-      ->check(CLI::IsMember({"scale", "similarity"}))
+  option(
+      audit.add_option("--provenance", files.provenance,
+                       "CSV that says where each vertex lies: vertex,face,l1,l2 or "
+                       "vertex,face,i,j,denominator; without it the closest point of the surface is found. "
+                       "Of Catmull-Clark's scheme u and v, and of a face that is no quad a column corner"));
+  using verify::Fit;
+  option(add_words(audit, "--fit", options.fit, {{"scale", Fit::kScale}, {"similarity", Fit::kSimilarity}},
+                   "Undo a scale and an offset first (scale), or also a rotation (similarity)"))
       ->expected(0, 1)
       ->default_str("similarity");
-  option(audit.add_option("--tolerance", files.tolerance,
+  option(audit.add_option("--tolerance", options.tolerance,
                           "Of positions, in diagonals of the control mesh's bounding box"))
       ->check(CLI::PositiveNumber)
       ->check(kFinite)
       ->capture_default_str();
   CLI::Option* deviation =
-      option(audit.add_option("--max-deviation", files.hausdorff,
+      option(audit.add_option("--max-deviation", options.hausdorff,
                               "Of the triangles from the surface and back, in diagonals (default: what one "
                               "triangle, or polygon, per control face would have)"))
           ->check(CLI::PositiveNumber)
           ->check(kFinite);
-  option(audit.add_flag("--no-hausdorff", files.no_hausdorff,
-                        "Leave out how far the triangles are from the surface and back, which takes longest: "
-                        "the row file-hausdorff is not run"))
+  option(audit.add_flag_callback(
+             "--no-hausdorff", [&options] { options.measures_hausdorff = false; },
+             "Leave out how far the triangles are from the surface and back, which takes longest: the row "
+             "file-hausdorff is not run"))
       ->excludes(deviation);
   option(audit.add_option("--per-vertex", files.per_vertex,
                           "Write distance, normal angle and parameter of every vertex to this CSV file"));
 }
 
-int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std::string& json, int threads) {
+int audit_files(const FilesArguments& files, const data::ReadOptions& mesh, const std::string& json,
+                int threads) {
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()));
   refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}});
   const auto start = std::chrono::steady_clock::now();
-  const OpenedMesh opened = open_mesh(files.control, mesh);
+  const OpenedMesh opened = open_control_mesh(files.control, mesh);
   const data::ControlMesh& control = opened.mesh;
   verify::require_range(files.control, control, true);
   verify::FileTessellation tessellation = verify::read_tessellation(files.tessellation);
@@ -82,15 +82,8 @@ int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std:
     provenance =
         verify::read_provenance(files.provenance, static_cast<std::int64_t>(tessellation.positions.size()),
                                 control, opened.chosen.scheme);
-  verify::FilesOptions options;
+  verify::FilesOptions options = files.options;
   options.scheme = opened.chosen.scheme;
-  options.tolerance = files.tolerance;
-  if (files.hausdorff > 0) options.hausdorff = files.hausdorff;
-  options.measures_hausdorff = !files.no_hausdorff;
-  options.needs_normals = files.normals;
-  options.fit = files.fit.empty()      ? verify::Fit::kNone
-                : files.fit == "scale" ? verify::Fit::kScale
-                                       : verify::Fit::kSimilarity;
 
   Progress progress;
   const verify::InterruptGuard guard;
@@ -107,7 +100,7 @@ int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std:
   report.depths = "file";
   report.meshes.push_back({files.control, static_cast<std::int64_t>(control.positions.size()),
                            static_cast<std::int64_t>(control.faces.size()), opened.chosen.scheme,
-                           opened.chosen.cut > 0 ? mesh.triangulate : ""});
+                           opened.chosen.cut > 0 ? word(mesh.polygons) : ""});
   report.subjects.push_back(files.tessellation);
   report.results = audit.results;
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
@@ -124,10 +117,9 @@ int audit_files(const FilesArguments& files, const MeshOptions& mesh, const std:
   if (json == "-") {
     fmt::print("{}", verify::to_json(report));
   } else {
-    const bool colour = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
     fmt::print("{}\n", scheme_line({opened.chosen}, mesh));
     for (const std::string& note : audit.notes) fmt::print("{}\n", note);
-    fmt::print("{}{}", audit.notes.empty() ? "" : "\n", verify::to_table(report, colour, false));
+    fmt::print("{}{}", audit.notes.empty() ? "" : "\n", verify::to_table(report, in_colour(), false));
   }
   if (not_written) std::rethrow_exception(not_written);
   if (signal != 0) return kSignalled + signal;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/audit_output.h"
-
+// `limitcheck audit`: the options for how much is checked, what is waived, and where the results go besides the table.
 #include <fmt/chrono.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -13,22 +14,20 @@
 #include "data/error.h"
 #include "data/io/whole_content.h"
 #include "verify/audit/shrink.h"
+#include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/finite.h"
-#include "verify/cli/subject_output.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/baseline.h"
 #include "verify/report/html_report.h"
 #include "verify/report/json.h"
 #include "verify/report/judged.h"
-#include "verify/report/junit.h"
 #include "verify/report/waivers.h"
 #include "verify/report/witness_files.h"
 #include "verify/row/explain.h"
 
 namespace limitcheck::cli {
 
-void add_report_options(CLI::App& command, OutputArguments& a) {
+void add_report_options(CLI::App& command, ReportOptions& a) {
   std::vector<std::string> checks;
   for (const auto& e : verify::explanations())
     if (!e.check.starts_with("file-")) checks.emplace_back(e.check);
@@ -40,20 +39,18 @@ void add_report_options(CLI::App& command, OutputArguments& a) {
       ->check(CLI::IsMember(checks))
       ->transform([](const std::string& check) { return std::string(verify::current_name(check)); })
       ->type_name("CHECK,...");
-  command.add_flag(
-      "--require-coverage", a.require_coverage,
-      "Each subject must have been judged at every kind of neighbourhood that it declares to do; "
-      "otherwise nothing is confirmed (exit code 2)");
+  command.add_flag("--require-coverage", a.require_coverage,
+                   "Each subject must have been judged at every kind of neighbourhood that it declares to "
+                   "do; otherwise nothing is confirmed (exit code 2)");
   command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
   command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   command
-      .add_option(
-          "--baseline", a.baseline,
-          "JSON report of an earlier audit: say what is new, worse and gone since, and exit with 1 only "
-          "for what is new or worse")
+      .add_option("--baseline", a.baseline,
+                  "JSON report of an earlier audit: say what is new, worse and gone since, and exit with 1 "
+                  "only for what is new or worse")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
 }
@@ -68,10 +65,9 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->capture_default_str();
   add_report_options(command, a);
   command
-      .add_option(
-          "--html", a.html,
-          "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
-          "and the meshes in three dimensions with their errors")
+      .add_option("--html", a.html,
+                  "Write the report as one page for a browser to FILE: overview, root causes, histogram of "
+                  "errors, and the meshes in three dimensions with their errors")
       ->type_name("FILE");
   command
       .add_option(
@@ -80,10 +76,9 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
           "place, the exact value to 40 digits, the value delivered, and the commands that reproduce both")
       ->type_name("DIR");
   command
-      .add_option(
-          "--shrink", a.shrink_seconds,
-          "Search for a small mesh with the same finding, SECONDS (20) for each subject and check, and write "
-          "it as --witnesses does (default folder: limitcheck-witness)")
+      .add_option("--shrink", a.shrink_seconds,
+                  "Search for a small mesh with the same finding, SECONDS (20) for each subject and check, "
+                  "and write it as --witnesses does (default folder: limitcheck-witness)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.01, 86400.0))
       ->check(kFinite)
@@ -95,10 +90,8 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->type_name("CHECK");
 }
 
-verify::Level level(const OutputArguments& a) {
-  return a.level == "quick"      ? verify::Level::kQuick
-         : a.level == "thorough" ? verify::Level::kThorough
-                                 : verify::Level::kStandard;
+bool in_colour() {
+  return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
 }
 
 bool explained(const OutputArguments& a) {
@@ -118,7 +111,9 @@ bool explained(const OutputArguments& a) {
   return true;
 }
 
-void waive(const OutputArguments& a, verify::Report& report) {
+namespace {
+
+void waive(const ReportOptions& a, verify::Report& report) {
   if (a.waivers.empty()) return;
   const std::string text = data::io::whole_content(a.waivers);
   std::map<std::string, std::string> versions;
@@ -133,12 +128,18 @@ void waive(const OutputArguments& a, verify::Report& report) {
   }
 }
 
-void compare(const OutputArguments& a, verify::Report& report) {
-  if (!a.baseline.empty())
-    verify::compare_with_baseline(report, data::io::whole_content(a.baseline), a.baseline);
+bool judged_as_required(const ReportOptions& a, verify::Report& report) {
+  std::string missing;
+  for (const verify::NeverJudged& none : verify::never_judged(report, a.required))
+    missing += (missing.empty() ? "" : "; ") + none.text();
+  for (const verify::Coverage& c : report.coverage)
+    if (a.require_coverage && !c.never.empty())
+      missing += fmt::format("{}{} never looked at {} of {} kinds of neighbourhood that it declares ({})",
+                             missing.empty() ? "" : "; ", c.subject, c.never.size(), c.declared(),
+                             data::name_of(c.scheme));
+  if (!missing.empty() && report.incomplete.empty()) report.incomplete = missing;
+  return missing.empty();
 }
-
-namespace {
 
 // The mesh that a result is about; nullptr if it is none of these.
 const verify::AuditMesh* case_of(const verify::Result& r, const std::vector<verify::AuditMesh>& meshes) {
@@ -172,10 +173,9 @@ std::vector<const verify::Result*> smallest(const std::vector<verify::AuditMesh>
 
 }  // namespace
 
-void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSubject>& subjects,
-                     const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
-                     int threads) {
+void write_witnesses(const OutputArguments& a, const Audited& audited) {
   if (a.witnesses.empty() && a.shrink_seconds <= 0) return;
+  const auto& [subjects, meshes, report, threads] = audited;
   const std::string folder = a.witnesses.empty() ? "limitcheck-witness" : a.witnesses;
   std::vector<const verify::Result*> findings;
   if (a.shrink_seconds > 0) {
@@ -193,9 +193,8 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
       verify::write_witness(folder, report, *finding, *mesh, a.level);
       continue;
     }
-    const auto& audited = subjects[subject - report.subjects.begin()];
-    const auto [small, row, relation] =
-        verify::shrink(audited, *mesh, threads, *finding, {.seconds = a.shrink_seconds});
+    const auto [small, row, relation] = verify::shrink(subjects[subject - report.subjects.begin()], *mesh,
+                                                       threads, *finding, {.seconds = a.shrink_seconds});
     if (!row) continue;
     const auto place =
         verify::write_witness(folder, report, *row, small.mesh, relation ? "thorough" : "quick");
@@ -207,9 +206,8 @@ void write_witnesses(const OutputArguments& a, const std::vector<verify::AuditSu
     fmt::print(stderr, "{} witnesses in {}\n", findings.size(), folder);
 }
 
-void write_html(const std::string& file, const std::vector<verify::AuditSubject>& subjects,
-                const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
-                const std::string& level, int threads) {
+void write_html(const std::string& file, const Audited& audited, const std::string& level) {
+  const auto& [subjects, meshes, report, threads] = audited;
   const std::vector<verify::Cause> causes = verify::causes(report);
   std::vector<std::optional<verify::ErrorShape>> shapes;
   SubjectOutput output;  // the report has it already
@@ -227,17 +225,12 @@ void write_html(const std::string& file, const std::vector<verify::AuditSubject>
   verify::write_text(file, verify::to_html(report, causes, shapes, level));
 }
 
-bool judged_as_required(const OutputArguments& a, verify::Report& report) {
-  std::string missing;
-  for (const verify::NeverJudged& none : verify::never_judged(report, a.required))
-    missing += (missing.empty() ? "" : "; ") + none.text();
-  for (const verify::Coverage& c : report.coverage)
-    if (a.require_coverage && !c.never.empty())
-      missing += fmt::format("{}{} never looked at {} of {} kinds of neighbourhood that it declares ({})",
-                             missing.empty() ? "" : "; ", c.subject, c.never.size(), c.declared(),
-                             data::name_of(c.scheme));
-  if (!missing.empty() && report.incomplete.empty()) report.incomplete = missing;
-  return missing.empty();
+bool settle(const ReportOptions& a, verify::Report& report) {
+  const bool judged = judged_as_required(a, report);
+  waive(a, report);
+  if (!a.baseline.empty())
+    verify::compare_with_baseline(report, data::io::whole_content(a.baseline), a.baseline);
+  return judged;
 }
 
 void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs) {
@@ -252,10 +245,6 @@ void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::strin
           std::filesystem::equivalent(file, other_file, ignored))
         throw data::ArgumentError(fmt::format("{} and {} name the same file: {}", other, option, file));
     }
-}
-
-void write_junit(const OutputArguments& a, const verify::Report& report) {
-  if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report));
 }
 
 std::string nothing_looked_at(bool polygons) {

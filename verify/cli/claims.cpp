@@ -9,7 +9,7 @@
 #include "data/error.h"
 #include "verify/claims/register.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/progress.h"
+#include "verify/cli/screen.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::cli {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The commands of the program. Each adds itself to the parser and stores what it returned in `exit_code`.
+// The commands of the program, and kinds of options that several have.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace limitcheck::cli {
 
@@ -14,19 +17,54 @@ enum ExitCode : int {
   kSignalled = 128  // plus the signal's number: an audit ended early, with a partial report
 };
 
-void add_check(CLI::App& app, int& exit_code);
-void add_claims(CLI::App& app, int& exit_code);
-void add_generate(CLI::App& app, int& exit_code);
-void add_eval(CLI::App& app, int& exit_code);
+/// Each adds its commands to the parser; they store what they returned in `exit_code`.
 void add_audit(CLI::App& app, int& exit_code);
+void add_claims(CLI::App& app, int& exit_code);
+void add_eval(CLI::App& app, int& exit_code);
+void add_generate(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+void add_repair(CLI::App& app, int& exit_code);
 void add_hunt(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
-void add_prove(CLI::App& app, int& exit_code);
 void add_mutants(CLI::App& app, int& exit_code);
-void add_repair(CLI::App& app, int& exit_code);
+void add_prove(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
-void add_external(CLI::App& app, int& exit_code);
 void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes the manual page of
-void add_worker(CLI::App& app, int& exit_code);  // hidden: the process that isolated subjects run in
+
+/// For options that are real numbers: "nan" is a number to the parser, and within every range.
+extern const CLI::Validator kFinite;
+
+/// An option that is a number from `least` to `most`; --help shows its default.
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& names, Number& value, Number least, Number most,
+                        const std::string& text) {
+  return command.add_option(names, value, text)->check(CLI::Range(least, most))->capture_default_str();
+}
+
+/// The words of the command line for values of a type.
+template <class Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+template <class Value>
+std::string word_of(const Words<Value>& words, const Value& value) {
+  for (const auto& [word, means] : words)
+    if (means == value) return word;
+  return "";
+}
+
+/// An option that is one of these words. --help shows the one that `value` has, if it has one.
+template <class Value>
+CLI::Option* add_words(CLI::App& command, const std::string& names, Value& value, const Words<Value>& words,
+                       const std::string& text) {
+  std::vector<std::string> all;
+  for (const auto& [word, means] : words) all.push_back(word);
+  const auto take = [&value, words](const std::string& given) {
+    for (const auto& [word, means] : words)
+      if (word == given) value = means;
+  };
+  return command.add_option_function<std::string>(names, take, text)
+      ->check(CLI::IsMember(all))
+      ->default_str(word_of(words, value));
+}
 
 }  // namespace limitcheck::cli

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT
 // limitcheck eval: the exact surface at one point.
 #include <fmt/core.h>
+#include <tbb/info.h>
 
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "data/error.h"
 #include "reference/surface/certified.h"
+#include "verify/audit/at_point.h"
+#include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/eval_report.h"
-#include "verify/cli/eval_subject.h"
+#include "verify/cli/eval.h"
 #include "verify/cli/mesh_options.h"
+#include "verify/evidence/face_depths.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -23,13 +28,16 @@ using reference::Parameter;
 
 struct Request {
   std::string mesh, face, u, v;
-  MeshOptions options;
+  data::ReadOptions options;
   int digits = 16;
-  std::string precision = "double", weights = "loop";
+  bool in_float = false;
+  reference::Weights weights = reference::Weights::kLoop;
   bool json = false;
   std::string subject, depths = "uniform";
   int depth = 4;
 };
+const Words<reference::Weights> kWeights{{"loop", reference::Weights::kLoop},
+                                         {"warren", reference::Weights::kWarren}};
 
 struct FaceAndCorner {
   std::int64_t face = 0;
@@ -69,8 +77,7 @@ void check_face(const Request& request, const OpenedMesh& opened, const FaceAndC
                     request.mesh, at.face, at.face));
   if (corners != 4 && !at.corner)
     throw data::ArgumentError(fmt::format(
-        "{}: face {} has {} corners, and U and V run over the quarter at one of them: FACE is {}:0 to "
-        "{}:{}",
+        "{}: face {} has {} corners, and U and V run over the quarter at one of them: FACE is {}:0 to {}:{}",
         request.mesh, at.face, corners, at.face, at.face, corners - 1));
   if (at.corner && (*at.corner < 0 || *at.corner >= corners))
     throw data::ArgumentError(fmt::format("{}: face {} has corners 0 to {}, not {}", request.mesh, at.face,
@@ -88,25 +95,104 @@ void round_to_float(data::ControlMesh& mesh) {
     }
 }
 
+// "3/8", "0".
+std::pair<std::uint32_t, std::uint32_t> fraction(const Parameter& parameter) {
+  const std::string text = parameter.to_string();
+  std::pair<std::uint32_t, std::uint32_t> result{0, 1};
+  const char* last = text.data() + text.size();
+  auto read = std::from_chars(text.data(), last, result.first);
+  if (read.ec == std::errc() && read.ptr != last && *read.ptr == '/')
+    read = std::from_chars(read.ptr + 1, last, result.second);
+  if (read.ec != std::errc() || read.ptr != last)
+    throw data::ArgumentError(fmt::format("--subject: {} is no lattice point", text));
+  return result;
+}
+
+verify::Place place(const FaceAndCorner& at, const Parameter& u, const Parameter& v) {
+  const auto [i, n] = fraction(u);
+  const auto [j, m] = fraction(v);
+  const std::uint64_t both = std::lcm<std::uint64_t>(n, m);
+  if (both > (1U << 20)) throw data::ArgumentError("--subject: the point is no lattice point");
+  return {static_cast<std::int32_t>(at.face), static_cast<std::uint32_t>(i * (both / n)),
+          static_cast<std::uint32_t>(j * (both / m)), static_cast<std::uint32_t>(both),
+          at.corner.value_or(0)};
+}
+
+std::string vector(const verify::Vector& v, bool in_float) {
+  if (in_float)
+    return fmt::format("{}  {}  {}", static_cast<float>(v[0]), static_cast<float>(v[1]),
+                       static_cast<float>(v[2]));
+  return fmt::format("{}  {}  {}", v[0], v[1], v[2]);
+}
+
+std::string off(double amount, double bound, const char* unit, const char* otherwise) {
+  if (std::isnan(amount)) return otherwise;
+  return fmt::format("off by {:.3g} {}, allowed {:.2g}{}", amount, unit, bound,
+                     amount <= bound ? "" : "  <-- wrong");
+}
+
+void print_expected(const verify::VertexAtPoint& p, bool refined) {
+  fmt::print("expected  position  {}{}\n", vector(p.expected, false),
+             refined ? "  (of the refined control mesh)" : "");
+  if (p.normal)
+    fmt::print("          normal    {}\n", p.expected_normal ? vector(*p.expected_normal, false)
+                                                             : "any of length 1: the surface has none");
+}
+
+// What the subject delivers at the point and what it should, and how far they are apart. Returns the exit code: 1 if a
+// vertex is beyond its bounds or not finite, or if vertices that should be equal have other bits. Throws
+// data::ArgumentError: there is no such subject, or the point is no lattice point of the depth.
+int show_difference(const Request& request, const FaceAndCorner& at, const OpenedMesh& opened,
+                    const Parameter& u, const Parameter& v) {
+  verify::AuditMesh mesh{request.mesh, opened.mesh};
+  mesh.asked_scheme = opened.chosen.scheme;
+  mesh.depth = request.depth;
+  mesh.depths = request.depths;
+  mesh.face_depth = verify::face_depths(verify::parse_depths(request.depths), mesh.mesh, request.depth);
+  refuse_too_many_points(mesh);
+  SubjectLoader loader(SubjectArguments{});
+  const verify::AuditSubject subject = loader.open(request.subject);
+  const verify::AtPoint found =
+      verify::look_at(subject, mesh, place(at, u, v), static_cast<int>(tbb::info::default_concurrency()));
+
+  fmt::print("{}\n{} at depth {}{}, face {}{} at ({}, {})\n", scheme_line({opened.chosen}, request.options),
+             request.mesh, request.depth, request.depths == "uniform" ? "" : " (" + request.depths + ")",
+             at.face, at.corner ? fmt::format(" corner {}", *at.corner) : "", u.to_string(), v.to_string());
+  if (found.vertices.empty()) fmt::print("{} delivers no vertex there\n", subject.label());
+  const verify::VertexAtPoint* before = nullptr;
+  for (const verify::VertexAtPoint& p : found.vertices) {
+    const bool told =
+        before != nullptr && before->expected == p.expected && before->expected_normal == p.expected_normal;
+    before = &p;
+    if (!told) print_expected(p, found.refined);
+    fmt::print("{} vertex {}\n", subject.label(), p.vertex);
+    fmt::print("          position  {}\n                    {}\n", vector(p.position, found.in_float),
+               off(p.distance, found.bound, "diagonals", "not finite  <-- wrong"));
+    if (p.normal)
+      fmt::print("          normal    {}\n                    {}\n", vector(*p.normal, found.in_float),
+                 off(p.angle, p.angle_bound, "degrees", "not finite, or not of length 1  <-- wrong"));
+  }
+  if (found.vertices.size() > 1)
+    fmt::print("{} vertices at this point; {}\n", found.vertices.size(),
+               found.same_bits ? "the same bits" : "they differ in bits  <-- wrong");
+  return found.held() ? kHeld : kFindings;
+}
+
 CertifiedEvaluator evaluator(const Request& request, const OpenedMesh& opened) {
-  if (opened.chosen.scheme == data::Scheme::kLoop)
-    return CertifiedEvaluator(
-        opened.mesh, request.weights == "warren" ? reference::Weights::kWarren : reference::Weights::kLoop);
-  if (request.weights != "loop")
+  if (opened.chosen.scheme == data::Scheme::kLoop) return CertifiedEvaluator(opened.mesh, request.weights);
+  if (request.weights != reference::Weights::kLoop)
     throw data::ArgumentError("--weights warren is for Loop's scheme, and this is Catmull-Clark's");
   return {opened.mesh, opened.chosen.scheme};
 }
 
 int run(const Request& request) {
   const FaceAndCorner at = parse_face(request.face);
-  OpenedMesh opened = open_mesh(request.mesh, request.options);
+  OpenedMesh opened = open_control_mesh(request.mesh, request.options);
   if (!request.subject.empty()) {
     check_face(request, opened, at);
-    return show_difference({request.subject, request.mesh, request.depth, request.depths, at.face, at.corner,
-                            scheme_line({opened.chosen}, request.options)},
-                           opened, Parameter::parse(request.u), Parameter::parse(request.v));
+    return show_difference(request, at, opened, Parameter::parse(request.u), Parameter::parse(request.v));
   }
-  if (request.precision == "float") round_to_float(opened.mesh);
+  if (request.in_float) round_to_float(opened.mesh);
   check_face(request, opened, at);
   const Parameter u = Parameter::parse(request.u), v = Parameter::parse(request.v);
   const reference::CertifiedPoint point =
@@ -115,7 +201,7 @@ int run(const Request& request) {
   EvaluatedPoint evaluated{request.mesh,
                            scheme_line({opened.chosen}, request.options),
                            opened.chosen,
-                           request.weights,
+                           word_of(kWeights, request.weights),
                            at.face,
                            at.corner,
                            {u.to_string(), v.to_string()},
@@ -140,42 +226,29 @@ void add_eval(CLI::App& app, int& exit_code) {
           "Face, from 0 in file order; FACE:CORNER for Catmull-Clark's scheme where the face is no quad")
       ->required();
   command
-      ->add_option(
-          "U", request->u,
-          "Loop: l1, the weight of the face's second corner; Catmull-Clark: u, from the corner towards "
-          "the next. 1/3, 0.25, 1e-9")
+      ->add_option("U", request->u,
+                   "Loop: l1, the weight of the face's second corner; Catmull-Clark: u, from the corner "
+                   "towards the next. 1/3, 0.25, 1e-9")
       ->required();
   command
-      ->add_option(
-          "V", request->v,
-          "Loop: l2, the weight of its third corner (the first has 1 - l1 - l2); Catmull-Clark: v, from "
-          "the corner towards the one before")
+      ->add_option("V", request->v,
+                   "Loop: l2, the weight of its third corner (the first has 1 - l1 - l2); Catmull-Clark: v, "
+                   "from the corner towards the one before")
       ->required();
   add_mesh_options(*command, request->options);
-  command->add_option("--digits", request->digits, "Significant digits")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  command
-      ->add_option("--precision", request->precision,
-                   "Round the control mesh to it first, as a float tessellator sees it")
-      ->check(CLI::IsMember({"float", "double"}))
-      ->capture_default_str();
-  command
-      ->add_option("--weights", request->weights,
-                   "Loop's scheme: weights of interior vertices, Loop's or Warren's")
-      ->check(CLI::IsMember({"loop", "warren"}))
-      ->capture_default_str();
+  add_number(*command, "--digits", request->digits, 1, 10000, "Significant digits");
+  add_words(*command, "--precision", request->in_float, {{"float", true}, {"double", false}},
+            "Round the control mesh to it first, as a float tessellator sees it");
+  add_words(*command, "--weights", request->weights, kWeights,
+            "Loop's scheme: weights of interior vertices, Loop's or Warren's");
   command->add_flag("--json", request->json, "One JSON document, numbers as decimal strings");
-  CLI::Option* subject = command->add_option(
-      "--subject", request->subject,
-      "Show what this subject (as `limitcheck audit` takes it) delivers at the point, beside "
-      "what it should; exit code 1 if it is wrong");
-  command
-      ->add_option("--depth", request->depth,
-                   "With --subject: subdivision depth of every face, or of the deepest one")
-      ->needs(subject)
-      ->check(CLI::Range(0, 12))
-      ->capture_default_str();
+  CLI::Option* subject =
+      command->add_option("--subject", request->subject,
+                          "Show what this subject (as `limitcheck audit` takes it) delivers at the point, "
+                          "beside what it should; exit code 1 if it is wrong");
+  add_number(*command, "--depth", request->depth, 0, 12,
+             "With --subject: subdivision depth of every face, or of the deepest one")
+      ->needs(subject);
   command
       ->add_option("--depths", request->depths,
                    "With --subject: how the faces get their depths, as for audit")

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/eval_report.h"
-
+// What `limitcheck eval` prints about a point.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "verify/cli/commands.h"
+#include "verify/cli/eval.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -19,19 +21,12 @@ using reference::Fate;
 using reference::NormalKind;
 using reference::Radius;
 
-const char* name(NormalKind kind) {
-  switch (kind) {
-    case NormalKind::kRegular:
-      return "regular";
-    case NormalKind::kNoTangentPlane:
-      return "no_tangent_plane";
-    case NormalKind::kFallback:
-      return "fallback";
-    case NormalKind::kArbitrary:
-      return "arbitrary";
-  }
-  return "";
-}
+const Words<NormalKind> kNormalKinds{{"regular", NormalKind::kRegular},
+                                     {"no_tangent_plane", NormalKind::kNoTangentPlane},
+                                     {"fallback", NormalKind::kFallback},
+                                     {"arbitrary", NormalKind::kArbitrary}};
+const Words<Fate> kFates{
+    {"value", Fate::kValue}, {"zero", Fate::kZero}, {"no_limit", Fate::kNoLimit}, {"grows", Fate::kGrows}};
 
 nlohmann::ordered_json vector(const Enclosure3& v) {
   return {v[0].value, v[1].value, v[2].value};
@@ -47,22 +42,8 @@ Radius radius(const Enclosure& e) {
   return e.radius;
 }
 
-const char* name(Fate fate) {
-  switch (fate) {
-    case Fate::kValue:
-      return "value";
-    case Fate::kZero:
-      return "zero";
-    case Fate::kNoLimit:
-      return "no_limit";
-    case Fate::kGrows:
-      return "grows";
-  }
-  return "";
-}
-
 nlohmann::ordered_json json_of(const DerivativeLimit& limit) {
-  return {{"fate", name(limit.fate)}, {"eigenvalue", limit.eigenvalue}, {"growth", limit.growth}};
+  return {{"fate", word_of(kFates, limit.fate)}, {"eigenvalue", limit.eigenvalue}, {"growth", limit.growth}};
 }
 
 // What is said beside derivatives of one order at an extraordinary corner, or in their place.
@@ -122,7 +103,7 @@ void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
   add_maybe("tangent1", p.t1);
   add_maybe("tangent2", p.t2);
   add("normal", p.normal);
-  json["normal_kind"] = name(p.normal_kind);
+  json["normal_kind"] = word_of(kNormalKinds, p.normal_kind);
   add_maybe("d11", p.d11);
   add_maybe("d12", p.d12);
   add_maybe("d22", p.d22);
@@ -167,20 +148,11 @@ void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
     line("tangent 1", *p.t1, "  (direction only)");
     line("tangent 2", *p.t2, "  (direction only)");
   }
-  switch (p.normal_kind) {
-    case NormalKind::kRegular:
-      line("normal", p.normal);
-      break;
-    case NormalKind::kNoTangentPlane:
-      line("normal", p.normal, "  (the surface has no tangent plane here)");
-      break;
-    case NormalKind::kFallback:
-      line("normal", p.normal, "  (tangents degenerate: from the control faces)");
-      break;
-    case NormalKind::kArbitrary:
-      line("normal", p.normal, "  (everything degenerate: arbitrary)");
-      break;
-  }
+  line("normal", p.normal,
+       p.normal_kind == NormalKind::kNoTangentPlane ? "  (the surface has no tangent plane here)"
+       : p.normal_kind == NormalKind::kFallback     ? "  (tangents degenerate: from the control faces)"
+       : p.normal_kind == NormalKind::kArbitrary    ? "  (everything degenerate: arbitrary)"
+                                                    : "");
   if (p.d11) {
     line(by_aa, *p.d11, second);
     line(by_ab, *p.d12, second);

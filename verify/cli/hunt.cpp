@@ -15,12 +15,12 @@
 #include "data/error.h"
 #include "data/io/whole_content.h"
 #include "verify/checks/check_oracle.h"
-#include "verify/cli/audit_output.h"
+#include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/hunt_jobs.h"
-#include "verify/cli/progress.h"
+#include "verify/cli/mesh_options.h"
+#include "verify/cli/screen.h"
 #include "verify/cli/subject_loader.h"
-#include "verify/cli/subject_output.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
 
@@ -31,9 +31,10 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kSaved = std::chrono::seconds(10);  // between two times that a part is saved
 
 struct Arguments {
-  std::string subject, time, scheme, shard = "1/1", json, junit, baseline;
+  std::string subject, time, shard = "1/1", json, junit, baseline;
   std::string witnesses = "limitcheck-hunt";
   std::vector<std::string> options, vary;
+  std::optional<data::Scheme> scheme;
   std::uint64_t cases = 1000, seed = 1;
   int jobs = 0, attempts = 2000;
   bool in_process = false, resume = false;
@@ -54,8 +55,7 @@ double seconds_of(const std::string& text) {
 }
 
 std::vector<data::Scheme> schemes_asked(const Arguments& a) {
-  if (a.scheme == "loop") return {data::Scheme::kLoop};
-  if (a.scheme == "catmull-clark") return {data::Scheme::kCatmullClark};
+  if (a.scheme) return {*a.scheme};
   return {data::Scheme::kLoop, data::Scheme::kCatmullClark};
 }
 
@@ -254,16 +254,12 @@ void add_hunt(CLI::App& app, int& exit_code) {
       app.add_subcommand("hunt", "Search for anything wrong with a tessellator on meshes without end");
   command->add_option("SUBJECT", a->subject,
                       "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND");
-  CLI::Option* cases = command->add_option("--cases", a->cases, "How many cases")
-                           ->check(CLI::Range(1, 1'000'000'000))
-                           ->capture_default_str();
+  CLI::Option* cases =
+      add_number<std::uint64_t>(*command, "--cases", a->cases, 1, 1'000'000'000, "How many cases");
   command->add_option("--time", a->time, "How long, in place of --cases: 90s, 15m, 1h")->excludes(cases);
   command->add_option("--seed", a->seed, "Another seed makes other cases; the same one the same")
       ->capture_default_str();
-  command
-      ->add_option("--scheme", a->scheme,
-                   "Only meshes of this scheme (default: both, if the subject does both)")
-      ->check(CLI::IsMember({"loop", "catmull-clark"}));
+  add_scheme(*command, a->scheme, "Only meshes of this scheme (default: both, if the subject does both)");
   command
       ->add_option("--shard", a->shard,
                    "Only part K of N of the cases; limitcheck merge joins the reports of all parts")
@@ -271,10 +267,7 @@ void add_hunt(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--jobs", a->jobs, "Processes at once (default: as many as there are processors)")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--option,--options", a->options, "key=value,... for the subject; may be repeated")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
+  add_subject_settings(*command, a->options);
   command
       ->add_option("--vary", a->vary,
                    "Keys of the subject's options (target,precision, or all): every second case takes other "
@@ -283,11 +276,8 @@ void add_hunt(CLI::App& app, int& exit_code) {
       ->type_name("KEY,...");
   command->add_option("--witnesses", a->witnesses, "Folder for the small mesh of each finding")
       ->capture_default_str();
-  command
-      ->add_option("--attempts", a->attempts,
-                   "How often a smaller mesh is tried for each finding; 0: none is")
-      ->check(CLI::Range(0, 1'000'000))
-      ->capture_default_str();
+  add_number(*command, "--attempts", a->attempts, 0, 1'000'000,
+             "How often a smaller mesh is tried for each finding; 0: none is");
   command->add_option("--json", a->json, "Write the report to FILE; '-': to standard output")
       ->type_name("FILE");
   command->add_option("--junit", a->junit, "Write the findings as JUnit XML")->type_name("FILE");
@@ -305,8 +295,8 @@ void add_hunt(CLI::App& app, int& exit_code) {
   command->footer(
       "A finding is what was seen at one check in one kind of neighbourhood, however often, unless the same "
       "was seen where there is less; one for each kind of vertex is shrunk to few faces. Exit codes: 0 "
-      "nothing new was found, 1 findings, 2 bad usage or "
-      "input, or nothing was judged; 130 and the like after a signal, with a report of the cases so far.");
+      "nothing new was found, 1 findings, 2 bad usage or input, or nothing was judged; 130 and the like "
+      "after a signal, with a report of the cases so far.");
   command->callback([a, &exit_code] { exit_code = hunt(*a); });
 }
 

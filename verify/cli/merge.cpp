@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/merge.h"
-
+// limitcheck merge: the parts that --shard has made, as one process would have reported them.
 #include <fmt/core.h>
 
 #include <memory>
@@ -12,12 +11,24 @@
 #include "data/error.h"
 #include "data/io/whole_content.h"
 #include "data/untrusted_json.h"
+#include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/units.h"
 #include "verify/hunt/hunt_report.h"
+#include "verify/report/coverage.h"
 #include "verify/report/json.h"
+#include "verify/report/junit.h"
+#include "verify/report/overview.h"
+#include "verify/report/result_json.h"
 
 namespace limitcheck::cli {
 namespace {
+
+struct MergeArguments {
+  std::vector<std::string> parts;
+  std::string output;
+  ReportOptions options;  // --junit, --baseline, and of an audit --require and --waivers
+};
 
 // read(text) of a file; what is wrong with it is said with its name.
 template <class Read>
@@ -35,29 +46,52 @@ std::string program_of(const std::string& text) {
 }
 
 void refuse(const MergeArguments& a, const std::string& program, bool of_hunt) {
-  for (const auto& [option, given] : {std::pair{"--require", !a.report.required.empty()},
-                                      std::pair{"--require-coverage", a.report.require_coverage},
-                                      std::pair{"--waivers", !a.report.waivers.empty()},
-                                      std::pair{"--baseline", !a.report.baseline.empty() && !of_hunt},
-                                      std::pair{"--junit", !a.report.junit.empty() && !of_hunt}})
+  for (const auto& [option, given] : {std::pair{"--require", !a.options.required.empty()},
+                                      std::pair{"--require-coverage", a.options.require_coverage},
+                                      std::pair{"--waivers", !a.options.waivers.empty()},
+                                      std::pair{"--baseline", !a.options.baseline.empty() && !of_hunt},
+                                      std::pair{"--junit", !a.options.junit.empty() && !of_hunt}})
     if (given) throw data::ArgumentError(fmt::format("{} is not for parts of {}", option, program));
+}
+
+int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
+  const nlohmann::json& plan = whole.plan.what;
+  const auto level = plan.at("level").get<std::string>();
+  verify::Report report = verify::header_of(plan.at("report"));
+  const std::size_t subjects = whole.plan.together;
+  for (std::size_t s = 0; s < subjects; ++s)
+    for (std::size_t unit = s; unit < whole.plan.units; unit += subjects)
+      for (verify::Result& row : verify::rows_of(whole.results.at(unit)))
+        report.results.push_back(std::move(row));
+  report.coverage = verify::coverage_of(report.results, verify::coverage_question(plan.at("coverage")));
+  report.seconds = whole.seconds;
+  report.containment = whole.containment;
+  report.printed = whole.printed;
+  if (!report.looked()) report.incomplete = nothing_looked_at(plan.at("polygons").get<bool>());
+
+  const bool judged = settle(a.options, report);
+  if (!a.options.junit.empty()) verify::write_text(a.options.junit, verify::to_junit(report));
+  verify::write_text(a.output, verify::to_json(report, level));
+  fmt::print("{}", verify::to_overview(report, verify::causes(report), in_colour(), "", level, ""));
+  return exit_code_of(report, judged);
 }
 
 int merge_hunt(const MergeArguments& a) {
   std::vector<verify::HuntReport> parts;
   for (const std::string& file : a.parts) parts.push_back(read_file(file, verify::read_hunt_report));
   std::optional<verify::HuntReport> earlier;
-  if (!a.report.baseline.empty()) earlier = read_file(a.report.baseline, verify::read_hunt_report);
+  if (!a.options.baseline.empty()) earlier = read_file(a.options.baseline, verify::read_hunt_report);
   const verify::HuntReport* const before = earlier ? &*earlier : nullptr;
   const verify::HuntReport whole = verify::merged(parts);
   verify::write_text(a.output, verify::to_json(whole));
-  if (!a.report.junit.empty()) verify::write_text(a.report.junit, verify::to_junit(whole, before));
+  if (!a.options.junit.empty()) verify::write_text(a.options.junit, verify::to_junit(whole, before));
   fmt::print("{}", verify::to_text(whole, before));
   return verify::new_findings(whole, before).empty() ? kHeld : kFindings;
 }
 
 int merge(const MergeArguments& a) {
-  refuse_one_file_for_two({{"-o", a.output}, {"--junit", a.report.junit}, {"--baseline", a.report.baseline}});
+  refuse_one_file_for_two(
+      {{"-o", a.output}, {"--junit", a.options.junit}, {"--baseline", a.options.baseline}});
   const std::string program = read_file(a.parts.at(0), program_of);
   if (program == "limitcheck hunt") {
     refuse(a, program, true);
@@ -68,8 +102,8 @@ int merge(const MergeArguments& a) {
   const verify::PartReport whole = verify::joined(parts);
   if (program == "limitcheck audit") return merge_audit(whole, a);
   refuse(a, program, false);
-  if (program == "limitcheck mutants") return merge_mutants(whole, a);
-  if (program == "limitcheck prove") return merge_prove(whole, a);
+  if (program == "limitcheck mutants") return report_mutants(whole, a.output);
+  if (program == "limitcheck prove") return report_proofs(whole, a.output, false);
   throw data::ArgumentError(fmt::format("{}: parts of {} are unknown here", a.parts[0], program));
 }
 
@@ -84,11 +118,10 @@ void add_merge(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("-o,--output", a->output, "The report of the whole, as one process writes it")
       ->required();
-  add_report_options(*command, a->report);
+  add_report_options(*command, a->options);
   command->footer(
       "Exit codes: as of the command whose parts they are; 2 if a part is missing, there twice, incomplete "
-      "or "
-      "of another plan.");
+      "or of another plan.");
   command->callback([a, &exit_code] { exit_code = merge(*a); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
+#include "verify/cli/commands.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -18,58 +19,49 @@ std::int64_t polygons(const data::ControlMesh& mesh) {
   return count;
 }
 
-OpenedMesh taken(const std::string& name, data::OpenedMesh opened, const MeshOptions& options) {
+OpenedMesh taken(const std::string& name, data::OpenedMesh opened, const data::ReadOptions& options) {
   OpenedMesh result{std::move(opened.mesh), {}};
-  result.chosen = scheme_of(result.mesh, opened.cut, options);
+  result.chosen = {options.scheme.value_or(data::natural_scheme(result.mesh)), opened.cut};
   if (result.chosen.scheme == data::Scheme::kLoop && !result.mesh.faces.are_triangles())
     throw data::ArgumentError(
         fmt::format("{}: {} of {} faces are no triangles, which Loop's scheme needs. Either leave out "
-                    "--scheme loop, for the "
-                    "surface of Catmull-Clark's scheme; or cut them with --triangulate fan or --triangulate "
-                    "shortest-diagonal, which is another surface",
+                    "--scheme loop, for the surface of Catmull-Clark's scheme; or cut them with "
+                    "--triangulate fan or --triangulate shortest-diagonal, which is another surface",
                     name, polygons(result.mesh), result.mesh.faces.size()));
   return result;
 }
 
-// To be validated for the scheme that the mesh has: `taken` says in words what is wrong with the one asked
-// for.
-data::ReadOptions without_scheme(const MeshOptions& options) {
-  data::ReadOptions result = read_options(options);
-  result.scheme.reset();
-  return result;
+// To be validated for the scheme that the mesh has: `taken` says in words what is wrong with the one asked for.
+data::ReadOptions without_scheme(data::ReadOptions options) {
+  options.scheme.reset();
+  return options;
 }
+
+const Words<data::Triangulation> kTriangulations{
+    {"fan", data::Triangulation::kFan}, {"shortest-diagonal", data::Triangulation::kShortestDiagonal}};
 
 }  // namespace
 
-void add_mesh_options(CLI::App& command, MeshOptions& options) {
-  command
-      .add_option(
-          "--scheme", options.scheme,
-          "The subdivision scheme; default: loop if all faces of the mesh are triangles, else catmull-clark")
-      ->check(CLI::IsMember({"loop", "catmull-clark"}));
-  command
-      .add_option(
-          "--triangulate", options.triangulate,
-          "Cut larger faces into triangles, for Loop's scheme: from their first corner (fan), or quads "
-          "along the shorter diagonal. The surface is another one than that of the faces")
-      ->check(CLI::IsMember({"fan", "shortest-diagonal"}));
+CLI::Option* add_scheme(CLI::App& command, std::optional<data::Scheme>& scheme, const std::string& text) {
+  using data::Scheme;
+  return add_words<std::optional<Scheme>>(
+      command, "--scheme", scheme, {{"loop", Scheme::kLoop}, {"catmull-clark", Scheme::kCatmullClark}}, text);
 }
 
-data::ReadOptions read_options(const MeshOptions& options) {
-  data::ReadOptions result;
-  if (!options.triangulate.empty())
-    result.polygons =
-        options.triangulate == "fan" ? data::Triangulation::kFan : data::Triangulation::kShortestDiagonal;
-  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
-    if (options.scheme == name_of(scheme)) result.scheme = scheme;
-  return result;
+void add_mesh_options(CLI::App& command, data::ReadOptions& options) {
+  add_scheme(
+      command, options.scheme,
+      "The subdivision scheme; default: loop if all faces of the mesh are triangles, else catmull-clark");
+  add_words(command, "--triangulate", options.polygons, kTriangulations,
+            "Cut larger faces into triangles, for Loop's scheme: from their first corner (fan), or quads "
+            "along the shorter diagonal. The surface is another one than that of the faces");
 }
 
-MeshScheme scheme_of(const data::ControlMesh& mesh, std::int64_t cut, const MeshOptions& options) {
-  return {read_options(options).scheme.value_or(data::natural_scheme(mesh)), cut};
+std::string word(data::Triangulation polygons) {
+  return word_of(kTriangulations, polygons);
 }
 
-OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options) {
+OpenedMesh open_control_mesh(const std::string& file_or_name, const data::ReadOptions& options) {
   data::ReadOptions how = without_scheme(options);
   how.leave_out_unused = true;
   data::OpenedMesh opened = data::open_mesh(file_or_name, how);
@@ -82,11 +74,11 @@ OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options
   return taken(file_or_name, std::move(opened), options);
 }
 
-OpenedMesh open_named_mesh(const std::string& specification, const MeshOptions& options) {
+OpenedMesh open_generated_mesh(const std::string& specification, const data::ReadOptions& options) {
   return taken(specification, data::open_named_mesh(specification, without_scheme(options)), options);
 }
 
-std::string scheme_line(const std::vector<MeshScheme>& meshes, const MeshOptions& options) {
+std::string scheme_line(const std::vector<MeshScheme>& meshes, const data::ReadOptions& options) {
   const auto count = [&](data::Scheme scheme) {
     return std::count_if(meshes.begin(), meshes.end(),
                          [&](const MeshScheme& m) { return m.scheme == scheme; });
@@ -98,11 +90,11 @@ std::string scheme_line(const std::vector<MeshScheme>& meshes, const MeshOptions
     return fmt::format("scheme: loop ({} of {} meshes, whose faces are all triangles), catmull-clark ({})",
                        loop, meshes.size(), catmull_clark);
   const std::string name(name_of(loop > 0 ? data::Scheme::kLoop : data::Scheme::kCatmullClark));
-  const std::string how = cut > 0 ? fmt::format("--triangulate {} cut {} face{} into triangles",
-                                                options.triangulate, cut, cut == 1 ? "" : "s")
-                          : !options.scheme.empty() ? "--scheme"
-                          : loop > 0                ? "all faces are triangles"
-                                                    : "not all faces are triangles";
+  const std::string how = cut > 0          ? fmt::format("--triangulate {} cut {} face{} into triangles",
+                                                         word(options.polygons), cut, cut == 1 ? "" : "s")
+                          : options.scheme ? "--scheme"
+                          : loop > 0       ? "all faces are triangles"
+                                           : "not all faces are triangles";
   return fmt::format("scheme: {} ({})", name, how);
 }
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,15 +15,12 @@
 
 namespace limitcheck::cli {
 
-/// As given on the command line; empty: not given.
-struct MeshOptions {
-  std::string scheme, triangulate;
-};
-
-void add_mesh_options(CLI::App& command, MeshOptions& options);
-
-/// What of them the readers understand.
-data::ReadOptions read_options(const MeshOptions& options);
+/// --scheme, empty if it is not given.
+CLI::Option* add_scheme(CLI::App& command, std::optional<data::Scheme>& scheme, const std::string& text);
+/// --scheme and --triangulate.
+void add_mesh_options(CLI::App& command, data::ReadOptions& options);
+/// "fan", "shortest-diagonal"; empty: polygons are kept.
+std::string word(data::Triangulation polygons);
 
 /// Which scheme a mesh was opened for, and at what price.
 struct MeshScheme {
@@ -34,17 +32,14 @@ struct OpenedMesh {
   MeshScheme chosen;
 };
 
-/// The scheme asked for, else the mesh's own.
-MeshScheme scheme_of(const data::ControlMesh& mesh, std::int64_t cut, const MeshOptions& options);
-
 /// A file or a generator's name. Vertices that no face names are left out, with a warning on standard error.
 ///   throws   data::InputError as data::open_mesh; data::ArgumentError: Loop's scheme was asked for, and the
 ///            mesh has polygons that nobody allowed to be cut
-OpenedMesh open_mesh(const std::string& file_or_name, const MeshOptions& options);
+OpenedMesh open_control_mesh(const std::string& file_or_name, const data::ReadOptions& options);
 /// A generator's name only.
-OpenedMesh open_named_mesh(const std::string& specification, const MeshOptions& options);
+OpenedMesh open_generated_mesh(const std::string& specification, const data::ReadOptions& options);
 
 /// "scheme: loop (all faces are triangles)", of one mesh or of all meshes of a command.
-std::string scheme_line(const std::vector<MeshScheme>& meshes, const MeshOptions& options);
+std::string scheme_line(const std::vector<MeshScheme>& meshes, const data::ReadOptions& options);
 
 }  // namespace limitcheck::cli

@@ -5,14 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "verify/cli/commands.h"
-#include "verify/cli/merge.h"
-#include "verify/cli/progress.h"
-#include "verify/cli/shard_options.h"
+#include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
 
@@ -63,47 +60,21 @@ std::string to_table(const KillTable& table) {
   return out;
 }
 
-int report(const KillTable& table, const std::string& json) {
+}  // namespace
+
+int report_mutants(const verify::PartReport& done, const std::string& json) {
+  if (!done.incomplete.empty()) {
+    fmt::print(stderr, "limitcheck: {}\n", done.incomplete);
+    return kHeld;
+  }
+  if (!done.plan.shard.is_whole()) {
+    fmt::print("shard {}: {} of {} units\n", done.plan.shard.text(), done.results.size(), done.plan.units);
+    return kHeld;
+  }
+  const KillTable table = verify::kill_table(done.results);
   if (!json.empty() && json != "-") verify::write_text(json, to_json(table));
   fmt::print("{}", json == "-" ? to_json(table) : to_table(table));
   return table.held() ? kHeld : kFindings;
-}
-
-int run(const ShardArguments& a) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto journal = open_journal(a, verify::mutants_plan(LIMITCHECK_VERSION));
-  const verify::InterruptGuard guard;
-  Progress progress;
-  verify::run_mutants(
-      *journal,
-      [&](const std::string& what, std::size_t done, std::size_t total) { progress.show(done, total, what); },
-      [] { return verify::interrupted() != 0; });
-  progress.clear();
-  const int signal = verify::interrupted();
-  std::string incomplete;
-  if (signal != 0) incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
-  if (!a.of().is_whole()) {
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
-    write_part(a, *journal, {{}, {}, since.count(), "", "", incomplete});
-  }
-  if (signal != 0) {
-    fmt::print(stderr, "limitcheck: {}\n", incomplete);
-    return kSignalled + signal;
-  }
-  int code = kHeld;
-  if (a.of().is_whole()) {
-    code = report(verify::kill_table(journal->results()), a.json);
-  } else {
-    fmt::print("shard {}: {} of {} units\n", a.shard, journal->results().size(), journal->plan().units);
-  }
-  journal->remove();
-  return code;
-}
-
-}  // namespace
-
-int merge_mutants(const verify::PartReport& whole, const MergeArguments& a) {
-  return report(verify::kill_table(whole.results), a.output);
 }
 
 void add_mutants(CLI::App& app, int& exit_code) {
@@ -115,9 +86,19 @@ void add_mutants(CLI::App& app, int& exit_code) {
   command->footer(
       "Exit codes: 0 every mutant is killed by the check meant for it, every check kills one, and correct "
       "subjects have no finding (of a shard: it is done, and limitcheck merge will say); 1 otherwise; 130 "
-      "and "
-      "the like after a signal.");
-  command->callback([a, &exit_code] { exit_code = run(*a); });
+      "and the like after a signal.");
+  command->callback([a, &exit_code] {
+    const auto work = [](verify::Journal& journal, Progress& progress) {
+      verify::run_mutants(
+          journal,
+          [&](const std::string& what, std::size_t done, std::size_t total) {
+            progress.show(done, total, what);
+          },
+          [] { return verify::interrupted() != 0; });
+    };
+    exit_code = run_units(*a, verify::mutants_plan(LIMITCHECK_VERSION), work,
+                          [&](const verify::PartReport& done) { return report_mutants(done, a->json); });
+  });
 }
 
 }  // namespace limitcheck::cli

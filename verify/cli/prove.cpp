@@ -15,9 +15,7 @@
 #include "data/error.h"
 #include "data/scheme.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/merge.h"
-#include "verify/cli/progress.h"
-#include "verify/cli/shard_options.h"
+#include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/proof/proof_json.h"
 #include "verify/proof/proof_report.h"
@@ -29,7 +27,7 @@ namespace {
 
 struct Request {
   std::string scheme = "loop", valences, kernel = "all", set = "standard";
-  int depth = 6;
+  int depth = verify::ProofRequest().depth;
   bool each = false;
   ShardArguments shard;
 };
@@ -91,7 +89,7 @@ verify::Plan plan_of(const Request& request, const verify::ProofSet& set) {
 }
 
 // The tasks of the journal's shard that it does not know.
-void prove_tasks(const verify::ProofSet& set, verify::Journal& journal) {
+void prove_tasks(const verify::ProofSet& set, verify::Journal& journal, Progress& progress) {
   std::vector<verify::ProofTask> tasks;
   std::vector<std::size_t> units;
   for (std::size_t unit = 0; unit < set.tasks.size(); ++unit) {
@@ -99,7 +97,6 @@ void prove_tasks(const verify::ProofSet& set, verify::Journal& journal) {
     tasks.push_back(set.tasks[unit]);
     units.push_back(unit);
   }
-  Progress progress;
   const auto start = std::chrono::steady_clock::now();
   (void)verify::prove(
       tasks,
@@ -114,7 +111,6 @@ void prove_tasks(const verify::ProofSet& set, verify::Journal& journal) {
                                   done.latest->neighbourhood.name));
       },
       [] { return verify::interrupted() != 0; });
-  progress.clear();
 }
 
 void certify(const verify::ProofSet& set, verify::Journal& journal) {
@@ -125,57 +121,10 @@ void certify(const verify::ProofSet& set, verify::Journal& journal) {
   journal.keep(unit, verify::certified_json(lines));
 }
 
-// The results as they are in a journal or in parts.
-struct Results {
-  std::vector<std::vector<verify::ProofRow>> rows;
-  std::vector<verify::CertifiedLine> certified;
-};
-Results results_of(const std::map<std::size_t, nlohmann::json>& units, std::size_t tasks) {
-  Results results{std::vector<std::vector<verify::ProofRow>>(tasks), {}};
-  for (const auto& [unit, result] : units) {
-    if (unit < tasks)
-      results.rows[unit] = verify::proof_rows_of(result);
-    else
-      results.certified = verify::certified_of(result);
-  }
-  return results;
-}
-
-int run(const Request& request) {
-  const auto start = std::chrono::steady_clock::now();
-  const verify::ProofSet set = verify::proof_set(as_request(request));
-  const auto journal = open_journal(request.shard, plan_of(request, set));
-  const verify::InterruptGuard guard;
-  prove_tasks(set, *journal);
-  certify(set, *journal);
-  const Results results = results_of(journal->results(), set.tasks.size());
-  const verify::ProofReport report(set, results.rows, results.certified);
-  const int signal = verify::interrupted();
-  const std::string& json = request.shard.json;
-  if (!request.shard.of().is_whole()) {
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
-    write_part(request.shard, *journal,
-               {{},
-                {},
-                since.count(),
-                "",
-                "",
-                signal == 0 ? "" : fmt::format("interrupted by {}", verify::signal_name(signal))});
-    fmt::print("shard {}: {} of {} units, {}\n", request.shard.shard, journal->results().size(),
-               journal->plan().units, report.held() ? "every map is the reference's" : "some proofs FAILED");
-  } else {
-    if (!json.empty() && json != "-") verify::write_text(json, report.json() + "\n");
-    fmt::print("{}", json == "-" ? report.json() + "\n" : report.table(request.each));
-  }
-  if (signal == 0) journal->remove();
-  if (!report.held()) return kFindings;
-  return signal == 0 ? kHeld : kSignalled + signal;
-}
-
 }  // namespace
 
-int merge_prove(const verify::PartReport& whole, const MergeArguments& a) {
-  const nlohmann::json& plan = whole.plan.what;
+int report_proofs(const verify::PartReport& done, const std::string& json, bool each) {
+  const nlohmann::json& plan = done.plan.what;
   Request request;
   plan.at("scheme").get_to(request.scheme), plan.at("valences").get_to(request.valences);
   plan.at("depth").get_to(request.depth), plan.at("kernel").get_to(request.kernel);
@@ -183,11 +132,23 @@ int merge_prove(const verify::PartReport& whole, const MergeArguments& a) {
   const verify::ProofSet set = verify::proof_set(as_request(request));
   if (plan_of(request, set).what != plan)
     throw data::ArgumentError("the parts are of another version of limitcheck");
-  const Results results = results_of(whole.results, set.tasks.size());
-  const verify::ProofReport report(set, results.rows, results.certified);
-  verify::write_text(a.output, report.json() + "\n");
-  fmt::print("{}", report.table(false));
-  return report.held() && report.complete() ? kHeld : kFindings;
+  std::vector<std::vector<verify::ProofRow>> rows(set.tasks.size());
+  std::vector<verify::CertifiedLine> certified;
+  for (const auto& [unit, result] : done.results) {
+    if (unit < rows.size())
+      rows[unit] = verify::proof_rows_of(result);
+    else
+      certified = verify::certified_of(result);
+  }
+  const verify::ProofReport report(set, rows, std::move(certified));
+  if (!done.plan.shard.is_whole()) {
+    fmt::print("shard {}: {} of {} units, {}\n", done.plan.shard.text(), done.results.size(), done.plan.units,
+               report.held() ? "every map is the reference's" : "some proofs FAILED");
+    return report.held() ? kHeld : kFindings;
+  }
+  if (!json.empty() && json != "-") verify::write_text(json, report.json() + "\n");
+  fmt::print("{}", json == "-" ? report.json() + "\n" : report.table(each));
+  return report.held() && (report.complete() || !done.incomplete.empty()) ? kHeld : kFindings;
 }
 
 void add_prove(CLI::App& app, int& exit_code) {
@@ -207,10 +168,9 @@ void add_prove(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"sliding-window", "row-stream", "all"}))
       ->capture_default_str();
   command
-      ->add_option(
-          "--set", request->set,
-          "How much: standard takes three minutes on two cores, full some twenty; sample, every tenth "
-          "topology of the standard set, takes ten seconds")
+      ->add_option("--set", request->set,
+                   "How much: standard takes three minutes on two cores, full some twenty; sample, every "
+                   "tenth topology of the standard set, takes ten seconds")
       ->check(CLI::IsMember({"sample", "standard", "full"}))
       ->capture_default_str();
   command->add_flag("--each", request->each, "A line for every topology, not for every group of them");
@@ -237,7 +197,16 @@ void add_prove(CLI::App& app, int& exit_code) {
       "  darts      ends of creases                                 d 1, b 2           | d 3, b 4\n"
       "  semi-sharp edges and vertices, sliding window              e 1, b 2           | e 3, b 4\n"
       "Ctrl-C ends with the table of the proofs so far: exit code 130, or 1 if one of them failed.");
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] {
+    const verify::ProofSet set = verify::proof_set(as_request(*request));
+    const auto work = [&](verify::Journal& journal, Progress& progress) {
+      prove_tasks(set, journal, progress);
+      certify(set, journal);
+    };
+    exit_code = run_units(request->shard, plan_of(*request, set), work, [&](const verify::PartReport& done) {
+      return report_proofs(done, request->shard.json, request->each);
+    });
+  });
 }
 
 }  // namespace limitcheck::cli

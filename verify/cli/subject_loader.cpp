@@ -15,7 +15,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/io/whole_content.h"
 #include "verify/checks/check_oracle.h"
-#include "verify/cli/finite.h"
+#include "verify/cli/commands.h"
 #include "verify/host/host.h"
 #include "verify/host/isolation/witness.h"
 #include "verify/subject/registry.h"
@@ -49,35 +49,57 @@ std::string as_command(const std::string& file) {
   return verify::shell_word(file.find('/') == std::string::npos ? "./" + file : file);
 }
 
+// Throws data::ArgumentError if the subject takes any option without a word, and its help text has none of the name of
+// one of these.
+void refuse_unknown_options(const lc_subject& subject, const std::string& options) {
+  if (options.empty()) return;
+  try {
+    (void)verify::capabilities(subject, "limitcheck-asks-for-what-nobody-has=1");
+  } catch (const std::exception&) {
+    return;  // it knows its options
+  }
+  const std::string_view help = subject.options != nullptr ? subject.options : "";
+  for (std::size_t begin = 0; begin < options.size();) {
+    const std::size_t end = std::min(options.find(',', begin), options.size());
+    const std::string key = options.substr(begin, options.find('=', begin) - begin);
+    if (help.find(key + "=") == std::string_view::npos)
+      throw data::ArgumentError(
+          fmt::format("{} takes any option without a word, so nothing says that it knows '{}': let it refuse "
+                      "what it does not know, or name it in its options text",
+                      subject.name, key));
+    begin = end + 1;
+  }
+}
+
 }  // namespace
+
+void add_subject_settings(CLI::App& command, std::vector<std::string>& options) {
+  command.add_option("--option,--options", options, "key=value,... for the subject; may be repeated")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+}
 
 void add_subject_options(CLI::App& command, SubjectArguments& a) {
   const std::string group = "Subjects of your own (libraries and programs run in a process of their own)";
   command
-      .add_option(
-          "--program", a.program,
-          "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
-          "of verify/host/isolation/PROTOCOL.md")
+      .add_option("--program", a.program,
+                  "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the "
+                  "protocol of verify/host/isolation/PROTOCOL.md")
       ->type_name("COMMAND")
       ->group(group);
   command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too")
       ->group(group);
-  command.add_option("--timeout", a.limits.seconds, "Seconds a process may take for one answer")
-      ->check(CLI::Range(0.001, 86400.0))
+  add_number(command, "--timeout", a.limits.seconds, 0.001, 86400.0,
+             "Seconds a process may take for one answer")
       ->check(kFinite)
-      ->capture_default_str()
       ->group(group);
-  command.add_option("--memory", a.limits.memory_mib, "MiB of memory a process may take, and its answer")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24))
-      ->capture_default_str()
+  add_number(command, "--memory", a.limits.memory_mib, std::int64_t{1}, std::int64_t{1} << 24,
+             "MiB of memory a process may take, and its answer")
       ->group(group);
-  command
-      .add_option(
-          "--containment", a.containment,
-          "How a process is held, so that nothing it starts is left behind: auto is a PID namespace of its "
-          "own where the system allows that, and elsewhere a subreaper")
-      ->check(CLI::IsMember({"auto", "subreaper"}))
-      ->capture_default_str()
+  add_words(command, "--containment", a.limits.namespaces, {{"auto", true}, {"subreaper", false}},
+            "How a process is held, so that nothing it starts is left behind: auto is a PID namespace of its "
+            "own where the system allows that, and elsewhere a subreaper")
       ->group(group);
   command
       .add_option("--witness-folder", a.witness_folder,
@@ -111,28 +133,7 @@ void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std:
   subject = "all";
 }
 
-void refuse_unknown_options(const lc_subject& subject, const std::string& options) {
-  if (options.empty()) return;
-  try {
-    (void)verify::capabilities(subject, "limitcheck-asks-for-what-nobody-has=1");
-  } catch (const std::exception&) {
-    return;  // it knows its options
-  }
-  const std::string_view help = subject.options != nullptr ? subject.options : "";
-  for (std::size_t begin = 0; begin < options.size();) {
-    const std::size_t end = std::min(options.find(',', begin), options.size());
-    const std::string key = options.substr(begin, options.find('=', begin) - begin);
-    if (help.find(key + "=") == std::string_view::npos)
-      throw data::ArgumentError(
-          fmt::format("{} takes any option without a word, so nothing says that it knows '{}': let it refuse "
-                      "what it does not know, or name it in its options text",
-                      subject.name, key));
-    begin = end + 1;
-  }
-}
-
 const lc_subject* SubjectLoader::remote(Kind kind, const std::string& what, bool in_turns) {
-  arguments_.limits.namespaces = arguments_.containment == "auto";
   remote_.push_back(std::make_unique<verify::RemoteSubject>(
       kind, what,
       verify::IsolationSettings{arguments_.limits, "/proc/self/exe", arguments_.witness_folder, in_turns}));

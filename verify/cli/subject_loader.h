@@ -15,25 +15,21 @@ namespace limitcheck::cli {
 
 struct SubjectArguments {
   std::string program;
-  std::string containment = "auto";
   bool isolate = false;
   verify::ProcessLimits limits;
   std::string witness_folder = "limitcheck-witness";
 };
 
 void add_subject_options(CLI::App& command, SubjectArguments& arguments);
+/// --option: key=value,... for the subject.
+void add_subject_settings(CLI::App& command, std::vector<std::string>& options);
 
-/// With --program there is no SUBJECT among the positional
-/// arguments: what was taken for one is the first mesh.
+/// With --program there is no SUBJECT among the positional arguments: what was taken for one is the first mesh.
 void take_program(const SubjectArguments& arguments, std::string& subject, std::vector<std::string>& meshes);
 
 /// `audit MESH` without a subject means all of them: if SUBJECT names a mesh and no subject, it becomes the
 /// first mesh, and a line on standard error says so.
 void take_mesh(const SubjectArguments& arguments, std::string& subject, std::vector<std::string>& meshes);
-
-/// Throws data::ArgumentError if the subject takes any option without a word, and its help text has none of
-/// the name of one of these.
-void refuse_unknown_options(const lc_subject& subject, const std::string& options);
 
 /// The subjects of one audit; owns those that run in processes of their own.
 class SubjectLoader {

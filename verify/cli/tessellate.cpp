@@ -20,7 +20,7 @@
 #include "fast/window/tessellator.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
-#include "verify/cli/progress.h"
+#include "verify/cli/screen.h"
 #include "verify/host/coordinate_range.h"
 #include "verify/mesh_output/mesh_output.h"
 
@@ -28,18 +28,25 @@ namespace limitcheck::cli {
 namespace {
 
 struct Arguments {
-  MeshOptions scheme;
-  std::string mesh, output, strategy, camera, viewport = "1024x768", centre = "limit", repair = "fan", colour;
-  std::string engine = "row-stream";
+  data::ReadOptions scheme;
+  std::string mesh, output, camera, viewport = "1024x768", colour;
   std::vector<double> angles{30};
-  int depth = 3, threads = 0;
+  std::optional<fast::Strategy> strategy;
   std::optional<int> max_depth;
-  double pixels = 60, field_of_view = 45;
-  std::uint64_t seed = 1;
-  bool json = false, view_given = false, cull = false, cull_given = false;
+  fast::DepthOptions depths;
+  fast::TessellatorOptions engine;
+  fast::Camera view;
+  bool sliding_window = false, json = false, view_given = false, cull = false;
 };
 
-/// The numbers of "a,b,c"; throws CLI::ValidationError unless there are `count` of them and nothing else.
+const Words<std::optional<fast::Strategy>> kStrategies{{"uniform", fast::Strategy::kUniform},
+                                                       {"random", fast::Strategy::kRandom},
+                                                       {"project-sphere", fast::Strategy::kProjectSphere},
+                                                       {"curvature", fast::Strategy::kCurvature},
+                                                       {"combined", fast::Strategy::kCombined}};
+const Words<bool> kEngines{{"row-stream", false}, {"sliding-window", true}};
+
+// The numbers of "a,b,c"; throws CLI::ValidationError unless there are `count` of them and nothing else.
 std::vector<double> numbers(const std::string& text, char separator, std::size_t count, const char* what) {
   std::vector<double> result;
   const char* at = text.c_str();
@@ -57,7 +64,7 @@ std::vector<double> numbers(const std::string& text, char separator, std::size_t
 }
 
 fast::Camera camera(const Arguments& a) {
-  fast::Camera result;
+  fast::Camera result = a.view;
   if (!a.camera.empty()) {
     std::vector<fast::Point3*> points{&result.eye, &result.target, &result.up};
     std::string rest = a.camera;
@@ -79,22 +86,15 @@ fast::Camera camera(const Arguments& a) {
   }
   result.width = static_cast<int>(size[0]);
   result.height = static_cast<int>(size[1]);
-  result.field_of_view = a.field_of_view;
   return result;
 }
 
 fast::DepthOptions depth_options(const Arguments& a) {
-  fast::DepthOptions options;
-  options.strategy = a.strategy.empty()
-                         ? (a.view_given ? fast::Strategy::kCombined : fast::Strategy::kUniform)
-                         : fast::parse_strategy(a.strategy);
-  options.depth = a.depth;
-  options.seed = a.seed;
-  options.target_pixels = a.pixels;
+  fast::DepthOptions options = a.depths;
+  options.strategy = a.strategy.value_or(a.view_given ? fast::Strategy::kCombined : fast::Strategy::kUniform);
   options.angle_front = a.angles.front();
   options.angle_silhouette = a.angles.size() > 1 ? a.angles[1] : a.angles[0];
   options.angle_back = a.angles.size() > 2 ? a.angles[2] : a.angles[0];
-  if (a.cull_given) options.cull = a.cull;
   return options;
 }
 
@@ -108,7 +108,7 @@ nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, cons
           {"scheme", name_of(chosen.scheme)},
           {"faces_cut", chosen.cut},
           {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
-          {"engine", a.engine},
+          {"engine", word_of(kEngines, a.sliding_window)},
           {"strategy", std::string(fast::name(options.strategy))},
           {"seed", options.seed},
           {"faces", s.faces},
@@ -179,14 +179,11 @@ Outcome run(Engine&& tessellator, const fast::DepthOptions& options, const fast:
 Outcome run(const Arguments& a, const OpenedMesh& opened, const fast::DepthOptions& options,
             const fast::Camera& view, Progress& progress, Lap& lap, Timings& timings) {
   const data::ControlMesh& mesh = opened.mesh;
-  fast::TessellatorOptions engine;
+  fast::TessellatorOptions engine = a.engine;
   engine.scheme = opened.chosen.scheme;
-  engine.cracks.centre = a.centre == "flat" ? fast::FanCentre::kFlatControl : fast::FanCentre::kLimit;
-  engine.cracks.repair = a.repair == "stitch" ? fast::Repair::kStitch : fast::Repair::kFan;
-  engine.threads = std::min(a.threads, tbb::info::default_concurrency());
-  engine.max_depth = a.max_depth.value_or(std::max(5, a.depth));
-  if (a.engine == "sliding-window")
-    return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
+  engine.threads = std::min(engine.threads, tbb::info::default_concurrency());
+  engine.max_depth = a.max_depth.value_or(std::max(engine.max_depth, a.depths.depth));
+  if (a.sliding_window) return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
   fast::row_stream::StreamTessellator stream(mesh, engine);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
   stream.on_progress(
@@ -204,7 +201,7 @@ int tessellate(const Arguments& a) {
   Progress progress;
   Timings timings;
   progress.show(0, 3, "reading " + a.mesh);
-  const OpenedMesh opened = open_mesh(a.mesh, a.scheme);
+  const OpenedMesh opened = open_control_mesh(a.mesh, a.scheme);
   const data::ControlMesh& mesh = opened.mesh;
   verify::require_range(a.mesh, mesh, false);
   timings.read = lap();
@@ -252,34 +249,24 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   command
       ->add_option("-o,--output", a->output, "The file: .ply, .obj or .glb; without it, only the statistics")
       ->type_name("FILE");
-  command->add_option("--depth", a->depth, "Subdivision depth; the largest one of random")
-      ->check(CLI::Range(0, fast::kDeepest))
-      ->capture_default_str();
-  command
-      ->add_option("--strategy", a->strategy,
-                   "uniform, random, project-sphere, curvature, combined; default uniform, or combined if a "
-                   "view is given")
-      ->check(CLI::IsMember({"uniform", "random", "project-sphere", "curvature", "combined"}));
-  command
-      ->add_option("--engine", a->engine,
-                   "row-stream, or sliding-window: the paper's engine, one pair or quad after the other")
-      ->check(CLI::IsMember({"row-stream", "sliding-window"}))
-      ->capture_default_str();
+  add_number(*command, "--depth", a->depths.depth, 0, fast::kDeepest,
+             "Subdivision depth; the largest one of random");
+  add_words(*command, "--strategy", a->strategy, kStrategies,
+            "uniform, random, project-sphere, curvature, combined; default uniform, or combined if a view is "
+            "given");
+  add_words(*command, "--engine", a->sliding_window, kEngines,
+            "row-stream, or sliding-window: the paper's engine, one pair or quad after the other");
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
-  auto* pixels =
-      command->add_option("--pixels", a->pixels, "project-sphere: largest size of a triangle on the screen")
-          ->check(CLI::Range(1e-6, 1e6))
-          ->capture_default_str();
+  auto* pixels = add_number(*command, "--pixels", a->depths.target_pixels, 1e-6, 1e6,
+                            "project-sphere: largest size of a triangle on the screen");
   auto* angles =
       command->add_option("--angle", a->angles, "curvature: degrees tolerated, FRONT[,SILHOUETTE[,BACK]]")
           ->delimiter(',')
           ->expected(1, 3)
           ->check(CLI::Range(1e-6, 180.));
   command->add_option("--viewport", a->viewport, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  command->add_option("--fov", a->field_of_view, "Vertical field of view, degrees")
-      ->check(CLI::Range(1e-3, 179.999))
-      ->capture_default_str();
+  add_number(*command, "--fov", a->view.field_of_view, 1e-3, 179.999, "Vertical field of view, degrees");
   command
       ->add_option("--max-depth", a->max_depth,
                    "No face gets a larger depth; default 5, or --depth if that is larger")
@@ -287,27 +274,23 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   auto* cull = command->add_flag(
       "--cull,!--no-cull", a->cull,
       "Leave out faces whose corners all face away; default: if the strategy depends on the view");
-  command
-      ->add_option("--centre", a->centre,
-                   "Centre of a fan: on the limit surface, or the mean of the face's corners")
-      ->check(CLI::IsMember({"limit", "flat"}))
-      ->capture_default_str();
-  command
-      ->add_option("--repair", a->repair,
-                   "Where depths differ: the paper's fan, or stitch the outer ring only")
-      ->check(CLI::IsMember({"fan", "stitch"}))
-      ->capture_default_str();
-  command->add_option("--threads", a->threads, "At most so many, 0: all; the result is the same")
-      ->check(CLI::Range(0, 4096))
-      ->capture_default_str();
-  command->add_option("--seed", a->seed, "Seed of the random strategy")->capture_default_str();
+  using fast::FanCentre, fast::Repair;
+  fast::CrackOptions& cracks = a->engine.cracks;
+  add_words(*command, "--centre", cracks.centre,
+            {{"limit", FanCentre::kLimit}, {"flat", FanCentre::kFlatControl}},
+            "Centre of a fan: on the limit surface, or the mean of the face's corners");
+  add_words(*command, "--repair", cracks.repair, {{"fan", Repair::kFan}, {"stitch", Repair::kStitch}},
+            "Where depths differ: the paper's fan, or stitch the outer ring only");
+  add_number(*command, "--threads", a->engine.threads, 0, 4096,
+             "At most so many, 0: all; the result is the same");
+  command->add_option("--seed", a->depths.seed, "Seed of the random strategy")->capture_default_str();
   command
       ->add_option("--colour,--color", a->colour,
                    "Colour the triangles by depth or by kind (pair or quad, singleton, fan)")
       ->check(CLI::IsMember({"depth", "kind"}));
   command->add_flag("--json", a->json, "Print counts and seconds as one JSON document");
   command->callback([=, &exit_code] {
-    a->cull_given = cull->count() > 0;
+    if (cull->count() > 0) a->depths.cull = a->cull;
     a->view_given = eye->count() + pixels->count() + angles->count() > 0;
     exit_code = tessellate(*a);
   });

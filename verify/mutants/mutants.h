@@ -11,7 +11,7 @@
 
 #include "data/control_mesh.h"
 #include "data/scheme.h"
-#include "verify/shard/journal.h"
+#include "verify/shard/shard.h"
 
 namespace limitcheck::verify {
 

@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: MIT
 // A part of work that is done in many processes or on many machines.
+// What is done so far of a plan, on the disk before the next unit begins: whatever ends the program, the work
+// can be resumed.
+// The report of one shard: its results as they are, for the report of the whole to be made of.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +35,76 @@ Shard parse_shard(const std::string& text);
 
 /// Throws data::ArgumentError unless these are all shards of one whole, each once.
 void require_all(const std::vector<Shard>& shards);
+
+/// What is to be done: the same in all shards.
+struct Plan {
+  std::string program;       // "limitcheck audit"
+  nlohmann::json what;       // all that decides the results: subjects, meshes, options, version
+  std::size_t units = 0;     // numbered from 0 on
+  std::size_t together = 1;  // so many units after another belong to one shard
+  Shard shard = {};
+
+  bool has(std::size_t unit) const { return shard.has(unit / together); }
+  /// How many units the shard has.
+  std::size_t size() const;
+};
+
+/// The results of units, by number; in a file of JSON lines, too, if there is one. The first line says what
+/// is done, each other line holds one unit: {"unit", "result"}; each line is sealed (seal.h). A line is written
+/// whole and flushed. If the file cannot be written, the work goes on without it. The file is locked.
+class Journal {
+ public:
+  /// In memory only.
+  explicit Journal(Plan plan) : plan_(std::move(plan)) {}
+  /// Begins a new file. With `resume`, reads the lines of an existing file and appends to them; what is torn
+  /// behind the last whole line is cut off. Throws data::ArgumentError: there is such a file already, a link or another
+  /// run's; with `resume`, there is none, it is of another plan or shard, or a line was altered.
+  ///   remember   false: results() need not have what is kept from now on
+  Journal(Plan plan, std::filesystem::path file, bool resume, bool remember = true);
+
+  const Plan& plan() const { return plan_; }
+  /// nullptr: it is not done.
+  const nlohmann::json* recall(std::size_t unit) const;
+  void keep(std::size_t unit, nlohmann::json result);
+  /// All that is there.
+  const std::map<std::size_t, nlohmann::json>& results() const { return results_; }
+  /// Deletes the file.
+  void remove();
+
+ private:
+  std::string first_line() const;
+  void read();
+  void write(const std::string& line);
+
+  Plan plan_;
+  std::filesystem::path file_;
+  bool remember_ = true;
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> out_;
+  std::map<std::size_t, nlohmann::json> results_;
+};
+
+struct PartReport {
+  Plan plan;
+  std::map<std::size_t, nlohmann::json> results;  // by unit
+  double seconds = 0;
+  std::string containment, printed;  // as in Report (verify/row/result.h)
+  std::string incomplete;            // why not all of the shard is done; empty: all is
+
+  /// Whether each unit of the shard is there, and no other.
+  bool is_complete() const;
+};
+
+/// Keys: program, plan, units, together, shard, seconds, containment, printed, incomplete, results (pairs of
+/// unit and result).
+std::string to_json(const PartReport& part);
+/// Throws data::ArgumentError: the text is no part.
+PartReport read_part(const std::string& text);
+
+/// All results, with the seconds of all shards and what they printed. Throws data::ArgumentError: they are
+/// of different plans, or a shard is missing, there twice, or incomplete.
+PartReport joined(const std::vector<PartReport>& parts);
 
 }  // namespace limitcheck::verify

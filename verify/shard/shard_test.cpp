@@ -11,7 +11,6 @@
 
 #include "data/error.h"
 #include "verify/shard/journal.h"
-#include "verify/shard/part.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// --shard and --resume of the commands whose plan is done unit by unit.
+// Commands whose plan is done unit by unit: --json, --shard and --resume, and the reports that limitcheck merge makes
+// of their parts.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 
-#include "verify/shard/journal.h"
-#include "verify/shard/part.h"
+#include "verify/cli/screen.h"
+#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 
@@ -21,11 +23,11 @@ struct ShardArguments {
   void check() const;
 };
 
+/// --json [FILE]
+void add_json_option(CLI::App& command, ShardArguments& arguments);
 /// --shard and --resume.
 ///   units   what is dealt out: "meshes"
 void add_shard_options(CLI::App& command, ShardArguments& arguments, const std::string& units);
-/// --json [FILE]
-void add_json_option(CLI::App& command, ShardArguments& arguments);
 
 /// The journal of the plan, in FILE.jsonl beside the report FILE.json; without a file in memory only. Throws
 /// data::ArgumentError: --resume, but there is nothing to resume, or it is of another plan or shard.
@@ -35,5 +37,16 @@ std::unique_ptr<verify::Journal> open_journal(const ShardArguments& arguments, v
 
 /// Writes the results of a shard to --json; `part` has the rest.
 void write_part(const ShardArguments& arguments, const verify::Journal& journal, verify::PartReport part);
+
+/// Does the units of the shard that the journal does not know, and writes the part if it is one.
+///   work     keeps the result of each unit; ends when it is interrupted (verify/interrupt/interrupt.h)
+///   report   of what is done, which is all unless it says that it is incomplete; returns the exit code
+int run_units(const ShardArguments& arguments, verify::Plan plan,
+              const std::function<void(verify::Journal&, Progress&)>& work,
+              const std::function<int(const verify::PartReport&)>& report);
+
+/// The reports of these commands; to `json` they go as with --json. Return the exit code.
+int report_mutants(const verify::PartReport& done, const std::string& json);
+int report_proofs(const verify::PartReport& done, const std::string& json, bool each);
 
 }  // namespace limitcheck::cli

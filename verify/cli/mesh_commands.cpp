@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// limitcheck check: everything that is wrong with a control mesh, and what it consists of.
+// limitcheck generate, check and repair: control meshes by name, what is wrong with one, and one that can be audited
+// made of one that cannot.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -9,20 +10,47 @@
 #include <string>
 #include <vector>
 
+#include "data/generators/named_mesh.h"
 #include "data/io/polygon_soup.h"
+#include "data/io/write.h"
 #include "data/summary.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
-#include "verify/cli/mesh_report.h"
+#include "verify/repair/repair.h"
 
 namespace limitcheck::cli {
 namespace {
 
-struct Arguments {
-  std::string file;
-  MeshOptions mesh;
-  bool json = false;
+struct GenerateArguments {
+  std::string name, file, seed;
+  data::ReadOptions mesh;
+  bool ascii = false, list = false, stock = false;
 };
+
+int print_list(const GenerateArguments& a) {
+  if (a.stock) {
+    for (const std::string& name : data::stock_shapes()) fmt::print("{}\n", name);
+    return kHeld;
+  }
+  const auto meshes = data::named_meshes();
+  std::size_t width = 0;
+  for (const auto& mesh : meshes) width = std::max(width, mesh.name.size());
+  for (const auto& mesh : meshes) fmt::print("{:<{}}  {}\n", mesh.name, width, mesh.description);
+  return kHeld;
+}
+
+int generate(const GenerateArguments& a) {
+  if (a.list || a.stock) return print_list(a);
+  if (a.name.empty()) throw CLI::RequiredError("NAME (or --list)");
+  if (a.file.empty()) throw CLI::RequiredError("--output");
+
+  const std::string specification = a.seed.empty() ? a.name : a.name + ":" + a.seed;
+  const auto [mesh, chosen] = open_generated_mesh(specification, a.mesh);
+  data::write_mesh(a.file, mesh, {.ascii_ply = a.ascii});
+  fmt::print(stderr, "{}\n", scheme_line({chosen}, a.mesh));
+  fmt::print(stderr, "{}: {} vertices, {} faces\n", a.file, mesh.positions.size(), mesh.faces.size());
+  return kHeld;
+}
 
 // "8 of 3, 6 of 4"; of a long list the middle is left out.
 std::string histogram(const std::map<int, std::int64_t>& counts) {
@@ -147,24 +175,6 @@ nlohmann::ordered_json to_json(const std::string& file, const MeshScheme& chosen
           {"edges_lost_in_float", s.edges_lost_in_float}};
 }
 
-int check(const Arguments& a) {
-  const data::io::PolygonSoup soup = data::io::read_soup(a.file);
-  const data::io::Examination found = data::io::examine(soup, read_options(a.mesh));
-  const data::MeshSummary summary = data::summarise(found.mesh);
-  const MeshScheme chosen{found.scheme, found.cut};
-  if (a.json) {
-    fmt::print("{}\n", to_json(a.file, chosen, soup, found, summary).dump(2));
-  } else {
-    fmt::print("{}\n", scheme_line({chosen}, a.mesh));
-    print_summary(soup, summary);
-    for (const std::string& note : found.notes) line("note", note);
-    print_faults(a.file, soup, found.faults);
-  }
-  return sorted(found.faults).faults.empty() ? kHeld : kFindings;
-}
-
-}  // namespace
-
 void print_faults(const std::string& file, const data::io::PolygonSoup& soup,
                   const std::vector<data::io::SoupFault>& faults) {
   const Found found = sorted(faults);
@@ -181,8 +191,68 @@ void print_faults(const std::string& file, const data::io::PolygonSoup& soup,
     print("faults", "", found.faults);
 }
 
+struct CheckArguments {
+  std::string file;
+  data::ReadOptions mesh;
+  bool json = false;
+};
+
+int check(const CheckArguments& a) {
+  const data::io::PolygonSoup soup = data::io::read_soup(a.file);
+  const data::io::Examination found = data::io::examine(soup, a.mesh);
+  const data::MeshSummary summary = data::summarise(found.mesh);
+  const MeshScheme chosen{found.scheme, found.cut};
+  if (a.json) {
+    fmt::print("{}\n", to_json(a.file, chosen, soup, found, summary).dump(2));
+  } else {
+    fmt::print("{}\n", scheme_line({chosen}, a.mesh));
+    print_summary(soup, summary);
+    for (const std::string& note : found.notes) line("note", note);
+    print_faults(a.file, soup, found.faults);
+  }
+  return sorted(found.faults).faults.empty() ? kHeld : kFindings;
+}
+
+struct RepairArguments {
+  std::string file, output;
+  data::ReadOptions mesh;
+  verify::RepairOptions options;
+};
+
+int repair(const RepairArguments& a) {
+  const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
+  const data::io::Examination mesh = data::io::examine(repaired.soup, a.mesh);
+  data::write_mesh(a.output, mesh.mesh);
+  fmt::print("{}\n", scheme_line({{mesh.scheme, mesh.cut}}, a.mesh));
+  for (const std::string& change : repaired.changes) fmt::print("{}\n", change);
+  if (repaired.changes.empty()) fmt::print("nothing had to be changed\n");
+  fmt::print("{}: {} vertices, {} faces\n", a.output, mesh.mesh.positions.size(), mesh.mesh.faces.size());
+  // As the file that was written has them.
+  const data::io::PolygonSoup written = data::io::read_soup(a.output);
+  const auto left = data::io::examine(written, {.scheme = a.mesh.scheme}).faults;
+  print_faults(a.output, written, left);
+  return left.empty() ? kHeld : kFindings;
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand(
+      "generate", "Write a control mesh by name: limitcheck generate bumpy:800 -o bumpy.obj");
+  auto a = std::make_shared<GenerateArguments>();
+  command->add_option("NAME", a->name,
+                      "The mesh, with parameters behind colons: wheel:7, bumpy:800, quad-cube (see --list)");
+  command->add_option("-o,--output", a->file, "The file: .obj, .off or .ply")->type_name("FILE");
+  command->add_option("--seed", a->seed, "Seed of a random mesh, as a last parameter of NAME would be");
+  add_mesh_options(*command, a->mesh);
+  command->add_flag("--ascii", a->ascii, "PLY as text");
+  command->add_flag("--list", a->list, "Print the names and what they mean");
+  command->add_flag("--stock", a->stock, "Print the names of the stock shapes that an audit runs on");
+  command->callback([a, &exit_code] { exit_code = generate(*a); });
+}
+
 void add_check(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
       "check", "List everything that is wrong with a control mesh, and what it consists of");
   command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
@@ -194,6 +264,27 @@ void add_check(CLI::App& app, int& exit_code) {
       "Exit codes: 0 nothing is wrong, 1 the mesh has faults, 2 bad usage, or a file that cannot be read.\n"
       "An audit refuses a mesh with faults; limitcheck repair mends most of them.");
   command->callback([a, &exit_code] { exit_code = check(*a); });
+}
+
+void add_repair(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<RepairArguments>();
+  CLI::App* command = app.add_subcommand(
+      "repair", "Turn a mesh into one that can be audited: limitcheck repair scan.obj -o cage.obj");
+  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
+  command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--weld", a->options.weld,
+                    "Merge vertices at exactly the same place, which closes seams");
+  add_mesh_options(*command, a->mesh);
+  command->footer(
+      "Drops faces with a repeated corner, faces given twice and vertices that no face names; orients "
+      "neighbouring faces alike; cuts the mesh apart where it is no manifold; makes one face of two around "
+      "an interior vertex. No vertex is moved, no hole filled, and faces of more than three corners stay so "
+      "unless --triangulate is given.\n"
+      "Exit codes: 0 the result can be audited, 1 faults are left (they are listed), 2 bad usage, or a file "
+      "that cannot be read or written.");
+  command->callback([a, &exit_code] { exit_code = repair(*a); });
 }
 
 }  // namespace limitcheck::cli

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/subject_output.h"
+#include "verify/cli/screen.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -12,6 +14,13 @@
 
 namespace limitcheck::cli {
 namespace {
+
+constexpr std::size_t kBar = 24;
+
+std::size_t terminal_width(std::FILE* stream) {
+  winsize size{};
+  return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
 
 constexpr int kFatal[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 constexpr std::size_t kFatals = std::size(kFatal);
@@ -32,12 +41,33 @@ void show_the_end(int signal) {
 
 }  // namespace
 
-SubjectOutput::SubjectOutput() {
+Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void Progress::show(std::size_t done, std::size_t total, const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || (shown_ && now - last_ < std::chrono::milliseconds(100))) return;
+  last_ = now;
+  shown_ = true;
+  const std::size_t filled = total == 0 ? 0 : std::min(kBar, kBar * done / total);
+  std::string line = fmt::format("[{}{}] {}/{} {}", std::string(filled, '#'), std::string(kBar - filled, '.'),
+                                 done, total, text);
+  line.resize(std::min(line.size(), terminal_width(stream_) - 1));
+  fmt::print(stream_, "\r\033[K{}", line);
+  std::fflush(stream_);
+}
+
+void Progress::clear() {
+  if (terminal_ && shown_) fmt::print(stream_, "\r\033[K");
+  shown_ = false;
+}
+
+SubjectOutput::SubjectOutput(Progress* progress) : progress_(progress) {
   std::fflush(stdout);
   std::fflush(stderr);
   file_ = memfd_create("output of subjects", MFD_CLOEXEC);
   const int screen = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   screen_ = screen < 0 ? nullptr : fdopen(screen, "w");
+  if (progress_ != nullptr && screen_ != nullptr) progress_->to(screen_);
   if (file_ < 0) return;  // then they print to the screen
   out_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
   error_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
@@ -51,6 +81,10 @@ SubjectOutput::SubjectOutput() {
 }
 
 std::string SubjectOutput::take() {
+  if (progress_ != nullptr) {
+    progress_->clear();
+    progress_->to(stderr);
+  }
   if (screen_ != nullptr) std::fclose(std::exchange(screen_, nullptr));
   if (file_ < 0) return "";
   std::fflush(stdout);

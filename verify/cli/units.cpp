@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/shard_options.h"
+#include "verify/cli/units.h"
 
 #include <fmt/core.h>
 
+#include <chrono>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "data/error.h"
+#include "verify/cli/commands.h"
+#include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
 
 namespace limitcheck::cli {
@@ -30,6 +33,15 @@ void ShardArguments::check() const {
     throw data::ArgumentError("--resume needs --json FILE.json: what is done is kept in FILE.jsonl");
 }
 
+void add_json_option(CLI::App& command, ShardArguments& a) {
+  command
+      .add_option("--json", a.json,
+                  "Write the results as JSON to FILE; '-' or nothing: standard output, and no table")
+      ->type_name("FILE")
+      ->expected(0, 1)
+      ->default_str("-");
+}
+
 void add_shard_options(CLI::App& command, ShardArguments& a, const std::string& units) {
   command
       .add_option("--shard", a.shard,
@@ -38,19 +50,9 @@ void add_shard_options(CLI::App& command, ShardArguments& a, const std::string& 
                               units))
       ->type_name("K/N")
       ->capture_default_str();
-  command.add_flag(
-      "--resume", a.resume,
-      "Go on where the same command was ended before its report was complete; what is done is in "
-      "FILE.jsonl beside the report FILE.json");
-}
-
-void add_json_option(CLI::App& command, ShardArguments& a) {
-  command
-      .add_option("--json", a.json,
-                  "Write the results as JSON to FILE; '-' or nothing: standard output, and no table")
-      ->type_name("FILE")
-      ->expected(0, 1)
-      ->default_str("-");
+  command.add_flag("--resume", a.resume,
+                   "Go on where the same command was ended before its report was complete; what is done is "
+                   "in FILE.jsonl beside the report FILE.json");
 }
 
 std::unique_ptr<verify::Journal> open_journal(const ShardArguments& a, verify::Plan plan, bool remember) {
@@ -65,6 +67,26 @@ void write_part(const ShardArguments& a, const verify::Journal& journal, verify:
   part.plan = journal.plan();
   part.results = journal.results();
   verify::write_text(a.json, verify::to_json(part));
+}
+
+int run_units(const ShardArguments& a, verify::Plan plan,
+              const std::function<void(verify::Journal&, Progress&)>& work,
+              const std::function<int(const verify::PartReport&)>& report) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto journal = open_journal(a, std::move(plan));
+  const verify::InterruptGuard guard;
+  Progress progress;
+  work(*journal, progress);
+  progress.clear();
+  const int signal = verify::interrupted();
+  verify::PartReport done;
+  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (signal != 0) done.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
+  if (!a.of().is_whole()) write_part(a, *journal, done);
+  done.plan = journal->plan(), done.results = journal->results();
+  const int code = report(done);
+  if (signal == 0) journal->remove();
+  return code == kHeld && signal != 0 ? kSignalled + signal : code;
 }
 
 }  // namespace limitcheck::cli

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// What the user sees while an audit works: a line that says what is done, and nothing of what subjects print.
 #pragma once
 
 #include <chrono>
@@ -30,23 +31,24 @@ class Progress {
   std::chrono::steady_clock::time_point last_{};
 };
 
-/// A progress display elsewhere than on standard error, until it ends.
-class ProgressTo {
+/// While it lives, what is written to standard output and standard error goes to a file without a name. If
+/// the process is killed by a fault or an assertion, the end of it is written to standard error first.
+///   progress   is shown where standard error was
+class SubjectOutput {
  public:
-  /// nullptr: where it was.
-  ProgressTo(Progress& progress, std::FILE* stream) : progress_(progress) {
-    if (stream != nullptr) progress_.to(stream);
-  }
-  ~ProgressTo() { end(); }
-  ProgressTo(const ProgressTo&) = delete;
-  ProgressTo& operator=(const ProgressTo&) = delete;
-  void end() const {
-    progress_.clear();
-    progress_.to(stderr);
-  }
+  explicit SubjectOutput(Progress* progress = nullptr);
+  ~SubjectOutput() { (void)take(); }
+  SubjectOutput(const SubjectOutput&) = delete;
+  SubjectOutput& operator=(const SubjectOutput&) = delete;
+
+  /// Ends it. Returns what was written: at most the first kLongest bytes.
+  std::string take();
+  static constexpr std::size_t kLongest = 1 << 20;
 
  private:
-  Progress& progress_;
+  Progress* progress_;
+  int file_ = -1, out_ = -1, error_ = -1;
+  std::FILE* screen_ = nullptr;  // standard error as it was
 };
 
 }  // namespace limitcheck::cli

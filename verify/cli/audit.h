@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The parts of `limitcheck audit`: which meshes it looks at, where the results go besides the table, and the audit of
+// finished files.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/io/read.h"
+#include "verify/audit/audit.h"
+#include "verify/cli/screen.h"
+#include "verify/cli/subject_loader.h"
+#include "verify/cli/units.h"
+#include "verify/evidence/face_depths.h"
+#include "verify/files/audit_files.h"
+#include "verify/report/coverage.h"
+
+namespace limitcheck::cli {
+
+/// --require, --require-coverage, --junit, --waivers and --baseline: what can be done with a report alone.
+struct ReportOptions {
+  std::string junit, waivers, baseline;
+  std::vector<std::string> required;
+  bool require_coverage = false;
+};
+void add_report_options(CLI::App& command, ReportOptions& options);
+
+/// Applies --waivers and compares with --baseline. Returns whether each subject was judged by all that --require and
+/// --require-coverage name; report.incomplete names the others. Throws data::ArgumentError: a file cannot be read
+/// or understood.
+bool settle(const ReportOptions& options, verify::Report& report);
+
+/// Of an audit that came to its end.
+int exit_code_of(const verify::Report& report, bool judged);
+/// Why a report in which nothing was looked at is incomplete.
+std::string nothing_looked_at(bool polygons);
+/// Standard output is a terminal, and NO_COLOR is not set.
+bool in_colour();
+/// Outputs as pairs of option and file name, "-" or "" for none. Throws data::ArgumentError: two of them are one and
+/// the same file.
+void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs);
+
+/// How much is checked, and more outputs.
+struct OutputArguments : ReportOptions {
+  std::string level = "standard", html, explain, witnesses;
+  double shrink_seconds = 0;  // 0: no shrinking
+};
+void add_output_options(CLI::App& command, OutputArguments& arguments);
+
+/// --sample: "FACES" or "FACES:SEED".
+struct Sampling {
+  std::size_t faces = 0;
+  std::uint64_t seed = 1;
+};
+
+struct AuditArguments {
+  std::string subject;
+  std::vector<std::string> meshes, options;
+  data::ReadOptions mesh;
+  int depth = 4;
+  std::string depths = "uniform", sample;
+  bool plan = true;  // what is to be looked at is not said: neither meshes nor depths
+  int threads = 0;
+  ShardArguments shard;  // with the file of the report
+  bool each_mesh = false, details = false, must_refuse = false;
+  OutputArguments output;
+  SubjectArguments from;
+};
+
+/// The arguments as checked and completed before the first subject is called.
+struct Job {
+  AuditArguments arguments;  // with SUBJECT and --threads filled in
+  verify::Depths depths;
+  std::optional<Sampling> sampling;
+  bool whole = false;  // no subject was named: all of them, and the report in a file of its own
+  verify::Level level() const;
+};
+
+/// What is looked at, and the line that says for which scheme.
+struct AuditedMeshes {
+  std::vector<verify::AuditMesh> list;
+  std::string scheme_line;
+};
+/// Those that are named, or the default plan (verify/audit/default_plan.h): of both schemes what the subjects do or,
+/// with --scheme, of one. Throws data::ArgumentError and data::InputError.
+AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>& audited, Progress& progress);
+
+/// Throws data::ArgumentError if the points that the audit looks at take more memory than the machine has: hours of
+/// swapping would end without a report.
+///   mesh  with a depth of its own
+void refuse_too_many_points(const verify::AuditMesh& mesh);
+
+/// The plan of an audit: Auditor::run says which unit is what. Its text differs for other subjects, meshes, options
+/// and versions; the header of the report is in it. The subjects of a mesh go together.
+verify::Plan audit_plan(const std::vector<verify::AuditSubject>& subjects,
+                        const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
+                        const verify::CoverageQuestion& coverage, const std::string& level);
+
+/// Prints what --explain asks for; false if it does not. Throws data::ArgumentError: there is no such check.
+bool explained(const OutputArguments& arguments);
+
+/// A report and what it is about; `subjects` in the order of report.subjects.
+struct Audited {
+  const std::vector<verify::AuditSubject>& subjects;
+  const std::vector<verify::AuditMesh>& meshes;
+  const verify::Report& report;
+  int threads;
+};
+/// Writes each finding of the report as files (verify/report/witness_files.h), if --witnesses or --shrink says
+/// so; with --shrink one for each subject and check, on a smaller mesh. Says so on standard error. Throws
+/// std::runtime_error, data::InputError: a file cannot be written.
+void write_witnesses(const OutputArguments& arguments, const Audited& audited);
+/// Writes the report as a page, with the tessellation of each cause's example made anew.
+void write_html(const std::string& file, const Audited& audited, const std::string& level);
+
+/// `limitcheck audit --control cage.obj --tessellation out.ply`: the part of the audit that needs no program.
+struct FilesArguments {
+  std::string control, tessellation, provenance, per_vertex;
+  verify::FilesOptions options;
+};
+/// Adds the options to the audit command, in a group of their own.
+void add_files_options(CLI::App& audit, FilesArguments& files);
+/// Runs it. `json` as in the audit command; returns the exit code.
+int audit_files(const FilesArguments& files, const data::ReadOptions& mesh, const std::string& json,
+                int threads);
+
+}  // namespace limitcheck::cli

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck audit --control --tessellation` as a user meets it.
+// `limitcheck audit --control --tessellation` on files as other programs write them, and with one fault each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "verify/cli/command_test.h"
 
 namespace limitcheck::cli {
 namespace {
+
+using nlohmann::json;
 
 class AuditFilesCommand : public CommandTest {};
 
@@ -18,10 +26,9 @@ TEST_F(AuditFilesCommand, HoldsTheEnginesOwnFilesWithinTheRoundingOfFloat) {
   for (const std::string file : {"out.ply", "out.obj"}) {
     ASSERT_EQ(run("generate bumpy:200 -o cage.obj").code, 0);
     ASSERT_EQ(run("tessellate cage.obj --depth 2 -o " + file).code, 0);
-    const Outcome o = run("audit --control cage.obj --tessellation " + file +
-                          " --normals --tolerance 1e-7 --per-vertex each.csv --json");
-    EXPECT_EQ(o.code, 0) << o.out << o.err;
-    const auto report = nlohmann::json::parse(o.out);
+    const auto report = json_of("audit --control cage.obj --tessellation " + file +
+                                    " --normals --tolerance 1e-7 --per-vertex each.csv --json",
+                                0);
     for (const auto& row : report["results"]) EXPECT_EQ(row["status"], "held") << row;
     const std::string each = read("each.csv");
     EXPECT_TRUE(each.starts_with("vertex,distance,normal_angle,face,l1,l2\n"));
@@ -32,9 +39,8 @@ TEST_F(AuditFilesCommand, HoldsTheEnginesOwnFilesWithinTheRoundingOfFloat) {
 TEST_F(AuditFilesCommand, LeavesTheHausdorffDistanceOutIfAsked) {
   ASSERT_EQ(run("generate icosahedron -o cage.obj").code, 0);
   ASSERT_EQ(run("tessellate cage.obj --depth 1 -o out.ply").code, 0);
-  const Outcome o = run("audit --control cage.obj --tessellation out.ply --no-hausdorff --json");
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
-  const auto rows = nlohmann::json::parse(o.out)["results"];
+  const auto rows =
+      json_of("audit --control cage.obj --tessellation out.ply --no-hausdorff --json", 0)["results"];
   EXPECT_EQ(rows.size(), 10U);
   for (const auto& row : rows)
     EXPECT_EQ(row["status"], row["check"] == "file-hausdorff" ? "not-run" : "held") << row;
@@ -45,7 +51,7 @@ TEST_F(AuditFilesCommand, TellsTheControlMeshItselfFromATessellation) {
   ASSERT_EQ(run("generate icosahedron -o cage.obj").code, 0);
   const Outcome o = run("audit --control cage.obj --tessellation cage.obj");
   EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_NE(o.out.find("file-distance             FINDING"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out, "file-distance             FINDING"));
 }
 
 // The limit points of the cube -1 .. 1 are its corners halved: 3/8 + 1/6 - 1/24 of 1 (three neighbours, three
@@ -70,7 +76,7 @@ TEST_F(AuditFilesCommand, JudgesFilesOfQuadsByCatmullClarksScheme) {
   write("limit.obj", limit);
   const Outcome held = run("audit --control cage.obj --tessellation limit.obj --per-vertex each.csv");
   EXPECT_EQ(held.code, 0) << held.out << held.err;
-  EXPECT_NE(held.out.find("scheme: catmull-clark"), std::string::npos) << held.out;
+  EXPECT_TRUE(says(held.out, "scheme: catmull-clark"));
   EXPECT_TRUE(read("each.csv").starts_with("vertex,distance,normal_angle,face,corner,u,v\n"));
   EXPECT_EQ(run("audit --control cage.obj --tessellation limit.obj --provenance each.csv").code, 0);
   const Outcome refined = run("audit --control cage.obj --tessellation cage.obj");
@@ -83,16 +89,186 @@ TEST_F(AuditFilesCommand, ExitsWithTwoOnBadUsageAndBadInput) {
   ASSERT_EQ(run("generate icosahedron -o cage.obj").code, 0);
   write("map.csv", "0,99,0,0\n");
   write("torn.ply", "ply\nformat ascii 1.0\n");
-  for (const char* arguments :
-       {"--control cage.obj", "--tessellation cage.obj", "--control cage.obj --tessellation absent.ply",
-        "--control absent --tessellation cage.obj", "--control cage.obj --tessellation torn.ply",
-        "--control cage.obj --tessellation cage.obj --provenance map.csv",
-        "--control cage.obj --tessellation cage.obj --tolerance 0",
-        "--control cage.obj --tessellation cage.obj --fit shear"}) {
-    const Outcome o = run(std::string("audit ") + arguments);
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.out;
-    EXPECT_NE(o.err, "") << arguments;
+  expect_refused(
+      "audit",
+      {"--control cage.obj", "--tessellation cage.obj", "--control cage.obj --tessellation absent.ply",
+       "--control absent --tessellation cage.obj", "--control cage.obj --tessellation torn.ply",
+       "--control cage.obj --tessellation cage.obj --provenance map.csv",
+       "--control cage.obj --tessellation cage.obj --tolerance 0",
+       "--control cage.obj --tessellation cage.obj --fit shear"});
+}
+
+// What an OBJ file has of positions and faces.
+struct Obj {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::vector<std::size_t>> faces;  // from 0
+
+  static Obj parse(const std::string& text) {
+    Obj obj;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string word;
+      words >> word;
+      if (word == "v") {
+        auto& p = obj.positions.emplace_back();
+        words >> p[0] >> p[1] >> p[2];
+      } else if (word == "f") {
+        auto& f = obj.faces.emplace_back();
+        while (words >> word) f.push_back(std::stoul(word) - 1);
+      }
+    }
+    return obj;
   }
+  std::string text() const {
+    std::ostringstream out;
+    out.precision(17);
+    for (const auto& p : positions) out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    for (const auto& f : faces) {
+      out << 'f';
+      for (const std::size_t v : f) out << ' ' << v + 1;
+      out << '\n';
+    }
+    return out.str();
+  }
+};
+
+class ExportedFiles : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    ASSERT_EQ(run("generate bumpy:20 -o cage.obj").code, 0);
+    ASSERT_EQ(run("tessellate cage.obj --depth 2 -o good.obj").code, 0);
+    good_ = Obj::parse(read("good.obj"));
+    ASSERT_EQ(good_.faces.size(), 20U * 16);
+  }
+  /// The rows of the audit by name; `code` is the exit code.
+  std::map<std::string, json> audit(const std::string& file, int code, const std::string& more = "") const {
+    const Outcome o =
+        run("audit --control cage.obj --tessellation " + file + " --tolerance 1e-7 --json " + more);
+    EXPECT_EQ(o.code, code) << file << " " << more << "\n" << o.out << o.err;
+    std::map<std::string, json> rows;
+    const json report = json::parse(o.out, nullptr, false);
+    EXPECT_FALSE(report.is_discarded()) << o.out;
+    for (const json& row : report["results"]) rows[row["check"]] = row;
+    return rows;
+  }
+  static std::string findings(const std::map<std::string, json>& rows) {
+    std::string list;
+    for (const auto& [name, row] : rows)
+      if (row["status"] == "finding") list += (list.empty() ? "" : " ") + name;
+    return list;
+  }
+  std::string findings_with(const std::function<void(Obj&)>& fault) const {
+    Obj bad = good_;
+    fault(bad);
+    write("bad.obj", bad.text());
+    return findings(audit("bad.obj", 1));
+  }
+
+  Obj good_;
+};
+
+TEST_F(ExportedFiles, OurOwnGlbComesBackAsItWas) {
+  ASSERT_EQ(run("tessellate cage.obj --depth 2 -o out.glb").code, 0);
+  ASSERT_EQ(run("tessellate cage.obj --depth 2 -o out.ply").code, 0);
+  auto ply = audit("out.ply", 0, "--normals"), glb = audit("out.glb", 0, "--normals");
+  EXPECT_EQ(glb["file-distance"]["worst"], ply["file-distance"]["worst"]) << "the same floats";
+  EXPECT_EQ(glb["file-normals"]["worst"], ply["file-normals"]["worst"]);
+  EXPECT_EQ(glb["file-finite"]["of"], ply["file-finite"]["of"]) << "as many vertices";
+  write("torn.glb", read("out.glb").substr(0, 1000));
+  EXPECT_EQ(run("audit --control cage.obj --tessellation torn.glb").code, 2);
+}
+
+// Every face has vertices of its own, pairs of triangles
+// are quads, there are no normals, the unit is another.
+TEST_F(ExportedFiles, AGameEnginesExportHoldsOnceScaleAndOffsetAreFittedAway) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> from;  // directed edge -> face
+  for (std::size_t f = 0; f < good_.faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) from[{good_.faces[f][k], good_.faces[f][(k + 1) % 3]}] = f;
+  std::vector<char> done(good_.faces.size(), 0);
+  Obj engine;
+  std::size_t quads = 0;
+  for (std::size_t f = 0; f < good_.faces.size(); ++f) {
+    if (std::exchange(done[f], 1) != 0) continue;
+    std::vector<std::size_t> corners = good_.faces[f];
+    const auto other = from.find({corners[0], corners[2]});
+    if (other != from.end() && done[other->second] == 0) {
+      for (const std::size_t v : good_.faces[other->second])
+        if (v != corners[0] && v != corners[2]) {
+          corners.push_back(v);
+          break;
+        }
+      done[other->second] = 1;
+      ++quads;
+    }
+    auto& face = engine.faces.emplace_back();
+    for (const std::size_t v : corners) {
+      face.push_back(engine.positions.size());
+      const auto& p = good_.positions[v];
+      engine.positions.push_back({100 * p[0] + 5, 100 * p[1] - 7, 100 * p[2] + .25});
+    }
+  }
+  ASSERT_GT(quads, 100U);
+  write("engine.obj", engine.text());
+  EXPECT_NE(findings(audit("engine.obj", 1)), "");
+  auto rows = audit("engine.obj", 0, "--fit scale --per-vertex each.csv");
+  EXPECT_LE(rows["file-distance"]["worst"].get<double>(), 1e-7);
+  EXPECT_EQ(rows["file-normals"]["status"], "not-supported");
+  const std::string each = read("each.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(each.begin(), each.end(), '\n')),
+            1 + engine.positions.size());
+  EXPECT_EQ(findings(audit("engine.obj", 1, "--fit scale --normals")), "file-normals");
+}
+
+// The provenance that --per-vertex finds, given back, is a provenance.
+TEST_F(ExportedFiles, TheParametersThatWereFoundServeAsProvenance) {
+  audit("good.obj", 0, "--per-vertex each.csv");
+  std::istringstream lines(read("each.csv"));
+  std::string map = "vertex,face,l1,l2\n", line;
+  std::getline(lines, line);
+  std::vector<std::string> rows;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cell;
+    std::istringstream cells(line);
+    for (std::string c; std::getline(cells, c, ',');) cell.push_back(c);
+    ASSERT_EQ(cell.size(), 6U) << line;
+    rows.push_back(cell[0] + "," + cell[3] + "," + cell[4] + "," + cell[5] + "\n");
+  }
+  for (const std::string& r : rows) map += r;
+  write("map.csv", map);
+  auto held = audit("good.obj", 0, "--provenance map.csv");
+  EXPECT_EQ(held["file-positions"]["of"], good_.positions.size());
+  // Two rows exchanged: still on the surface, but not where they say.
+  std::swap(rows[10], rows[11]);
+  std::string swapped = "vertex,face,l1,l2\n";
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    swapped += std::to_string(k) + rows[k].substr(rows[k].find(','));
+  write("swapped.csv", swapped);
+  EXPECT_TRUE(says(findings(audit("good.obj", 1, "--provenance swapped.csv")), "file-positions"));
+}
+
+TEST_F(ExportedFiles, OneFaultInTheFileTurnsTheChecksRedThatAreMeantForIt) {
+  const auto sees = [&](const char* check, const std::function<void(Obj&)>& fault) {
+    const std::string found = findings_with(fault);
+    EXPECT_TRUE(says((" " + found + " "), " " + std::string(check) + " "))
+        << check << " did not; red: " << found;
+  };
+  const auto remove = [](Obj& o) { o.faces.erase(o.faces.begin() + 100); };
+  sees("file-coverage", remove);
+  sees("file-watertight", remove);
+  const auto push = [](Obj& o) {  // outwards of a sphere about the origin
+    for (double& x : o.positions[100]) x *= 1 + 1e-5;
+  };
+  EXPECT_EQ(findings_with(push), "file-distance");
+  const auto flip = [](Obj& o) { std::swap(o.faces[200][0], o.faces[200][1]); };
+  sees("file-orientation", flip);
+  sees("file-watertight", flip);
+  // Two neighbours in each other's place: every vertex on the surface, every edge shared by two triangles.
+  sees("file-orientation", [](Obj& o) {
+    const auto& f = o.faces[250];
+    std::swap(o.positions[f[0]], o.positions[f[1]]);
+  });
 }
 
 }  // namespace

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: MIT
 // What `limitcheck audit` writes besides the table: schema, JUnit, waivers, explanations, levels.
+// `limitcheck audit` as one screen: root causes and the commands that show them, the page, what changed; and
+// a stranger's first guesses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "verify/cli/command_test.h"
 
 namespace limitcheck::cli {
 namespace {
 
+using nlohmann::json;
+
 class AuditOutput : public CommandTest {
  protected:
   int python(const std::string& program) const {
     write("check.py", program);
-    return std::system(
-        ("cd '" + folder_.string() + "' && /usr/bin/python3 check.py > python.txt 2>&1").c_str());
+    return command("/usr/bin/python3 check.py").code;
   }
 };
 
@@ -34,13 +39,13 @@ TEST_F(AuditOutput, IsValidByThePublishedSchema) {
                      "jsonschema.validate(json.load(open('report.json')), schema)\n"),
               0)
         << arguments << "\n"
-        << read("python.txt");
+        << read(".stderr");
   }
 }
 
 TEST_F(AuditOutput, AFindingHasFortyDigitsAndTheCommandThatRepeatsIt) {
   ASSERT_EQ(run("audit opensubdiv-bfr bumpy:20 --depth 3 --level quick --json report.json").code, 1);
-  const auto report = nlohmann::json::parse(read("report.json"));
+  const auto report = json_in("report.json");
   bool looked = false;
   for (const auto& row : report["results"]) {
     if (row["check"] != "positions") continue;
@@ -68,7 +73,7 @@ TEST_F(AuditOutput, AJUnitConsumerCanReadIt) {
                    "  assert int(suite.get('skipped')) == len(suite.findall('testcase/skipped'))\n"
                    "  assert all(c.get('name') and c.get('classname') for c in cases)\n"),
             0)
-      << read("python.txt");
+      << read(".stderr");
 }
 
 TEST_F(AuditOutput, AWaivedFindingIsNoFindingAndASuperfluousWaiverIsReported) {
@@ -81,7 +86,7 @@ TEST_F(AuditOutput, AWaivedFindingIsNoFindingAndASuperfluousWaiverIsReported) {
     {"subject":"faulty:*","check":"positions","reason":"old","expires":"2001-01-01"}]})");
   const Outcome o = run(audit + "--waivers waivers.json --json report.json");
   EXPECT_EQ(o.code, 0) << o.out << o.err;
-  const auto report = nlohmann::json::parse(read("report.json"));
+  const auto report = json_in("report.json");
   int waived = 0, notes = 0;
   for (const auto& row : report["results"]) {
     waived += row["status"] == "waived";
@@ -96,22 +101,98 @@ TEST_F(AuditOutput, AWaivedFindingIsNoFindingAndASuperfluousWaiverIsReported) {
 TEST_F(AuditOutput, EveryCheckIsExplained) {
   const Outcome o = run("audit --explain positions");
   EXPECT_EQ(o.code, 0);
-  EXPECT_NE(o.out.find("bound"), std::string::npos);
+  EXPECT_TRUE(says(o.out, "bound"));
   EXPECT_EQ(run("audit --explain nonsense").code, 2);
   EXPECT_EQ(run("audit --explain extreme-scale").out, run("audit --explain scaling").out) << "its new name";
   const Outcome all = run("audit --explain all");
   for (const char* check : {"tessellates", "rejected-inputs", "t-vertices"})
-    EXPECT_NE(all.out.find(check), std::string::npos);
+    EXPECT_TRUE(says(all.out, check));
 }
 
 TEST_F(AuditOutput, LevelsLookAtMoreAndMore) {
   const auto rows = [&](const std::string& level) {
     run("audit model bumpy:400 tetrahedron --depth 1 --json report.json --level " + level);
-    return nlohmann::json::parse(read("report.json"))["results"].size();
+    return json_in("report.json")["results"].size();
   };
   const auto quick = rows("quick"), standard = rows("standard"), thorough = rows("thorough");
   EXPECT_LT(quick, standard);
   EXPECT_LT(standard, thorough);
+}
+
+class AuditCauses : public CommandTest {};
+
+TEST_F(AuditCauses, EachHasACommandThatShowsTheDifference) {
+  const Outcome o =
+      run("audit all fan:1 fan:5 prism:3 quad-fan:2 quad-dart:4 wheel:50 --depth 2 --json report.json");
+  ASSERT_EQ(o.code, 1) << o.err;
+  EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 50) << o.out;
+  const json report = json_in("report.json");
+  ASSERT_GE(report["causes"].size(), 8U);
+  std::size_t shown = 0;
+  for (const json& cause : report["causes"]) {
+    const std::string command = cause["command"];
+    ASSERT_TRUE(command.starts_with("limitcheck ")) << cause;
+    const Outcome again = run(command.substr(11));
+    EXPECT_EQ(again.code, 1) << command << "\n" << again.out << again.err;
+    if (!command.starts_with("limitcheck eval ")) continue;
+    ++shown;
+    EXPECT_TRUE(says(again.out, "<-- wrong")) << command;
+    EXPECT_TRUE(says(again.out, "expected")) << command;
+  }
+  EXPECT_GE(shown, 4U);
+  for (const json& row : report["results"]) {
+    const bool bad = row["status"] == "finding" || row["status"] == "crash" || row["status"] == "error";
+    EXPECT_EQ(row["cause"].is_number(), bad) << row;
+  }
+}
+
+TEST_F(AuditCauses, ThePageHasEverythingInside) {
+  ASSERT_EQ(run("audit opensubdiv-bfr quad-fan:1 --depth 2 --html out/page.html").code, 1);
+  const std::string page = read("out/page.html");
+  EXPECT_TRUE(says(page, "\"positions\":\"")) << "the mesh";
+  EXPECT_FALSE(says(page, "%DATA%"));
+  EXPECT_FALSE(says(page, "src=\"http")) << "opens without a network";
+  EXPECT_LT(page.size(), 2000000U);
+  EXPECT_EQ(run("audit naive tetrahedron --html same --junit same").code, 2);
+}
+
+TEST_F(AuditCauses, AgainstABaselineOnlyWhatIsNewOrWorseIsAFinding) {
+  const std::string audit = "audit opensubdiv-bfr bumpy:20 --depth 2 --level quick ";
+  ASSERT_EQ(run(audit + "--json old.json").code, 1);
+  const Outcome same = run(audit + "--baseline old.json");
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  EXPECT_TRUE(says(same.out, "since old.json: 0 new, 0 worse, 0 gone"));
+  const Outcome more = run("audit opensubdiv-bfr bumpy:20 fan:1 --depth 2 --level quick --baseline old.json");
+  EXPECT_EQ(more.code, 1) << "another mesh has new ones";
+  write("none.json", "{}");
+  EXPECT_EQ(run(audit + "--baseline none.json").code, 2);
+}
+
+TEST_F(AuditCauses, ACrashCanBeWaived) {
+  write("w.json",
+        R"({"waivers":[{"subject":"*","check":"tessellates","reason":"known","expires":"2999-12-31"}]})");
+  const Outcome o = run("audit --program 'kill -SEGV $$' tetrahedron --waivers w.json");
+  EXPECT_TRUE(says(o.out, "waived: "));
+  EXPECT_NE(o.code, 1) << "nothing is red, and nothing was confirmed";
+}
+
+TEST_F(AuditCauses, WhatASubjectPrintsIsNotOnTheScreen) {
+  const Outcome o = run("audit openmesh tetrahedron --depth 1 --json report.json");
+  EXPECT_FALSE(says(o.err, "add_face"));
+  EXPECT_TRUE(says(json_in("report.json")["printed"].get<std::string>(), "add_face"));
+}
+
+TEST_F(AuditCauses, AStrangersGuessesLeadOn) {
+  ASSERT_EQ(run("generate quad-cube -o quad.obj").code, 0);
+  EXPECT_TRUE(says(run("quad.obj").err, "limitcheck audit quad.obj"));
+  const Outcome all = run("audit quad.obj --depth 1 --level quick");
+  EXPECT_TRUE(says(all.err, "all built-in subjects are audited on it"));
+  EXPECT_TRUE(says(all.out, "\nrow-stream "));
+  EXPECT_TRUE(says(run("audit gone.obj").err, "there is no file gone.obj"));
+  EXPECT_EQ(run("help").code, 0);
+  EXPECT_EQ(run("help repair").out, run("repair --help").out);
+  EXPECT_EQ(run("audit row-stream --option target=scalar quad.obj --depth 1 --level quick").code, 0)
+      << "the mesh is no option";
 }
 
 }  // namespace

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace limitcheck::cli {
 
@@ -17,6 +19,20 @@ struct Outcome {
   int code = -1;  // exit code; -1: killed by a signal
   std::string out, err;
 };
+
+/// Whether `text` has `part`; the text is printed where that is not as expected.
+inline testing::AssertionResult says(const std::string& text, const std::string& part) {
+  const bool has = text.find(part) != std::string::npos;
+  return (has ? testing::AssertionSuccess() : testing::AssertionFailure()) << '"' << part << "\": " << text;
+}
+
+/// Lines of a subject in bash: it says what it can do, and has read what it is then asked for.
+inline const std::string kTellsWhatItCan =
+    "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
+    "\"loop\", "
+    "\"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
+    "\"per_face_depth\": false, "
+    "\"exact_lattice\": true}'\nread -r line || exit 0\n";
 
 class CommandTest : public testing::Test {
  protected:
@@ -30,11 +46,46 @@ class CommandTest : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// `limitcheck ARGUMENTS` (quoted for the shell).
-  Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" LIMITCHECK_PROGRAM "' " + arguments +
-                                " > .stdout 2> .stderr < /dev/null";
-    const int status = std::system(command.c_str());
+  Outcome run(const std::string& arguments) const { return command("'" LIMITCHECK_PROGRAM "' " + arguments); }
+  /// Bash on a script of these lines, in which `limitcheck` is the program.
+  Outcome shell(const std::string& script) const {
+    write("script.sh", "limitcheck() { \"" LIMITCHECK_PROGRAM "\" \"$@\"; }\n" + script + "\n");
+    return command("bash script.sh");
+  }
+  /// `limitcheck ARGUMENTS`, which gets the signal once the shell finds `ready` true.
+  ///   sleeper   the seconds that a `sleep` sleeps, which must not be left behind (else the exit code is 9)
+  Outcome signalled(const std::string& arguments, const std::string& ready, const std::string& signal,
+                    const std::string& sleeper = "-") const {
+    return shell("mkdir -p tmp; TMPDIR=$PWD/tmp env --default-signal '" LIMITCHECK_PROGRAM "' " + arguments +
+                 " &\nfor k in {1..600}; do " + ready + " && break; sleep 0.05; done\nkill -" + signal +
+                 " $!\nwait $!\ncode=$?\nls tmp\nfor k in {1..100}; do grep -aqs 'sle[e]p." + sleeper +
+                 "' /proc/[0-9]*/cmdline || exit $code; sleep 0.05; done\nexit 9");
+  }
+  Outcome command(const std::string& words) const {
+    const int status = std::system(
+        ("cd '" + folder_.string() + "' && " + words + " > .stdout 2> .stderr < /dev/null").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
+  }
+  /// What a command prints as JSON, or has written to a file.
+  ///   code   its exit code; -1: any
+  nlohmann::json json_of(const std::string& arguments, int code = -1) const {
+    const Outcome o = run(arguments);
+    EXPECT_TRUE(code < 0 || o.code == code) << arguments << ": " << o.code << "\n" << o.out << o.err;
+    nlohmann::json json = nlohmann::json::parse(o.out, nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << o.out << o.err;
+    return json;
+  }
+  nlohmann::json json_in(const std::filesystem::path& name) const {
+    return nlohmann::json::parse(read(name));
+  }
+  /// Each is refused: exit code 2, a sentence on standard error, nothing on standard output.
+  void expect_refused(const std::string& command, const std::vector<std::string>& all_arguments) const {
+    for (const std::string& arguments : all_arguments) {
+      const Outcome o = run(command + " " + arguments);
+      EXPECT_EQ(o.code, 2) << command << " " << arguments;
+      EXPECT_NE(o.err, "") << command << " " << arguments;
+      EXPECT_EQ(o.out, "") << command << " " << arguments;
+    }
   }
   std::string read(const std::filesystem::path& name) const {
     std::ifstream in(folder_ / name, std::ios::binary);

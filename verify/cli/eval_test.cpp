@@ -44,9 +44,7 @@ TEST_F(EvalCommand, TheCentreOfARegularFaceHasThePapersWeights) {
       obj += "f " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) + "\n";
     }
     write("regular.obj", obj);
-    const Outcome o = run("eval regular.obj 0 1/3 1/3 --json --digits 40");
-    ASSERT_EQ(o.code, 0) << o.err;
-    const auto json = nlohmann::json::parse(o.out);
+    const auto json = json_of("eval regular.obj 0 1/3 1/3 --json --digits 40", 0);
     EXPECT_EQ(std::stod(json["position"][2].get<std::string>()), weight[chosen]) << "vertex " << chosen + 1;
     for (const char* key : {"position", "d1", "d2", "normal"}) {
       ASSERT_EQ(json[key].size(), 3U) << key;
@@ -57,9 +55,7 @@ TEST_F(EvalCommand, TheCentreOfARegularFaceHasThePapersWeights) {
 
 TEST_F(EvalCommand, ASecondWayToWriteAPointGivesTheSameAnswer) {
   const auto position = [&](const std::string& point) {
-    const Outcome o = run("eval bumpy:200 17 " + point + " --json");
-    EXPECT_EQ(o.code, 0) << o.err;
-    return nlohmann::json::parse(o.out)["position"];
+    return json_of("eval bumpy:200 17 " + point + " --json", 0)["position"];
   };
   EXPECT_EQ(position("1/4 1/2"), position("0.25 0.5"));
   EXPECT_EQ(position("1/4 1/2"), position("2/8 5e-1"));
@@ -74,9 +70,7 @@ TEST_F(EvalCommand, TakesEveryFaceOfAValidMesh) {
 
 TEST_F(EvalCommand, GivesEveryQuantityARadiusOfItsOwn) {
   // So near a corner of valence 7 second derivatives are huge: theirs is no measure of the position.
-  const Outcome o = run("eval wheel:7 0 1e-12 1e-12 --json");
-  ASSERT_EQ(o.code, 0) << o.err;
-  const auto json = nlohmann::json::parse(o.out);
+  const auto json = json_of("eval wheel:7 0 1e-12 1e-12 --json", 0);
   const auto& radii = json["radii"];
   double largest = 0;
   for (const char* key : {"position", "d1", "d2", "normal", "d11", "d12", "d22"}) {
@@ -100,9 +94,7 @@ TEST_F(EvalCommand, NoRadiusIsTooSmallOrTooLargeToBeSaid) {
   write("tiny.obj",
         "v 1e-300 0 0\nv 0 2e-300 0\nv 0 0 3e-300\nv -1e-300 -1e-300 -1e-300\n"
         "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
-  const Outcome o = run("eval tiny.obj 0 1/4 1/4 --json");
-  ASSERT_EQ(o.code, 0) << o.err;
-  const auto json = nlohmann::json::parse(o.out);
+  const auto json = json_of("eval tiny.obj 0 1/4 1/4 --json", 0);
   const auto radius = [&](const char* key) { return Decimal(json["radii"][key].get<std::string>()); };
   EXPECT_TRUE(json["radii"]["position"].is_string());
   EXPECT_LT(radius("position"), Decimal("1e-315"));
@@ -112,15 +104,11 @@ TEST_F(EvalCommand, NoRadiusIsTooSmallOrTooLargeToBeSaid) {
   EXPECT_GT(Decimal(json["gaussian_curvature"].get<std::string>()), Decimal("1e600"));
   EXPECT_TRUE(json["radius"].is_number());
   const Outcome text = run("eval tiny.obj 0 1/4 1/4");
-  EXPECT_NE(text.out.find("e-317\n"), std::string::npos) << text.out;
+  EXPECT_TRUE(says(text.out, "e-317\n"));
 }
 
 TEST_F(EvalCommand, SaysWhichDerivativesExistAtAnExtraordinaryCorner) {
-  const auto at = [&](const std::string& mesh) {
-    const Outcome o = run("eval " + mesh + " 0 0 0 --json");
-    EXPECT_EQ(o.code, 0) << o.err;
-    return nlohmann::json::parse(o.out);
-  };
+  const auto at = [&](const std::string& mesh) { return json_of("eval " + mesh + " 0 0 0 --json", 0); };
   const nlohmann::json zero{"0", "0", "0"};
   for (const char* mesh : {"tetrahedron", "octahedron", "icosahedron"}) {  // valence 3, 4, 5
     const auto json = at(mesh);
@@ -136,9 +124,9 @@ TEST_F(EvalCommand, SaysWhichDerivativesExistAtAnExtraordinaryCorner) {
   EXPECT_EQ(json["d1"], json["tangent1"]);  // as ever
   EXPECT_TRUE(json["d11"].is_null());
   const std::string text = run("eval wheel:7 0 0 0").out;
-  EXPECT_NE(text.find("d/dl1       does not exist"), std::string::npos) << text;
-  EXPECT_NE(text.find("d2/dl1dl1   does not exist"), std::string::npos) << text;
-  EXPECT_NE(run("eval octahedron 0 0 0").out.find("d/dl1       0  0  0  exact"), std::string::npos);
+  EXPECT_TRUE(says(text, "d/dl1       does not exist"));
+  EXPECT_TRUE(says(text, "d2/dl1dl1   does not exist"));
+  EXPECT_TRUE(says(run("eval octahedron 0 0 0").out, "d/dl1       0  0  0  exact"));
 }
 
 // The table itself is tested in reference/: here, that its words are those of each kind of vertex.
@@ -161,7 +149,7 @@ TEST_F(EvalCommand, SaysWhyDerivativesExistOrNot) {
       {"quad-wheel:5", "grows", "grows", "grows 1.09998-fold"}};
   for (const Case& c : cases) {
     const std::string command = "eval " + std::string(c.mesh) + " 0 0 0";
-    const auto json = nlohmann::json::parse(run(command + " --json").out);
+    const auto json = json_of(command + " --json");
     const std::string first = c.first, second = c.second;
     EXPECT_EQ(json["first_limit"]["fate"], first) << c.mesh;
     EXPECT_EQ(json["second_limit"]["fate"], second) << c.mesh;
@@ -169,17 +157,15 @@ TEST_F(EvalCommand, SaysWhyDerivativesExistOrNot) {
     EXPECT_EQ(json["second_derivatives_exist"], second == "value") << c.mesh;
     EXPECT_EQ(json["d11"].is_null(), second != "value") << c.mesh;
     const std::string text = run(command).out;
-    EXPECT_NE(text.find(c.why), std::string::npos) << text;
+    EXPECT_TRUE(says(text, c.why));
   }
-  EXPECT_TRUE(nlohmann::json::parse(run("eval dart:6 0 .25 .25 --json").out)["first_limit"].is_null());
+  EXPECT_TRUE(json_of("eval dart:6 0 .25 .25 --json")["first_limit"].is_null());
 }
 
 TEST_F(EvalCommand, HasWarrensWeightsToo) {
   // A vertex of the octahedron keeps half of its distance from the centre, 24/55 by Loop's weights.
   const auto first = [&](const std::string& options) {
-    const Outcome o = run("eval octahedron 0 0 0 --digits 20 --json" + options);
-    EXPECT_EQ(o.code, 0) << o.err;
-    const auto json = nlohmann::json::parse(o.out);
+    const auto json = json_of("eval octahedron 0 0 0 --digits 20 --json" + options, 0);
     double length = 0;
     for (const auto& x : json["position"]) length = std::hypot(length, std::stod(x.get<std::string>()));
     return length;
@@ -217,10 +203,10 @@ TEST_F(EvalCommand, KnowsTheAnswersOfCatmullClarksSurface) {
     for (const data::QuadSample& s : a.samples) {
       const bool quad = a.faces[s.face].size() == 4;
       const std::string at = quad ? fmt::format("{}", s.face) : fmt::format("{}:{}", s.face, s.corner);
-      const Outcome o = run(fmt::format("eval case.obj {} {} {} --json --digits 45 --scheme catmull-clark",
-                                        at, s.uv[0], s.uv[1]));
-      ASSERT_EQ(o.code, 0) << a.id << " " << o.err;
-      const auto json = nlohmann::json::parse(o.out);
+      const auto json =
+          json_of(fmt::format("eval case.obj {} {} {} --json --digits 45 --scheme catmull-clark", at, s.uv[0],
+                              s.uv[1]),
+                  0);
       EXPECT_EQ(json["scheme"], "catmull-clark");
       EXPECT_EQ(json["corner"].is_null(), quad);
       EXPECT_EQ(json["parameters"].size(), 2U);
@@ -242,9 +228,7 @@ TEST_F(EvalCommand, KnowsTheAnswersOfCatmullClarksSurface) {
 
 TEST_F(EvalCommand, TakesACornerWhereAFaceIsNoQuad) {
   const auto position = [&](const std::string& arguments) {
-    const Outcome o = run("eval " + arguments + " --json");
-    EXPECT_EQ(o.code, 0) << arguments << o.err;
-    return nlohmann::json::parse(o.out)["position"];
+    return json_of("eval " + arguments + " --json", 0)["position"];
   };
   // The middle of a face is the corner (1, 1) of all its quads, that of an edge (1, 0) of one and (0, 1) of
   // the next.
@@ -259,11 +243,11 @@ TEST_F(EvalCommand, TakesACornerWhereAFaceIsNoQuad) {
       text.starts_with("scheme: catmull-clark (not all faces are triangles)\n"
                        "prism:5 face 0 corner 2 at (1/3, 1/4)\n"))
       << text;
-  EXPECT_NE(text.find("d/du "), std::string::npos) << text;
-  EXPECT_NE(text.find("d2/dudv "), std::string::npos) << text;
+  EXPECT_TRUE(says(text, "d/du "));
+  EXPECT_TRUE(says(text, "d2/dudv "));
   EXPECT_TRUE(run("eval octahedron 0 0 0").out.starts_with("scheme: loop (all faces are triangles)\n"));
-  EXPECT_EQ(nlohmann::json::parse(run("eval octahedron 0 0 0 --json").out)["scheme"], "loop");
-  EXPECT_EQ(nlohmann::json::parse(run("eval prism:5 0 0 0 --triangulate fan --json").out)["faces_cut"], 7);
+  EXPECT_EQ(json_of("eval octahedron 0 0 0 --json")["scheme"], "loop");
+  EXPECT_EQ(json_of("eval prism:5 0 0 0 --triangulate fan --json")["faces_cut"], 7);
 }
 
 TEST_F(EvalCommand, SaysWhatIsWrongWithAFaceAndItsParameters) {
@@ -273,41 +257,32 @@ TEST_F(EvalCommand, SaysWhatIsWrongWithAFaceAndItsParameters) {
     EXPECT_EQ(o.out, "") << arguments;
     return o.err;
   };
-  const auto says = [](const std::string& text, const std::string& what) {
-    EXPECT_NE(text.find(what), std::string::npos) << text;
-  };
-  says(error("prism:5 2:0 0 0"), "face 2 is a quad");
-  says(error("prism:5 0 0 0"), "FACE is 0:0 to 0:4");
-  says(error("prism:5 0:5 0 0"), "face 0 has corners 0 to 4, not 5");
-  says(error("prism:5 0:-1 0 0"), "face 0 has corners 0 to 4, not -1");
-  says(error("prism:5 7 0 0"), "has faces 0 to 6, not 7");
-  says(error("prism:5 2 5/4 0"), "must be in 0..1");
-  says(error("prism:5 2 0 -1/4"), "must be in 0..1");
-  says(error("prism:5 0: 0 0"), "FACE:CORNER");
-  says(error("prism:5 0:1x 0 0"), "FACE:CORNER");
-  says(error("octahedron 0:0 0 0"), "for Catmull-Clark's scheme");
-  says(error("prism:5 2 0 0 --weights warren"), "--weights warren is for Loop's scheme");
+  EXPECT_TRUE(says(error("prism:5 2:0 0 0"), "face 2 is a quad"));
+  EXPECT_TRUE(says(error("prism:5 0 0 0"), "FACE is 0:0 to 0:4"));
+  EXPECT_TRUE(says(error("prism:5 0:5 0 0"), "face 0 has corners 0 to 4, not 5"));
+  EXPECT_TRUE(says(error("prism:5 0:-1 0 0"), "face 0 has corners 0 to 4, not -1"));
+  EXPECT_TRUE(says(error("prism:5 7 0 0"), "has faces 0 to 6, not 7"));
+  EXPECT_TRUE(says(error("prism:5 2 5/4 0"), "must be in 0..1"));
+  EXPECT_TRUE(says(error("prism:5 2 0 -1/4"), "must be in 0..1"));
+  EXPECT_TRUE(says(error("prism:5 0: 0 0"), "FACE:CORNER"));
+  EXPECT_TRUE(says(error("prism:5 0:1x 0 0"), "FACE:CORNER"));
+  EXPECT_TRUE(says(error("octahedron 0:0 0 0"), "for Catmull-Clark's scheme"));
+  EXPECT_TRUE(says(error("prism:5 2 0 0 --weights warren"), "--weights warren is for Loop's scheme"));
   const std::string loop = error("prism:5 2 0 0 --scheme loop");
-  says(loop, "7 of 7 faces are no triangles"), says(loop, "leave out --scheme loop"),
-      says(loop, "--triangulate fan");
+  for (const char* part : {"7 of 7 faces are no triangles", "leave out --scheme loop", "--triangulate fan"})
+    EXPECT_TRUE(says(loop, part));
 }
 
 TEST_F(EvalCommand, RefusesBadInputWithExitCodeTwo) {
   write("far.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(run("eval far.obj 0 1/3 1/3").code, 0);
-  EXPECT_NE(run("eval far.obj 0 1/3 1/3 --precision float").err.find("vertex 1"), std::string::npos);
+  EXPECT_TRUE(says(run("eval far.obj 0 1/3 1/3 --precision float").err, "vertex 1"));
 
-  for (const char* arguments :
-       {"eval", "eval tetrahedron", "eval tetrahedron 4 0 0", "eval tetrahedron -1 0 0",
-        "eval tetrahedron 0 2/3 2/3", "eval tetrahedron 0 -1/3 1/3", "eval tetrahedron 0 1/0 0",
-        "eval tetrahedron 0 abc 0", "eval tetrahedron 0 nan 0", "eval tetrahedron 0 0 0 --digits 0",
-        "eval tetrahedron 0 0 0 --digits 1000000000", "eval tetrahedron 99999999999999999999 0 0",
-        "eval far.obj 0 1/3 1/3 --precision float", "eval no-such-file.obj 0 0 0"}) {
-    const Outcome o = run(arguments);
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.out;
-    EXPECT_NE(o.err, "") << arguments;
-    EXPECT_EQ(o.out, "") << arguments;
-  }
+  expect_refused("eval", {"", "tetrahedron", "tetrahedron 4 0 0", "tetrahedron -1 0 0",
+                          "tetrahedron 0 2/3 2/3", "tetrahedron 0 -1/3 1/3", "tetrahedron 0 1/0 0",
+                          "tetrahedron 0 abc 0", "tetrahedron 0 nan 0", "tetrahedron 0 0 0 --digits 0",
+                          "tetrahedron 0 0 0 --digits 1000000000", "tetrahedron 99999999999999999999 0 0",
+                          "far.obj 0 1/3 1/3 --precision float", "no-such-file.obj 0 0 0"});
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ class Findings : public CommandTest {};
 // The paper's engine, which has findings; the others take longer.
 TEST_F(Findings, OfThePapersEngineAreThoseOfTheReadme) {
   ASSERT_EQ(run("audit sliding-window --json report.json").code, 1);
-  const json report = json::parse(read("report.json"));
+  const json report = json_in("report.json");
   const std::vector<Row> all = rows(text_of(kReadme), report);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].is, all[0].should_be) << "bash verify/findings.sh writes the table anew";

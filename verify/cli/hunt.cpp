@@ -17,10 +17,10 @@
 #include "verify/checks/check_oracle.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/hunt_jobs.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/screen.h"
 #include "verify/cli/subject_loader.h"
+#include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
 
@@ -28,7 +28,6 @@ namespace limitcheck::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kSaved = std::chrono::seconds(10);  // between two times that a part is saved
 
 struct Arguments {
   std::string subject, time, shard = "1/1", json, junit, baseline;
@@ -36,10 +35,11 @@ struct Arguments {
   std::vector<std::string> options, vary;
   std::optional<data::Scheme> scheme;
   std::uint64_t cases = 1000, seed = 1;
-  int jobs = 0, attempts = 2000;
+  int jobs = 0, attempts = verify::HuntOptions().attempts;
   bool in_process = false, resume = false;
   SubjectArguments from;
 };
+constexpr std::uint64_t kMostCases = 1'000'000'000;
 
 // "90", "90s", "15m", "1h"; in seconds.
 double seconds_of(const std::string& text) {
@@ -59,94 +59,108 @@ std::vector<data::Scheme> schemes_asked(const Arguments& a) {
   return {data::Scheme::kLoop, data::Scheme::kCatmullClark};
 }
 
-// A part of the hunt, by one process.
-struct Part {
-  verify::Shard shard;
-  std::string file;  // its report so far; empty: it is kept nowhere
+// The subject, and what is to be asked of it.
+struct Hunted {
+  SubjectLoader loader;
+  verify::AuditSubject subject;
+  std::vector<verify::Does> does;
+  std::vector<verify::Way> ways;
+
+  explicit Hunted(const Arguments& a)
+      : loader(a.from),
+        subject(loader.open(a.subject, a.options)),
+        does(verify::schemes_of(subject, schemes_asked(a))),
+        ways(verify::ways_of(subject, schemes_asked(a), a.vary)) {}
+  verify::HuntPlan plan(std::uint64_t seed) const { return {seed, does, ways, verify::is_oracle(subject)}; }
+  // A report before the first case.
+  verify::HuntReport report(const Arguments& a) const {
+    verify::HuntReport report;
+    report.version = LIMITCHECK_VERSION, report.subject = subject.label();
+    report.seed = a.seed, report.asked = a.time.empty() ? a.cases : 0;
+    report.varied = a.vary;
+    for (const verify::Does& d : does) report.schemes.emplace_back(data::name_of(d.scheme));
+    return report;
+  }
 };
 
-// A report that is the beginning of this part, to go on with.
-std::optional<verify::HuntReport> begun(const Part& part, const verify::HuntReport& fresh) {
-  if (part.file.empty() || !std::filesystem::exists(part.file)) return std::nullopt;
-  verify::HuntReport old = verify::read_hunt_report(data::io::whole_content(part.file));
-  if (old.subject != fresh.subject || old.seed != fresh.seed || old.asked != fresh.asked ||
-      old.schemes != fresh.schemes || old.varied != fresh.varied || old.shard.index != fresh.shard.index ||
-      old.shard.count != fresh.shard.count || old.version != fresh.version)
-    throw data::ArgumentError(fmt::format("--resume: {} is of another hunt", part.file));
-  return old;
+// Each case is a unit. One behind them, for each process, is the small meshes of what it has found.
+verify::Plan plan_of(const verify::HuntReport& report, const verify::Shard& shard) {
+  const std::uint64_t cases = report.asked == 0 ? kMostCases : report.asked;
+  return {"limitcheck hunt",
+          {{"version", report.version},
+           {"subject", report.subject},
+           {"seed", report.seed},
+           {"asked", report.asked},
+           {"schemes", report.schemes},
+           {"varied", report.varied}},
+          cases + verify::HuntPlan::kBlock * (shard.count + 1),
+          verify::HuntPlan::kBlock,
+          shard};
+}
+std::uint64_t small_unit(const verify::HuntReport& report, const verify::Plan& plan) {
+  std::uint64_t unit = report.asked == 0 ? kMostCases : report.asked + verify::HuntPlan::kBlock;
+  while (!plan.has(unit)) unit += verify::HuntPlan::kBlock;
+  return unit;
 }
 
-verify::HuntReport hunt_part(const Arguments& a, const Part& part, JobCounters& counters,
-                             Clock::time_point end) {
-  SubjectLoader loader(a.from);
-  const verify::AuditSubject subject = loader.open(a.subject, a.options);
-  std::vector<verify::Does> does = verify::schemes_of(subject, schemes_asked(a));
-  std::vector<verify::Way> ways = verify::ways_of(subject, schemes_asked(a), a.vary);
-  verify::HuntReport report;
-  report.version = LIMITCHECK_VERSION;
-  report.subject = subject.label();
-  report.seed = a.seed, report.asked = a.time.empty() ? a.cases : 0, report.shard = part.shard;
-  report.varied = a.vary;
-  for (const verify::Does& d : does) report.schemes.emplace_back(data::name_of(d.scheme));
-  if (a.resume)
-    if (auto old = begun(part, report)) report = std::move(*old);
-  report.incomplete.clear();
-  const double before = report.seconds;
+// The report of a part, as its journal has it.
+verify::HuntReport part_of(verify::HuntReport report, const verify::Journal& journal) {
+  report.shard = journal.plan().shard;
+  const std::uint64_t last = small_unit(report, journal.plan());
+  for (const auto& [unit, added] : journal.results()) {
+    report.add_again(added);
+    if (unit != last) report.next = unit + 1;
+  }
+  return report;
+}
 
-  const auto start = Clock::now();
-  auto saved = start;
-  std::uint64_t next = report.next;
-  verify::Hunt hunt(subject,
-                    verify::HuntPlan(a.seed, std::move(does), std::move(ways), verify::is_oracle(subject)),
-                    {1, a.attempts, a.witnesses}, std::move(report));
-  const auto now = [&] {
-    verify::HuntReport r = hunt.report();
-    r.next = next;
-    r.seconds = before + std::chrono::duration<double>(Clock::now() - start).count();
-    if (verify::interrupted() != 0)
-      r.incomplete = fmt::format("interrupted by {}", verify::signal_name(verify::interrupted()));
-    return r;
-  };
-  const auto save = [&] {
-    if (!part.file.empty()) verify::write_text(part.file, verify::to_json(now(), true));
-    saved = Clock::now();
-  };
-  const std::uint64_t findings = hunt.report().findings.size();
-  counters.cases += hunt.report().cases, counters.findings += findings;
-  std::uint64_t shown = findings;
-  for (; a.time.empty() ? next < a.cases : Clock::now() < end; ++next) {
-    if (!part.shard.has(next / verify::HuntPlan::kBlock)) {
-      next = (next / verify::HuntPlan::kBlock + 1) * verify::HuntPlan::kBlock - 1;
+// Goes on where the journal ends, until all cases of its part are looked at or the time is over.
+void hunt_part(const Arguments& a, verify::Journal& journal, JobCounters& counters, Clock::time_point end) {
+  const Hunted hunted(a);
+  verify::HuntReport report = part_of(hunted.report(a), journal);
+  verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {1, a.attempts, a.witnesses});
+  std::uint64_t shown = report.findings.size();
+  counters.cases += report.cases, counters.findings += shown;
+  for (std::uint64_t n = 0; a.time.empty() ? n < a.cases : Clock::now() < end; ++n) {
+    if (!journal.plan().has(n)) {
+      n += verify::HuntPlan::kBlock - 1;
       continue;
     }
-    if (!hunt.look(next)) break;
+    if (journal.recall(n) != nullptr) continue;
+    const std::optional<verify::HuntReport> found = hunt.look(n);
+    if (!found) break;
+    journal.keep(n, report.add(*found));
     ++counters.cases;
-    counters.findings += hunt.report().findings.size() - shown;
-    shown = hunt.report().findings.size();
-    if (Clock::now() - saved > kSaved) save();
+    counters.findings += report.findings.size() - shown;
+    shown = report.findings.size();
   }
-  if (verify::interrupted() == 0 && a.time.empty()) next = std::max(next, a.cases);
-  save();
-  hunt.shrink_findings();
-  save();
-  return now();
+  const auto start = Clock::now();
+  hunt.shrink_findings(report);
+  const std::uint64_t last = small_unit(report, journal.plan());
+  nlohmann::json small = report.small_meshes();
+  small["seconds"] = std::chrono::duration<double>(Clock::now() - start).count();
+  if (verify::interrupted() == 0 && journal.recall(last) == nullptr) journal.keep(last, std::move(small));
 }
 
-// Where the parts of a hunt in several processes are kept: beside the report, or in a folder that vanishes.
+// The journals of the processes: beside the report, or in a folder that vanishes.
 class PartFiles {
  public:
-  PartFiles(const Arguments& a, const verify::Shard& whole, int jobs)
-      : keep_(!a.json.empty() && a.json != "-") {
+  PartFiles(const Arguments& a, const verify::HuntReport& report, const verify::Shard& whole)
+      : report_(report) {
     std::string stem = a.json;
-    if (!keep_) {
+    if (a.json.empty() || a.json == "-") {
       folder_ = std::filesystem::temp_directory_path() / fmt::format("limitcheck-hunt-{}", getpid());
       std::filesystem::create_directories(folder_);
       stem = (folder_ / "hunt").string();
     }
-    for (int job = 0; job < jobs; ++job) {
+    for (int job = 0; job < a.jobs; ++job) {
+      const std::string file = fmt::format("{}.part{}", stem, job + 1);
       const verify::Shard shard{whole.index + whole.count * static_cast<std::uint64_t>(job),
-                                whole.count * static_cast<std::uint64_t>(jobs)};
-      parts.push_back({shard, fmt::format("{}.part{}", stem, job + 1)});
+                                whole.count * static_cast<std::uint64_t>(a.jobs)};
+      files_.push_back(file);
+      journals.push_back(std::make_unique<verify::Journal>(plan_of(report, shard), file,
+                                                           a.resume && std::filesystem::exists(file)));
+      require(file);
     }
   }
   ~PartFiles() {
@@ -155,15 +169,31 @@ class PartFiles {
   }
   PartFiles(const PartFiles&) = delete;
   PartFiles& operator=(const PartFiles&) = delete;
+  // What the processes have written.
+  std::vector<verify::HuntReport> read() {
+    std::vector<verify::HuntReport> parts;
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+      const verify::Plan plan = journals[k]->plan();
+      require(files_[k]);
+      journals[k].reset();  // which holds the lock
+      journals[k] = std::make_unique<verify::Journal>(plan, files_[k], true);
+      parts.push_back(part_of(report_, *journals[k]));
+    }
+    return parts;
+  }
   void remove() const {
-    std::error_code ignored;
-    for (const Part& p : parts) std::filesystem::remove(p.file, ignored);
+    for (const auto& journal : journals) journal->remove();
   }
 
-  std::vector<Part> parts;
+  std::vector<std::unique_ptr<verify::Journal>> journals;
 
  private:
-  bool keep_;
+  static void require(const std::string& file) {
+    if (!std::filesystem::exists(file)) throw data::ArgumentError(file + " cannot be written");
+  }
+
+  verify::HuntReport report_;
+  std::vector<std::string> files_;
   std::filesystem::path folder_;
 };
 
@@ -190,28 +220,27 @@ int hunt(Arguments a) {
   const verify::HuntReport* const before = earlier ? &*earlier : nullptr;
   if (a.jobs <= 0) a.jobs = tbb::info::default_concurrency();
   a.from.isolate = !a.in_process;
-  {  // that all is well with the arguments is found out here, and said once
-    Arguments copy = a;
-    copy.from.isolate = false;
-    SubjectLoader loader(copy.from);
-    const verify::AuditSubject subject = loader.open(a.subject, a.options);
-    verify::HuntPlan(a.seed, verify::schemes_of(subject, schemes_asked(a)));
-    (void)verify::ways_of(subject, schemes_asked(a), a.vary);
-  }
+  const verify::HuntReport header =
+      [&] {  // that all is well with the arguments is found out here, and said once
+        Arguments asked = a;
+        asked.from.isolate = false;
+        const Hunted hunted(asked);
+        (void)hunted.plan(a.seed);
+        return hunted.report(a);
+      }();
 
   const verify::InterruptGuard guard;
   const auto start = Clock::now();
   const auto end =
       start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  const PartFiles files(a, shard, a.jobs);
-  if (!a.resume) files.remove();  // those of a hunt that was killed
+  PartFiles files(a, header, shard);
   Progress progress;
   const int code = run_jobs(
       a.jobs,
       [&](int job, JobCounters& counters) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
         const SubjectOutput silent;
-        (void)hunt_part(a, files.parts[static_cast<std::size_t>(job)], counters, end);
+        hunt_part(a, *files.journals[static_cast<std::size_t>(job)], counters, end);
         return kHeld;
       },
       [&](const JobCounters& c) {
@@ -226,22 +255,22 @@ int hunt(Arguments a) {
       });
   progress.clear();
 
-  std::vector<verify::HuntReport> parts;
-  for (const Part& p : files.parts)
-    if (std::filesystem::exists(p.file))
-      parts.push_back(verify::read_hunt_report(data::io::whole_content(p.file)));
-  if (parts.empty()) return kBadInput;  // it has been said
-  verify::HuntReport report = verify::combined(parts);
+  verify::HuntReport report = verify::combined(files.read());
   report.shard = shard;
-  if (code != 0 && report.incomplete.empty())
+  if (report.cases == 0 && code == kBadInput) return kBadInput;  // it has been said
+  const int signal = verify::interrupted();
+  if (signal != 0)
+    report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
+  else if (code != 0)
     report.incomplete = code > kSignalled
                             ? fmt::format("a process of the hunt was ended by signal {}", code - kSignalled)
                             : "a process of the hunt failed";
+  if (report.incomplete.empty() && report.asked != 0) report.next = report.asked;
   if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report));
   if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report, before));
   if (report.incomplete.empty()) files.remove();
   fmt::print("{}", a.json == "-" ? verify::to_json(report) : verify::to_text(report, before));
-  if (const int signal = verify::interrupted(); signal != 0) return kSignalled + signal;
+  if (signal != 0) return kSignalled + signal;
   if (!report.incomplete.empty() || report.judged == 0) return kBadInput;
   return verify::new_findings(report, before).empty() ? kHeld : kFindings;
 }
@@ -255,7 +284,7 @@ void add_hunt(CLI::App& app, int& exit_code) {
   command->add_option("SUBJECT", a->subject,
                       "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND");
   CLI::Option* cases =
-      add_number<std::uint64_t>(*command, "--cases", a->cases, 1, 1'000'000'000, "How many cases");
+      add_number<std::uint64_t>(*command, "--cases", a->cases, 1, kMostCases, "How many cases");
   command->add_option("--time", a->time, "How long, in place of --cases: 90s, 15m, 1h")->excludes(cases);
   command->add_option("--seed", a->seed, "Another seed makes other cases; the same one the same")
       ->capture_default_str();
@@ -293,8 +322,8 @@ void add_hunt(CLI::App& app, int& exit_code) {
   add_subject_options(*command, a->from);
   command->remove_option(command->get_option("--isolate"));  // that is so unless --in-process is given
   command->footer(
-      "A finding is what was seen at one check in one kind of neighbourhood, however often, unless the same "
-      "was seen where there is less; one for each kind of vertex is shrunk to few faces. Exit codes: 0 "
+      "A finding is what was seen at one check in one kind of neighbourhood, however often, unless it was "
+      "seen in a simpler neighbourhood; one for each kind of vertex is shrunk to few faces. Exit codes: 0 "
       "nothing new was found, 1 findings, 2 bad usage or input, or nothing was judged; 130 and the like "
       "after a signal, with a report of the cases so far.");
   command->callback([a, &exit_code] { exit_code = hunt(*a); });

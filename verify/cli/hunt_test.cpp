@@ -16,7 +16,7 @@ class HuntCommand : public CommandTest {
  protected:
   // Without what differs from run to run.
   json report(const std::string& file) const {
-    json r = json::parse(read(file));
+    json r = json_in(file);
     r.erase("seconds"), r.erase("digest");  // the digest is of the seconds, too
     return r;
   }
@@ -28,8 +28,8 @@ class HuntCommand : public CommandTest {
 TEST_F(HuntCommand, SmallMeshesAndCommandsShowWhatWasFound) {
   const Outcome o = run(std::string(kHunt) + "--json r.json --junit r.xml --witnesses w");
   EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_NE(o.out.find("beside another extraordinary one"), std::string::npos) << o.out;
-  EXPECT_NE(read("r.xml").find("beside another extraordinary one"), std::string::npos);
+  EXPECT_TRUE(says(o.out, "beside another extraordinary one"));
+  EXPECT_TRUE(says(read("r.xml"), "beside another extraordinary one"));
   const json r = report("r.json");
   int small = 0;
   for (const json& f : r["findings"]) {
@@ -42,7 +42,7 @@ TEST_F(HuntCommand, SmallMeshesAndCommandsShowWhatWasFound) {
   }
   EXPECT_GT(small, 0);
   for (const auto& file : std::filesystem::directory_iterator(folder_))
-    EXPECT_EQ(file.path().string().find(".part"), std::string::npos) << file.path();
+    EXPECT_FALSE(says(file.path().string(), ".part")) << file.path();
   const Outcome again = run(std::string(kHunt) + "--baseline r.json");
   EXPECT_EQ(again.code, 0) << again.out;
 }
@@ -55,21 +55,15 @@ TEST_F(HuntCommand, PartsAreMergedToTheWhole) {
     EXPECT_EQ(run(std::string(kHunt) + "--jobs 2 --shard " + k + "/2 --json part" + k + ".json").code, 1);
   EXPECT_EQ(run("merge part2.json part1.json -o merged.json").code, 1);
   EXPECT_EQ(report("merged.json"), report("whole.json"));
-  for (const char* wrong :
-       {"part1.json", "part1.json part1.json", "part1.json whole.json", "part1.json nothing.json"}) {
-    const Outcome o = run(std::string("merge -o wrong.json ") + wrong);
-    EXPECT_EQ(o.code, 2) << wrong;
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "wrong.json"));
-  }
+  expect_refused("merge -o wrong.json",
+                 {"part1.json", "part1.json part1.json", "part1.json whole.json", "part1.json nothing.json"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "wrong.json"));
 }
 
 TEST_F(HuntCommand, OneThatWasKilledGoesOnWhereItWas) {
   EXPECT_EQ(run(std::string(kHunt) + "--json whole.json --jobs 2").code, 1);
-  write("kill.sh",
-        std::string("'" LIMITCHECK_PROGRAM "' ") + kHunt +
-            "--json r.json --jobs 2 > out 2>&1 &\nfor k in {1..400}; do [ -e r.json.part1 ] && break; sleep "
-            "0.05; done\nkill -KILL $!\nwait $!\nsleep 1\n");
-  (void)std::system(("cd '" + folder_.string() + "' && bash kill.sh 2> /dev/null").c_str());
+  (void)signalled(std::string(kHunt) + "--json r.json --jobs 2", "[ -e r.json.part1 ]", "KILL");
+  (void)shell("sleep 1");
   const Outcome o = run(std::string(kHunt) + "--json r.json --jobs 2 --resume");
   EXPECT_EQ(o.code, 1) << o.err;
   EXPECT_EQ(report("r.json"), report("whole.json"));
@@ -79,13 +73,11 @@ TEST_F(HuntCommand, OneThatWasKilledGoesOnWhereItWas) {
 }
 
 TEST_F(HuntCommand, ASignalEndsItWithWhatItHas) {
-  write("stop.sh", std::string("'" LIMITCHECK_PROGRAM "' ") +
-                       "hunt sliding-window --time 1h --attempts 0 --json r.json > out 2>&1 &\nsleep 2\nkill "
-                       "-TERM $!\nwait $!\necho $? > code\n");
-  (void)std::system(("cd '" + folder_.string() + "' && bash stop.sh 2> /dev/null").c_str());
-  EXPECT_EQ(read("code"), "143\n") << read("out");
+  const Outcome o =
+      signalled("hunt sliding-window --time 1h --attempts 0 --json r.json", "[ $k = 40 ]", "TERM");
+  EXPECT_EQ(o.code, 143) << o.out;
   EXPECT_EQ(report("r.json")["incomplete"], "interrupted by SIGTERM");
-  EXPECT_NE(read("out").find("INCOMPLETE"), std::string::npos);
+  EXPECT_TRUE(says(o.out, "INCOMPLETE"));
 }
 
 TEST_F(HuntCommand, ASubjectThatDiesIsAFinding) {
@@ -99,15 +91,11 @@ TEST_F(HuntCommand, ASubjectThatDiesIsAFinding) {
 }
 
 TEST_F(HuntCommand, NonsenseIsRefused) {
-  for (const char* arguments :
-       {"", "nosuch", "row-stream --cases 0", "row-stream --time 0", "row-stream --time 5q",
-        "row-stream --time -3s", "row-stream --shard 3/2", "row-stream --shard 1", "row-stream --resume",
-        "row-stream --cases 3 --time 3s", "all", "openmesh --scheme loop --option a=b",
-        "row-stream --baseline nothing.json", "row-stream --json x --junit x"}) {
-    const Outcome o = run(std::string("hunt ") + arguments);
-    EXPECT_EQ(o.code, 2) << arguments;
-    EXPECT_FALSE(o.err.empty()) << arguments;
-  }
+  expect_refused("hunt", {"", "nosuch", "row-stream --cases 0", "row-stream --time 0", "row-stream --time 5q",
+                          "row-stream --time -3s", "row-stream --shard 3/2", "row-stream --shard 1",
+                          "row-stream --resume", "row-stream --cases 3 --time 3s", "all",
+                          "openmesh --scheme loop --option a=b", "row-stream --baseline nothing.json",
+                          "row-stream --json x --junit x"});
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Parts of audits and proofs, merged, are the report of the whole; and a part that was killed goes on.
+// An audit that SIGKILL ends loses nothing but the mesh it was at.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,6 +16,8 @@ namespace limitcheck::cli {
 namespace {
 
 using nlohmann::json;
+
+constexpr const char* kSecond = "[ \"$(cat n 2> /dev/null)\" = 2 ]";  // the second case has begun
 
 class Merge : public CommandTest {
  protected:
@@ -51,7 +55,7 @@ TEST_F(Merge, AuditsAreTheWhole) {
   EXPECT_EQ(run(all + "--json whole.json").code, 1);
   EXPECT_EQ(in_parts(all, 3).code, 1);
   EXPECT_EQ(without_times("merged.json"), without_times("whole.json"));
-  const json report = json::parse(read("merged.json"));
+  const json report = json_in("merged.json");
   EXPECT_GT(report["causes"].size(), 3U);
   EXPECT_GT(report["results"].size(), 500U);
   EXPECT_GT(report["seconds"], 0);
@@ -77,10 +81,10 @@ TEST_F(Merge, BaselinesWaiversAndJUnitAreOfTheWhole) {
   EXPECT_EQ(run(std::string(kFaulty) + "--depth 2 --json whole.json").code, 1);
   const Outcome o = in_parts(std::string(kFaulty) + "--depth 2", 2, "--baseline whole.json --junit j.xml");
   EXPECT_EQ(o.code, 0) << o.out << o.err;
-  EXPECT_NE(read("j.xml").find("testsuite"), std::string::npos);
+  EXPECT_TRUE(says(read("j.xml"), "testsuite"));
   for (const char* option : {"--baseline whole.json", "--waivers whole.json", "--require positions"})
-    EXPECT_NE(run(std::string(kFaulty) + "--shard 1/2 --json x.json " + option).err.find("limitcheck merge"),
-              std::string::npos);
+    EXPECT_TRUE(
+        says(run(std::string(kFaulty) + "--shard 1/2 --json x.json " + option).err, "limitcheck merge"));
   EXPECT_EQ(run("merge part1.json part2.json -o x.json --require normals").code, 1);
 }
 
@@ -91,17 +95,17 @@ TEST_F(Merge, WrongPartsAreRefused) {
       run("audit naive octahedron tetrahedron --depth 2 --level quick --shard 2/2 --json other.json").code,
       0);
   EXPECT_EQ(run(all + "--json whole.json").code, 0);
-  json part = json::parse(read("part2.json"));
+  json part = json_in("part2.json");
   part["results"].erase(0);
   part.erase("digest");
   write("less.json", verify::sealed(part));
   part["incomplete"] = "interrupted by SIGINT";
   write("interrupted.json", verify::sealed(part));
   part["incomplete"] = "";
-  part["digest"] = json::parse(read("part2.json"))["digest"];
+  part["digest"] = json_in("part2.json")["digest"];
   write("altered.json", part.dump());
   struct {
-    const char *parts, *says;
+    const char *parts, *sentence;
   } const wrong[]{{"part1.json", "shard 2/2 is missing"},
                   {"part1.json part2.json part1.json", "shard 1/2 is there twice"},
                   {"part1.json other.json", "shard 2/2 is of another plan than shard 1/2"},
@@ -110,33 +114,26 @@ TEST_F(Merge, WrongPartsAreRefused) {
                   {"part1.json altered.json", "altered.json: it was altered or damaged"},
                   {"part1.json whole.json", "whole.json: this is no part that --shard has made"},
                   {"part1.json nothing.json", "nothing.json"}};
-  for (const auto& [parts, says] : wrong) {
+  for (const auto& [parts, sentence] : wrong) {
     const Outcome o = run(std::string("merge -o wrong.json ") + parts);
     EXPECT_EQ(o.code, 2) << parts;
-    EXPECT_NE(o.err.find(says), std::string::npos) << o.err;
+    EXPECT_TRUE(says(o.err, sentence));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "wrong.json"));
   }
-  for (const char* arguments :
-       {"--shard 1/2", "--shard 1/2 --json", "--shard 3/2 --json x.json", "--shard x --json x.json"})
-    EXPECT_EQ(run("audit naive tetrahedron " + std::string(arguments)).code, 2) << arguments;
+  expect_refused("audit naive tetrahedron", {"--shard 1/2", "--shard 1/2 --json", "--shard 3/2 --json x.json",
+                                             "--shard x --json x.json"});
 }
 
 TEST_F(Merge, AShardThatWasKilledGoesOnWhereItWas) {
   // The second case hangs until there is `go`.
-  write(
-      "slow.sh",
-      "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
-      "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
-      "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line || exit 0\n"
-      "n=$(cat n 2> /dev/null || echo 0); n=$((n + 1)); echo $n > n\n"
-      "if [ $n = 2 ] && [ ! -e go ]; then sleep 1000; fi\n"
-      "echo '{\"status\": \"failed\", \"message\": \"no\"}'\n");
+  write("slow.sh", kTellsWhatItCan +
+                       "n=$(cat n 2> /dev/null || echo 0); n=$((n + 1)); echo $n > n\n"
+                       "if [ $n = 2 ] && [ ! -e go ]; then sleep 1000; fi\n"
+                       "echo '{\"status\": \"failed\", \"message\": \"no\"}'\n");
   const std::string all =
       "audit --program 'bash slow.sh' tetrahedron wheel:5 octahedron wheel:7 --depth 1 --level quick ";
-  write("kill.sh", "'" LIMITCHECK_PROGRAM "' " + all +
-                       "--shard 1/2 --json part1.json > out 2>&1 &\nfor k in {1..600}; do [ \"$(cat n 2> "
-                       "/dev/null)\" = 2 ] && break; sleep 0.05; done\nkill -KILL $!\nwait $!\ntouch go\n");
-  (void)std::system(("cd '" + folder_.string() + "' && bash kill.sh 2> /dev/null").c_str());
+  (void)signalled(all + "--shard 1/2 --json part1.json", kSecond, "KILL");
+  write("go", "");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "part1.jsonl"));
   EXPECT_EQ(run(all + "--shard 2/2 --json part1.json --resume").code, 2) << "another shard";
   EXPECT_EQ(run(all + "--shard 1/2 --json part1.json --resume").code, 1);
@@ -157,7 +154,7 @@ TEST_F(Merge, ProofsAreTheWhole) {
 
   // The last unit are the stock shapes: mesh, kernel, depth, points, position, normal, ...
   const auto last = [](json& part) -> json& { return part["results"].back(); };
-  json parts[]{json::parse(read("part1.json")), json::parse(read("part2.json"))};
+  json parts[]{json_in("part1.json"), json_in("part2.json")};
   const std::size_t holder = last(parts[0])[0] > last(parts[1])[0] ? 0 : 1;
   const std::string sound = holder == 0 ? "part2.json" : "part1.json";
   const auto merged_with = [&](const std::function<void(json&)>& edit) {
@@ -171,14 +168,72 @@ TEST_F(Merge, ProofsAreTheWhole) {
   for (const std::size_t figure : {4, 5}) {
     const Outcome o = merged_with([&](json& lines) { lines[3][figure] = .5; });
     EXPECT_EQ(o.code, 1) << figure << o.out;
-    EXPECT_FALSE(json::parse(read("edited-whole.json"))["held"].get<bool>()) << figure;
-    EXPECT_NE(o.out.find("EXCEEDED"), std::string::npos) << o.out;
+    EXPECT_FALSE(json_in("edited-whole.json")["held"].get<bool>()) << figure;
+    EXPECT_TRUE(says(o.out, "EXCEEDED"));
   }
   for (const json& nothing : {json(), json::array()}) {
     EXPECT_EQ(merged_with([&](json& lines) { lines = nothing; }).code, 1);
-    EXPECT_FALSE(json::parse(read("edited-whole.json"))["complete"].get<bool>());
+    EXPECT_FALSE(json_in("edited-whole.json")["complete"].get<bool>());
   }
   EXPECT_EQ(merged_with([](json& lines) { lines.erase(3); }).code, 1);
+}
+
+class Resume : public CommandTest {
+ protected:
+  // Says what it can do and fails, counting how often; from the second time on it does not answer until there
+  // is `go`.
+  void SetUp() override {
+    CommandTest::SetUp();
+    write("m.off", kVertices + "4 0 1 2 3\n4 4 5 6 7\n");
+    write("fails.sh", kTellsWhatItCan +
+                          "n=$(cat n 2> /dev/null || echo 0); n=$((n + 1)); echo $n > n\n"
+                          "if [ $n -ge 2 ] && [ ! -e go ]; then sleep 1000; fi\n"
+                          "echo \"{\\\"status\\\": \\\"failed\\\", \\\"message\\\": \\\"time $n\\\"}\"\n");
+    (void)signalled(kArguments, kSecond, "KILL");
+    write("go", "");
+  }
+  static inline const std::string kVertices =
+      "OFF\n8 2 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n-1 1 1\n5 0 0\n5 1 0\n";
+  static constexpr const char* kArguments =
+      "audit --program 'bash fails.sh' tetrahedron octahedron m.off --depth 1 --level quick --json r.json ";
+};
+
+TEST_F(Resume, AnAuditThatWasKilledGoesOnWhereItWas) {
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));
+  const std::string journal = read("r.jsonl");
+  EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 2) << journal;
+  std::ofstream(folder_ / "r.jsonl", std::ios::app) << R"({"subject": "prog)";  // killed while it wrote
+
+  const Outcome o = run(std::string(kArguments) + "--resume");
+  EXPECT_EQ(o.code, 1) << o.err;
+  const json report = json_in("r.json");
+  EXPECT_TRUE(report["incomplete"].is_null());
+  const auto said = [&](const char* mesh) {
+    for (const json& r : report["results"])
+      if (r["mesh"] == mesh && r["check"] == "tessellates") return r["message"].get<std::string>();
+    return std::string("no row");
+  };
+  EXPECT_TRUE(says(said("tetrahedron"), "time 1")) << "not asked again: ";
+  EXPECT_TRUE(says(said("octahedron"), "time 3"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.jsonl")) << "the report has it all";
+}
+
+TEST_F(Resume, AnotherAuditIsNotResumed) {
+  for (const auto& [was, is] :
+       {std::pair{"--depth 1", "--depth 2"}, std::pair{"--level quick", "--level standard"},
+        std::pair{"octahedron", "icosahedron"}}) {
+    std::string other = kArguments;
+    other.replace(other.find(was), std::string(was).size(), is);
+    const Outcome o = run(other + "--resume");
+    EXPECT_EQ(o.code, 2) << other;
+    EXPECT_TRUE(says(o.err, "--resume: r.jsonl is of another plan"));
+  }
+  write("m.off", kVertices + "3 0 1 2\n5 3 4 5 6 7\n");  // the same corners in faces of other sizes
+  const Outcome o = run(std::string(kArguments) + "--resume");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(says(o.err, "--resume: r.jsonl is of another plan"));
+  EXPECT_TRUE(says(run("audit naive tetrahedron --resume").err, "--resume needs --json"));
+  EXPECT_TRUE(says(run("audit naive tetrahedron --json none.json --resume").err, "there is no none.jsonl"));
 }
 
 }  // namespace

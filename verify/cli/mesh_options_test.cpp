@@ -42,7 +42,7 @@ TEST_F(Scheme, LoopsTakesPolygonsThatAreCutOnRequestAndSaysHowMany) {
     EXPECT_EQ(o.code, 0) << command << o.out << o.err;
     EXPECT_EQ(first_line(o.out), kCut) << command;
   }
-  const auto json = nlohmann::json::parse(run("tessellate quad-cube --depth 1 --triangulate fan --json").out);
+  const auto json = json_of("tessellate quad-cube --depth 1 --triangulate fan --json");
   EXPECT_EQ(json["scheme"], "loop");
   EXPECT_EQ(json["faces_cut"], 6);
   EXPECT_EQ(json["faces"], 12);
@@ -60,14 +60,14 @@ TEST_F(Scheme, PolygonsAreRefusedForLoopsInASentenceThatNamesTheWaysOut) {
       EXPECT_EQ(o.out, "") << command;
       for (const char* part :
            {"6 of 6 faces are no triangles", "leave out --scheme loop", "--triangulate fan"})
-        EXPECT_NE(o.err.find(part), std::string::npos) << command << ": " << o.err;
+        EXPECT_TRUE(says(o.err, part)) << command;
     }
   }
 }
 
 TEST_F(Scheme, OfATessellationIsThatOfTheMesh) {
   for (const std::string mesh : {"quad-cube", "prism:5", "creased-cube", "creased-cube:2", "mixed-sharp:3"}) {
-    const auto json = nlohmann::json::parse(run("tessellate --depth 2 --json " + mesh).out);
+    const auto json = json_of("tessellate --depth 2 --json " + mesh);
     EXPECT_EQ(json["scheme"], "catmull-clark") << mesh;
     EXPECT_EQ(json["engine"], "row-stream") << mesh;
     EXPECT_GT(json["triangles"], 0) << mesh;
@@ -77,7 +77,7 @@ TEST_F(Scheme, OfATessellationIsThatOfTheMesh) {
   EXPECT_EQ(run("tessellate dart:5").code, 0);
   const Outcome sharp = run("tessellate sharp:3");
   EXPECT_EQ(sharp.code, 2) << "silence would be the surface without the edges";
-  EXPECT_NE(sharp.err.find("semi-sharp"), std::string::npos) << sharp.err;
+  EXPECT_TRUE(says(sharp.err, "semi-sharp"));
 }
 
 // What is written is the surface: the audit judges the files like anybody's.
@@ -102,13 +102,13 @@ TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
   EXPECT_EQ(first_line(run(subject + "octahedron --scheme catmull-clark").out),
             "scheme: catmull-clark (--scheme)");
 
-  const auto json = nlohmann::json::parse(run(subject + "octahedron prism.off --json").out);
+  const auto json = json_of(subject + "octahedron prism.off --json");
   EXPECT_EQ(json["meshes"][0]["scheme"], "loop");
   EXPECT_EQ(json["meshes"][1]["scheme"], "catmull-clark");
   for (const auto& row : json["results"])
     EXPECT_EQ(row["scheme"], row["mesh"] == "octahedron" ? "loop" : "catmull-clark") << row["check"];
   EXPECT_TRUE(json["meshes"][1]["triangulated"].is_null());
-  const auto cut = nlohmann::json::parse(run(subject + "prism.off --triangulate fan --json").out);
+  const auto cut = json_of(subject + "prism.off --triangulate fan --json");
   EXPECT_EQ(cut["meshes"][0]["triangulated"], "fan");
   EXPECT_EQ(cut["meshes"][0]["faces"], 16);
 }
@@ -116,7 +116,7 @@ TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
 TEST_F(Scheme, OfASubjectThatDoesLoopsOnlyLeadsToTriangulate) {
   const Outcome o = run("audit model quad-cube --depth 1 --level quick");
   EXPECT_EQ(o.code, 2) << o.out;
-  EXPECT_NE(o.out.find("does Loop's scheme only needs --triangulate"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out, "does Loop's scheme only needs --triangulate"));
   EXPECT_EQ(run("audit model quad-cube --depth 1 --level quick --triangulate fan").code, 0);
   EXPECT_EQ(run("audit model quad-cube cube --depth 1 --level quick").code, 0) << "one of them is judged";
 }
@@ -141,7 +141,7 @@ TEST_F(Scheme, WhatIsNoManifoldOnceItIsCutIsRefused) {
   EXPECT_EQ(run("eval book.obj 0 0 0").code, 0);
   const Outcome o = run("tessellate book.obj --triangulate fan");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("edge 1–3 has 4 faces (1, 1, 2, 2)"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "edge 1–3 has 4 faces (1, 1, 2, 2)"));
 }
 
 }  // namespace

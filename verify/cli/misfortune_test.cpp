@@ -13,16 +13,7 @@
 namespace limitcheck::cli {
 namespace {
 
-class Misfortune : public CommandTest {
- protected:
-  /// A script for the shell, in which `limitcheck` is the program. Its output is .stdout and .stderr.
-  Outcome shell(const std::string& script) const {
-    write("script.sh", "limitcheck() { \"" LIMITCHECK_PROGRAM "\" \"$@\"; }\n" + script + "\n");
-    const int status = std::system(
-        ("cd '" + folder_.string() + "' && bash script.sh > .stdout 2> .stderr < /dev/null").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
-  }
-};
+class Misfortune : public CommandTest {};
 
 constexpr const char* kQuickAudit = "limitcheck audit naive tetrahedron --depth 1 --level quick ";
 
@@ -59,12 +50,9 @@ TEST_F(Misfortune, AMeshOfAbsurdSizeIsRefusedOrNotJudged) {
   }
   tetrahedron("e35");
   const std::string table = run("audit row-stream e35.obj --depth 1").out;
-  EXPECT_NE(table.find("not supported: e35.obj: the largest coordinate is 1e+35: with single precision"),
-            std::string::npos)
-      << table;
-  EXPECT_EQ(run("audit opensubdiv-far:precision=double e35.obj --depth 1 --level quick")
-                .out.find("not supported: "),
-            std::string::npos);
+  EXPECT_TRUE(says(table, "not supported: e35.obj: the largest coordinate is 1e+35: with single precision"));
+  EXPECT_FALSE(says(run("audit opensubdiv-far:precision=double e35.obj --depth 1 --level quick").out,
+                    "not supported: "));
 }
 
 TEST_F(Misfortune, ClosedStreamsDoNotLandInTheFiles) {
@@ -80,14 +68,14 @@ TEST_F(Misfortune, ClosedStreamsDoNotLandInTheFiles) {
 TEST_F(Misfortune, AReaderThatGoesAwayCostsNoReport) {
   (void)shell(kQuickAudit + std::string("--json report.json --junit report.xml | true"));
   EXPECT_TRUE(nlohmann::json::accept(read("report.json")));
-  EXPECT_NE(read("report.xml").find("</testsuites>"), std::string::npos);
+  EXPECT_TRUE(says(read("report.xml"), "</testsuites>"));
 }
 
 TEST_F(Misfortune, AReportThroughAPipeOrALinkLeavesThePipeAndTheLink) {
   Outcome o = shell("mkfifo pipe; cat pipe > got & " + std::string(kQuickAudit) +
                     "--junit pipe > table; code=$?; wait; test -p pipe || exit 9; exit $code");
   EXPECT_LE(o.code, 1) << o.err;
-  EXPECT_NE(read("got").find("</testsuites>"), std::string::npos);
+  EXPECT_TRUE(says(read("got"), "</testsuites>"));
   for (const std::string& command : {std::string(kQuickAudit) + "--json link.obj.json > table",
                                      std::string("limitcheck generate icosahedron -o link.obj"),
                                      std::string("limitcheck tessellate icosahedron -o link.obj")}) {
@@ -102,7 +90,7 @@ TEST_F(Misfortune, AReportWhereADirectoryIsLeavesNothingBehind) {
       shell("mkdir report.json; " + std::string(kQuickAudit) + "--json report.json; code=$?; ls; exit $code");
   EXPECT_EQ(o.code, 2) << o.err;
   EXPECT_TRUE(o.out.ends_with("report.json\nscript.sh\n")) << o.out;
-  EXPECT_NE(o.out.find("positions"), std::string::npos) << "the table is there all the same";
+  EXPECT_TRUE(says(o.out, "positions")) << "the table is there all the same";
 }
 
 // A sanitizer needs more addresses than it is left here.
@@ -120,8 +108,7 @@ TEST_F(Misfortune, MorePointsThanMemoryAreRefusedBeforeHoursOfSwapping) {
   const Outcome o = run("audit naive bumpy:4000 --depth 12");
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find("bumpy:4000: the audit of 3.36e+10 points needs some 11753 GB"), std::string::npos)
-      << o.err;
+  EXPECT_TRUE(says(o.err, "bumpy:4000: the audit of 3.36e+10 points needs some 11753 GB"));
 }
 
 TEST_F(Misfortune, FilesThatAreNoneAreRefused) {
@@ -134,7 +121,7 @@ TEST_F(Misfortune, FilesThatAreNoneAreRefused) {
   const Outcome o =
       shell("truncate -s 5G large.obj; limitcheck eval large.obj 0 0 0; code=$?; rm large.obj; exit $code");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("FILE_TOO_LARGE"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "FILE_TOO_LARGE"));
 }
 
 TEST_F(Misfortune, OptionsThatNameNoFileOrNoNumberAreRefusedAtOnce) {
@@ -164,7 +151,7 @@ TEST_F(Misfortune, OptionsThatNameNoFileOrNoNumberAreRefusedAtOnce) {
         "'" LIMITCHECK_PROGRAM "' audit naive tetrahedron --depth 1 --level quick " +
         std::string(c.options) + " > table; code=$?; test -s r.json && exit 9; exit $code");
     EXPECT_EQ(o.code, 2) << c.options << o.err;
-    EXPECT_NE(o.err.find(c.words), std::string::npos) << c.options << ": " << o.err;
+    EXPECT_TRUE(says(o.err, c.words)) << c.options;
   }
   for (const char* option : {"--tolerance nan", "--max-deviation nan", "--provenance /dev/zero",
                              "--json x.json --per-vertex x.json"})
@@ -180,7 +167,7 @@ TEST_F(Misfortune, AFileThatMayNotGrowIsAnErrorAndNotHalfAFile) {
   const Outcome o = shell("ulimit -f 1; " + std::string(kQuickAudit) +
                           "--json report.json > /dev/null; code=$?; ls; exit $code");
   EXPECT_EQ(o.code, 2) << o.err;
-  EXPECT_NE(o.err.find("FILE_CANNOT_WRITE"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "FILE_CANNOT_WRITE"));
   EXPECT_EQ(o.out, "script.sh\n");
 }
 
@@ -196,13 +183,10 @@ TEST_F(Misfortune, AWitnessIsAWholeFolderOrNone) {
 
 #ifndef LIMITCHECK_SANITIZED
 TEST_F(Misfortune, TheHostsOwnLackOfMemoryIsNotBlamedOnTheSubject) {
-  write(
-      "many.sh",
-      "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
-      "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
-      "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line\nhead -c 144 > /dev/null\n"
-      "echo '{\"status\": \"ok\"}'\nread -r line\n"
-      "echo '{\"status\": \"ok\", \"vertices\": 40000000, \"triangles\": 4}'\nsleep 1\n");
+  write("many.sh", kTellsWhatItCan +
+                       "head -c 144 > /dev/null\n"
+                       "echo '{\"status\": \"ok\"}'\nread -r line\n"
+                       "echo '{\"status\": \"ok\", \"vertices\": 40000000, \"triangles\": 4}'\nsleep 1\n");
   const Outcome o = shell(
       "ulimit -v 1500000; limitcheck audit --program 'bash many.sh' tetrahedron --depth 0 --level quick "
       "--json -");
@@ -227,44 +211,34 @@ TEST_F(Misfortune, NamesMayHaveSpacesQuotesAndOtherAlphabets) {
 TEST_F(Misfortune, ASignalEndsWhatTakesLong) {
   for (const std::string& command : {std::string("audit naive bumpy:4000 --depth 6 --json r.json"),
                                      std::string("audit naive bipyramid:60000 --depth 1 --json r.json")}) {
-    const Outcome o = shell("rm -f r.*\nenv --default-signal '" LIMITCHECK_PROGRAM "' " + command +
-                            " --level quick &\nwhile [ ! -e r.jsonl ]; do sleep 0.05; done\nsleep 0.5\n"
-                            "kill -TERM $!\nwait $!");
+    std::filesystem::remove(folder_ / "r.jsonl");
+    const Outcome o = signalled(command + " --level quick", "[ -e r.jsonl ] && sleep 0.5", "TERM");
     EXPECT_EQ(o.code, 143) << command << o.err;
-    EXPECT_NE(o.out.find("INCOMPLETE: interrupted by SIGTERM"), std::string::npos) << o.out;
-    EXPECT_EQ(nlohmann::json::parse(read("r.json"))["incomplete"], "interrupted by SIGTERM");
+    EXPECT_TRUE(says(o.out, "INCOMPLETE: interrupted by SIGTERM"));
+    EXPECT_EQ(json_in("r.json")["incomplete"], "interrupted by SIGTERM");
   }
 }
 
 TEST_F(Misfortune, ASignalEndsTheQuestionWhetherBrokenMeshesAreRefused) {
   write("mute.sh", "touch asked\nsleep 1000\n");
   write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n");
-  const Outcome o = shell("env --default-signal '" LIMITCHECK_PROGRAM
-                          "' audit --must-refuse --program 'bash mute.sh' broken.obj &\n"
-                          "while [ ! -e asked ]; do sleep 0.05; done\nkill -TERM $!\nwait $!");
+  const Outcome o =
+      signalled("audit --must-refuse --program 'bash mute.sh' broken.obj", "[ -e asked ]", "TERM");
   EXPECT_EQ(o.code, 143) << o.out << o.err;
 }
 
 TEST_F(Misfortune, ASignalLeavesAPartialReportAndNoProcess) {
   // Says what it can do, and is silent from then on.
-  write(
-      "mute.sh",
-      "read -r line\necho '{\"limitcheck\": 1, \"status\": \"ok\", \"precision\": \"float64\", \"weights\": "
-      "\"loop\", \"boundary\": \"spline\", \"points\": \"limit\", \"max_depth\": 6, \"normals\": true, "
-      "\"per_face_depth\": false, \"exact_lattice\": true}'\nread -r line\ntouch asked\nsleep 123456 "
-      "&\nwait\n");
+  write("mute.sh", kTellsWhatItCan + "touch asked\nsleep 123456 &\nwait\n");
   for (const auto& [signal, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}, std::pair{"HUP", 129}}) {
-    const Outcome o = shell(
-        "rm -f asked r.jsonl\nenv --default-signal '" LIMITCHECK_PROGRAM
-        "' audit --program 'bash mute.sh' tetrahedron icosahedron --depth 1 --level quick --json r.json &\n"
-        "while [ ! -e asked ]; do sleep 0.05; done\nsleep 0.2\nkill -" +
-        std::string(signal) + " $!\nwait $!\ncode=$?\n" +
-        "for k in {1..100}; do grep -aqs 'sle[e]p.123456' /proc/[0-9]*/cmdline || exit $code; sleep 0.05; "
-        "done\nexit "
-        "9");
+    std::filesystem::remove(folder_ / "asked");
+    std::filesystem::remove(folder_ / "r.jsonl");
+    const Outcome o = signalled(
+        "audit --program 'bash mute.sh' tetrahedron icosahedron --depth 1 --level quick --json r.json",
+        "[ -e asked ] && sleep 0.2", signal, "123456");
     EXPECT_EQ(o.code, code) << signal << o.err;
-    EXPECT_NE(o.out.find("INCOMPLETE: interrupted by SIG" + std::string(signal)), std::string::npos) << o.out;
-    const auto report = nlohmann::json::parse(read("r.json"));
+    EXPECT_TRUE(says(o.out, "INCOMPLETE: interrupted by SIG" + std::string(signal)));
+    const auto report = json_in("r.json");
     EXPECT_EQ(report["incomplete"], "interrupted by SIG" + std::string(signal));
     EXPECT_EQ(report["held"], false);
     EXPECT_GT(report["results"].size(), 10U) << "a row for each check of the mesh that was begun";

@@ -24,6 +24,9 @@ namespace fs = std::filesystem;
 class TessellateCommand : public CommandTest {
  protected:
   Outcome run(const std::string& arguments) const { return CommandTest::run("tessellate " + arguments); }
+  nlohmann::json json_of(const std::string& arguments, int code = 0) const {
+    return CommandTest::json_of("tessellate " + arguments, code);
+  }
 };
 
 TEST_F(TessellateCommand, WritesAClosedManifoldWithEveryTriangleItReports) {
@@ -57,14 +60,12 @@ TEST_F(TessellateCommand, TellsOfSubstituteNormalsAndOnlyThen) {
   }
   const Outcome o = run("needle.obj --depth 2 -o needle.ply");
   EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_NE(o.out.find("substitute normals"), std::string::npos) << o.out << o.err;
-  EXPECT_EQ(run("tetrahedron --depth 2").out.find("substitute"), std::string::npos);
+  EXPECT_TRUE(says(o.out, "substitute normals"));
+  EXPECT_FALSE(says(run("tetrahedron --depth 2").out, "substitute"));
 }
 
 TEST_F(TessellateCommand, CountsWhatTheDesignNamesAndTimesEachStage) {
-  const Outcome o = run("bumpy:800 --camera 0,0,4:0,0,0 --json");
-  ASSERT_EQ(o.code, 0) << o.err;
-  const auto json = nlohmann::json::parse(o.out);
+  const auto json = json_of("bumpy:800 --camera 0,0,4:0,0,0 --json", 0);
   for (const char* key : {"faces", "pairs", "singletons", "fans", "culled", "triangles", "vertices"}) {
     EXPECT_TRUE(json[key].is_number_integer()) << key;
   }
@@ -80,14 +81,13 @@ TEST_F(TessellateCommand, CountsWhatTheDesignNamesAndTimesEachStage) {
 
 // 4^3 triangles per face; a closed surface of genus 0 has F / 2 + 2 vertices.
 TEST_F(TessellateCommand, WithoutOptionsIsUniformOfDepthThree) {
-  const auto json = nlohmann::json::parse(run("octahedron --json").out);
+  const auto json = json_of("octahedron --json");
   EXPECT_EQ(json["strategy"], "uniform");
   EXPECT_EQ(json["triangles"], 8 * 64);
   EXPECT_EQ(json["vertices"], 8 * 32 + 2);
   EXPECT_EQ(json["culled"], 0);
-  EXPECT_NE(run("octahedron")
-                .out.find("8 faces: 4 pairs, 0 singletons, 0 fans, 0 culled; 512 triangles, 258 vertices"),
-            std::string::npos);
+  EXPECT_TRUE(says(run("octahedron").out,
+                   "8 faces: 4 pairs, 0 singletons, 0 fans, 0 culled; 512 triangles, 258 vertices"));
 }
 
 TEST_F(TessellateCommand, WritesTheSameBytesWithAnyNumberOfThreadsAndOtherOnesWithAnotherSeed) {
@@ -108,9 +108,8 @@ TEST_F(TessellateCommand, StreamsRowsByDefaultAndKeepsThePapersFormOnRequest) {
   for (const char* what : {"bumpy:200 --depth 3", "bumpy:200 --strategy random --depth 4",
                            "bumpy:200 --strategy random --depth 4 --repair stitch"}) {
     const std::string name(what);
-    const auto rows = nlohmann::json::parse(run(name + " --json -o rows.ply").out);
-    const auto window =
-        nlohmann::json::parse(run(name + " --json -o window.ply --engine sliding-window").out);
+    const auto rows = json_of(name + " --json -o rows.ply");
+    const auto window = json_of(name + " --json -o window.ply --engine sliding-window");
     EXPECT_EQ(rows["engine"], "row-stream");
     EXPECT_EQ(window["engine"], "sliding-window");
     for (const char* key :
@@ -133,9 +132,7 @@ TEST_F(TessellateCommand, StreamsRowsByDefaultAndKeepsThePapersFormOnRequest) {
 
 TEST_F(TessellateCommand, ObeysCullingCentreRepairAngleAndPixels) {
   const auto count = [&](const std::string& arguments, const char* key) {
-    const Outcome o = run("bumpy:200 --json " + arguments);
-    EXPECT_EQ(o.code, 0) << arguments << o.err;
-    return nlohmann::json::parse(o.out)[key].get<std::int64_t>();
+    return json_of("bumpy:200 --json " + arguments, 0)[key].get<std::int64_t>();
   };
   EXPECT_EQ(count("--strategy combined --no-cull", "culled"), 0);
   EXPECT_GT(count("--strategy random --cull", "culled"), 0);
@@ -156,7 +153,7 @@ TEST_F(TessellateCommand, FromInsideShowsNothingAndSaysWhy) {
   const Outcome o = run("octahedron --camera 0.01,0,0:1,0,0 -o nothing.ply --json");
   EXPECT_EQ(o.code, 0);
   EXPECT_EQ(nlohmann::json::parse(o.out)["triangles"], 0);
-  EXPECT_NE(o.err.find("is the camera inside?"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "is the camera inside?"));
   EXPECT_TRUE(fs::exists(folder_ / "nothing.ply"));
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -44,6 +46,18 @@ void write_part(const ShardArguments& arguments, const verify::Journal& journal,
 int run_units(const ShardArguments& arguments, verify::Plan plan,
               const std::function<void(verify::Journal&, Progress&)>& work,
               const std::function<int(const verify::PartReport&)>& report);
+
+/// In memory that all processes share.
+struct JobCounters {
+  std::atomic<std::uint64_t> cases, findings;
+};
+
+/// Runs work(0) .. work(jobs - 1), each in a process of its own, and waits; calls `show` about ten times a
+/// second. A signal that is noted (interrupt.h) is handed on to all. To be called before this process has
+/// threads. Returns the largest exit code, or 128 plus the number of the signal that killed one of them.
+///   work   returns its exit code; ends by itself when it is interrupted. The processes end with this one.
+int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
+             const std::function<void(const JobCounters&)>& show);
 
 /// The reports of these commands; to `json` they go as with --json. Return the exit code.
 int report_mutants(const verify::PartReport& done, const std::string& json);

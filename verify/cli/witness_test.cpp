@@ -29,7 +29,7 @@ class WitnessFiles : public CommandTest {
       const Outcome audit = run(again.substr(11) + " --json again.json");
       EXPECT_EQ(audit.code, 1) << again << audit.err;
       bool found = false;
-      const Json repeated = Json::parse(read("again.json"));
+      const Json repeated = json_in("again.json");
       for (const auto& row : repeated["results"])
         found = found || (row["check"] == check && row["status"] == json.at("status"));
       EXPECT_TRUE(found) << check << ": " << again;
@@ -84,7 +84,7 @@ TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
     EXPECT_EQ(row["triangulated"], "shortest-diagonal");
     const std::string difference = row["witness"]["difference"], audit = row["witness"]["reproduce"];
     for (const std::string& command : {difference, audit}) {
-      EXPECT_NE(command.find(" pawn.obj "), std::string::npos) << command;
+      EXPECT_TRUE(says(command, " pawn.obj "));
       EXPECT_EQ(run(command.substr(11)).code, 1) << command;
     }
     if (row["witness"]["command"].is_null()) continue;
@@ -114,7 +114,7 @@ TEST_F(WitnessFiles, OfCatmullClarksSurfacesShowTheFindingAgain) {
     for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
       const Json json = Json::parse(read(entry.path() / "witness.json"));
       EXPECT_EQ(json.at("scheme"), "catmull-clark");
-      EXPECT_NE(json.at("audit").get<std::string>().find(" --scheme catmull-clark"), std::string::npos);
+      EXPECT_TRUE(says(json.at("audit").get<std::string>(), " --scheme catmull-clark"));
     }
     fs::remove_all(folder_ / "found");
   }
@@ -128,7 +128,7 @@ TEST_F(WitnessFiles, NameTheFamilyOfWeights) {
   for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
     const Json json = Json::parse(read(entry.path() / "witness.json"));
     if (json.at("check") != "positions") continue;
-    EXPECT_NE(json.at("eval").get<std::string>().find("--weights warren"), std::string::npos);
+    EXPECT_TRUE(says(json.at("eval").get<std::string>(), "--weights warren"));
   }
 }
 
@@ -144,7 +144,7 @@ TEST_F(WitnessFiles, AreSmallAfterShrinking) {
   const Outcome o =
       run("audit model:mutation=weight_1e-6_at_valence_5 random:5:300 --depth 2 --level quick --shrink 60");
   EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_NE(o.err.find("shrunk to"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "shrunk to"));
   EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
   for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
     EXPECT_LE(data::read_mesh(entry.path() / "control.obj").faces.size(), 8U) << entry.path();
@@ -154,7 +154,7 @@ TEST_F(WitnessFiles, OfPolygonsAreSmallAfterShrinking) {
   const Outcome o = run(
       "audit quad-model:mutation=weight_1e-6_at_valence_5 mixed:4:300 --depth 2 --level quick --shrink 60");
   EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_NE(o.err.find("shrunk to"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "shrunk to"));
   EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
   for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
     EXPECT_LE(data::read_mesh(entry.path() / "control.obj").faces.size(), 8U) << entry.path();

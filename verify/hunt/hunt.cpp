@@ -2,7 +2,7 @@
 #include "verify/hunt/hunt.h"
 
 #include <algorithm>
-#include <set>
+#include <chrono>
 #include <utility>
 
 #include "data/bounding_box.h"
@@ -33,11 +33,10 @@ std::vector<const Result*> causes_in(const Report& report) {
 }
 }  // namespace
 
-Hunt::Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options, HuntReport report)
+Hunt::Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options)
     : subject_(std::move(subject)),
       plan_(std::move(plan)),
       options_(std::move(options)),
-      report_(std::move(report)),
       quick_(-1, options_.threads),
       thorough_(-1, options_.threads, {}, Level::kThorough) {}
 
@@ -58,37 +57,34 @@ Report Hunt::audit(const HuntCase& at) {
   return report;
 }
 
-bool Hunt::look(std::uint64_t number) {
+std::optional<HuntReport> Hunt::look(std::uint64_t number) {
+  const auto start = std::chrono::steady_clock::now();
   const HuntCase at = plan_.at(number);
   const Report report = audit(at);
-  if (interrupted() != 0) return false;
-  ++report_.cases;
-  report_.kinds.merge(kinds_of_edges(at.mesh));
-  report_.judged += report.looked() ? 1 : 0;
-  std::set<std::string> here;
+  if (interrupted() != 0) return std::nullopt;
+  HuntReport found;
+  found.cases = 1;
+  found.kinds = kinds_of_edges(at.mesh);
+  found.judged = report.looked() ? 1 : 0;
   for (const Result* row : causes_in(report)) {
     HuntFinding f;
     f.where = likely_cause(*row, at.mesh);
     f.signature = signature(*row, f.where);
-    if (!here.insert(f.signature).second) continue;
-    if (const auto before = report_.findings.find(f.signature); before != report_.findings.end()) {
-      ++before->second.cases;
-      continue;
-    }
     f.check = row->check, f.status = word(row->status), f.scheme = data::name_of(row->scheme);
     f.cases = 1, f.first = number;
     f.found_on = audit_command(*row, level_of(at));
     f.faces_before = static_cast<std::int64_t>(at.mesh.mesh.faces.size());
     f.depth_before = row->depth;
     f.worst = row->worst, f.bound = row->bound, f.unit = row->unit, f.message = row->message;
-    report_.findings.emplace(f.signature, f);
+    found.findings.emplace(f.signature, f);
   }
-  return true;
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return found;
 }
 
-void Hunt::shrink_findings() {
+void Hunt::shrink_findings(HuntReport& report) {
   if (options_.attempts == 0) return;
-  for (HuntFinding* f : report_.to_shrink())
+  for (HuntFinding* f : report.to_shrink())
     if (f->faces == 0 && interrupted() == 0) shrink_finding(*f);
 }
 

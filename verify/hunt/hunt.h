@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,19 +20,17 @@ struct HuntOptions {
   std::filesystem::path witnesses;  // folder for the small meshes; empty: none is written
 };
 
-/// Audits cases of a plan. What follows from another row of the case (verify/causes/causes.h) is no finding;
-/// findings with one signature are one: the first counts.
+/// Audits cases of a plan. What follows from another row of the case (verify/causes/causes.h) is no finding; of findings
+/// with one signature in a case the first counts.
 class Hunt {
  public:
-  Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options, HuntReport report);
+  Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options);
 
-  /// Audits the case; false if it was interrupted, and does not count.
-  bool look(std::uint64_t number);
+  /// What the case adds to a report; none if it was interrupted, and does not count.
+  std::optional<HuntReport> look(std::uint64_t number);
   /// Makes small meshes for the findings that are to have them (HuntReport::to_shrink) and have none; ends
   /// early if it is interrupted.
-  void shrink_findings();
-
-  const HuntReport& report() const { return report_; }
+  void shrink_findings(HuntReport& report);
 
  private:
   Report audit(const HuntCase& at);
@@ -44,7 +42,6 @@ class Hunt {
   AuditSubject subject_;
   HuntPlan plan_;
   HuntOptions options_;
-  HuntReport report_;
   Auditor quick_, thorough_;
 };
 

@@ -19,53 +19,58 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite(const std::optional<double>& x) {
-  return x && std::isfinite(*x) ? Json(*x) : Json(nullptr);
+// Each field of a finding with its key, in the order of the report.
+template <class Where, class Visit>
+void each_field_of_place(Where& where, const Visit& visit) {
+  visit("kind", where.kind), visit("valence", where.valence), visit("rank", where.rank);
+  visit("beside", where.beside), visit("depth_difference", where.difference);
 }
-std::optional<double> number_or_none(const Json& json) {
-  return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
+template <class Finding, class Visit>
+void each_field(Finding& f, const Visit& visit) {
+  visit("signature", f.signature), visit("check", f.check), visit("status", f.status);
+  visit("scheme", f.scheme), visit("severity", f.severity()), visit("where", f.where);
+  visit("cases", f.cases), visit("first", f.first), visit("found_on", f.found_on);
+  visit("faces_before", f.faces_before), visit("depth_before", f.depth_before);
+  visit("worst", f.worst), visit("bound", f.bound), visit("unit", f.unit), visit("message", f.message);
+  visit("faces", f.faces), visit("depth", f.depth), visit("witness", f.witness), visit("command", f.command);
 }
+
+struct Write {
+  Json& json;
+  template <class Value>
+  void operator()(const char* key, const Value& value) const {
+    json[key] = value;
+  }
+  void operator()(const char* key, const std::optional<double>& x) const {
+    json[key] = x && std::isfinite(*x) ? Json(*x) : Json(nullptr);
+  }
+  void operator()(const char* key, const LikelyCause& where) const {
+    each_field_of_place(where, Write{json[key]});
+  }
+};
+struct Read {
+  const nlohmann::json& json;
+  template <class Value>
+  void operator()(const char* key, Value& value) const {
+    json.at(key).get_to(value);
+  }
+  void operator()(const char* key, std::optional<double>& x) const {
+    if (json.at(key).is_number()) x = json.at(key).get<double>();
+  }
+  void operator()(const char* key, LikelyCause& where) const {
+    each_field_of_place(where, Read{json.at(key)});
+  }
+  void operator()(const char* /*severity*/, const std::string&& /*follows from the rest*/) const {}
+};
 
 Json to_json(const HuntFinding& f) {
-  return {{"signature", f.signature},
-          {"check", f.check},
-          {"status", f.status},
-          {"scheme", f.scheme},
-          {"severity", f.severity()},
-          {"where",
-           {{"kind", f.where.kind},
-            {"valence", f.where.valence},
-            {"rank", f.where.rank},
-            {"beside", f.where.beside},
-            {"depth_difference", f.where.difference}}},
-          {"cases", f.cases},
-          {"first", f.first},
-          {"found_on", f.found_on},
-          {"faces_before", f.faces_before},
-          {"depth_before", f.depth_before},
-          {"worst", finite(f.worst)},
-          {"bound", finite(f.bound)},
-          {"unit", f.unit},
-          {"message", f.message},
-          {"faces", f.faces},
-          {"depth", f.depth},
-          {"witness", f.witness},
-          {"command", f.command}};
+  Json json;
+  each_field(f, Write{json});
+  return json;
 }
-
 HuntFinding finding_of(const nlohmann::json& json) {
   HuntFinding f;
-  const auto get = [&](const char* key, auto& to) { json.at(key).get_to(to); };
-  get("signature", f.signature), get("check", f.check), get("status", f.status), get("scheme", f.scheme);
-  const Json& where = json.at("where");
-  where.at("kind").get_to(f.where.kind), where.at("valence").get_to(f.where.valence);
-  where.at("rank").get_to(f.where.rank), where.at("beside").get_to(f.where.beside);
-  where.at("depth_difference").get_to(f.where.difference);
-  get("cases", f.cases), get("first", f.first), get("found_on", f.found_on);
-  get("faces_before", f.faces_before), get("depth_before", f.depth_before);
-  f.worst = number_or_none(json.at("worst")), f.bound = number_or_none(json.at("bound"));
-  get("unit", f.unit), get("message", f.message);
-  get("faces", f.faces), get("depth", f.depth), get("witness", f.witness), get("command", f.command);
+  each_field(f, Read{json});
   return f;
 }
 
@@ -132,6 +137,49 @@ std::vector<const HuntFinding*> new_findings(const HuntReport& report, const Hun
                          [&](const auto& g) { return g.first == f->signature || g.second.covers(*f); });
     });
   return all;
+}
+
+nlohmann::json HuntReport::add(const HuntReport& more) {
+  nlohmann::json added{{"cases", more.cases}, {"judged", more.judged}, {"seconds", more.seconds}};
+  added["kinds"] = added["findings"] = nlohmann::json::array();
+  cases += more.cases, judged += more.judged, seconds += more.seconds;
+  for (const std::uint64_t kind : more.kinds)
+    if (kinds.insert(kind).second) added["kinds"].push_back(kind);
+  for (const auto& [signature, f] : more.findings) {
+    const Json told = findings.contains(signature) ? Json{{"signature", signature}} : to_json(f);
+    added["findings"].push_back(nlohmann::json(told));
+    take(findings, f);
+  }
+  return added;
+}
+
+nlohmann::json HuntReport::small_meshes() const {
+  nlohmann::json small = nlohmann::json::array();
+  for (const auto& [signature, f] : findings)
+    if (f.faces > 0) small.push_back(nlohmann::json(to_json(f)));
+  return {{"small", std::move(small)}};
+}
+
+void HuntReport::add_again(const nlohmann::json& added) try {
+  if (added.contains("small")) {
+    for (const auto& f : added.at("small")) findings[f.at("signature").get<std::string>()] = finding_of(f);
+    seconds += added.value("seconds", 0.0);
+    return;
+  }
+  cases += added.at("cases").get<std::uint64_t>(), judged += added.at("judged").get<std::int64_t>();
+  seconds += added.at("seconds").get<double>();
+  for (const std::uint64_t kind : added.at("kinds")) kinds.insert(kind);
+  for (const auto& f : added.at("findings")) {
+    const auto known = findings.find(f.at("signature").get<std::string>());
+    if (f.contains("check"))
+      take(findings, finding_of(f));
+    else if (known != findings.end())
+      ++known->second.cases;
+    else
+      throw data::ArgumentError("a finding of the journal is told nowhere");
+  }
+} catch (const Json::exception& error) {
+  throw data::ArgumentError(fmt::format("this is no journal of a hunt: {}", error.what()));
 }
 
 std::string to_json(const HuntReport& r, bool list_of_kinds) {

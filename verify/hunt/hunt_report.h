@@ -57,6 +57,14 @@ struct HuntReport {
   /// Which of these get small meshes: of each scheme, check, status and kind of neighbourhood the first of
   /// the least level. What is one of a whole hunt is one of its shard.
   std::vector<HuntFinding*> to_shrink();
+
+  /// Adds what a case has given. Returns it for a journal: without kinds of edges that were there before, and of
+  /// findings that were there only the signatures.
+  nlohmann::json add(const HuntReport& of_case);
+  /// The findings that have small meshes, for a journal.
+  nlohmann::json small_meshes() const;
+  /// Adds what a journal has of either, in the order in which it was written. Throws data::ArgumentError.
+  void add_again(const nlohmann::json& added);
 };
 
 /// As JSON. Keys: program, version, subject, seed, asked, schemes, varied, shard, cases, next, judged, edge_kinds

@@ -10,7 +10,7 @@
 namespace limitcheck::verify {
 
 /// The likely cause near the place of a finding: of the corners of its face that are not regular, and of its
-/// middle if it is cut into quads, the nearest; or of several equally near the one that most goes with.
+/// middle if it is cut into quads, the nearest; or of several equally near the least regular.
 struct LikelyCause {
   /// "regular", "inner vertex", "boundary vertex", "crease", "dart", "corner", "face"; or empty: the finding
   /// names no face, or is of a relation.

@@ -40,10 +40,10 @@ TEST(Oracle, ItsCertificatesAgreeWithEachOther) {
 TEST(Oracle, IsHuntedAsOthersAre) {
   HuntReport report;
   report.subject = "oracle";
-  Hunt hunt({&oracle_subject(), ""}, plan(2), {1, 0, ""}, report);
-  for (std::uint64_t n = 0; n < 8; ++n) EXPECT_TRUE(hunt.look(n));
-  EXPECT_EQ(hunt.report().judged, 8);
-  EXPECT_TRUE(hunt.report().findings.empty());
+  Hunt hunt({&oracle_subject(), ""}, plan(2), {1, 0, ""});
+  for (std::uint64_t n = 0; n < 8; ++n) report.add(hunt.look(n).value());
+  EXPECT_EQ(report.judged, 8);
+  EXPECT_TRUE(report.findings.empty());
 }
 
 // An oracle that evaluates a face in a part of the mesh, after a fault was planted in it.

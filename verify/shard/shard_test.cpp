@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "data/error.h"
-#include "verify/shard/journal.h"
 
 namespace limitcheck::verify {
 namespace {

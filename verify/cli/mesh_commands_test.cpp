@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// `limitcheck generate` as a user meets it.
 // `limitcheck check` and `limitcheck repair` as a user meets them.
 #include <gtest/gtest.h>
 
@@ -6,10 +7,62 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "data/generators/polygon_meshes.h"
+#include "data/io/read.h"
 #include "verify/cli/command_test.h"
 
 namespace limitcheck::cli {
 namespace {
+
+class GenerateCommand : public CommandTest {};
+
+// F = 2V - 4 on a closed surface of genus 0.                                                          [C71]
+TEST_F(GenerateCommand, WritesABumpySphereInEveryFormat) {
+  for (const char* file : {"a.obj", "a.off", "a.ply"}) {
+    const Outcome o = run(std::string("generate bumpy:200 -o ") + file);
+    ASSERT_EQ(o.code, 0) << o.err;
+    const data::ControlMesh mesh = data::read_mesh(folder_ / file);
+    EXPECT_EQ(mesh.faces.size(), 200U);
+    EXPECT_EQ(mesh.positions.size(), 102U);
+  }
+}
+
+TEST_F(GenerateCommand, TheSeedDecidesTheMesh) {
+  ASSERT_EQ(run("generate bumpy:200 -o a.obj --seed 7").code, 0);
+  ASSERT_EQ(run("generate bumpy:200 -o b.obj --seed 7").code, 0);
+  ASSERT_EQ(run("generate bumpy:200 -o c.obj --seed 8").code, 0);
+  EXPECT_EQ(read("a.obj"), read("b.obj"));
+  EXPECT_NE(read("a.obj"), read("c.obj"));
+}
+
+TEST_F(GenerateCommand, WritesPolygonsAsPolygonsInEveryFormat) {
+  for (const char* file : {"a.obj", "a.off", "a.ply"}) {
+    const Outcome o = run(std::string("generate cube-quads -o ") + file);
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_TRUE(o.err.starts_with("scheme: catmull-clark (not all faces are triangles)\n")) << o.err;
+    EXPECT_EQ(data::read_mesh(folder_ / file), data::quad_cube()) << file;
+  }
+  const Outcome cut = run("generate cube-quads -o b.obj --triangulate fan");
+  EXPECT_TRUE(cut.err.starts_with("scheme: loop (--triangulate fan cut 6 faces into triangles)\n"))
+      << cut.err;
+  EXPECT_EQ(data::read_mesh(folder_ / "b.obj").faces.size(), 12U);
+  EXPECT_EQ(run("generate dual:bumpy:20 -o c.obj --seed 5").code, 0);
+  EXPECT_NE(read("c.obj"), "");
+
+  const Outcome stl = run("generate cube-quads -o a.stl");
+  EXPECT_EQ(stl.code, 2);
+  EXPECT_TRUE(says(stl.err, "STL is read, not written"));
+}
+
+TEST_F(GenerateCommand, RefusesWithExitCodeTwoAndLeavesWhatIsThere) {
+  write("keep.obj", "precious");
+  expect_refused("generate", {"", "no-such-shape -o keep.obj", "bumpy:3 -o keep.obj", "bumpy:201 -o keep.obj",
+                              "wheel:2 -o keep.obj", "wheel:-7 -o keep.obj", "wheel:x -o keep.obj",
+                              "quad-cube -o keep.obj --scheme loop", "dual:triangle -o keep.obj",
+                              "octahedron -o keep.obj --scheme doo-sabin", "icosahedron -o keep.xyz",
+                              "icosahedron -o absent/a.obj"});
+  EXPECT_EQ(read("keep.obj"), "precious");
+}
 
 class CheckCommand : public CommandTest {};
 class RepairCommand : public CommandTest {};
@@ -23,15 +76,12 @@ TEST_F(CheckCommand, ListsEveryFaultWithItsLineAndCountsAsTheFileDoes) {
   write("broken.obj", kBroken);
   const Outcome o = run("check broken.obj");
   EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_NE(o.out.find("broken.obj:6: MESH_INDEX_OUT_OF_RANGE: face 2 names vertex 9"), std::string::npos)
-      << o.out;
-  EXPECT_NE(o.out.find("broken.obj:8: MESH_DEGENERATE_FACE: face 4 names vertex 3 twice"), std::string::npos)
-      << o.out;
-  EXPECT_NE(o.out.find("broken.obj:11: MESH_ISOLATED_VERTEX: no face names vertex 5"), std::string::npos)
-      << o.out;
-  EXPECT_NE(o.out.find("counted from 1"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out, "broken.obj:6: MESH_INDEX_OUT_OF_RANGE: face 2 names vertex 9"));
+  EXPECT_TRUE(says(o.out, "broken.obj:8: MESH_DEGENERATE_FACE: face 4 names vertex 3 twice"));
+  EXPECT_TRUE(says(o.out, "broken.obj:11: MESH_ISOLATED_VERTEX: no face names vertex 5"));
+  EXPECT_TRUE(says(o.out, "counted from 1"));
 
-  const auto json = nlohmann::json::parse(run("check broken.obj --json").out);
+  const auto json = json_of("check broken.obj --json");
   EXPECT_EQ(json["faults"].size(), 2U);
   EXPECT_EQ(json["warnings"].size(), 1U);
   EXPECT_FALSE(json["valid"].get<bool>());
@@ -48,9 +98,7 @@ TEST_F(CheckCommand, UnusedVerticesAreLeftOutAndNoFault) {
         "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
         "7 7 7\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n9 9 9\n3 1 3 2\n3 1 2 4\n3 2 3 4\n3 1 4 3\n");
   const auto rows = [&](const std::string& mesh) {
-    const Outcome o = run("audit sliding-window " + mesh + " --depth 2 --json -");
-    EXPECT_EQ(o.code, 0) << o.err;
-    auto report = nlohmann::json::parse(o.out, nullptr, false);
+    const auto report = json_of("audit sliding-window " + mesh + " --depth 2 --json -", 0);
     EXPECT_EQ(report["meshes"][0]["vertices"], 4) << mesh;
     std::string text;
     for (const auto& row : report["results"]) text += row["check"].dump() + row["worst"].dump() + "\n";
@@ -63,12 +111,11 @@ TEST_F(CheckCommand, UnusedVerticesAreLeftOutAndNoFault) {
               "limitcheck: warning: " + mesh + ": 2 vertices that no face names are left out\n");
     const Outcome check = run("check " + mesh);
     EXPECT_EQ(check.code, 0) << check.out;
-    EXPECT_NE(check.out.find("unused vertices     2, which an audit leaves out"), std::string::npos)
-        << check.out;
+    EXPECT_TRUE(says(check.out, "unused vertices     2, which an audit leaves out"));
     ASSERT_EQ(run("tessellate " + mesh + " -o fine.ply --depth 2").code, 0);
     EXPECT_EQ(run("audit --control " + mesh + " --tessellation fine.ply").code, 0);
     const auto position = [&](const std::string& of) {
-      return nlohmann::json::parse(run("eval " + of + " 0 1/3 1/3 --json").out)["position"];
+      return json_of("eval " + of + " 0 1/3 1/3 --json")["position"];
     };
     EXPECT_EQ(position(mesh), position("used.obj"));
   }
@@ -78,8 +125,8 @@ TEST_F(CheckCommand, SummarisesAMeshWithoutFaults) {
   ASSERT_EQ(run("generate octahedron -o o.ply").code, 0);
   const Outcome o = run("check o.ply");
   EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_NE(o.out.find("none: the mesh is closed"), std::string::npos) << o.out;
-  const auto json = nlohmann::json::parse(run("check o.ply --json").out);
+  EXPECT_TRUE(says(o.out, "none: the mesh is closed"));
+  const auto json = json_of("check o.ply --json");
   EXPECT_TRUE(json["valid"].get<bool>());
   EXPECT_EQ(json["vertices"], 6);
   EXPECT_EQ(json["interior_valences"]["4"], 6);
@@ -92,7 +139,7 @@ TEST_F(CheckCommand, NamesPolygonsNotTheTrianglesTheyBecome) {
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 1 0 1\nf 1 2 3 4\nf 2 5 6 3\nf 3 2 7\n");
   const Outcome o = run("check book.obj");
   EXPECT_EQ(o.code, 1);
-  EXPECT_NE(o.out.find("edge 2–3 has 3 faces (1, 2, 3)"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out, "edge 2–3 has 3 faces (1, 2, 3)"));
 }
 
 TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
@@ -100,13 +147,13 @@ TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
   const Outcome o = run("check prism.obj");
   EXPECT_EQ(o.code, 0) << o.out;
   EXPECT_TRUE(o.out.starts_with("scheme: catmull-clark (not all faces are triangles)\n")) << o.out;
-  EXPECT_NE(o.out.find("7; by corners: 5 of 4, 2 of 5"), std::string::npos) << o.out;
-  EXPECT_NE(o.out.find("by neighbours: 10 of 3"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out, "7; by corners: 5 of 4, 2 of 5"));
+  EXPECT_TRUE(says(o.out, "by neighbours: 10 of 3"));
 
   const Outcome loop = run("check prism.obj --scheme loop");
   EXPECT_EQ(loop.code, 1);
   EXPECT_TRUE(loop.out.starts_with("scheme: loop (--scheme)\n")) << loop.out;
-  EXPECT_NE(loop.out.find("prism.obj:11: MESH_POLYGON: face 1 has 5 corners"), std::string::npos) << loop.out;
+  EXPECT_TRUE(says(loop.out, "prism.obj:11: MESH_POLYGON: face 1 has 5 corners"));
 
   const Outcome cut = run("check prism.obj --triangulate shortest-diagonal");
   EXPECT_EQ(cut.code, 0) << cut.out;
@@ -114,10 +161,8 @@ TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
       cut.out.starts_with("scheme: loop (--triangulate shortest-diagonal cut 7 faces into triangles)\n"))
       << cut.out;
 
-  const auto json = [&](const std::string& options) {
-    return nlohmann::json::parse(run("check prism.obj --json" + options).out);
-  };
-  const auto own = json(""), of_triangles = json(" --triangulate fan");
+  const auto checked = [&](const std::string& options) { return json_of("check prism.obj --json" + options); };
+  const auto own = checked(""), of_triangles = checked(" --triangulate fan");
   EXPECT_EQ(own["scheme"], "catmull-clark");
   EXPECT_EQ(own["faces_cut"], 0);
   EXPECT_EQ(own["face_sizes"], (nlohmann::json{{"4", 5}, {"5", 2}}));
@@ -127,7 +172,7 @@ TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
   // As ever: those that the faces of the file give when they are cut.
   EXPECT_EQ(own["triangles"], 16);
   EXPECT_EQ(of_triangles["triangles"], 16);
-  EXPECT_EQ(json(" --scheme loop")["faults"].size(), 7U);
+  EXPECT_EQ(checked(" --scheme loop")["faults"].size(), 7U);
 }
 
 TEST_F(CheckCommand, ChoosesTheSchemeByFacesThatAreAtFaultToo) {
@@ -137,10 +182,7 @@ TEST_F(CheckCommand, ChoosesTheSchemeByFacesThatAreAtFaultToo) {
 
 TEST_F(CheckCommand, RefusesWhatIsNoMesh) {
   write("x.obj", "v 1 2\n");
-  EXPECT_EQ(run("check x.obj").code, 2);
-  EXPECT_EQ(run("check absent.obj").code, 2);
-  EXPECT_EQ(run("check").code, 2);
-  EXPECT_EQ(run("check x.xyz").code, 2);
+  expect_refused("check", {"x.obj", "absent.obj", "", "x.xyz"});
 }
 
 TEST_F(RepairCommand, MakesAMeshThatAnAuditTakes) {
@@ -148,12 +190,10 @@ TEST_F(RepairCommand, MakesAMeshThatAnAuditTakes) {
   ASSERT_EQ(run("audit row-stream broken.obj --depth 1 --level quick").code, 2);
   const Outcome o = run("repair broken.obj -o fixed.obj");
   EXPECT_EQ(o.code, 0) << o.out << o.err;
-  EXPECT_NE(o.out.find("dropped 1 face that named a vertex which does not exist"), std::string::npos)
-      << o.out;
+  EXPECT_TRUE(says(o.out, "dropped 1 face that named a vertex which does not exist"));
   EXPECT_EQ(run("check fixed.obj").code, 0);
   EXPECT_EQ(run("audit row-stream fixed.obj --depth 1 --level quick").code, 0);
-  EXPECT_NE(run("repair fixed.obj -o again.obj").out.find("\nnothing had to be changed\n"),
-            std::string::npos);
+  EXPECT_TRUE(says(run("repair fixed.obj -o again.obj").out, "\nnothing had to be changed\n"));
 }
 
 TEST_F(RepairCommand, SaysWhatItCannotMend) {
@@ -161,14 +201,14 @@ TEST_F(RepairCommand, SaysWhatItCannotMend) {
   write("pillow.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n");
   const Outcome o = run("repair pillow.off -o out.off");
   EXPECT_EQ(o.code, 0) << o.out;  // the later of the two faces is a duplicate, and goes
-  EXPECT_NE(o.out.find("dropped 1 face with the corners of a face before it"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out, "dropped 1 face with the corners of a face before it"));
 }
 
 TEST_F(RepairCommand, KeepsPolygonsInEveryFormat) {
   write("quads.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 9 9 9\nf 1 2 3 4\nf 2 5 6 3\n");
   for (const char* file : {"a.obj", "a.off", "a.ply"}) {
     ASSERT_EQ(run(std::string("repair quads.obj -o ") + file).code, 0);
-    const auto json = nlohmann::json::parse(run(std::string("check --json ") + file).out);
+    const auto json = json_of(std::string("check --json ") + file);
     EXPECT_EQ(json["face_sizes"], (nlohmann::json{{"4", 2}})) << file;
     EXPECT_EQ(json["vertices"], 6) << file;
   }
@@ -179,14 +219,14 @@ TEST_F(RepairCommand, CutsPolygonsOnlyIfItIsTold) {
   const Outcome kept = run("repair cube.off -o kept.off"),
                 cut = run("repair cube.off -o cut.off --triangulate fan");
   EXPECT_TRUE(kept.out.starts_with("scheme: catmull-clark (not all faces are triangles)\n")) << kept.out;
-  EXPECT_NE(kept.out.find("8 vertices, 6 faces"), std::string::npos) << kept.out;
+  EXPECT_TRUE(says(kept.out, "8 vertices, 6 faces"));
   EXPECT_TRUE(cut.out.starts_with("scheme: loop (--triangulate fan cut 6 faces into triangles)\n"))
       << cut.out;
-  EXPECT_NE(cut.out.find("8 vertices, 12 faces"), std::string::npos) << cut.out;
+  EXPECT_TRUE(says(cut.out, "8 vertices, 12 faces"));
   EXPECT_EQ(read("kept.off"), read("cube.off"));
   const Outcome loop = run("repair cube.off -o loop.off --scheme loop");
   EXPECT_EQ(loop.code, 1) << "faults are left, for Loop's scheme";
-  EXPECT_NE(loop.out.find("MESH_POLYGON"), std::string::npos) << loop.out;
+  EXPECT_TRUE(says(loop.out, "MESH_POLYGON"));
 }
 
 TEST_F(RepairCommand, LeavesWhatIsThereWhenItCannotWrite) {

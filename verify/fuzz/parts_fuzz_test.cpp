@@ -12,7 +12,7 @@
 
 #include "data/error.h"
 #include "data/untrusted_json.h"
-#include "verify/shard/part.h"
+#include "verify/shard/shard.h"
 #include "verify/shard/seal.h"
 
 using namespace limitcheck;

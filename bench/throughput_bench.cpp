@@ -20,9 +20,8 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "bench/peak_memory.h"
+#include "bench/machine.h"
 #include "bench/ratio_table.h"
-#include "bench/write_only.h"
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/scheme.h"

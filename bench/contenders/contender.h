@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -59,5 +61,27 @@ double distinct_points(const data::ControlMesh& mesh, int depth);
 /// run(first, last) for pieces of 0 .. count on that many threads; on one thread without any library.
 void in_parallel(std::size_t count, int threads,
                  const std::function<void(std::size_t first, std::size_t last)>& run);
+
+/// A workspace for each thread that runs, kept from run to run.
+template <class T>
+class Pool {
+ public:
+  template <class Make>
+  std::unique_ptr<T> take(const Make& make) {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return make();
+    auto last = std::move(free_.back());
+    free_.pop_back();
+    return last;
+  }
+  void give(std::unique_ptr<T> item) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(item));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<T>> free_;
+};
 
 }  // namespace limitcheck::bench

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "bench/contenders/pool.h"
 
 namespace limitcheck::bench {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "bench/contenders/pool.h"
 #include "fast/stream/quad_row_stream.h"
 
 namespace limitcheck::bench {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "bench/contenders/pool.h"
 #include "fast/stream/row_stream.h"
 #include "fast/window/sliding_window.h"
 #include "reference/loop/naive.h"

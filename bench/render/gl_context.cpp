@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/render/gl_context.h"
+#include "bench/render/renderer.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

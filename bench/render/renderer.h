@@ -4,16 +4,47 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "bench/render/gl_context.h"
-#include "bench/render/image.h"
 #include "fast/frame/sink.h"
 #include "fast/plan/depth.h"
 
 namespace limitcheck::bench {
+
+/// An OpenGL 3.3 core context without window or display (EGL, surfaceless), current on the thread that made
+/// it. Debian's Mesa draws with the processor (llvmpipe) where there is no graphics card. Throws
+/// std::runtime_error and says at which step it failed.
+class GlContext {
+ public:
+  GlContext();
+  ~GlContext();
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  /// Renderer and version, which every frame rate is reported with.
+  std::string renderer() const;
+
+ private:
+  void* display_;
+  void* context_;
+};
+
+/// 8-bit RGB, top row first.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// Throws std::runtime_error with the file's name; a file that was there before stays as it was then.
+void write_png(const std::filesystem::path& path, const Image& image);
+
+/// Side by side, `gap` white columns between them. All of one height.
+Image beside(const std::vector<Image>& images, int gap = 16);
 
 using Colour = std::array<float, 3>;
 

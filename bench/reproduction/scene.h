@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,5 +53,17 @@ inline std::vector<NamedStrategy> strategies() {
 inline int truth_depth(int faces) {
   return faces <= 800 ? 7 : 6;
 }
+
+/// A triangle of a frame and how it lies to the exact surface: at its middle, the drawn point's distance from
+/// the point of the same parameter, and the interpolated normal's angle to the exact one in degrees.
+struct TriangleError {
+  const fast::Draw* draw = nullptr;
+  std::int32_t triangle = 0;  // of the draw
+  double position = 0, normal = 0;
+};
+
+/// Calls `with` for every triangle of a frame with provenance, of depths up to 5.
+void each_triangle_error(const data::ControlMesh& mesh, const fast::DrawList<float>& frame,
+                         const std::function<void(const TriangleError&)>& with);
 
 }  // namespace limitcheck::bench

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+// What the machine allows and a run uses: memory that is only written, and the most that a run keeps.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 namespace limitcheck::bench {
 
@@ -21,5 +23,9 @@ class WriteOnly {
   float* memory_;
   std::size_t bytes_;
 };
+
+/// The most bytes by which the process grows while `work` runs, measured in a child process. Call it while
+/// the process has one thread; `work` must start none. 0 if it cannot be measured.
+double peak_memory(const std::function<void()>& work);
 
 }  // namespace limitcheck::bench

@@ -58,6 +58,8 @@ void expect_partition(const Report& report, const std::vector<Cause>& all) {
       EXPECT_NE(std::find(c.subjects.begin(), c.subjects.end(), report.results[k].subject), c.subjects.end());
     }
   }
+  for (const Result& r : report.results)
+    EXPECT_EQ(verdict_of(r), r.status) << r.subject << " / " << r.check << " on " << r.mesh;
   for (std::size_t k = 0; k < report.results.size(); ++k)
     EXPECT_EQ(rows.count(k), is_bad(report.results[k]) ? 1U : 0U)
         << report.results[k].subject << " / " << report.results[k].check << " on " << report.results[k].mesh;

@@ -29,4 +29,21 @@ std::string_view word(Status status) {
   return "error";
 }
 
+Status verdict_of(const Result& row) {
+  const bool beyond = row.worst && row.bound && !(*row.worst <= *row.bound);
+  switch (row.status) {
+    case Status::kHeld:
+    case Status::kFinding:
+      return beyond || row.bad != 0 ? Status::kFinding : Status::kHeld;
+    case Status::kQualityWarning:  // of a file's rows `bad` counts what the warning is about
+    case Status::kUnexpectedPass:
+      return beyond ? Status::kFinding : row.status;
+    case Status::kNotRun:
+      if (beyond || row.bad != 0) return Status::kFinding;
+      return row.of != 0 ? Status::kHeld : Status::kNotRun;
+    default:
+      return row.status;
+  }
+}
+
 }  // namespace limitcheck::verify

@@ -99,6 +99,16 @@ inline bool is_bad(const Result& r) {
          r.status == Status::kError;
 }
 
+/// The status that the numbers of a row give, whatever status it says: for rows that were stored, to be held
+/// against that. Deterministic, of this row alone.
+///   kFinding   something is wrong: `bad` > 0, or `worst` is no number within `bound` (where both are there);
+///              also of a row that says that it was not run, though it counted something wrong
+///   kHeld      nothing is wrong; also of a finding without anything wrong, and of a row that says that it was
+///              not run, though it looked at something (`of` > 0)
+/// Numbers do not tell why a row is a quality warning, not supported, waived, a crash, a timeout or an error:
+/// these stay, but for a warning or an unexpected pass beyond its bound, which are findings.
+Status verdict_of(const Result& row);
+
 /// How many kinds of neighbourhood (verify/evidence/cells.h) of one scheme a subject was judged at.
 struct Coverage {
   std::string subject;

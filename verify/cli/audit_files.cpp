@@ -12,7 +12,7 @@
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
-#include "verify/host/coordinate_range.h"
+#include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
 #include "verify/report/table.h"

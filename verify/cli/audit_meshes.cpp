@@ -20,7 +20,6 @@
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/mesh_options.h"
-#include "verify/host/coordinate_range.h"
 #include "verify/host/host.h"
 #include "verify/relations/refusal.h"
 #include "verify/report/result_json.h"

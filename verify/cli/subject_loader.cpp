@@ -17,7 +17,7 @@
 #include "verify/checks/check_oracle.h"
 #include "verify/cli/commands.h"
 #include "verify/host/host.h"
-#include "verify/host/isolation/witness.h"
+#include "verify/host/isolation/remote_subject.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::cli {

@@ -21,7 +21,7 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/screen.h"
-#include "verify/host/coordinate_range.h"
+#include "verify/host/host.h"
 #include "verify/mesh_output/mesh_output.h"
 
 namespace limitcheck::cli {

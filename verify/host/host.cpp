@@ -2,18 +2,19 @@
 #include "verify/host/host.h"
 
 #include <fmt/core.h>
-
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include "data/error.h"
-#include "verify/host/coordinate_range.h"
 #include "verify/host/host_memory.h"
 #include "verify/host/subject_call.h"
 
 namespace limitcheck::verify {
+
 namespace {
 
 const char* text(const std::string& options) {
@@ -197,6 +198,22 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   if (const LentMesh before(mesh_, lent_.scheme); !(before == lent_))
     result.defects_.push_back({Defect::Kind::kMeshModified, "mesh", 1, -1, changes(before, lent_)});
   return result;
+}
+
+std::string out_of_range(const data::ControlMesh& mesh, bool double_precision) {
+  const double most = std::ldexp(1.0, double_precision ? 240 : 100);
+  double largest = 0;
+  for (const auto& p : mesh.positions)
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  if (largest == 0 || (largest >= 1 / most && largest <= most)) return {};
+  return fmt::format(
+      "the largest coordinate is {:.2g}: with {} it has to be between {:.2g} and {:.2g}; scale the mesh",
+      largest, double_precision ? "double precision" : "single precision", 1 / most, most);
+}
+
+void require_range(const std::string& name, const data::ControlMesh& mesh, bool double_precision) {
+  const std::string reason = out_of_range(mesh, double_precision);
+  if (!reason.empty()) throw data::ArgumentError(name + ": " + reason);
 }
 
 }  // namespace limitcheck::verify

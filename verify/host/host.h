@@ -158,7 +158,7 @@ class Session {
 
   /// Rounds the positions to the subject's precision and calls create().
   /// Throws SubjectError: the subject refuses; of valid input, a coordinate is not finite, or
-  /// coordinate_range.h refuses (NotAsked); NotAsked if the subject does not do the scheme, or is to see a
+  /// out_of_range() refuses (NotAsked); NotAsked if the subject does not do the scheme, or is to see a
   /// mesh as it is and does not validate.
   ///   scheme  by default the one that the mesh is meant for
   Session(const lc_subject& subject, const data::ControlMesh& mesh, std::string options = {},
@@ -197,5 +197,14 @@ class Session {
   void* instance_ = nullptr;
   bool closed_ = false;
 };
+
+/// Empty if the largest coordinate is 0 or within 2^-100 and 2^100, 2^-240 and 2^240 with double_precision;
+/// else a sentence that says so. Beyond, fourth powers of lengths (the square of a cross product of tangents)
+/// overflow or vanish even if the tangents are scaled to their range first, which is no fault of a subject.
+///   mesh  finite positions
+std::string out_of_range(const data::ControlMesh& mesh, bool double_precision);
+
+/// Throws data::ArgumentError with that sentence, after the mesh's name.
+void require_range(const std::string& name, const data::ControlMesh& mesh, bool double_precision);
 
 }  // namespace limitcheck::verify

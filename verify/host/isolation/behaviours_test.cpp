@@ -20,8 +20,8 @@
 
 #include "data/shapes.h"
 #include "verify/host/host.h"
-#include "verify/host/isolation/behaviours.h"
 #include "verify/host/isolation/remote_subject.h"
+#include "verify/host/isolation/test_subjects/behaviours_table.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "verify/host/host_memory.h"
-#include "verify/host/isolation/memory_source.h"
+#include "verify/host/isolation/test_subjects/memory_source.h"
 #include "verify/subject/subject_error.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "verify/host/host_memory.h"
-#include "verify/host/isolation/memory_source.h"
+#include "verify/host/isolation/test_subjects/memory_source.h"
 #include "verify/subject/subject_error.h"
 
 using namespace limitcheck::verify;

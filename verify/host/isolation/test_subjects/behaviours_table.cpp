@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/host/isolation/behaviours.h"
+#include "verify/host/isolation/test_subjects/behaviours_table.h"
 
 namespace limitcheck::verify {
 

@@ -19,9 +19,9 @@
 #include <cstddef>
 #include <span>
 
-#include "reference/number/circle_table.h"
 #include "reference/number/number.h"
 #include "reference/number/vec3.h"
+#include "reference/point/boundary_curve.h"
 #include "reference/point/normal.h"
 
 namespace limitcheck::reference::catmull_clark {
@@ -45,12 +45,6 @@ Vec3<N> edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& f1, const 
   return a + ((b - a) + (f1 - a) + (f2 - a)) * (N(1) / N(4));
 }
 
-/// Boundary edge: its midpoint.
-template <class N>
-Vec3<N> boundary_edge_point(const Vec3<N>& a, const Vec3<N>& b) {
-  return (a + b) * (N(1) / N(2));
-}
-
 /// Interior vertex of valence n: (n - 2) / n c + (sum e_i + sum F_i) / n^2, F_i the face points of this step.
 template <class N>
 Vec3<N> interior_vertex_point(const Vec3<N>& c, std::span<const Vec3<N>> edges,
@@ -62,12 +56,6 @@ Vec3<N> interior_vertex_point(const Vec3<N>& c, std::span<const Vec3<N>> edges,
   return c + sum * (N(1) / (N(n) * N(n)));
 }
 
-/// Boundary vertex: 1/8 --- 3/4 --- 1/8, the cubic B-spline.
-template <class N>
-Vec3<N> boundary_vertex_point(const Vec3<N>& c, const Vec3<N>& first, const Vec3<N>& last) {
-  return c + ((first - c) + (last - c)) * (N(1) / N(8));
-}
-
 /// Limit of an interior vertex: n / (n + 5) c + 4 / (n (n + 5)) sum e_i + 1 / (n (n + 5)) sum f_i.
 template <class N>
 Vec3<N> interior_limit(const Vec3<N>& c, std::span<const Vec3<N>> edges, std::span<const Vec3<N>> faces) {
@@ -76,12 +64,6 @@ Vec3<N> interior_limit(const Vec3<N>& c, std::span<const Vec3<N>> edges, std::sp
   for (const Vec3<N>& e : edges) near += e - c;
   for (const Vec3<N>& f : faces) far += f - c;
   return c + (near * N(4) + far) * (N(1) / (N(n) * N(n + 5)));
-}
-
-/// Limit of a boundary vertex: 1/6 --- 2/3 --- 1/6.
-template <class N>
-Vec3<N> boundary_limit(const Vec3<N>& c, const Vec3<N>& first, const Vec3<N>& last) {
-  return c + ((first - c) + (last - c)) * (N(1) / N(6));
 }
 
 /// 4 lambda - 1 of the eigenvalue lambda = (5 + cos t + cos(t/2) sqrt(2 (9 + cos t))) / 16 of the first

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "data/splitmix64.h"
-#include "reference/catmull_clark/basis.h"
+#include "reference/catmull_clark/patch.h"
 #include "reference/catmull_clark/vertex_limit.h"
 #include "reference/number/number_exact.h"
 

@@ -38,9 +38,6 @@ class NaiveSubdivider {
  public:
   /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
   NaiveSubdivider(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
-  ~NaiveSubdivider();
-  NaiveSubdivider(NaiveSubdivider&&) noexcept;
-  NaiveSubdivider& operator=(NaiveSubdivider&&) noexcept;
 
   std::size_t face_count() const;
 
@@ -53,7 +50,7 @@ class NaiveSubdivider {
                   const std::function<void(const LeafQuad<N>&)>& emit) const;
 
  private:
-  std::unique_ptr<const QuadMesh<N>> mesh_;
+  std::shared_ptr<const QuadMesh<N>> mesh_;
 };
 
 }  // namespace limitcheck::reference::catmull_clark

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,7 +14,7 @@
 #include "data/faces.h"
 #include "reference/catmull_clark/masks.h"
 #include "reference/catmull_clark/ringed_quad.h"
-#include "reference/mesh/sharpness.h"
+#include "reference/mesh/cut_mesh.h"
 #include "reference/mesh/topology.h"
 
 namespace limitcheck::reference::catmull_clark {
@@ -23,8 +22,8 @@ namespace limitcheck::reference::catmull_clark {
 /// One step: the new vertex points in the order of the vertices, then the edge points, then the face points.
 ///   states   of the vertices of a mesh that is cut along its sharp edges
 template <class N>
-std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                 std::span<const VertexState> states = {}) {
+std::vector<Vec3<N>> points_after_step(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                                       std::span<const VertexState> states = {}) {
   const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
   const std::size_t vertices = positions.size(), edges = topology.edges().size(),
                     faces = topology.faces().size();
@@ -91,7 +90,7 @@ inline data::Faces refined_faces(const Topology& topology) {
 template <class N>
 TaggedMesh<N> refine_once(const TaggedMesh<N>& mesh, data::TriangleRule triangles) {
   const Topology& topology = mesh.topology;
-  std::vector<Vec3<N>> refined = refine_once(topology, mesh.positions);
+  std::vector<Vec3<N>> refined = points_after_step(topology, mesh.positions);
   const std::size_t vertices = mesh.positions.size(), edges = topology.edges().size();
   if (triangles == data::TriangleRule::kSmooth)
     for (std::size_t e = 0; e < edges; ++e) {
@@ -117,48 +116,29 @@ TaggedMesh<N> refine_once(const TaggedMesh<N>& mesh, data::TriangleRule triangle
 /// A mesh of quads with the same limit surface: the mesh itself, or, if it has other faces, the mesh after
 /// one step; cut along its sharp edges.
 template <class N>
-struct QuadMesh {
-  Topology topology;
-  std::vector<Vec3<N>> positions;
-  data::Faces given;                ///< the faces before that step, empty if there was none
-  std::vector<VertexState> states;  ///< of the vertices; empty if all are ordinary
-  /// Quads whose surface this mesh does not have, since semi-sharp tags are near: theirs are those of
-  /// `tagged`, which has the same quads and is not cut.
-  std::vector<bool> needs_a_step;
-  std::shared_ptr<const TaggedMesh<N>> tagged;
+struct QuadMesh : CutMesh<N> {
+  using CutMesh<N>::topology, CutMesh<N>::positions;
+  data::Faces given;  ///< the faces before that step, empty if there was none
 
   QuadMesh(data::Faces faces, std::vector<Vec3<N>> points, const SharpTags& tags = {})
-      : topology(points.size(), faces), positions(std::move(points)) {
+      : CutMesh<N>(std::move(points), faces) {
     bool only_quads = true;
     for (std::size_t f = 0; f < faces.size(); ++f) only_quads = only_quads && faces[f].size() == 4;
     if (!tags.empty()) {
       Sharpness sharpness(topology, tags);
       TaggedMesh<N> mesh{std::move(topology), std::move(positions), std::move(sharpness)};
       if (!only_quads) mesh = refine_once(mesh, tags.triangles);
-      settle(std::move(mesh));
+      this->settle(std::move(mesh));
     } else if (!only_quads) {
-      positions = refine_once(topology, positions);
+      positions = points_after_step(topology, positions);
       Topology refined(positions.size(), refined_faces(topology));
       topology = std::move(refined);
     }
     if (!only_quads) given = std::move(faces);
   }
-  explicit QuadMesh(TaggedMesh<N> mesh) : topology(mesh.topology) { settle(std::move(mesh)); }
+  explicit QuadMesh(TaggedMesh<N> mesh) : CutMesh<N>(std::move(mesh)) {}
 
   std::size_t face_count() const { return given.size() > 0 ? given.size() : topology.faces().size(); }
-  bool is_settled(std::size_t quad) const { return !tagged || !needs_a_step[quad]; }
-
- private:
-  void settle(TaggedMesh<N> mesh) {
-    needs_a_step = mesh.sharpness.needs_a_step(mesh.topology);
-    Sharpness::Cut cut = mesh.sharpness.cut(mesh.topology);
-    positions.clear();
-    for (const std::int32_t v : cut.origin) positions.push_back(mesh.positions[static_cast<std::size_t>(v)]);
-    states = std::move(cut.states);
-    topology = Topology(positions.size(), std::move(cut.faces));
-    if (std::find(needs_a_step.begin(), needs_a_step.end(), true) != needs_a_step.end())
-      tagged = std::make_shared<const TaggedMesh<N>>(std::move(mesh));
-  }
 };
 
 /// A quad that needs steps before its surface can be said, and a point of it: the mesh of few faces in whose

@@ -8,12 +8,17 @@
 #include <cstdint>
 #include <span>
 
-#include "reference/catmull_clark/leading_modes.h"
 #include "reference/catmull_clark/masks.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 
 namespace limitcheck::reference::catmull_clark {
+
+/// Whether a bicubic patch describes the surface at a vertex of so many faces.
+inline bool is_regular_vertex(int faces, bool on_boundary, VertexState state) {
+  if (state == VertexState::kHeld) return on_boundary && faces == 1;
+  return state == VertexState::kOrdinary && faces == (on_boundary ? 2 : 4);
+}
 
 /// A corner of a quad with its ring (masks.h). The quad lies between the ring's edges `sector` and `sector` +
 /// 1, cyclically inside.

@@ -30,9 +30,6 @@ class StamEvaluator {
  public:
   /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
   StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
-  ~StamEvaluator();
-  StamEvaluator(StamEvaluator&&) noexcept;
-  StamEvaluator& operator=(StamEvaluator&&) noexcept;
 
   int face_count() const;
   /// As SubdivisionEvaluator::evaluate.
@@ -42,7 +39,7 @@ class StamEvaluator {
   SurfacePoint<N> evaluate(int face, int corner, double u, double v, Order order = Order::kSecond) const;
 
  private:
-  std::unique_ptr<detail::StamData<N>> data_;
+  std::shared_ptr<const detail::StamData<N>> data_;
 };
 
 }  // namespace limitcheck::reference::catmull_clark

@@ -9,59 +9,16 @@
 #include <type_traits>
 #include <utility>
 
-#include "reference/catmull_clark/quad_point.h"
+#include "reference/catmull_clark/patch.h"
 #include "reference/catmull_clark/refine.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/stepped_ring_impl.h"
 #include "reference/catmull_clark/two_ring_impl.h"
-#include "reference/mesh/next_step.h"
+#include "reference/mesh/cut_mesh.h"
 #include "reference/point/parameter_exact.h"
 
 namespace limitcheck::reference::catmull_clark {
 namespace detail {
-
-/// Smallest J >= 0 with 2^J max(x, y) > 1/2, for 0 < max(x, y) <= 1.
-inline long steps_to_corner(double x, double y) {
-  int exponent;
-  const double mantissa = std::frexp(std::max(x, y), &exponent);  // in [1/2, 1)
-  return std::max(0L, static_cast<long>(mantissa == 0.5 ? 1 - exponent : -exponent));
-}
-inline long steps_to_corner(const Rational& x, const Rational& y) {
-  const Rational largest = std::max(x, y);
-  long steps = std::max(
-      0L, static_cast<long>(msb(denominator(largest))) - static_cast<long>(msb(numerator(largest))) - 2);
-  while (numerator(largest) << static_cast<unsigned long>(steps + 1) <= denominator(largest)) ++steps;
-  return steps;
-}
-inline double times_power_of_two(double a, long e) {
-  return std::ldexp(a, static_cast<int>(e));
-}
-inline Rational times_power_of_two(const Rational& a, long e) {
-  return NumberTraits<Rational>::scale(a, e);
-}
-
-template <class N, class P>
-N number_from(const P& a) {
-  if constexpr (std::is_same_v<N, P>)
-    return a;
-  else if constexpr (std::is_same_v<P, double>)
-    return NumberTraits<N>::from_double(a);
-  else if constexpr (std::is_same_v<N, double>)
-    return a.template convert_to<double>();
-  else
-    return NumberTraits<N>::from_rational(a);
-}
-
-/// a^e, e >= 0.
-template <class N>
-N power(N a, long e) {
-  N result(1);
-  for (; e > 0; e >>= 1) {
-    if ((e & 1) != 0) result = result * a;
-    if (e > 1) a = a * a;
-  }
-  return result;
-}
 
 /// The points (x, y), -1 <= x, y <= 3, one step after a sector's two-ring, where c is (0, 0), e_i (2, 0) and
 /// e_{i+1} (0, 2). (-1, -1) has no point and is not needed.
@@ -151,7 +108,7 @@ class StamData {
   explicit StamData(QuadMesh<N> mesh, const std::vector<bool>& wanted = {})
       : mesh_(std::move(mesh)),
         next_(mesh_.needs_a_step, wanted),
-        points_(refine_once(mesh_.topology, mesh_.positions, mesh_.states)) {
+        points_(points_after_step(mesh_.topology, mesh_.positions, mesh_.states)) {
     const Topology finer(points_.size(), refined_faces(mesh_.topology));
     make_two_rings(finer);
     make_patches(finer);
@@ -192,8 +149,7 @@ class StamData {
       near_corner(rings_[static_cast<std::size_t>(ring)], mesh_.topology.ring_index(at.quad, k), x, y,
                   turn_of(k), halved, order, result);
     }
-    if (order != Order::kPosition)
-      set_normal(result, {result.t1, result.t2, result.t1_terms, result.t2_terms}, fallback(at.quad));
+    if (order != Order::kPosition) set_normal(result, tangents_of(result), fallback(at.quad));
     return result;
   }
 
@@ -249,7 +205,7 @@ class StamData {
   template <class P>
   void near_corner(const TwoRing<N>& ring, int sector, const P& x, const P& y, const Turn& turn,
                    const N& halved, Order order, SurfacePoint<N>& result) const {
-    const long steps = steps_to_corner(x, y);
+    const long steps = steps_to_corner(std::max(x, y));
     const P a = times_power_of_two(x, steps + 1),
             b = times_power_of_two(y, steps + 1);  // the larger in (1, 2]
     TwoRingSector<N> s;
@@ -332,13 +288,7 @@ class StamData {
 
 template <class N>
 StamEvaluator<N>::StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags)
-    : data_(std::make_unique<detail::StamData<N>>(std::move(faces), std::move(positions), tags)) {}
-template <class N>
-StamEvaluator<N>::~StamEvaluator() = default;
-template <class N>
-StamEvaluator<N>::StamEvaluator(StamEvaluator&&) noexcept = default;
-template <class N>
-StamEvaluator<N>& StamEvaluator<N>::operator=(StamEvaluator&&) noexcept = default;
+    : data_(std::make_shared<const detail::StamData<N>>(std::move(faces), std::move(positions), tags)) {}
 
 template <class N>
 int StamEvaluator<N>::face_count() const {

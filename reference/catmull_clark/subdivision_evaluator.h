@@ -28,9 +28,6 @@ class SubdivisionEvaluator {
  public:
   /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
   SubdivisionEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
-  ~SubdivisionEvaluator();
-  SubdivisionEvaluator(SubdivisionEvaluator&&) noexcept;
-  SubdivisionEvaluator& operator=(SubdivisionEvaluator&&) noexcept;
 
   int face_count() const;
   /// At (u, v) of a quad, whose corners are (0, 0), (1, 0), (1, 1), (0, 1), with `corner` 0; at (u, v) of the
@@ -42,7 +39,7 @@ class SubdivisionEvaluator {
                            Order order = Order::kSecond) const;
 
  private:
-  std::unique_ptr<const QuadMesh<N>> mesh_;
+  std::shared_ptr<const QuadMesh<N>> mesh_;
 };
 
 }  // namespace limitcheck::reference::catmull_clark

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The limit of a vertex in a mesh of quads: position, tangents, and a normal that is never NaN.
+// The limit of a vertex in a mesh of quads: position, tangents, and a normal that is never NaN; and which
+// derivatives there are.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "reference/catmull_clark/dart.h"
@@ -10,12 +12,6 @@
 #include "reference/point/surface_point.h"
 
 namespace limitcheck::reference::catmull_clark {
-
-/// Whether normals can be had: not in exact rationals, which have no square roots.
-template <class N>
-inline constexpr bool kHasNormals = requires(N a) {
-  NumberTraits<N>::sqrt(a);
-};
 
 /// Where a vertex goes.
 template <class N>
@@ -92,6 +88,32 @@ CornerLimit<N> limit_of(const RingedCorner<Vec3<N>>& corner) {
     limit.normal = limit_normal(corner, limit.tangents);
   }
   return limit;
+}
+
+/// The modes that decide which derivatives the surface has at a vertex (surface_point.h), in a mesh that is cut along its sharp edges; `faces` are those of its sector. lambda as in
+/// masks.h.
+///   inside         lambda of 2 pi / n
+///   boundary       of one face the curve's 1/2 is linear, u - v; 1/4 is there twice, uv and the curve's,
+///                  which drifts along uv. From three faces on lambda of pi / K
+///   held           of two faces 1/2 is linear for the ends, the inner neighbour drifts along a third mode of
+///                  1/2; from three faces on as on the boundary
+///   tip of a cone  the mean
+///   dart           the larger of lambda across the sharp edge and the tangent along it. At n = 4 both are
+///                  1/2 and linear; the next is even
+inline LeadingModes leading_modes(int faces, bool on_boundary, VertexState state) {
+  const auto lambda = [](long q) { return (four_lambda_minus_one<double>(q) + 1) / 4; };
+  if (is_regular_vertex(faces, on_boundary, state)) return kRegularModes;
+  if (state == VertexState::kDart) {
+    constexpr double kNextOfFour = .3196817213423;
+    if (faces == 4) return {{{.5, 1}, {kNextOfFour}}};
+    if (faces > 4) return {{{lambda(faces)}}};
+    const double c = std::cos(dart_angle<double>(faces, DartTangentRule{faces}));
+    return {{{(5 + c + std::sqrt((1 + c) * (9 + c))) / 16}}};
+  }
+  if (!on_boundary) return {{{state == VertexState::kHeld ? cone_eigenvalue<double>() : lambda(faces)}}};
+  if (faces == 1) return {{{.5, 1}, {.25}}};
+  if (faces == 2) return {{{.5, 1}, {.5}}};
+  return {{{lambda(2 * faces)}}};
 }
 
 }  // namespace limitcheck::reference::catmull_clark

@@ -11,15 +11,22 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
-#include "reference/loop/weights.h"
-#include "reference/number/circle_table.h"
 #include "reference/number/number.h"
 #include "reference/number/vec3.h"
+#include "reference/point/boundary_curve.h"
 #include "reference/point/normal.h"
 
 namespace limitcheck::reference {
+
+/// The two families of weights that an interior vertex can have. They give the same surface where all interior valences are 3 or 6, and different ones elsewhere. Edges and
+/// boundaries have the same rules in both.
+enum class Weights : std::uint8_t {
+  kLoop,   ///< Loop 1987: the ring has the weight a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64 together
+  kWarren  ///< Warren's simplification: 3/8, and 9/16 at n = 3. libigl, geometry-central and Open3D have it.
+};
 
 /// a(n) = 5/8 - (3 + 2 cos(2 pi / n))^2 / 64, n >= 3; exact where the cosine is rational.  [section 3.1; C11]
 template <class N>
@@ -66,18 +73,6 @@ Vec3<N> interior_edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c
   return (a + b) * (N(1) / N(2)) + ((c - a) + (d - b)) * (N(1) / N(8));
 }
 
-/// Boundary vertex: 1/8 --- 3/4 --- 1/8, the cubic B-spline; it does not depend on interior vertices.   [D1]
-template <class N>
-Vec3<N> boundary_vertex_point(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& last) {
-  return v + ((first - v) + (last - v)) * (N(1) / N(8));
-}
-
-/// Boundary edge: 1/2 --- 1/2. [D1]
-template <class N>
-Vec3<N> boundary_edge_point(const Vec3<N>& a, const Vec3<N>& b) {
-  return (a + b) * (N(1) / N(2));
-}
-
 /// Linear ghost over the boundary edge a-b of face (a, b, c): makes the face an ordinary patch. [D10]
 template <class N>
 Vec3<N> ghost_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c) {
@@ -93,12 +88,6 @@ Vec3<N> interior_limit(const Vec3<N>& v, std::span<const Vec3<N>> ring, Weights 
   for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i] - v;
   const N a8 = N(8) * ring_weight<N>(n, weights);
   return v + sum * (a8 / (N(n) * (N(3) + a8)));
-}
-
-/// Limit of a boundary vertex: 1/6 --- 2/3 --- 1/6. [D1]
-template <class N>
-Vec3<N> boundary_limit(const Vec3<N>& v, const Vec3<N>& first, const Vec3<N>& last) {
-  return v + ((first - v) + (last - v)) * (N(1) / N(6));
 }
 
 /// C = sum cos(2 pi i / n) v_i and S = sum sin(2 pi i / n) v_i, i = 0..n-1 along `ring`, taken from v_i - v.

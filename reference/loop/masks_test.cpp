@@ -145,10 +145,10 @@ TEST(D2_BoundaryTangents, PointAlongAndIntoAHalfDisc) {
 }
 
 /// The face (4, 7, 8) of a regular patch with unit point `which` at x = 1.
-RingedFace<Rational> regular_face(std::size_t which) {
+RingedFace<Vec3<Rational>> regular_face(std::size_t which) {
   std::array<Vec3<Rational>, 13> p{};
   p[which].x = 1;
-  RingedFace<Rational> face;
+  RingedFace<Vec3<Rational>> face;
   const int rings[3][7] = {{4, 7, 8, 5, 2, 1, 3}, {7, 8, 4, 3, 6, 10, 11}, {8, 4, 7, 11, 12, 9, 5}};
   for (std::size_t k = 0; k < 3; ++k) {
     face.corner[k].point = p[rings[k][0]];
@@ -158,8 +158,8 @@ RingedFace<Rational> regular_face(std::size_t which) {
 }
 
 /// Depth-first over the sub-faces: limit positions at all corners against the basis function.
-void compare(const RingedFace<Rational>& face, int depth, const std::array<std::array<Rational, 2>, 3>& at,
-             std::size_t which) {
+void compare(const RingedFace<Vec3<Rational>>& face, int depth,
+             const std::array<std::array<Rational, 2>, 3>& at, std::size_t which) {
   if (depth == 0) {
     for (std::size_t k = 0; k < 3; ++k) {
       Basis<Rational> basis;

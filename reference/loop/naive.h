@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/surface_point.h"
@@ -20,7 +20,7 @@
 namespace limitcheck::reference {
 
 template <class N>
-struct TriangleMesh;
+struct CutMesh;
 
 /// Largest differences in double between NaiveSubdivider and StamEvaluator at depths 0 to 4, measured on the
 /// stock shapes, fans and bumpy spheres. Its tests hold these numbers.
@@ -59,7 +59,7 @@ class NaiveSubdivider {
   void tessellate(std::size_t face, int depth, const std::function<void(const LeafTriangle<N>&)>& emit) const;
 
  private:
-  std::shared_ptr<const TriangleMesh<N>> mesh_;
+  std::shared_ptr<const CutMesh<N>> mesh_;
   Weights weights_;
 };
 

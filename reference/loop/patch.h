@@ -86,20 +86,7 @@ void set_derivatives(SurfacePoint<N>& result, const LocalPoint<N>& s, const Para
   result.second_exist = true;
 }
 
-/// Sets the normal of a point from two tangents: its own, or others that span the same plane.
-template <class N>
-void set_normal(SurfacePoint<N>& point, const Tangents<N>& tangents, const Vec3<N>& fallback) {
-  const Normal<N> normal = unit_normal(tangents, fallback);
-  point.normal = normal.direction;
-  point.normal_kind = normal.kind;
-  point.normal_condition = normal.condition;
-}
-template <class N>
-Tangents<N> tangents_of(const SurfacePoint<N>& point) {
-  return {point.t1, point.t2, point.t1_terms, point.t2_terms};
-}
-
-/// At an extraordinary corner itself. Which derivatives there are is said by leading_modes.h; those that are
+/// At an extraordinary corner itself. Which derivatives there are is said by vertex_limit.h; those that are
 /// not zero are the polynomials of their modes:
 ///   interior, valence 3   A_i a^2 + 2 (A_i + A_{i+1}) a b + A_{i+1} b^2 on face i, with A_i = 2/3 of the
 ///                         tangent masks' direction i

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"

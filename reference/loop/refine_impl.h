@@ -9,9 +9,9 @@
 #include "data/error.h"
 #include "reference/loop/masks.h"
 #include "reference/loop/refine.h"
-#include "reference/loop/triangle_mesh.h"
-#include "reference/loop/triangles.h"
+#include "reference/loop/sub_faces.h"
 #include "reference/loop/vertex_limit.h"
+#include "reference/mesh/topology.h"
 
 namespace limitcheck::reference {
 
@@ -135,7 +135,7 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
     for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
     return vertex_limit<N>(positions[v], ring, !sector.closed, weights_, state_of(states, v));
   };
-  std::optional<TriangleMesh<N>> cut;
+  std::optional<CutMesh<N>> cut;
   if (sharpness_) cut.emplace(TaggedMesh<N>{topology_, positions_, *sharpness_});
   const auto limit_of = [&](std::int32_t v) {
     if (!cut) return limit_at(topology_, positions_, v, {});
@@ -143,7 +143,7 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
     if (cut->is_settled(face)) return limit_at(cut->topology, cut->positions, v, cut->states);
     const Triangle corners = triangle_of(topology_, face);
     SubFacePath<Rational> path(v == corners[1] ? 1 : 0, v == corners[2] ? 1 : 0);
-    const TriangleMesh<N> near = settled_around(*cut->tagged, face, weights_, path);
+    const CutMesh<N> near = settled_around(*cut->tagged, face, weights_, path);
     const auto k = static_cast<std::size_t>(std::find(path.w.begin(), path.w.end(), 1) - path.w.begin());
     return limit_at(near.topology, near.positions, near.topology.faces()[0][k], near.states);
   };
@@ -161,15 +161,5 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
   }
   return result;
 }
-
-/// All of refine.h but `limits`, which needs square roots.
-#define LIMITCHECK_INSTANTIATE_REFINE(N)                                                           \
-  template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights, \
-                                            std::span<const VertexState>);                         \
-  template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                            \
-  template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                         \
-  template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights,       \
-                                       const SharpTags&);                                          \
-  template void RefinedMesh<N>::refine();
 
 }  // namespace limitcheck::reference

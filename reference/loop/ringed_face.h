@@ -13,55 +13,87 @@ namespace limitcheck::reference {
 
 /// A corner with its ring, counter-clockwise, boundary neighbours first and last (masks.h). The face lies
 /// between ring entries `ring_index` and `ring_index` + 1 (cyclically when interior).
-template <class N>
+///   Point   a Vec3, or the index of one
+template <class Point>
 struct RingedCorner {
-  Vec3<N> point;
-  boost::container::small_vector<Vec3<N>, 6> ring;
+  Point point{};
+  boost::container::small_vector<Point, 6> ring;
   int ring_index = 0;
   bool on_boundary = false;
   VertexState state = VertexState::kOrdinary;
 
   int size() const { return static_cast<int>(ring.size()); }
   /// Neighbour i steps counter-clockwise from the face's first edge; i may be negative.
-  const Vec3<N>& neighbour(int i) const {
+  const Point& neighbour(int i) const {
     const int at = ring_index + i;
     return ring[on_boundary ? at : (at + size()) % size()];
   }
-  std::span<const Vec3<N>> span() const { return {ring.data(), ring.size()}; }
+  std::span<const Point> span() const { return {ring.data(), ring.size()}; }
   bool is_regular() const {
     return is_regular_vertex(ring.size() - (on_boundary ? 1 : 0), on_boundary, state);
   }
 };
 
-template <class N>
+template <class Point>
 struct RingedFace {
-  std::array<RingedCorner<N>, 3> corner;
+  std::array<RingedCorner<Point>, 3> corner;
   std::array<bool, 3> edge_on_boundary{};  ///< edge k from corner k to k + 1
-  Weights weights = Weights::kLoop;
-
-  /// The face of a mesh with its neighbourhood.
-  static RingedFace gather(const Topology& topology, const std::vector<Vec3<N>>& positions, std::size_t face,
-                           Weights weights = Weights::kLoop, std::span<const VertexState> states = {}) {
-    RingedFace result;
-    result.weights = weights;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t v = topology.faces()[face][k];
-      const Sector sector = topology.sector(v);
-      auto& c = result.corner[k];
-      c.point = positions[v];
-      c.state = state_of(states, v);
-      c.on_boundary = !sector.closed;
-      c.ring_index = topology.ring_index(face, k);
-      for (const std::int32_t r : sector.neighbours) c.ring.push_back(positions[r]);
-      result.edge_on_boundary[k] = topology.edges()[topology.edge(face, k)].on_boundary();
-    }
-    return result;
-  }
 
   bool is_regular() const {
     return corner[0].is_regular() && corner[1].is_regular() && corner[2].is_regular();
   }
+
+  /// The twelve points of a regular face in the order of Appendix A. Two linear ghosts complete the ring of a
+  /// boundary vertex; a held vertex of one face has four, the last two by reflection in it.   [D10]
+  ///   ghost   ghost_point of three points
+  template <class Ghost>
+  std::array<Point, 12> patch(Ghost&& ghost) const {
+    std::array<std::array<Point, 6>, 3> rings;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& c = corner[k];
+      std::array<Point, 6> full;
+      for (std::size_t i = 0; i < c.ring.size(); ++i) full[i] = c.ring[i];
+      if (c.state == VertexState::kHeld) {
+        full[2] = ghost(c.point, c.ring[1], c.ring[0]);
+        full[3] = ghost(c.point, c.point, c.ring[0]);
+        full[4] = ghost(c.point, c.point, c.ring[1]);
+        full[5] = ghost(c.point, c.ring[0], c.ring[1]);
+      } else if (c.on_boundary) {
+        full[4] = ghost(c.point, c.ring[3], c.ring[2]);
+        full[5] = ghost(c.point, c.ring[0], c.ring[1]);
+      }
+      for (std::size_t i = 0; i < 6; ++i) rings[k][i] = full[(i + c.ring_index) % 6];
+    }
+    const auto& [a, b, c] = rings;
+    return {a[4], a[3], a[5], corner[0].point, a[2], b[3], a[0], a[1], c[4], b[4], b[5], c[3]};
+  }
 };
+
+/// The face of a mesh of triangles with its neighbourhood; point(v) is that of a vertex.
+///   states   of the vertices; later ones, and all where there are none, are ordinary
+template <class Point, class PointOf>
+RingedFace<Point> gather_triangle(const Topology& topology, std::size_t face, PointOf&& point,
+                                  std::span<const VertexState> states = {}) {
+  RingedFace<Point> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t v = topology.faces()[face][k];
+    const Sector sector = topology.sector(v);
+    auto& c = result.corner[k];
+    c.point = point(v);
+    c.state = state_of(states, v);
+    c.on_boundary = !sector.closed;
+    c.ring_index = topology.ring_index(face, k);
+    for (const std::int32_t r : sector.neighbours) c.ring.push_back(point(r));
+    result.edge_on_boundary[k] = topology.edges()[topology.edge(face, k)].on_boundary();
+  }
+  return result;
+}
+template <class N>
+RingedFace<Vec3<N>> gather_triangle(const Topology& topology, const std::vector<Vec3<N>>& positions,
+                                    std::size_t face, std::span<const VertexState> states = {}) {
+  return gather_triangle<Vec3<N>>(
+      topology, face, [&](std::int32_t v) { return positions[static_cast<std::size_t>(v)]; }, states);
+}
 
 /// A face's corners after one step, from which its four sub-faces are put together. Sub-face k < 3 sits at
 /// corner k, (c_k, e_k, e_{k-1}); sub-face 3 is the middle one, (e_0, e_1, e_2); e_k is the edge point of
@@ -69,7 +101,7 @@ struct RingedFace {
 template <class N>
 class SubdividedFace {
  public:
-  explicit SubdividedFace(const RingedFace<N>& face) : weights_(face.weights) {
+  explicit SubdividedFace(const RingedFace<Vec3<N>>& face, Weights weights = Weights::kLoop) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& from = face.corner[k];
       auto& to = vertex_[k];
@@ -77,7 +109,7 @@ class SubdividedFace {
       to.on_boundary = from.on_boundary;
       to.state = from.state;
       const std::size_t n = from.ring.size();
-      to.point = vertex_point<N>(from.point, from.span(), from.on_boundary, from.state, weights_);
+      to.point = vertex_point<N>(from.point, from.span(), from.on_boundary, from.state, weights);
       to.ring.resize(n);
       for (std::size_t i = 0; i < n; ++i)
         to.ring[i] = from.on_boundary && (i == 0 || i + 1 == n)
@@ -89,9 +121,8 @@ class SubdividedFace {
     for (std::size_t k = 0; k < 3; ++k) make_edge_corner(k);
   }
 
-  RingedFace<N> subface(int which) const {
-    RingedFace<N> result;
-    result.weights = weights_;
+  RingedFace<Vec3<N>> subface(int which) const {
+    RingedFace<Vec3<N>> result;
     if (which == 3) {
       for (std::size_t k = 0; k < 3; ++k) result.corner[k] = edge_corner(k, 1);
       return result;  // its edges are inside
@@ -114,7 +145,7 @@ class SubdividedFace {
   ///     c_k --- e_k --- c_{k+1}
   void make_edge_corner(std::size_t k) {
     const std::size_t after = (k + 1) % 3;
-    const RingedCorner<N>&a = vertex_[k], &b = vertex_[after];
+    const RingedCorner<Vec3<N>>&a = vertex_[k], &b = vertex_[after];
     auto& e = edge_[k];
     e.point = a.neighbour(0);
     e.on_boundary = edge_on_boundary_[k];
@@ -124,15 +155,14 @@ class SubdividedFace {
       e.ring.push_back(b.neighbour(2));
     }
   }
-  RingedCorner<N> edge_corner(std::size_t k, int ring_index) const {
-    RingedCorner<N> result = edge_[k];
+  RingedCorner<Vec3<N>> edge_corner(std::size_t k, int ring_index) const {
+    RingedCorner<Vec3<N>> result = edge_[k];
     result.ring_index = ring_index;
     return result;
   }
 
-  std::array<RingedCorner<N>, 3> vertex_, edge_;
+  std::array<RingedCorner<Vec3<N>>, 3> vertex_, edge_;
   std::array<bool, 3> edge_on_boundary_;
-  Weights weights_;
 };
 
 }  // namespace limitcheck::reference

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/parameter.h"
@@ -54,9 +54,6 @@ class StamEvaluator {
   /// Control points in the number type itself.
   StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                 Weights weights = Weights::kLoop, const SharpTags& tags = {});
-  ~StamEvaluator();
-  StamEvaluator(StamEvaluator&&) noexcept;
-  StamEvaluator& operator=(StamEvaluator&&) noexcept;
 
   int face_count() const;
   /// Throws data::ArgumentError for a face that is not there and for parameters outside the triangle.
@@ -65,7 +62,7 @@ class StamEvaluator {
                            Order order = Order::kSecond) const;
 
  private:
-  std::unique_ptr<const detail::StamData<N>> data_;
+  std::shared_ptr<const detail::StamData<N>> data_;
 };
 
 }  // namespace limitcheck::reference

@@ -8,13 +8,12 @@
 #include <tuple>
 
 #include "data/error.h"
-#include "reference/loop/special_ring.h"
+#include "reference/loop/ringed_face.h"
 #include "reference/loop/stam.h"
-#include "reference/loop/stam_patches.h"
-#include "reference/loop/sub_face_location.h"
-#include "reference/loop/triangle_mesh.h"
-#include "reference/loop/two_ring_impl.h"
-#include "reference/mesh/next_step.h"
+#include "reference/loop/stepped_ring.h"
+#include "reference/loop/sub_faces.h"
+#include "reference/loop/two_ring.h"
+#include "reference/mesh/cut_mesh.h"
 
 namespace limitcheck::reference {
 namespace detail {
@@ -24,15 +23,16 @@ class StamData {
  public:
   /// `wanted` faces are those of which anybody will ask, all if it is empty.
   StamData(TaggedMesh<N> mesh, const std::vector<bool>& wanted, Weights weights)
-      : StamData(TriangleMesh<N>(std::move(mesh)), weights, wanted) {}
-  StamData(TriangleMesh<N> mesh, Weights weights, const std::vector<bool>& wanted = {})
+      : StamData(CutMesh<N>(std::move(mesh)), weights, wanted) {}
+  StamData(CutMesh<N> mesh, Weights weights, const std::vector<bool>& wanted = {})
       : weights_(weights),
         mesh_(std::move(mesh)),
         next_(mesh_.needs_a_step, wanted),
         topology_(mesh_.topology),
         control_(mesh_.positions),
-        refined_(topology_, control_, mesh_.states, weights) {
+        points_(refine_once(topology_, control_, weights, mesh_.states)) {
     make_two_rings();
+    make_patches();
   }
   StamData(const StamData&) = delete;  // its members refer to each other
   StamData& operator=(const StamData&) = delete;
@@ -47,54 +47,59 @@ class StamData {
     if (!mesh_.is_settled(f)) return evaluate_after_steps(f, l1, l2, order);
     SurfacePoint<N> result;
     const std::size_t corner = location.subface;
-    const std::int32_t two_ring = location.subface == 3 ? -1 : two_ring_of_[topology_.faces()[f][corner]];
-    const std::int32_t special = location.subface == 3 ? -1 : special_ring_of_[topology_.faces()[f][corner]];
-    if (two_ring < 0 && special < 0)
+    const std::int32_t v = location.subface == 3 ? -1 : topology_.faces()[f][corner];
+    const TwoRing<N>* two_ring = v < 0 || two_ring_of_[v] < 0 ? nullptr : &two_rings_[two_ring_of_[v]];
+    const SteppedRing<N>* stepped =
+        v < 0 || stepped_ring_of_[v] < 0 ? nullptr : &stepped_rings_[stepped_ring_of_[v]];
+    if (two_ring == nullptr && stepped == nullptr)
       evaluate_regular(f, location, order, result);
     else if (location.u + location.v == 0)
       return evaluate_corner(f, location.subface, location.gradients, order);
-    else if (special >= 0)
-      evaluate_near_corner(f, location, special_rings_[special], order, result);
+    else if (stepped != nullptr)
+      evaluate_near_corner(f, location, *stepped, order, result);
     else
-      evaluate_near_corner(f, location, two_rings_[two_ring], order, result);
+      evaluate_near_corner(f, location, *two_ring, order, result);
     if (order == Order::kPosition) return result;
     Tangents<N> tangents = tangents_of(result);
-    const bool near_vertex = two_ring >= 0 || special >= 0;
-    if (near_vertex && is_ordinary_end(topology_.faces()[f][corner]) &&
-        nearly_parallel(result.t1, result.t2)) {
-      if (two_ring >= 0)
-        separate_tangents(f, location, two_rings_[two_ring], tangents);
+    const bool near_vertex = two_ring != nullptr || stepped != nullptr;
+    if (near_vertex && is_ordinary_end(v) && nearly_parallel(result.t1, result.t2)) {
+      if (two_ring != nullptr)
+        separate_tangents(f, location, *two_ring, tangents);
       else
-        separate_tangents(f, location, special_rings_[special], tangents);
+        separate_tangents(f, location, *stepped, tangents);
     }
     set_normal(result, tangents, fallback_normal(f));
     return result;
   }
 
  private:
+  std::int32_t edge_point(std::int32_t edge) const {
+    return static_cast<std::int32_t>(topology_.vertex_count()) + edge;
+  }
+
   void make_two_rings() {
     two_ring_of_.assign(topology_.vertex_count(), -1);
-    special_ring_of_.assign(topology_.vertex_count(), -1);
+    stepped_ring_of_.assign(topology_.vertex_count(), -1);
     std::vector<Vec3<N>> r, q, p;
     for (std::size_t id = 0; id < topology_.vertex_count(); ++id) {
       const auto v = static_cast<std::int32_t>(id);
       const Sector sector = topology_.sector(v);
       const VertexState state = state_of(mesh_.states, v);
-      if (sector.faces.empty() || is_regular(sector, state)) continue;
+      if (sector.faces.empty() || is_regular_vertex(sector.faces.size(), !sector.closed, state)) continue;
       r.clear(), q.clear(), p.clear();
-      for (const std::int32_t edge : sector.edges) r.push_back(refined_.point(refined_.edge_point(edge)));
-      for (const std::int32_t neighbour : sector.neighbours) p.push_back(refined_.point(neighbour));
+      for (const std::int32_t edge : sector.edges) r.push_back(points_[edge_point(edge)]);
+      for (const std::int32_t neighbour : sector.neighbours) p.push_back(points_[neighbour]);
       for (const std::int32_t f : sector.faces) {
         const Triangle t = triangle_of(topology_, f);
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-        q.push_back(refined_.point(refined_.edge_point(topology_.edge(f, (k + 1) % 3))));
+        q.push_back(points_[edge_point(topology_.edge(f, (k + 1) % 3))]);
       }
       if (state != VertexState::kOrdinary || sector.faces.size() >= kManyFaces) {
         const std::tuple kind(static_cast<int>(q.size()), sector.closed, state);
         const auto [faces, closed, what] = kind;
-        const auto& found = special_kinds_.try_emplace(kind, faces, closed, what, weights_).first->second;
-        special_ring_of_[id] = static_cast<std::int32_t>(special_rings_.size());
-        special_rings_.emplace_back(found, refined_.point(v), r, q, p);
+        const auto& found = stepped_kinds_.try_emplace(kind, faces, closed, what, weights_).first->second;
+        stepped_ring_of_[id] = static_cast<std::int32_t>(stepped_rings_.size());
+        stepped_rings_.emplace_back(found, points_[v], r, q, p);
         if (kRounds<N> && sector.faces.size() >= kManyFaces)  // who asks for balls asks for few points
           limit_of_.emplace(v, limit_at(v));
         continue;
@@ -102,7 +107,23 @@ class StamData {
       const std::pair key(static_cast<int>(q.size()), !sector.closed);
       const auto modes = modes_.try_emplace(key, key.first, key.second, weights_).first;
       two_ring_of_[id] = static_cast<std::int32_t>(two_rings_.size());
-      two_rings_.emplace_back(modes->second, refined_.point(v), r, q, p);
+      two_rings_.emplace_back(modes->second, points_[v], r, q, p);
+    }
+  }
+
+  void make_patches() {
+    const Topology finer(points_.size(), refined_triangles(topology_));
+    patches_.resize(finer.faces().size());
+    for (std::size_t child = 0; child < patches_.size(); ++child) {
+      const std::size_t k = child % 4;
+      const std::int32_t v = k == 3 ? -1 : topology_.faces()[child / 4][k];
+      if (v >= 0 && (two_ring_of_[v] >= 0 || stepped_ring_of_[v] >= 0)) continue;
+      const auto face = gather_triangle<std::int32_t>(
+          finer, child, [](std::int32_t point) { return point; }, mesh_.states);
+      patches_[child] = face.patch([&](std::int32_t a, std::int32_t b, std::int32_t c) {
+        points_.push_back(ghost_point(points_[a], points_[b], points_[c]));
+        return static_cast<std::int32_t>(points_.size() - 1);
+      });
     }
   }
 
@@ -111,13 +132,9 @@ class StamData {
                         SurfacePoint<N>& result) const {
     Basis<N> basis;
     evaluate_basis(basis, number_from<N>(location.u), number_from<N>(location.v), order);
-    struct Gather {
-      const RefinedPatches<N>& refined;
-      const typename RefinedPatches<N>::Patch& patch;
-      const Vec3<N>& operator[](std::size_t i) const { return refined.point(patch[i]); }
-    };
-    const LocalPoint<N> s =
-        evaluate_patch<N>(Gather{refined_, refined_.patch(f, location.subface)}, basis, order);
+    std::array<Vec3<N>, 12> points;
+    for (std::size_t i = 0; i < 12; ++i) points[i] = points_[patches_[4 * f + location.subface][i]];
+    const LocalPoint<N> s = evaluate_patch<N>(points, basis, order);
     result.position = s.position;
     set_derivatives(result, s, location.gradients, N(2), N(4), order);
   }
@@ -180,32 +197,14 @@ class StamData {
     return result;
   }
 
-  template <class P>
-  void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const SpecialRing<N>& ring,
-                            Order order, SurfacePoint<N>& result) const {
-    const int face = topology_.ring_index(f, location.subface);
-    const long steps = steps_to_corner(location.u, location.v);
-    const SubTriangle<P> outer(location, steps);
-    const auto s = ring.face_points(face, steps);
-    Basis<N> basis;
-    evaluate_basis(basis, number_from<N>(outer.a), number_from<N>(outer.b), order);
-    const LocalPoint<N> local = evaluate_patch<N>(
-        outer_patch(ring.kind().faces(), !ring.kind().closed(), face, s.points, s.c_after, outer.which),
-        basis, order, ring.size(steps));
-    const N growth = ring.kind().growth();
-    const ParameterGradients& g = location.gradients;
-    result.position = ring.limit() + (local.position - s.c_to_limit) * power(growth, steps);
-    set_derivatives(result, local, outer.which == 2 ? g.turned() : g, N(4) * power(N(2) * growth, steps),
-                    N(16) * power(N(4) * growth, steps), order);
-  }
-
   /// The sub-triangle of outer_patch that holds a point, and the point's parameters there.
   template <class P>
   struct SubTriangle {
     int which = 2;
     P a, b;
     SubTriangle(const SubFaceLocation<P>& location, long steps) {
-      const P u = scaled(location.u, steps + 1), v = scaled(location.v, steps + 1);  // 1 < u + v <= 2
+      const P u = times_power_of_two(location.u, steps + 1),
+              v = times_power_of_two(location.v, steps + 1);  // 1 < u + v <= 2
       a = 1 - u, b = 1 - v;
       if (u >= 1)
         which = 0, a = u - 1, b = v;
@@ -214,33 +213,28 @@ class StamData {
     }
   };
 
-  template <class P>
-  void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const TwoRing<N>& two_ring,
-                            Order order, SurfacePoint<N>& result) const {
+  ///   Ring   TwoRing or SteppedRing
+  template <class P, class Ring>
+  void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const Ring& ring, Order order,
+                            SurfacePoint<N>& result) const {
     const int face = topology_.ring_index(f, location.subface);
-    const long steps = steps_to_corner(location.u, location.v);
+    const long steps = steps_to_corner(P(location.u + location.v));
     const SubTriangle<P> outer(location, steps);
-    const int which = outer.which;
-    TwoRingPower<N> buffer;
-    typename TwoRing<N>::FacePoints s;
-    two_ring.face_points(face, two_ring.modes().power(steps, buffer), s);
-    const ParameterGradients& g = location.gradients;
+    const RingPoints<N> s = ring.face_points(face, steps);
     Basis<N> basis;
     evaluate_basis(basis, number_from<N>(outer.a), number_from<N>(outer.b), order);
-    const TwoRingModes<N>& modes = two_ring.modes();
-    const Vec3<N> next_c = s.c * modes.mean_eigenvalue();  // without the linear part, which vanishes at c
-    const LocalPoint<N> local =
-        evaluate_patch<N>(outer_patch(modes.count(), modes.on_boundary(), face, s, next_c, which), basis,
-                          order, two_ring.size(steps));
+    const LocalPoint<N> local = evaluate_patch<N>(
+        outer_patch(ring.faces(), ring.on_boundary(), face, s, outer.which), basis, order, ring.size(steps));
 
     // Put back growth^J, the scale of the triangle, the linear part and the limit.
-    const N& growth = two_ring.modes().growth();
-    const auto [to_first, to_second, first_size, second_size] = two_ring.linear_part(face, steps);
-    result.position = two_ring.limit() +
+    const N growth = ring.growth();
+    const ParameterGradients& g = location.gradients;
+    const auto [to_first, to_second, first_size, second_size] = ring.linear_part(face, steps);
+    result.position = ring.limit() +
                       (to_first * number_from<N>(location.u) + to_second * number_from<N>(location.v)) +
-                      local.position * power(growth, steps);
+                      (local.position - s.c_to_limit) * power(growth, steps);
     if (order == Order::kPosition) return;
-    set_derivatives(result, local, which == 2 ? g.turned() : g, N(4) * power(N(2) * growth, steps),
+    set_derivatives(result, local, outer.which == 2 ? g.turned() : g, N(4) * power(N(2) * growth, steps),
                     N(16) * power(N(4) * growth, steps), order);
     result.t1 = result.d1 += (to_first * N(g.a1) + to_second * N(g.b1)) * N(2);
     result.t2 = result.d2 += (to_first * N(g.a2) + to_second * N(g.b2)) * N(2);
@@ -251,9 +245,7 @@ class StamData {
   /// The control points of one of the three sub-triangles that one more step of face (c, r_i, r_{i+1}) gives
   /// away from c. On the lattice with c = (0, 0), r_i = (1, 0), r_{i+1} = (0, 1) they are
   ///   0  (r_i, p_i, q_i)    1  (r_{i+1}, q_i, p_{i+1})    2  (q_i, r_{i+1}, r_i), the middle one
-  ///   next_c   c after one more step
-  static std::array<Vec3<N>, 12> outer_patch(int count, bool on_boundary, int face,
-                                             const typename TwoRing<N>::FacePoints& s, const Vec3<N>& next_c,
+  static std::array<Vec3<N>, 12> outer_patch(int count, bool on_boundary, int face, const RingPoints<N>& s,
                                              int which) {
     const auto edge = [](const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& c, const Vec3<N>& d) {
       return interior_edge_point(a, b, c, d);
@@ -261,7 +253,7 @@ class StamData {
     const auto vertex = [](const Vec3<N>& centre, const std::array<Vec3<N>, 6>& ring) {
       return interior_vertex_point<N>(centre, ring);
     };
-    const auto &c = s.c, *r = s.r, *q = s.q, *p = s.p;
+    const auto &c = s.c, &next_c = s.c_after, *r = s.r, *q = s.q, *p = s.p;
     const Vec3<N> r_i = edge(c, r[2], r[1], r[3]), r_next = edge(c, r[3], r[2], r[4]);
     const Vec3<N> q_i = edge(r[2], r[3], c, q[1]);
     const Vec3<N> p_i = vertex(r[2], {c, r[3], q[1], p[0], q[0], r[1]}),
@@ -317,17 +309,19 @@ class StamData {
   }
 
   Weights weights_;
-  TriangleMesh<N> mesh_;
+  CutMesh<N> mesh_;
   NextStep<N, StamData> next_;
   const Topology& topology_;
   const std::vector<Vec3<N>>& control_;
-  RefinedPatches<N> refined_;
+  std::vector<Vec3<N>> points_;  ///< after one step: vertices, edge points, then ghosts
+  std::vector<std::array<std::int32_t, 12>>
+      patches_;  ///< of the faces of that step; unset at irregular vertices
   std::vector<std::int32_t> two_ring_of_;
   std::map<std::pair<int, bool>, TwoRingModes<N>> modes_;
   std::vector<TwoRing<N>> two_rings_;
-  std::vector<std::int32_t> special_ring_of_;  ///< of each vertex, -1 where it has a two-ring or is regular
-  std::map<std::tuple<int, bool, VertexState>, SpecialRingKind<N>> special_kinds_;
-  std::vector<SpecialRing<N>> special_rings_;
+  std::vector<std::int32_t> stepped_ring_of_;  ///< of each vertex, -1 where it has a two-ring or is regular
+  std::map<std::tuple<int, bool, VertexState>, SteppedRingKind<N>> stepped_kinds_;
+  std::vector<SteppedRing<N>> stepped_rings_;
   std::map<std::int32_t, VertexLimit<N>> limit_of_;  ///< of vertices of many faces
 };
 
@@ -339,14 +333,8 @@ StamEvaluator<N>::StamEvaluator(const data::ControlMesh& mesh, Weights weights)
 template <class N>
 StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                                 Weights weights, const SharpTags& tags)
-    : data_(std::make_unique<detail::StamData<N>>(TriangleMesh<N>(std::move(positions), triangles, tags),
-                                                  weights)) {}
-template <class N>
-StamEvaluator<N>::~StamEvaluator() = default;
-template <class N>
-StamEvaluator<N>::StamEvaluator(StamEvaluator&&) noexcept = default;
-template <class N>
-StamEvaluator<N>& StamEvaluator<N>::operator=(StamEvaluator&&) noexcept = default;
+    : data_(std::make_shared<const detail::StamData<N>>(
+          CutMesh<N>(std::move(positions), data::Faces(triangles), tags), weights)) {}
 
 template <class N>
 int StamEvaluator<N>::face_count() const {
@@ -367,10 +355,7 @@ SurfacePoint<N> StamEvaluator<N>::evaluate(int face, const Parameter& l1, const 
                                            Order order) const {
   if constexpr (std::is_same_v<N, double>)
     if (l1.is_double() && l2.is_double()) return data_->evaluate(face, l1.as_double(), l2.as_double(), order);
-  // Two doubles may add up to 1 only after rounding; their exact values are treated like the rounded ones.
-  Rational first = exact_value(l1), second = exact_value(l2);
-  if (l1.is_double() && l2.is_double() && l1.as_double() + l2.as_double() == 1.0 && first + second > 1)
-    (first > second ? second : first) = 1 - (first > second ? first : second);
+  const auto [first, second] = exact_parameters(l1, l2);
   return data_->evaluate(face, first, second, order);
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
 #include "reference/point/parameter.h"
@@ -16,7 +16,7 @@
 namespace limitcheck::reference {
 
 template <class N>
-struct TriangleMesh;
+struct CutMesh;
 
 /// Subdivides the face and its ring, always into the sub-face that holds the point, until that is regular (a
 /// box spline patch, Appendix A) or the point is its corner (limit masks). The number of steps grows with
@@ -30,9 +30,6 @@ class SubdivisionEvaluator {
   explicit SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                        Weights weights = Weights::kLoop, const SharpTags& tags = {});
-  ~SubdivisionEvaluator();
-  SubdivisionEvaluator(SubdivisionEvaluator&&) noexcept;
-  SubdivisionEvaluator& operator=(SubdivisionEvaluator&&) noexcept;
 
   int face_count() const;
   /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
@@ -40,7 +37,7 @@ class SubdivisionEvaluator {
                            Order order = Order::kSecond) const;
 
  private:
-  std::unique_ptr<const TriangleMesh<N>> mesh_;
+  std::shared_ptr<const CutMesh<N>> mesh_;
   Weights weights_;
 };
 

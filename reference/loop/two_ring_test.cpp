@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "reference/loop/two_ring_impl.h"
+#include "reference/loop/two_ring.h"
 #include "reference/number/number_exact.h"
 
 namespace limitcheck::reference {
@@ -127,9 +127,7 @@ TEST(TwoRing_Powers, EqualRepeatedSubdivisionOfTheWholeTwoRing) {
       for (int step = 0; step <= 60; ++step) {
         if (step < 12 || step == 39 || step == 40 || step == 60)
           for (int i = 0; i < count; ++i) {
-            TwoRing<N>::FacePoints s;
-            TwoRingPower<N> buffer;
-            two_ring.face_points(i, modes.power(step, buffer), s);
+            const RingPoints<N> s = two_ring.face_points(i, step);
             const auto linear = two_ring.linear_part(i, step);
             const Vec3<N>&g1 = linear.to_first, &g2 = linear.to_second;
             const N shrink = power(N(1) / 2, step), growth = power(modes.growth(), step);

@@ -4,18 +4,36 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "data/cut_out.h"
+#include "data/faces.h"
 #include "reference/mesh/sharp_tags.h"
-#include "reference/mesh/support.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/number_exact.h"
-#include "reference/number/sparse_rationals.h"
-#include "reference/number/vec3.h"
 
 namespace limitcheck::reference {
+
+/// A list of exact numbers of which nearly all are 0: these take four bytes and no memory of their own.
+class SparseRationals {
+ public:
+  explicit SparseRationals(std::size_t count = 0) : place_(count) {}
+
+  std::size_t size() const { return place_.size(); }
+  bool is_zero(std::size_t i) const { return place_[i] == 0; }
+  const Rational& operator[](std::size_t i) const { return values_[static_cast<std::size_t>(place_[i])]; }
+  void set(std::size_t i, const Rational& value) {
+    place_[i] = 0;
+    if (value == 0) return;
+    place_[i] = static_cast<std::int32_t>(values_.size());
+    values_.push_back(value);
+  }
+
+ private:
+  std::vector<std::int32_t> place_;  // in values_
+  std::vector<Rational> values_{Rational(0)};
+};
 
 /// The rule of a vertex, by its sharp edges: none, one, two, more, or held by a sharpness of its own.
 enum class VertexRule : std::uint8_t { kSmooth, kDart, kCrease, kCorner };
@@ -89,70 +107,6 @@ class Sharpness {
 
   SparseRationals edge_, vertex_;
   bool chaikin_ = false;
-};
-
-template <class N>
-N number_from_rational(const Rational& a) {
-  if constexpr (std::is_same_v<N, Rational>)
-    return a;
-  else if constexpr (std::is_same_v<N, double>)
-    return a.convert_to<double>();
-  else
-    return NumberTraits<N>::from_rational(a);
-}
-
-/// Turns the points of a step by the smooth rules (vertices, edge points, ..) into those of a step with sharp
-/// edges and vertices.
-template <class N>
-void sharpen(const Topology& topology, const Sharpness& sharpness, const std::vector<Vec3<N>>& positions,
-             std::vector<Vec3<N>>& refined) {
-  const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
-  const N half = N(1) / N(2), eighth = N(1) / N(8);
-  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
-    const Edge& edge = topology.edges()[e];
-    if (sharpness.is_smooth(static_cast<std::int32_t>(e))) continue;
-    const Rational share = sharpness.edge_share(topology, static_cast<std::int32_t>(e));
-    if (edge.on_boundary() || share == 0) continue;
-    Vec3<N>& point = refined[positions.size() + e];
-    const Vec3<N> middle = (at(edge.a) + at(edge.b)) * half;
-    point = share == 1 ? middle : point + (middle - point) * number_from_rational<N>(share);
-  }
-  for (std::size_t id = 0; id < positions.size(); ++id) {
-    const auto v = static_cast<std::int32_t>(id);
-    if (topology.sector(v).faces.empty() || sharpness.is_smooth_around(topology, v)) continue;
-    const VertexRules rules = sharpness.rules(topology, v);
-    const Vec3<N> smooth = refined[id], &c = positions[id];
-    const auto point = [&](const VertexRules::One& one) -> Vec3<N> {
-      if (one.rule == VertexRule::kCorner) return c;
-      if (one.rule != VertexRule::kCrease) return smooth;
-      return c + ((at(one.ends[0]) - c) + (at(one.ends[1]) - c)) * eighth;
-    };
-    refined[id] = point(rules.parent);
-    if (rules.parent_share != 1) {
-      const Vec3<N> child = point(rules.child);
-      refined[id] = child + (refined[id] - child) * number_from_rational<N>(rules.parent_share);
-    }
-  }
-}
-
-/// A mesh with its tags.
-template <class N>
-struct TaggedMesh {
-  Topology topology;
-  std::vector<Vec3<N>> positions;
-  Sharpness sharpness;
-
-  /// Some faces, which come first, and all that their surface depends on.
-  TaggedMesh around(std::vector<std::int32_t> faces) const {
-    faces = support_of(std::move(faces), topology, sharpness.creasing());
-    const data::CutOut part = data::cut_out(topology.faces(), faces);
-    Topology local(part.vertices.size(), part.faces);
-    Sharpness sharp = sharpness.of_part(topology, local, faces, part.vertices);
-    return {std::move(local), part.of(positions), std::move(sharp)};
-  }
-  TaggedMesh around(std::size_t face) const {
-    return around(std::vector<std::int32_t>{static_cast<std::int32_t>(face)});
-  }
 };
 
 }  // namespace limitcheck::reference

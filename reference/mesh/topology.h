@@ -85,4 +85,18 @@ class Topology {
   std::vector<std::int32_t> ring_, ring_edges_, ring_faces_;  ///< an open sector has a face -1 at its end
 };
 
+/// A face that is a triangle.
+inline Triangle triangle_of(const Topology& topology, std::size_t face) {
+  const auto corners = topology.faces()[face];
+  return {corners[0], corners[1], corners[2]};
+}
+
+/// The vertex of a face that is not on one of its edges; -1 for no face, which is beyond the boundary.
+inline std::int32_t opposite(const Topology& topology, const Edge& edge, std::int32_t face) {
+  if (face < 0) return -1;
+  for (const std::int32_t v : topology.faces()[face])
+    if (v != edge.a && v != edge.b) return v;
+  return -1;
+}
+
 }  // namespace limitcheck::reference

@@ -111,4 +111,25 @@ Vec3<N> area_normal(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_bou
   return sum;
 }
 
+/// Whether normals can be had: not in exact rationals, which have no square roots.
+template <class N>
+inline constexpr bool kHasNormals = requires(N a) {
+  NumberTraits<N>::sqrt(a);
+};
+
+/// Sets the normal of a point from two tangents: its own, or others that span the same plane.
+template <class N>
+void set_normal(SurfacePoint<N>& point, const Tangents<N>& tangents, const Vec3<N>& fallback) {
+  if constexpr (kHasNormals<N>) {
+    const Normal<N> normal = unit_normal(tangents, fallback);
+    point.normal = normal.direction;
+    point.normal_kind = normal.kind;
+    point.normal_condition = normal.condition;
+  }
+}
+template <class N>
+Tangents<N> tangents_of(const SurfacePoint<N>& point) {
+  return {point.t1, point.t2, point.t1_terms, point.t2_terms};
+}
+
 }  // namespace limitcheck::reference

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which derivatives exist at vertices of every kind, and what they are: by the table of leading_modes.h, by the
+// Which derivatives exist at vertices of every kind, and what they are: by the table of vertex_limit.h, by the
 // eigenvalues of the rules as they are written down here once more, and by going there.
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Stam's evaluator in balls.
-#include "reference/loop/refine_impl.h"
-#include "reference/loop/stam_impl.h"
+// Stam's evaluators in balls.
 #include "reference/number/ball.h"
+#include "reference/surface/instantiate.h"
 
 namespace limitcheck::reference {
 
 LIMITCHECK_INSTANTIATE_REFINE(Ball)
 template class StamEvaluator<Ball>;
+template class catmull_clark::StamEvaluator<Ball>;
 
 }  // namespace limitcheck::reference

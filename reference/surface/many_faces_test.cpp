@@ -24,7 +24,7 @@ using test::Shape;
 using test::triangles;
 namespace cc = catmull_clark;
 
-/// Where closed forms end (loop/special_ring.h, catmull_clark/two_ring.h).
+/// Where closed forms end (loop/stepped_ring.h, catmull_clark/two_ring.h).
 constexpr int kManyFaces = 65;
 
 /// Parameters of a face seen from its corner k, from the corner itself to the middle.

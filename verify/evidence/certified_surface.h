@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "verify/evidence/lattice.h"
 #include "verify/evidence/sides.h"
 #include "verify/evidence/vector.h"

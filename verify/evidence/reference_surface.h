@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "verify/evidence/certified_surface.h"
 #include "verify/evidence/lattice.h"
 #include "verify/evidence/sides.h"

@@ -9,7 +9,7 @@
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
-#include "reference/loop/triangles.h"
+#include "reference/mesh/topology.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/projection/cut_mesh.h"
 

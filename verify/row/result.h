@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "data/scheme.h"
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "verify/row/places.h"
 
 namespace limitcheck::verify {

@@ -2,7 +2,7 @@
 // The option of our own subjects that chooses the family of weights.
 #pragma once
 
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "verify/subject/options.h"
 #include "verify/subject/subject.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "reference/loop/masks.h"
-#include "reference/loop/triangles.h"
+#include "reference/mesh/topology.h"
 #include "reference/point/normal.h"
 
 namespace limitcheck::verify {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "reference/loop/masks.h"
-#include "reference/loop/weights.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 

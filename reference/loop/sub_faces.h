@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The mesh that Loop's evaluators start from: cut along its sharp edges; and the way to it where tags are
-// semi-sharp.
+// The four sub-faces of a triangle: of all triangles of a mesh in a step, and those that hold a point.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <utility>
 #include <vector>
 
+#include "data/error.h"
 #include "reference/loop/patch.h"
 #include "reference/loop/refine.h"
-#include "reference/loop/triangles.h"
-#include "reference/mesh/sharpness.h"
+#include "reference/mesh/cut_mesh.h"
+#include "reference/mesh/topology.h"
 
 namespace limitcheck::reference {
 
@@ -40,40 +39,6 @@ TaggedMesh<N> refine_once(const TaggedMesh<N>& mesh, Weights weights) {
   Sharpness sharpness = mesh.sharpness.refined(mesh.topology, finer);
   return {std::move(finer), std::move(refined), std::move(sharpness)};
 }
-
-/// A mesh of triangles, cut along its sharp edges.
-template <class N>
-struct TriangleMesh {
-  Topology topology;
-  std::vector<Vec3<N>> positions;
-  std::vector<VertexState> states;  ///< of the vertices; empty if all are ordinary
-  /// Faces whose surface this mesh does not have, since semi-sharp tags are near: theirs are those of
-  /// `tagged`, which has the same faces and is not cut.
-  std::vector<bool> needs_a_step;
-  std::shared_ptr<const TaggedMesh<N>> tagged;
-
-  TriangleMesh(std::vector<Vec3<N>> points, const std::vector<Triangle>& triangles, const SharpTags& tags)
-      : topology(points.size(), triangles), positions(std::move(points)) {
-    if (tags.empty()) return;
-    Sharpness sharpness(topology, tags);
-    settle({std::move(topology), std::move(positions), std::move(sharpness)});
-  }
-  explicit TriangleMesh(TaggedMesh<N> mesh) : topology(mesh.topology) { settle(std::move(mesh)); }
-
-  bool is_settled(std::size_t face) const { return !tagged || !needs_a_step[face]; }
-
- private:
-  void settle(TaggedMesh<N> mesh) {
-    needs_a_step = mesh.sharpness.needs_a_step(mesh.topology);
-    Sharpness::Cut cut = mesh.sharpness.cut(mesh.topology);
-    positions.clear();
-    for (const std::int32_t v : cut.origin) positions.push_back(mesh.positions[v]);
-    states = std::move(cut.states);
-    topology = Topology(positions.size(), std::move(cut.faces));
-    if (std::find(needs_a_step.begin(), needs_a_step.end(), true) != needs_a_step.end())
-      tagged = std::make_shared<const TaggedMesh<N>>(std::move(mesh));
-  }
-};
 
 /// A point on its way down into the sub-faces.
 template <class P>
@@ -110,12 +75,41 @@ struct SubFacePath {
 /// Takes a point of a face that needs steps to the mesh of few faces in whose face 0 it is after these steps,
 /// with no semi-sharp tags left.
 template <class N, class P>
-TriangleMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t face, Weights weights,
-                               SubFacePath<P>& path) {
+CutMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t face, Weights weights,
+                          SubFacePath<P>& path) {
   TaggedMesh<N> near = mesh.around(face);
   while (near.sharpness.needs_a_step(near.topology)[0])
     near = refine_once(near, weights).around(static_cast<std::size_t>(path.descend()));
-  return TriangleMesh<N>(std::move(near));
+  return CutMesh<N>(std::move(near));
+}
+
+/// Two doubles may add up to 1 only after rounding; their exact values are treated like the rounded ones.
+inline std::pair<Rational, Rational> exact_parameters(const Parameter& l1, const Parameter& l2) {
+  Rational first = exact_value(l1), second = exact_value(l2);
+  if (l1.is_double() && l2.is_double() && l1.as_double() + l2.as_double() == 1.0 && first + second > 1)
+    (first > second ? second : first) = 1 - (first > second ? first : second);
+  return {first, second};
+}
+
+/// Where a point lies after one step, decided on the parameters alone (P is double or Rational).
+template <class P>
+struct SubFaceLocation {
+  int subface;                   ///< 0..2 at a corner, 3 the middle
+  P u, v;                        ///< coordinates in the sub-face: towards its second and third corner
+  ParameterGradients gradients;  ///< of u and v
+};
+
+template <class P>
+SubFaceLocation<P> locate(P l1, P l2) {
+  if (!(l1 >= 0) || !(l2 >= 0) || !(l1 + l2 <= 1))
+    throw data::ArgumentError("l1, l2 must be >= 0 and l1 + l2 <= 1");
+  if (l2 > 1 - l1) (l1 > l2 ? l2 : l1) = 1 - (l1 > l2 ? l1 : l2);  // the sum was rounded to 1
+  const P half = P(1) / P(2);
+  // Differences from 1 are exact in double where it matters: next to the corner they are measured from.
+  if (l1 >= half) return {1, 2 * l2, 2 * ((1 - l1) - l2), {0, 1, -1, -1, 1}};
+  if (l2 >= half) return {2, 2 * ((1 - l2) - l1), 2 * l1, {-1, -1, 1, 0, 1}};
+  if (l1 + l2 <= half) return {0, 2 * l1, 2 * l2, {1, 0, 0, 1, 1}};
+  return {3, 2 * (l1 + l2) - 1, 1 - 2 * l1, {1, 1, -1, 0, 1}};
 }
 
 }  // namespace limitcheck::reference

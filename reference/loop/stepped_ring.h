@@ -28,9 +28,9 @@ inline constexpr int kManyFaces = 65;
 
 /// All that such vertices of K faces have in common. A dart has an open sector.
 template <class N>
-class SpecialRingKind {
+class SteppedRingKind {
  public:
-  SpecialRingKind(int faces, bool closed, VertexState state, Weights weights);
+  SteppedRingKind(int faces, bool closed, VertexState state, Weights weights);
 
   int faces() const { return faces_; }
   bool closed() const { return closed_; }
@@ -61,37 +61,36 @@ class SpecialRingKind {
 
 /// One such vertex.
 template <class N>
-class SpecialRing {
+class SteppedRing {
  public:
   /// As TwoRing. Keeps a pointer to the kind.
-  SpecialRing(const SpecialRingKind<N>& kind, const Vec3<N>& c, const std::vector<Vec3<N>>& r,
+  SteppedRing(const SteppedRingKind<N>& kind, const Vec3<N>& c, const std::vector<Vec3<N>>& r,
               const std::vector<Vec3<N>>& q, const std::vector<Vec3<N>>& p);
 
-  const SpecialRingKind<N>& kind() const { return *kind_; }
+  int faces() const { return kind_->faces(); }
+  bool on_boundary() const { return !kind_->closed(); }
+  N growth() const { return kind_->growth(); }
   const Vec3<N>& limit() const { return limit_; }
   /// As TwoRing.
   N size(long exponent) const { return size_ * reference::power(decay_, exponent); }
   /// As TwoRing, for an ordinary vertex on the boundary.
-  SpecialRing without_dominant() const;
-  SpecialRing only_dominant() const;
+  SteppedRing without_dominant() const;
+  SteppedRing only_dominant() const;
 
-  /// The points around face i after J steps, over growth^J, as differences from c; and from c to its place
-  /// after one more step, and to the limit.
-  struct FacePoints {
-    typename TwoRing<N>::FacePoints points;
-    Vec3<N> c_after, c_to_limit;
-  };
-  FacePoints face_points(int face, long steps) const;
+  /// Around a face after J steps, as differences from c.
+  RingPoints<N> face_points(int face, long steps) const;
+  /// Not kept apart here.
+  LinearPart<N> linear_part(int, long) const { return {}; }
 
  private:
-  const SpecialRingKind<N>* kind_;
+  const SteppedRingKind<N>* kind_;
   Vec3<N> limit_, heard_;
   N size_{}, decay_{1};  ///< the second in a step, over the growth
   std::vector<Vec3<N>> r_, q_, p_;
 };
 
 template <class N>
-SpecialRingKind<N>::SpecialRingKind(int faces, bool closed, VertexState state, Weights weights)
+SteppedRingKind<N>::SteppedRingKind(int faces, bool closed, VertexState state, Weights weights)
     : faces_(faces), closed_(closed), state_(state) {
   using T = NumberTraits<N>;
   const N smooth = N(3) / N(8);
@@ -118,7 +117,7 @@ SpecialRingKind<N>::SpecialRingKind(int faces, bool closed, VertexState state, W
 }
 
 template <class N>
-Vec3<N> SpecialRingKind<N>::heard(std::span<const Vec3<N>> r) const {
+Vec3<N> SteppedRingKind<N>::heard(std::span<const Vec3<N>> r) const {
   if (state_ == VertexState::kHeld) return {};
   if (!closed_ && state_ == VertexState::kOrdinary) return r.front() + r.back();
   Vec3<N> sum{};
@@ -127,7 +126,7 @@ Vec3<N> SpecialRingKind<N>::heard(std::span<const Vec3<N>> r) const {
 }
 
 template <class N>
-SpecialRing<N>::SpecialRing(const SpecialRingKind<N>& kind, const Vec3<N>& c, const std::vector<Vec3<N>>& r,
+SteppedRing<N>::SteppedRing(const SteppedRingKind<N>& kind, const Vec3<N>& c, const std::vector<Vec3<N>>& r,
                             const std::vector<Vec3<N>>& q, const std::vector<Vec3<N>>& p)
     : kind_(&kind), r_(r), q_(q), p_(p) {
   for (auto* list : {&r_, &q_, &p_})
@@ -141,8 +140,8 @@ SpecialRing<N>::SpecialRing(const SpecialRingKind<N>& kind, const Vec3<N>& c, co
 }
 
 template <class N>
-SpecialRing<N> SpecialRing<N>::without_dominant() const {
-  SpecialRing result = *this;
+SteppedRing<N> SteppedRing<N>::without_dominant() const {
+  SteppedRing result = *this;
   const int count = kind_->faces();
   const Vec3<N> amplitude =
       boundary_tangents<N>(Vec3<N>{}, std::span<const Vec3<N>>(r_)).second * (N(2) / N(count));
@@ -153,8 +152,8 @@ SpecialRing<N> SpecialRing<N>::without_dominant() const {
 }
 
 template <class N>
-SpecialRing<N> SpecialRing<N>::only_dominant() const {
-  SpecialRing result = *this;
+SteppedRing<N> SteppedRing<N>::only_dominant() const {
+  SteppedRing result = *this;
   result.limit_ = result.heard_ = Vec3<N>{};
   result.size_ = N(0);
   for (auto* all : {&result.r_, &result.q_, &result.p_}) all->assign(all->size(), Vec3<N>{});
@@ -164,7 +163,7 @@ SpecialRing<N> SpecialRing<N>::only_dominant() const {
 }
 
 template <class N>
-typename SpecialRing<N>::FacePoints SpecialRing<N>::face_points(int face, long steps) const {
+RingPoints<N> SteppedRing<N>::face_points(int face, long steps) const {
   const bool closed = kind_->closed(), dart = kind_->state() == VertexState::kDart;
   const long count = kind_->faces(), entries = kind_->entries();
   const auto wrap = [](long i, long n) { return static_cast<std::size_t>((i % n + n) % n); };
@@ -182,8 +181,7 @@ typename SpecialRing<N>::FacePoints SpecialRing<N>::face_points(int face, long s
     return r[whole && closed ? wrap(i, count) : static_cast<std::size_t>(i - first)];
   };
 
-  FacePoints result{};
-  auto& s = result.points;
+  RingPoints<N> s{};
   const auto has_q = [&](long i) { return closed || (i >= 0 && i < count); };
   for (int k = 0; k < 3; ++k)
     if (has_q(face - 1 + k)) s.q[k] = q_[wrap(face - 1 + k, count)];
@@ -221,17 +219,10 @@ typename SpecialRing<N>::FacePoints SpecialRing<N>::face_points(int face, long s
     if (const long i = face - 2 + k; closed || (i >= 0 && i <= count)) s.r[k] = at(i);
   s.first_edge_on_boundary = !closed && face == 0;
   s.last_edge_on_boundary = !closed && face + 1 == count;
-  if (s.first_edge_on_boundary) {
-    s.r[1] = ghost_point(s.c, s.r[2], s.r[3]);
-    s.q[0] = ghost_point(s.r[2], s.p[0], s.q[1]);
-  }
-  if (s.last_edge_on_boundary) {
-    s.r[4] = ghost_point(s.c, s.r[3], s.r[2]);
-    s.q[2] = ghost_point(s.r[3], s.p[1], s.q[1]);
-  }
-  result.c_after = kind_->after(heard);
-  result.c_to_limit = kind_->to_limit(heard, r);
-  return result;
+  s.complete();
+  s.c_after = kind_->after(heard);
+  s.c_to_limit = kind_->to_limit(heard, r);
+  return s;
 }
 
 }  // namespace limitcheck::reference

@@ -17,9 +17,8 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/proof/proof_json.h"
 #include "verify/proof/proof_report.h"
-#include "verify/proof/prove.h"
+#include "verify/proof/proof_set.h"
 #include "verify/report/json.h"
 
 namespace limitcheck::cli {

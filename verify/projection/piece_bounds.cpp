@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "reference/catmull_clark/refined_mesh.h"
-#include "reference/loop/triangles.h"
+#include "reference/mesh/topology.h"
 #include "verify/projection/cut_mesh.h"
 
 namespace limitcheck::verify {

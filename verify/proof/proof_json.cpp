@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/proof_json.h"
+#include "verify/proof/proof_report.h"
 
 #include <cmath>
 #include <limits>

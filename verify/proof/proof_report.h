@@ -2,6 +2,7 @@
 // A proof's rows as a table and as JSON.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,7 +15,7 @@ namespace limitcheck::verify {
 
 class ProofReport {
  public:
-  /// Both must outlive this; rows as `prove` returns them: none of a task says that it was not done.
+  /// Both must outlive this; rows as `prove` returns them: a task without rows was not run.
   ProofReport(const ProofSet& set, const std::vector<std::vector<ProofRow>>& rows,
               std::vector<CertifiedLine> certified = {})
       : set_(set), rows_(rows), certified_(std::move(certified)) {}
@@ -41,5 +42,12 @@ class ProofReport {
   const std::vector<std::vector<ProofRow>>& rows_;
   const std::vector<CertifiedLine> certified_;
 };
+
+/// The same as JSON that loses nothing, to go on with and to merge.
+nlohmann::json proof_rows_json(const std::vector<ProofRow>& rows);
+std::vector<ProofRow> proof_rows_of(const nlohmann::json& json);
+
+nlohmann::json certified_json(const std::vector<CertifiedLine>& lines);
+std::vector<CertifiedLine> certified_of(const nlohmann::json& json);
 
 }  // namespace limitcheck::verify

@@ -16,6 +16,49 @@
 namespace limitcheck::verify {
 namespace {
 
+/// What a task costs in seconds of one core, roughly: for the progress bar and its estimate.
+double estimated_seconds(const ProofTask& task) {
+  const auto at = [](int depth) { return std::exp2(2. * depth); };
+  const auto vertices = static_cast<double>(task.neighbourhood.mesh.positions.size());
+  const MapOptions& o = task.options;
+  const double weight = o.arithmetic == Arithmetic::kResidues ? 2e-6 : 8e-5;
+  double seconds = weight * vertices * at(o.last_depth);
+  if (task.bounds) {
+    const double points = at(task.bounds->last_depth) * (task.bounds->last_depth > 4 ? 1. / 5 : 1);
+    seconds += (3e-4 + 1e-6 * vertices) * at(task.bounds->last_depth) + 2e-6 * points * task.bounds->meshes +
+               1e-6 * vertices * at(task.bounds->last_depth);
+  }
+  return seconds;
+}
+double estimated_seconds_of_quad(const ProofTask& task) {
+  constexpr double kWeights[]{1.5e-4, 8e-6, 3e-4};  // in the order of Arithmetic
+  const auto vertices = static_cast<double>(task.neighbourhood.mesh.positions.size());
+  const double points = std::exp2(2. * task.options.last_depth);
+  return 1e-3 + kWeights[static_cast<std::size_t>(task.options.arithmetic)] * vertices * points +
+         (task.bounds ? 4e-4 * std::exp2(2. * task.bounds->last_depth) : 0);
+}
+
+/// Collects the tasks of a scheme's set, no deeper than was asked for.
+struct TaskList {
+  const ProofRequest& request;
+  double (*estimate)(const ProofTask&);
+  ProofSet set;
+
+  void add(const char* group, const std::vector<Neighbourhood>& topologies, Arithmetic arithmetic, int first,
+           int last, std::optional<BoundOptions> bounds) {
+    MapOptions options{arithmetic, first, std::min(last, request.depth), request.sliding_window,
+                       request.row_stream};
+    if (options.last_depth < first) return;
+    if (bounds) bounds->last_depth = std::min(bounds->last_depth, request.depth);
+    if (bounds && bounds->last_depth < bounds->first_depth) bounds.reset();
+    for (const Neighbourhood& topology : topologies) {
+      ProofTask task{group, topology, options, bounds, 0};
+      task.estimate = estimate(task);
+      set.tasks.push_back(std::move(task));
+    }
+  }
+};
+
 /// Pairs that hold every triple, two at a time where there is such a mesh.
 std::vector<Neighbourhood> triples(const std::vector<int>& valences, std::vector<std::string>& impossible) {
   std::vector<Neighbourhood> pairs;
@@ -72,21 +115,6 @@ std::vector<Neighbourhood> each_triple_once(const std::vector<Neighbourhood>& pa
   return chosen;
 }
 
-/// What a full set costs in seconds of one core, roughly: for the progress bar and its estimate.
-double estimated_seconds(const ProofTask& task) {
-  const auto at = [](int depth) { return std::exp2(2. * depth); };
-  const auto vertices = static_cast<double>(task.neighbourhood.mesh.positions.size());
-  const MapOptions& o = task.options;
-  const double weight = o.arithmetic == Arithmetic::kResidues ? 2e-6 : 8e-5;
-  double seconds = weight * vertices * at(o.last_depth);
-  if (task.bounds) {
-    const double points = at(task.bounds->last_depth) * (task.bounds->last_depth > 4 ? 1. / 5 : 1);
-    seconds += (3e-4 + 1e-6 * vertices) * at(task.bounds->last_depth) + 2e-6 * points * task.bounds->meshes +
-               1e-6 * vertices * at(task.bounds->last_depth);
-  }
-  return seconds;
-}
-
 ProofSet sample_of(ProofRequest request) {
   request.size = ProofSize::kStandard;
   ProofSet set = proof_set(request);
@@ -99,24 +127,12 @@ ProofSet sample_of(ProofRequest request) {
 }
 
 ProofSet triangle_proof_set(const ProofRequest& request) {
-  ProofSet set;
   const bool full = request.size == ProofSize::kFull;
+  TaskList list{request, estimated_seconds, {}};
+  ProofSet& set = list.set;
   const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic,
                        int first, int last, std::optional<BoundOptions> bounds = {}) {
-    MapOptions options;
-    options.arithmetic = arithmetic;
-    options.first_depth = first;
-    options.last_depth = std::min(last, request.depth);
-    options.sliding_window = request.sliding_window;
-    options.row_stream = request.row_stream;
-    if (options.last_depth < first) return;
-    if (bounds) bounds->last_depth = std::min(bounds->last_depth, request.depth);
-    if (bounds && bounds->last_depth < bounds->first_depth) bounds.reset();
-    for (const Neighbourhood& pair : pairs) {
-      ProofTask task{group, pair, options, bounds, 0};
-      task.estimate = estimated_seconds(task);
-      set.tasks.push_back(std::move(task));
-    }
+    list.add(group, pairs, arithmetic, first, last, bounds);
   };
   const int meshes = full ? 400 : 40;
 
@@ -168,7 +184,104 @@ ProofSet triangle_proof_set(const ProofRequest& request) {
     for (Neighbourhood& pair : pairs_of(data::bumpy_sphere(faces, 1)))
       if (seen.insert(pair.name).second) spheres.push_back(std::move(pair));
   add("spheres", spheres, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, 40});
-  return set;
+  return std::move(list.set);
+}
+
+using Valences = std::array<int, 4>;
+
+std::vector<Valences> quadruples(const std::vector<int>& valences) {
+  std::vector<Valences> all;
+  for (const int a : valences)
+    for (const int b : valences)
+      for (const int c : valences)
+        for (const int d : valences) all.push_back({a, b, c, d});
+  return all;
+}
+
+Valences turned(const Valences& v, std::size_t by) {
+  return {v[by % 4], v[(by + 1) % 4], v[(by + 2) % 4], v[(by + 3) % 4]};
+}
+
+/// One of every quadruple and its turns: each begins elsewhere.
+std::vector<Valences> up_to_turns(const std::vector<Valences>& all) {
+  std::vector<Valences> chosen;
+  std::set<Valences> seen;
+  for (const Valences& v : all) {
+    if (seen.contains(v)) continue;
+    for (std::size_t k = 0; k < 4; ++k) seen.insert(turned(v, k));
+    chosen.push_back(turned(v, chosen.size()));
+  }
+  return chosen;
+}
+
+std::vector<Neighbourhood> quads_of(const std::vector<Valences>& valences) {
+  std::vector<Neighbourhood> quads;
+  for (const Valences& v : valences) quads.push_back(interior_quad(v));
+  return quads;
+}
+
+ProofSet quad_proof_set(const ProofRequest& request) {
+  const bool full = request.size == ProofSize::kFull;
+  TaskList list{request, estimated_seconds_of_quad, {}};
+  const auto add = [&](const char* group, const std::vector<Neighbourhood>& quads, Arithmetic arithmetic,
+                       int last, std::optional<BoundOptions> bounds = {}) {
+    list.add(group, quads, arithmetic, 0, last, bounds);
+  };
+  const int meshes = full ? 200 : 20;
+
+  const std::vector<Valences> all = quadruples(request.valences), once = up_to_turns(all);
+  add("quadruples", quads_of(all), Arithmetic::kResidues, full ? 4 : 2,
+      BoundOptions{0, full ? 4 : 2, meshes});
+  add("quadruples", quads_of(once), Arithmetic::kExact, full ? 3 : 1);
+  add("quadruples", quads_of(once), Arithmetic::kDigits, full ? 2 : 0);
+
+  const std::vector<Neighbourhood> regular{interior_quad({4, 4, 4, 4})};
+  std::vector<Valences> deep, high;
+  for (const Valences& v :
+       {Valences{4, 4, 4, 3}, Valences{5, 4, 4, 4}, Valences{3, 5, 7, 4}, Valences{6, 3, 8, 5}})
+    for (std::size_t k = 0; k < 4; ++k) deep.push_back(turned(v, k));
+  std::vector<Neighbourhood> deeper = quads_of(deep);
+  deeper.push_back(regular.front());
+  add("deep", deeper, Arithmetic::kResidues, full ? 7 : 6, BoundOptions{0, full ? 6 : 5, meshes});
+  add("deep", deeper, Arithmetic::kExact, full ? 5 : 3);
+  add("deep", deeper, Arithmetic::kDigits, full ? 4 : 2);
+
+  for (const int n : {20, 50})
+    for (const Valences& v :
+         {Valences{n, 4, 4, 4}, Valences{n, 3, 5, 8}, Valences{n, n, 4, 3}, Valences{n, n, n, n}})
+      for (std::size_t k = 0; k < (v[1] == n && v[2] == n ? 1U : 4U); ++k) high.push_back(turned(v, k));
+  add("high", quads_of(high), Arithmetic::kResidues, full ? 5 : 2, BoundOptions{0, full ? 4 : 2, meshes});
+  if (!full) std::erase_if(high, [](const Valences& v) { return v[0] + v[1] + v[2] + v[3] > 70; });
+  add("high", quads_of(high), Arithmetic::kExact, full ? 2 : 1);
+  add("high", quads_of(high), Arithmetic::kDigits, full ? 1 : 0);
+
+  std::vector<Neighbourhood> boundary, cuts, darts, semi_sharp;
+  std::set<std::string> seen;
+  const auto add_new = [&](std::vector<Neighbourhood>& to, std::vector<Neighbourhood> quads) {
+    for (Neighbourhood& quad : quads)
+      if (seen.insert(quad.name).second) to.push_back(std::move(quad));
+  };
+  for (const Valences& v : full
+                               ? std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}, Valences{3, 3, 8, 5}}
+                               : std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}})
+    add_new(boundary, boundary_quads(v));
+  add("boundary", boundary, Arithmetic::kResidues, full ? 5 : 3, BoundOptions{0, full ? 4 : 2, meshes});
+  add("boundary", boundary, Arithmetic::kExact, full ? 3 : 1);
+  add("boundary", boundary, Arithmetic::kDigits, full ? 2 : 0);
+
+  for (const Valences& v : {Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}}) {
+    for (Neighbourhood& quad : creased_quads(v)) {
+      std::vector<Neighbourhood>& to = has_dart(quad.mesh) ? darts : cuts;
+      to.push_back(std::move(quad));
+    }
+    for (Neighbourhood& quad : semi_sharp_quads(v))
+      if (!has_dart(quad.mesh)) semi_sharp.push_back(std::move(quad));
+  }
+  add("cuts", cuts, Arithmetic::kExact, full ? 3 : 2, BoundOptions{0, full ? 4 : 2, meshes});
+  add("cuts", cuts, Arithmetic::kDigits, full ? 2 : 0);
+  add("darts", darts, Arithmetic::kDigits, full ? 3 : 1, BoundOptions{0, full ? 4 : 2, meshes});
+  add("semi-sharp", semi_sharp, Arithmetic::kExact, full ? 3 : 1, BoundOptions{0, full ? 4 : 2, meshes});
+  return std::move(list.set);
 }
 
 }  // namespace
@@ -177,6 +290,7 @@ ProofSet proof_set(const ProofRequest& request) {
   if (request.size == ProofSize::kSample) return sample_of(request);
   ProofSet set =
       request.scheme == data::Scheme::kCatmullClark ? quad_proof_set(request) : triangle_proof_set(request);
+  set.scheme = request.scheme;
   std::vector<FloatKernel> kernels;
   if (request.sliding_window) kernels.push_back(FloatKernel::kSlidingWindow);
   if (request.row_stream) kernels.push_back(FloatKernel::kRowStream);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The tasks of `limitcheck prove`: which topologies, in which arithmetic, to which depth.
+// The tasks of `limitcheck prove`: which topologies, in which arithmetic, to which depth; and how they are run.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -89,7 +92,20 @@ struct ProofSet {
 ///     darts          those with a dart                                    digits      0-1 | 0-3  0-2 | 0-4
 ///     semi-sharp     semi-sharp edges and vertices, sliding window        exact       0-1 | 0-3  0-2 | 0-4
 ProofSet proof_set(const ProofRequest& request);
-/// The tasks of the latter.
-ProofSet quad_proof_set(const ProofRequest& request);
+
+struct ProofProgress {
+  std::size_t tasks = 0;  ///< done
+  double share = 0;       ///< of the estimated work, 0 .. 1
+  const ProofTask* latest = nullptr;
+  const std::vector<ProofRow>* rows = nullptr;  ///< of the latest; none if it was stopped
+};
+
+/// Runs the tasks on all cores, begun in their order. The rows of task t are result[t], whatever the number
+/// of threads.
+///   progress   called from one thread at a time after every task
+///   stop       asked by any thread between the steps of its task: once true, tasks not done have no rows
+std::vector<std::vector<ProofRow>> prove(const std::vector<ProofTask>& tasks,
+                                         const std::function<void(const ProofProgress&)>& progress = {},
+                                         const std::function<bool()>& stop = {});
 
 }  // namespace limitcheck::verify

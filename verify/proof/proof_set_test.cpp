@@ -17,7 +17,6 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "verify/proof/proof_report.h"
-#include "verify/proof/prove.h"
 
 namespace limitcheck::verify {
 namespace {

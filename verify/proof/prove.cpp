@@ -1,39 +1,36 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/prove.h"
+#include "verify/proof/proof_set.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 
 #include "verify/proof/bounds/bounds.h"
-#include "verify/proof/maps/thread_clock.h"
 #include "verify/proof/numbers/operation_count.h"
+#include "verify/proof/topologies/proof_row.h"
 
 namespace limitcheck::verify {
 namespace {
 
 std::optional<BoundProof> bound_of(const std::string& kernel, const ProofTask& task) {
-  for (const auto k :
-       {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge, BoundedKernel::kCrackCentre,
-        BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge, BoundedKernel::kRowStreamPatch}) {
-    if (kernel != name_of(k)) continue;
-    const BoundOptions& o = *task.bounds;
-    if (k == BoundedKernel::kCrackCentre) {  // knows no depth
-      if (o.first_depth > 0) return std::nullopt;
-      return prove_bound(k, task.neighbourhood, 0, 0, o.meshes);
-    }
-    return prove_bound(k, task.neighbourhood, o.first_depth, o.last_depth, o.meshes);
-  }
-  throw std::logic_error("no bounds for " + kernel);
+  const auto* k =
+      std::ranges::find_if(kProvedKernels, [&](ProvedKernel one) { return kernel == name_of(one); });
+  if (k == kProvedKernels.end()) throw std::logic_error("no bounds for " + kernel);
+  const BoundOptions& o = *task.bounds;
+  if (*k != ProvedKernel::kCrackCentre)
+    return prove_bound(*k, task.neighbourhood, o.first_depth, o.last_depth, o.meshes);
+  if (o.first_depth > 0) return std::nullopt;  // knows no depth
+  return prove_bound(*k, task.neighbourhood, 0, 0, o.meshes);
 }
 
 std::optional<CostProof> cost_of(const std::string& kernel, const ProofTask& task) {
-  const bool window = kernel == name_of(BoundedKernel::kSlidingWindow);
-  if (!window && kernel != name_of(BoundedKernel::kRowStream)) return std::nullopt;
+  const bool window = kernel == name_of(ProvedKernel::kSlidingWindow);
+  if (!window && kernel != name_of(ProvedKernel::kRowStream)) return std::nullopt;
   const data::ControlMesh& mesh = task.neighbourhood.mesh;
   if (mesh.faces.size() == 1 || !mesh.faces.are_triangles()) return std::nullopt;  // counted per pair
   const KernelCost cost = count_operations(window ? CountedKernel::kSlidingWindow : CountedKernel::kRowStream,

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verify/proof/bounds/linear_runs.h"
+#include "verify/proof/maps/scheme_runs.h"
 #include "verify/proof/numbers/quad_weights.h"
 
 namespace limitcheck::verify {
@@ -41,23 +41,6 @@ std::vector<double> control_weights(const BoundForm& form, std::size_t n) {
 
 }  // namespace
 
-const char* name_of(BoundedKernel kernel) {
-  switch (kernel) {
-    case BoundedKernel::kSlidingWindow:
-      return "sliding-window";
-    case BoundedKernel::kCrackEdge:
-      return "crack-edge";
-    case BoundedKernel::kCrackCentre:
-      return "crack-centre";
-    case BoundedKernel::kRowStream:
-      return "row-stream";
-    case BoundedKernel::kRowStreamEdge:
-      return "row-stream-edge";
-    default:
-      return "row-stream-patch";
-  }
-}
-
 double KernelBounds::position() const {
   double worst = 0;
   for (const PointBound& p : points) worst = std::max(worst, p.position);
@@ -76,7 +59,7 @@ double KernelBounds::normal() const {
   return worst;
 }
 
-KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourhood, int depth, double reach,
+KernelBounds bound_kernel(ProvedKernel kernel, const Neighbourhood& neighbourhood, int depth, double reach,
                           const RoundingModel& model) {
   const BoundScope scope(reach, model);
   const std::size_t n = neighbourhood.mesh.positions.size();
@@ -85,13 +68,11 @@ KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourho
   for (auto& p : points) p.x = BoundFloat(BoundForm::variable());
   LinearRuns<BoundFloat, BoundLane> runs(neighbourhood.mesh, points);
   KernelBounds bounds{kernel, depth, {}};
-  const bool stream = kernel == BoundedKernel::kRowStream || kernel == BoundedKernel::kRowStreamEdge ||
-                      kernel == BoundedKernel::kRowStreamPatch;
   const auto tangent = [&](const BoundFloat& t) -> TangentBound {
     return {t.error(), t.form().true_magnitude(), control_weights(t.form(), n)};
   };
   runs.run(kernel, depth, [&](const fast::LatticePoint& at, const fast::LimitFrame<BoundFloat>& frame) {
-    PointBound point{at, frame.position.x.error(), !stream || !is_control_vertex(at), {}, {}};
+    PointBound point{at, frame.position.x.error(), !is_stream(kernel) || !is_control_vertex(at), {}, {}};
     if (point.has_tangents) point.du = tangent(frame.du.x), point.dv = tangent(frame.dv.x);
     bounds.points.push_back(std::move(point));
   });
@@ -112,24 +93,18 @@ double normal_error_share(const PointBound& bound) {
   return product_error(bound) / (3 * bound.du.size * bound.dv.size);
 }
 
-BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
+BoundProof prove_bound(ProvedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
                        int last_depth, int meshes) {
   BoundProof proof;
   proof.first_depth = first_depth;
   proof.last_depth = last_depth;
   for (int depth = first_depth; depth <= last_depth; ++depth) {
     const KernelBounds bounds = bound_kernel(kernel, neighbourhood, depth);
-    proof.position_bound = std::max(proof.position_bound, bounds.position());
-    proof.tangent_bound = std::max(proof.tangent_bound, bounds.tangent());
-    proof.normal_bound = std::max(proof.normal_bound, bounds.normal());
     const WorstObserved worst = search_worst(neighbourhood, bounds, depth <= 4 ? meshes : meshes / 5,
                                              static_cast<std::uint64_t>(depth) + 1);
-    proof.alike = proof.alike && worst.alike;
-    proof.position_worst = std::max(proof.position_worst, worst.position);
-    proof.tangent_worst = std::max(proof.tangent_worst, worst.tangent);
-    proof.share = std::max({proof.share, worst.position_share, worst.tangent_share});
-    proof.product_bound = std::max(proof.product_bound, worst.product);
-    proof.shipped.add(worst.shipped);
+    proof.add({depth, depth, bounds.position(), worst.position, bounds.tangent(), worst.tangent,
+               bounds.normal(), worst.product, std::max(worst.position_share, worst.tangent_share),
+               worst.alike, worst.shipped});
   }
   return proof;
 }

@@ -3,24 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "fast/frame/sink.h"
+#include "fast/rules/surface_vertex.h"
 #include "verify/proof/numbers/error_bound_number.h"
 #include "verify/proof/topologies/neighbourhood.h"
 #include "verify/proof/topologies/proof_row.h"
 
 namespace limitcheck::verify {
-
-enum class BoundedKernel : std::uint8_t {
-  kSlidingWindow,
-  kCrackEdge,
-  kCrackCentre,
-  kRowStream,
-  kRowStreamEdge,
-  kRowStreamPatch  ///< of regular quads
-};
-const char* name_of(BoundedKernel kernel);
 
 /// Half the side of the unit box: control coordinates are floats in [-1/2, 1/2].
 inline constexpr double kUnitBox = .5;
@@ -46,7 +39,7 @@ struct PointBound {
 
 /// All points of a pair, in the order in which the kernel delivers them.
 struct KernelBounds {
-  BoundedKernel kernel;
+  ProvedKernel kernel;
   int depth = 0;
   std::vector<PointBound> points;
   double position() const;
@@ -61,7 +54,7 @@ struct KernelBounds {
 /// more; scaling by a power of two is exact), the rule for vanishing tangents [D12], and what follows from
 /// the tangents, for which see normal_angle_bound.
 ///   reach   of the box; bounds of the sliding window are proportional to it, those of row streaming nearly
-KernelBounds bound_kernel(BoundedKernel kernel, const Neighbourhood& neighbourhood, int depth,
+KernelBounds bound_kernel(ProvedKernel kernel, const Neighbourhood& neighbourhood, int depth,
                           double reach = kUnitBox, const RoundingModel& model = {});
 
 /// Upper bound in radians of the angle between the kernel's unit normal and the exact one, where the exact
@@ -108,7 +101,25 @@ WorstObserved search_worst(const Neighbourhood& neighbourhood, const KernelBound
 
 /// Bounds and search over the depths: what the table shows.
 ///   meshes   tried at each depth up to 4; a fifth of them beyond, where each has many times the points
-BoundProof prove_bound(BoundedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
+BoundProof prove_bound(ProvedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
                        int last_depth, int meshes);
+
+// The float kernels as they ship: with unit normals, and row streaming on every vector target of this machine.
+
+using FloatPoints = std::vector<fast::Vec3<float>>;
+
+/// What a kernel delivers of several control meshes of one topology.
+struct Delivery {
+  /// Of each mesh, in the order of LinearRuns; of row streaming from the scalar code.
+  std::vector<std::vector<fast::SurfaceVertex<float>>> vertices;
+  std::string targets;  ///< of row streaming: the names of all that ran, in the order of kernels()
+  std::string unlike;   ///< the first whose bits are not those of the scalar code; empty: there is none
+};
+
+/// Runs the shipped code, without a placement. A batch has all meshes in its lanes, each block of four lanes in
+/// another order, so that lanes and blocks that change places show.
+///   meshes   positions of the neighbourhood's vertices, at least one mesh
+Delivery deliver(ProvedKernel kernel, const Neighbourhood& neighbourhood, std::span<const FloatPoints> meshes,
+                 int depth);
 
 }  // namespace limitcheck::verify

@@ -14,9 +14,9 @@
 namespace limitcheck::verify {
 namespace {
 
-constexpr BoundedKernel kKernels[] = {BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge,
-                                      BoundedKernel::kCrackCentre, BoundedKernel::kRowStream,
-                                      BoundedKernel::kRowStreamEdge};
+constexpr ProvedKernel kKernels[] = {ProvedKernel::kSlidingWindow, ProvedKernel::kCrackEdge,
+                                     ProvedKernel::kCrackCentre, ProvedKernel::kRowStream,
+                                     ProvedKernel::kRowStreamEdge};
 
 std::vector<Neighbourhood> some_topologies() {
   std::vector<Neighbourhood> list;
@@ -32,8 +32,8 @@ std::vector<Neighbourhood> some_topologies() {
 TEST(Proof_Bounds, HoldForTheWorstErrorsThatASearchFinds) {
   double largest = 0;
   for (const Neighbourhood& n : some_topologies()) {
-    for (const BoundedKernel kernel : kKernels) {
-      for (int depth = 0; depth <= (kernel == BoundedKernel::kCrackCentre ? 0 : 4); ++depth) {
+    for (const ProvedKernel kernel : kKernels) {
+      for (int depth = 0; depth <= (kernel == ProvedKernel::kCrackCentre ? 0 : 4); ++depth) {
         const KernelBounds bounds = bound_kernel(kernel, n, depth);
         const WorstObserved worst = search_worst(n, bounds, 160, 1);
         EXPECT_LE(worst.position_share, 1) << n.name << ' ' << name_of(kernel) << " depth " << depth;
@@ -52,7 +52,7 @@ TEST(Proof_Bounds, AreAboutTheLinearMapOfTheReference) {
   const Neighbourhood n = *interior_pair({5, 7, 9, 12});
   ReferenceMap<double, reference::StamEvaluator<double>> reference(n.mesh);
   double worst = 0;
-  for (const BoundedKernel kernel : kKernels) {
+  for (const ProvedKernel kernel : kKernels) {
     for (const PointBound& p : bound_kernel(kernel, n, 3).points) {
       if (!p.has_tangents) continue;
       // du, dv span the plane of d1, d2: solve by the two control points with the largest determinant
@@ -80,8 +80,8 @@ TEST(Proof_Bounds, AreAboutTheLinearMapOfTheReference) {
 // 2^-13 is what choosing a local origin rounds by; it leaves again. What stays is the rounding near it.
 TEST(Proof_Bounds, OfLocalOriginsAreOfTheSizeOfAFewRoundings) {
   const Neighbourhood n = *interior_pair({6, 6, 6, 6});
-  const double at_3 = bound_kernel(BoundedKernel::kRowStream, n, 3).position();
-  const double at_4 = bound_kernel(BoundedKernel::kRowStream, n, 4).position();
+  const double at_3 = bound_kernel(ProvedKernel::kRowStream, n, 3).position();
+  const double at_4 = bound_kernel(ProvedKernel::kRowStream, n, 4).position();
   EXPECT_GT(at_4, at_3);
   EXPECT_LT(at_4, 2 * at_3);
   EXPECT_LT(at_4, 0x1p-20);
@@ -89,9 +89,9 @@ TEST(Proof_Bounds, OfLocalOriginsAreOfTheSizeOfAFewRoundings) {
 
 TEST(Proof_Bounds, OfTheWindowAreProportionalToTheBoxDownToUnderflow) {
   const Neighbourhood n = *interior_pair({5, 7, 9, 12});
-  const double one = bound_kernel(BoundedKernel::kSlidingWindow, n, 3).position();
-  EXPECT_NEAR(bound_kernel(BoundedKernel::kSlidingWindow, n, 3, 0x1p40).position() / one, 0x1p41, 0x1p10);
-  const KernelBounds tiny = bound_kernel(BoundedKernel::kSlidingWindow, n, 3, 0x1p-130);
+  const double one = bound_kernel(ProvedKernel::kSlidingWindow, n, 3).position();
+  EXPECT_NEAR(bound_kernel(ProvedKernel::kSlidingWindow, n, 3, 0x1p40).position() / one, 0x1p41, 0x1p10);
+  const KernelBounds tiny = bound_kernel(ProvedKernel::kSlidingWindow, n, 3, 0x1p-130);
   EXPECT_GT(tiny.position(), one * 0x1p-129) << "the smallest floats are further apart";
   EXPECT_LE(search_worst(n, tiny, 200, 3, 0x1p-130).position_share, 1);
 }
@@ -101,16 +101,16 @@ TEST(Proof_Bounds, OfTheWindowAreProportionalToTheBoxDownToUnderflow) {
 TEST(Proof_Bounds, OfRowStreamingAreNearlyProportionalToTheBox) {
   const Neighbourhood n = *interior_pair({5, 7, 9, 12});
   for (const int depth : {3, 4}) {
-    const double half = bound_kernel(BoundedKernel::kRowStream, n, depth, .5).position();
+    const double half = bound_kernel(ProvedKernel::kRowStream, n, depth, .5).position();
     for (const double reach : {1., 2.})
-      EXPECT_NEAR(bound_kernel(BoundedKernel::kRowStream, n, depth, reach).position() / (2 * reach * half), 1,
+      EXPECT_NEAR(bound_kernel(ProvedKernel::kRowStream, n, depth, reach).position() / (2 * reach * half), 1,
                   .02)
           << "depth " << depth << " reach " << reach;
   }
 }
 
 /// Bounds that forget something, against errors that the kernels really make.
-double share_with(const RoundingModel& model, BoundedKernel kernel, int depth) {
+double share_with(const RoundingModel& model, ProvedKernel kernel, int depth) {
   double share = 0;
   for (const auto& valence : {std::array{6, 6, 6, 6}, std::array{5, 7, 9, 12}}) {
     const Neighbourhood n = *interior_pair(valence);
@@ -124,24 +124,24 @@ double share_with(const RoundingModel& model, BoundedKernel kernel, int depth) {
 TEST(Proof_BoundFaults, HalfTheUnitIsExceededByBothKernels) {
   RoundingModel half;
   half.unit = 0x1p-25;
-  for (const BoundedKernel kernel : kKernels) {
+  for (const ProvedKernel kernel : kKernels) {
     double share = 0;
     for (int depth = 0; depth <= 1; ++depth) share = std::max(share, share_with(half, kernel, depth));
-    if (kernel == BoundedKernel::kCrackCentre) continue;  // no point of few operations
+    if (kernel == ProvedKernel::kCrackCentre) continue;  // no point of few operations
     EXPECT_GT(share, 1.5) << name_of(kernel);
   }
 }
 TEST(Proof_BoundFaults, AForgottenNarrowingIsExceeded) {
   RoundingModel model;
   model.narrowing = false;
-  for (const BoundedKernel kernel : {BoundedKernel::kSlidingWindow, BoundedKernel::kRowStream})
+  for (const ProvedKernel kernel : {ProvedKernel::kSlidingWindow, ProvedKernel::kRowStream})
     EXPECT_GT(share_with(model, kernel, 0), 1) << name_of(kernel);
 }
 TEST(Proof_BoundFaults, ForgottenSumsAreExceeded) {
   RoundingModel model;
   model.sums = false;
-  EXPECT_GT(share_with(model, BoundedKernel::kSlidingWindow, 1), 1);
-  EXPECT_GT(share_with(model, BoundedKernel::kRowStream, 1), 1);
+  EXPECT_GT(share_with(model, ProvedKernel::kSlidingWindow, 1), 1);
+  EXPECT_GT(share_with(model, ProvedKernel::kRowStream, 1), 1);
 }
 
 }  // namespace

@@ -11,15 +11,15 @@
 #include "reference/number/number_exact.h"
 #include "verify/proof/bounds/bounds.h"
 #include "verify/proof/numbers/quad_weights.h"
-#include "verify/proof/topologies/quad_neighbourhood.h"
+#include "verify/proof/topologies/neighbourhood.h"
 
 namespace limitcheck::verify {
 namespace {
 
-constexpr std::array kKernels{BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge,
-                              BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge};
+constexpr std::array kKernels{ProvedKernel::kSlidingWindow, ProvedKernel::kCrackEdge,
+                              ProvedKernel::kRowStream, ProvedKernel::kRowStreamEdge};
 
-void expect_bounded(BoundedKernel kernel, const Neighbourhood& quad, int last_depth) {
+void expect_bounded(ProvedKernel kernel, const Neighbourhood& quad, int last_depth) {
   const BoundProof proof = prove_bound(kernel, quad, 0, last_depth, 80);
   fmt::print("{} {}: bound {:.3g}, worst {:.3g}, share {:.3f}, tangent {:.3g}, worst {:.3g}\n", quad.name,
              name_of(kernel), proof.position_bound, proof.position_worst, proof.share, proof.tangent_bound,
@@ -34,17 +34,17 @@ void expect_bounded(BoundedKernel kernel, const Neighbourhood& quad, int last_de
 TEST(Proof_QuadBounds, HoldForEveryKernel) {
   for (const auto& valences : {std::array{4, 4, 4, 4}, std::array{3, 5, 4, 8}}) {
     const Neighbourhood quad = interior_quad(valences);
-    for (const BoundedKernel kernel : kKernels) expect_bounded(kernel, quad, 3);
-    if (valences[0] == 4) expect_bounded(BoundedKernel::kRowStreamPatch, quad, 3);
+    for (const ProvedKernel kernel : kKernels) expect_bounded(kernel, quad, 3);
+    if (valences[0] == 4) expect_bounded(ProvedKernel::kRowStreamPatch, quad, 3);
   }
 }
 
 TEST(Proof_QuadBounds, HoldAtBoundariesCutsAndSemiSharpEdges) {
-  for (const BoundedKernel kernel : kKernels) {
+  for (const ProvedKernel kernel : kKernels) {
     expect_bounded(kernel, boundary_quads({4, 5, 3, 6})[7], 2);
     expect_bounded(kernel, creased_quads({4, 5, 3, 6})[8], 2);
   }
-  expect_bounded(BoundedKernel::kSlidingWindow, semi_sharp_quads({4, 5, 3, 6})[40], 2);
+  expect_bounded(ProvedKernel::kSlidingWindow, semi_sharp_quads({4, 5, 3, 6})[40], 2);
 }
 
 // Both ends of D A are held, so it is straight, and its middle is 0 as seen from the side's own origin: what
@@ -54,7 +54,7 @@ TEST(Proof_QuadBounds, HoldOnAStraightSide) {
   for (const Neighbourhood& quad : creased_quads({4, 4, 4, 4})) {
     if (quad.name != "4 4 4 4 AB CD DA A+ D+") continue;
     ++found;
-    for (const BoundedKernel kernel : {BoundedKernel::kRowStream, BoundedKernel::kRowStreamEdge})
+    for (const ProvedKernel kernel : {ProvedKernel::kRowStream, ProvedKernel::kRowStreamEdge})
       expect_bounded(kernel, quad, 2);
   }
   EXPECT_EQ(found, 1);
@@ -63,7 +63,7 @@ TEST(Proof_QuadBounds, HoldOnAStraightSide) {
 // A kernel whose sums, products or constants are taken as exact has smaller bounds: each counts.
 TEST(Proof_QuadBounds, CountEveryKindOfRounding) {
   const Neighbourhood quad = interior_quad({3, 5, 4, 8});
-  for (const BoundedKernel kernel : {BoundedKernel::kSlidingWindow, BoundedKernel::kRowStream}) {
+  for (const ProvedKernel kernel : {ProvedKernel::kSlidingWindow, ProvedKernel::kRowStream}) {
     const double whole = bound_kernel(kernel, quad, 2).position();
     RoundingModel no_sums, no_narrowing;
     no_sums.sums = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/bounds/shipped_kernels.h"
+#include "verify/proof/bounds/bounds.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,7 @@
 #include "fast/stream/gather/quad_rings.h"
 #include "fast/stream/kernel/targets.h"
 #include "fast/stream/row_stream.h"
-#include "verify/proof/maps/kernel_runs.h"
-#include "verify/proof/maps/quad_runs.h"
+#include "verify/proof/maps/scheme_runs.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -126,8 +125,8 @@ std::vector<std::int32_t> of_lanes(const std::vector<std::int32_t>& copy, std::i
   return list;
 }
 
-void stream_triangles(BoundedKernel kernel, const data::ControlMesh& mesh,
-                      std::span<const FloatPoints> meshes, int depth, Collector& collector) {
+void stream_triangles(ProvedKernel kernel, const data::ControlMesh& mesh, std::span<const FloatPoints> meshes,
+                      int depth, Collector& collector) {
   const data::ControlMesh all = copies(mesh, meshes.size());
   const fast::Adjacency adjacency(all);
   const Rings rings(adjacency, points_of(meshes, {}));
@@ -153,7 +152,7 @@ void stream_triangles(BoundedKernel kernel, const data::ControlMesh& mesh,
       gather(adjacency, rings, std::span<const fast::Grid>(grids), depth, target.lanes, input.data());
     };
     collector.begin(target.name, target.lanes);
-    if (kernel == BoundedKernel::kRowStreamEdge) {
+    if (kernel == ProvedKernel::kRowStreamEdge) {
       for (std::int32_t h = 0; h < (twin < 0 ? 3 : 6); ++h)
         collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
           const auto edges = of_lanes(copy, h, 3 * faces);
@@ -178,7 +177,7 @@ void stream_triangles(BoundedKernel kernel, const data::ControlMesh& mesh,
   }
 }
 
-void stream_quads(BoundedKernel kernel, const data::ControlMesh& mesh, std::span<const FloatPoints> meshes,
+void stream_quads(ProvedKernel kernel, const data::ControlMesh& mesh, std::span<const FloatPoints> meshes,
                   int depth, Collector& collector) {
   const data::ControlMesh all = copies(mesh, meshes.size());
   const fast::QuadMesh quads(all);
@@ -186,7 +185,7 @@ void stream_quads(BoundedKernel kernel, const data::ControlMesh& mesh, std::span
   const std::size_t faces = mesh.faces.size(), width = static_cast<std::size_t>(side(depth));
   // As QuadStreamRuns has them.
   std::vector<KernelPlacement<float>> placements{rings.placement()};
-  if (kernel != BoundedKernel::kRowStreamPatch && depth > 0 && !placements[0].has_local_origin(depth)) {
+  if (kernel != ProvedKernel::kRowStreamPatch && depth > 0 && !placements[0].has_local_origin(depth)) {
     placements.push_back(placements[0]);
     placements[1].local_from = 1;
   }
@@ -195,7 +194,7 @@ void stream_quads(BoundedKernel kernel, const data::ControlMesh& mesh, std::span
   for (const QuadKernel& target : scalar_first(quad_kernels())) {
     input.grow(static_cast<std::size_t>(target.lanes * quad_input_size(depth)));
     work.grow(static_cast<std::size_t>(target.lanes * quad_work_size(depth)));
-    const bool patch = kernel == BoundedKernel::kRowStreamPatch;
+    const bool patch = kernel == ProvedKernel::kRowStreamPatch;
     const auto batch_of = [&](const std::vector<std::int32_t>& copy) {
       const auto list = of_lanes(copy, 0, faces);
       return patch ? gather_patches<float>(rings, list, depth, target.lanes, input.data())
@@ -209,7 +208,7 @@ void stream_quads(BoundedKernel kernel, const data::ControlMesh& mesh, std::span
     };
     collector.begin(target.name, target.lanes);
     for (const auto& placement : placements) {
-      if (kernel == BoundedKernel::kRowStreamEdge) {
+      if (kernel == ProvedKernel::kRowStreamEdge) {
         for (std::int32_t side = 0; side < 4; ++side)
           collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
             const auto edges = of_lanes(copy, side, 4 * faces);
@@ -224,7 +223,7 @@ void stream_quads(BoundedKernel kernel, const data::ControlMesh& mesh, std::span
                     });
     }
     QuadKernel::Lines* const lines = patch ? target.patch_lines : target.quad_lines;
-    if (lines == nullptr || kernel == BoundedKernel::kRowStreamEdge) continue;
+    if (lines == nullptr || kernel == ProvedKernel::kRowStreamEdge) continue;
     collector.begin(target.name, target.lanes);
     for (const auto& placement : placements)
       collector.add(width * width, all_of(width * width),
@@ -235,38 +234,28 @@ void stream_quads(BoundedKernel kernel, const data::ControlMesh& mesh, std::span
   }
 }
 
-template <class Visit>
-void run_window(BoundedKernel kernel, const data::ControlMesh& mesh, const FloatPoints& points, int depth,
-                Visit&& visit) {
-  if (!mesh.faces.are_triangles()) {
-    const QuadWindowRuns<float, fast::LimitSurface<float>> runs(mesh, points);
-    return kernel == BoundedKernel::kCrackEdge ? runs.sides(depth, visit) : runs.quad(depth, visit);
-  }
-  const WindowRuns<float, fast::LimitSurface<float>> runs(mesh, points);
-  const std::int32_t faces = mesh.faces.size() == 1 ? 1 : 2;
-  if (kernel == BoundedKernel::kSlidingWindow) return runs.pair(depth, visit);
-  if (kernel == BoundedKernel::kCrackEdge)
-    for (std::int32_t h = 0; h < 3 * faces; ++h) runs.edge(h, depth, visit);
-  else
-    for (std::int32_t face = 0; face < faces; ++face) runs.centre(face, visit);
-}
-
 }  // namespace
 
-Delivery deliver(BoundedKernel kernel, const Neighbourhood& neighbourhood,
-                 std::span<const FloatPoints> meshes, int depth) {
+Delivery deliver(ProvedKernel kernel, const Neighbourhood& neighbourhood, std::span<const FloatPoints> meshes,
+                 int depth) {
   const data::ControlMesh& mesh = neighbourhood.mesh;
   Delivery delivery;
-  if (kernel == BoundedKernel::kSlidingWindow || kernel == BoundedKernel::kCrackEdge ||
-      kernel == BoundedKernel::kCrackCentre) {
+  const bool triangles = mesh.faces.are_triangles();
+  if (!is_stream(kernel)) {
     for (const FloatPoints& points : meshes) {
       auto& vertices = delivery.vertices.emplace_back();
-      run_window(kernel, mesh, points, depth,
-                 [&](const fast::LatticePoint&, const auto& vertex) { vertices.push_back(vertex); });
+      const auto collect = [&](const auto& window) {
+        run_window(window, kernel, depth,
+                   [&](const fast::LatticePoint&, const auto& vertex) { vertices.push_back(vertex); });
+      };
+      using Surface = fast::LimitSurface<float>;
+      if (triangles)
+        collect(WindowRuns<float, Surface>(mesh, points));
+      else
+        collect(QuadWindowRuns<float, Surface>(mesh, points));
     }
     return delivery;
   }
-  const bool triangles = mesh.faces.are_triangles();
   if (triangles)
     for (const Kernel& target : kernels()) delivery.targets += fmt::format("{} ", target.name);
   else

@@ -9,22 +9,22 @@
 
 #include "fast/stream/kernel/targets.h"
 #include "verify/proof/bounds/bounds.h"
-#include "verify/proof/topologies/quad_neighbourhood.h"
+#include "verify/proof/topologies/neighbourhood.h"
 
 namespace limitcheck::verify {
 namespace {
 
-constexpr std::array kKernels{BoundedKernel::kSlidingWindow, BoundedKernel::kCrackEdge,
-                              BoundedKernel::kCrackCentre,   BoundedKernel::kRowStream,
-                              BoundedKernel::kRowStreamEdge, BoundedKernel::kRowStreamPatch};
+constexpr std::array kKernels{ProvedKernel::kSlidingWindow, ProvedKernel::kCrackEdge,
+                              ProvedKernel::kCrackCentre,   ProvedKernel::kRowStream,
+                              ProvedKernel::kRowStreamEdge, ProvedKernel::kRowStreamPatch};
 
 /// Of every kernel that the topology has: the largest share of a normal's bound.
 double expect_held(const Neighbourhood& n, int last_depth, bool regular) {
   double largest = 0;
-  for (const BoundedKernel kernel : kKernels) {
+  for (const ProvedKernel kernel : kKernels) {
     const bool triangles = n.mesh.faces.are_triangles();
-    if (kernel == BoundedKernel::kCrackCentre ? !triangles
-                                              : kernel == BoundedKernel::kRowStreamPatch && !regular)
+    if (kernel == ProvedKernel::kCrackCentre ? !triangles
+                                             : kernel == ProvedKernel::kRowStreamPatch && !regular)
       continue;
     const ShippedProof shipped = prove_bound(kernel, n, 0, last_depth, 1).shipped;
     EXPECT_EQ(shipped.unlike, "") << n.name << ' ' << name_of(kernel);
@@ -56,7 +56,7 @@ TEST(Proof_Shipped, NamesTheTargetsThatRan) {
   std::string expected;
   for (const auto& kernel : fast::row_stream::kernels())
     expected += (expected.empty() ? "" : " ") + std::string(kernel.name);
-  EXPECT_EQ(prove_bound(BoundedKernel::kRowStream, face_alone(), 0, 0, 1).shipped.targets, expected);
+  EXPECT_EQ(prove_bound(ProvedKernel::kRowStream, face_alone(), 0, 0, 1).shipped.targets, expected);
 }
 
 }  // namespace

@@ -13,10 +13,8 @@
 #include "data/splitmix64.h"
 #include "reference/loop/stam.h"
 #include "verify/proof/bounds/bounds.h"
-#include "verify/proof/bounds/linear_runs.h"
-#include "verify/proof/bounds/shipped_kernels.h"
-#include "verify/proof/maps/quad_reference_map.h"
 #include "verify/proof/maps/reference_map.h"
+#include "verify/proof/maps/scheme_runs.h"
 #include "verify/proof/numbers/quad_weights.h"
 
 namespace limitcheck::verify {
@@ -63,7 +61,7 @@ std::vector<MapRow<double>> exact_rows(const data::ControlMesh& mesh, const Kern
   if (mesh.faces.are_triangles())
     ask(ReferenceMap<double, reference::StamEvaluator<double>>(mesh));
   else
-    ask(QuadReferenceMap<double, reference::catmull_clark::StamEvaluator<double>>(mesh));
+    ask(ReferenceMap<double, reference::catmull_clark::StamEvaluator<double>>(mesh));
   return rows;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The shipped kernels on any number type: every limit point that they make for a pair, with its place.
+// The shipped kernels of triangles on any number type: every limit point that they make for a pair, with its place.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -10,14 +11,31 @@
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/patch.h"
 #include "fast/mesh/adjacency.h"
+#include "fast/rules/limit.h"
+#include "fast/rules/surface_vertex.h"
+#include "fast/stream/host/number_stream.h"
 #include "fast/window/crack_edge.h"
 #include "fast/window/sliding_window.h"
 #include "fast/window/triangle_lattice.h"
-#include "verify/proof/maps/linear_surface.h"
 
 namespace limitcheck::verify {
 
+/// Position and two tangents, whose plane is the tangent plane: all that is linear in a limit point.
+template <class N>
+struct LinearSurface {
+  using Vertex = fast::LimitFrame<N>;
+  static constexpr bool kLinear = true;
+  static Vertex vertex(const Vertex& frame, auto&& /*substitute*/, std::int64_t& /*zero_normals*/) {
+    return frame;
+  }
+};
+
 using fast::LatticePoint;
+
+/// Of a pair, or one without neighbours.
+inline std::int32_t proved_faces(const fast::Adjacency& adjacency) {
+  return adjacency.face_count() == 1 ? 1 : 2;
+}
 
 /// A mesh prepared for the sliding window and the crack fans. What a vertex is decides Surface: a limit
 /// frame, a position and a normal, or whatever the number type has.
@@ -32,14 +50,11 @@ class WindowRuns {
   WindowRuns(const WindowRuns&) = delete;
   WindowRuns& operator=(const WindowRuns&) = delete;
 
-  const fast::Adjacency& adjacency() const { return adjacency_; }
-  const fast::PreparedMesh<N, Surface>& prepared() const { return prepared_; }
-
   /// The sliding window on the pair of half-edge 0, or the lattice of face 0 if that has no neighbour. Calls
   /// visit(LatticePoint, const Vertex&) for every vertex of every strip: the points of inner rows twice, as
   /// the window delivers them.
   template <class Visit>
-  void pair(int depth, Visit&& visit) const {
+  void whole(int depth, Visit&& visit) const {
     if (adjacency_.twin(0) < 0) return alone(depth, visit);
     fast::SlidingWindow<N, Surface> window(depth, adjacency_.max_valence());
     const fast::Half upper{0, 0, fast::Display::kStrips};
@@ -56,22 +71,25 @@ class WindowRuns {
     });
   }
 
-  /// The borders of fans: the points of half-edge h by itself, from its origin to its end.
+  /// The borders of fans: the points of each side by itself, from its origin to its end.
   template <class Visit>
-  void edge(std::int32_t h, int depth, Visit&& visit) const {
+  void sides(int depth, Visit&& visit) const {
     const int k = 1 << depth;
     fast::EdgeStrip<N, Surface> strip(depth, adjacency_.max_valence());
     std::vector<Vertex> out(static_cast<std::size_t>(k) + 1);
-    strip.evaluate(prepared_, h, depth, out.data());
-    const fast::Half half{h / 3, h % 3, fast::Display::kFan};
-    for (int t = 0; t <= k; ++t) visit(half.lattice(k, k - t, t), out[t]);
+    for (std::int32_t h = 0; h < 3 * proved_faces(adjacency_); ++h) {
+      strip.evaluate(prepared_, h, depth, out.data());
+      const fast::Half half{h / 3, h % 3, fast::Display::kFan};
+      for (int t = 0; t <= k; ++t) visit(half.lattice(k, k - t, t), out[t]);
+    }
   }
 
-  /// The centre of a fan, the limit point at (1/3, 1/3, 1/3).
+  /// The centres of fans, the limit points at (1/3, 1/3, 1/3).
   template <class Visit>
-  void centre(std::int32_t face, Visit&& visit) const {
+  void centres(Visit&& visit) const {
     fast::FanCentreEvaluator<N, Surface> evaluator(adjacency_.max_valence());
-    visit(LatticePoint{face, 1, 1, 3}, evaluator.evaluate(prepared_, face, fast::FanCentre::kLimit));
+    for (std::int32_t face = 0; face < proved_faces(adjacency_); ++face)
+      visit(LatticePoint{face, 1, 1, 3}, evaluator.evaluate(prepared_, face, fast::FanCentre::kLimit));
   }
 
  private:
@@ -87,6 +105,72 @@ class WindowRuns {
 
   fast::Adjacency adjacency_;
   fast::PreparedMesh<N, Surface> prepared_;
+};
+
+/// The prepass, the gathering and the kernel of row streaming over T. Runs twice, for one tangent each:
+/// Lane<0> and Lane<1> are LinearNumber<T, 0> and <T, 1> or follow them.
+template <class T, template <int> class Lane>
+class StreamRuns {
+ public:
+  using Frame = fast::LimitFrame<T>;
+
+  /// One position per vertex of the mesh.
+  StreamRuns(const data::ControlMesh& mesh, const std::vector<fast::Vec3<T>>& positions)
+      : adjacency_(mesh), first_(adjacency_, arrays(positions)), second_(adjacency_, arrays(positions)) {}
+  StreamRuns(const StreamRuns&) = delete;
+  StreamRuns& operator=(const StreamRuns&) = delete;
+
+  /// The pair of half-edge 0, or face 0 if that has no neighbour. Calls visit(LatticePoint, const Frame&),
+  /// row by row.
+  template <class Visit>
+  void whole(int depth, Visit&& visit) const {
+    const std::int32_t twin = adjacency_.twin(0);
+    const bool alone = twin < 0;
+    const fast::Grid pair =
+        alone ? fast::Grid{.face0 = 0, .depth = depth} : fast::Grid{0, twin / 3, 0, twin % 3, depth};
+    const int size = 1 << depth, side = size + 1;
+    std::vector<T> first(6 * side * side), second(first.size());
+    first_.whole({&pair, 1}, depth, first.data());
+    second_.whole({&pair, 1}, depth, second.data());
+    for (int row = 0; row <= size; ++row) {
+      for (int column = 0; column <= (alone ? row : size); ++column) {
+        const auto at = fast::row_stream::face_point(pair, size, column, row, row >= column);
+        const std::size_t k = 6 * (row * side + column);
+        visit(at, frame(&first[k], &second[k]));
+      }
+    }
+  }
+
+  /// The strip of each side, from its origin to its end.
+  template <class Visit>
+  void sides(int depth, Visit&& visit) const {
+    const int size = 1 << depth;
+    std::vector<T> first(6 * (size + 1)), second(first.size());
+    for (std::int32_t h = 0; h < 3 * proved_faces(adjacency_); ++h) {
+      first_.edges({&h, 1}, depth, first.data());
+      second_.edges({&h, 1}, depth, second.data());
+      const fast::Half half{h / 3, h % 3, fast::Display::kFan};
+      for (int t = 0; t <= size; ++t)
+        visit(half.lattice(size, size - t, t), frame(&first[6 * t], &second[6 * t]));
+    }
+  }
+  bool has_patch() const { return false; }
+  template <class Visit>
+  void patch(int, Visit&&) const {}
+
+ private:
+  static std::vector<std::array<T, 3>> arrays(const std::vector<fast::Vec3<T>>& positions) {
+    std::vector<std::array<T, 3>> result;
+    for (const auto& p : positions) result.push_back({p.x, p.y, p.z});
+    return result;
+  }
+  static Frame frame(const T* a, const T* b) {
+    return {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {b[3], b[4], b[5]}};
+  }
+
+  fast::Adjacency adjacency_;
+  fast::row_stream::NumberStream<Lane<0>> first_;
+  fast::row_stream::NumberStream<Lane<1>> second_;
 };
 
 }  // namespace limitcheck::verify

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A limit point's stencils against a row of the reference's map. For .cpp files.
+// A kernel on rows of weights, its limit points against the reference's map, and the row of the table that comes of
+// it. For .cpp files.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -8,13 +11,16 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "data/splitmix64.h"
 #include "fast/rules/surface_vertex.h"
-#include "verify/proof/maps/map_row.h"
+#include "fast/stream/kernel/layout.h"
+#include "fast/stream/kernel/number.h"
+#include "verify/proof/maps/prove_map.h"
+#include "verify/proof/maps/reference_map.h"
 #include "verify/proof/numbers/stencil.h"
-#include "verify/proof/topologies/proof_row.h"
 
 namespace limitcheck::verify {
 
@@ -183,4 +189,64 @@ class MapComparison {
   std::optional<MapWitness> witness_;
 };
 
+namespace detail {
+
+/// Control points whose x is the control point itself, and whose y and z are known numbers: what a kernel
+/// does to y and z it must then do to numbers as the weights of x say (MapComparison).
+template <class C>
+std::vector<fast::Vec3<Stencil<C>>> identity(std::size_t n) {
+  std::vector<fast::Vec3<Stencil<C>>> points(n);
+  const std::vector<std::array<C, 2>> known = probes<C>(n);
+  for (std::size_t k = 0; k < n; ++k)
+    points[k] = {Stencil<C>::control_point(static_cast<int>(k)), Stencil<C>(known[k][0]),
+                 Stencil<C>(known[k][1])};
+  return points;
+}
+
+template <class C>
+struct StencilLane {
+  template <int tangent>
+  struct Lane : fast::row_stream::LinearNumber<Stencil<C>, tangent> {
+    using V = Stencil<C>;
+    // Of constants: which lane is meant is no question to control points.
+    static V equal(const V& a, const V& b) { return V(is(a, b.constant()) && b.entries().empty() ? 1 : 0); }
+    static V select(const V& chosen, const V& a, const V& b) { return is(chosen, C(0)) ? b : a; }
+
+   private:
+    static bool is(const V& a, const C& b) { return a.entries().empty() && a.constant() == b; }
+  };
+};
+
+inline std::string describe(int depth, const fast::LatticePoint& p) {
+  return fmt::format("depth {}, face {} at ({}/{}, {}/{})", depth, p.face, p.i, p.denominator, p.j,
+                     p.denominator);
+}
+
+/// Compares what `run(depth, visit)` delivers at every depth.
+template <class C, class Maps, class Run>
+ProofRow compare(const Neighbourhood& neighbourhood, const char* kernel, const MapOptions& options,
+                 Maps& maps, Run&& run) {
+  MapComparison<C> comparison;
+  const ThreadClock clock;
+  for (int depth = options.first_depth; depth <= options.last_depth; ++depth) {
+    run(depth, [&](const fast::LatticePoint& at, const fast::LimitFrame<Stencil<C>>& frame) {
+      const auto where = [&] { return describe(depth, at); };
+      std::apply([&](auto&... map) { (comparison.check(frame, map.at(at), where), ...); }, maps);
+    });
+  }
+  ProofRow row;
+  row.topology = neighbourhood.name;
+  row.kernel = kernel;
+  row.first_depth = options.first_depth;
+  row.last_depth = options.last_depth;
+  row.points = comparison.points() / static_cast<std::int64_t>(std::tuple_size_v<Maps>);
+  row.seconds = clock.seconds();
+  row.map.equal = !comparison.witness();
+  row.map.digits = comparison.largest_difference() > 0 ? -std::log10(comparison.largest_difference())
+                                                       : std::numeric_limits<double>::infinity();
+  row.map.witness = comparison.witness();
+  return row;
+}
+
+}  // namespace detail
 }  // namespace limitcheck::verify

@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "verify/proof/maps/prove_map.h"
 
-#include "verify/proof/maps/prove_map_instances.h"
-
 namespace limitcheck::verify {
 
 std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options) {
-  std::vector<ProofRow> rows;
-  const char* name = "";
-  const bool quads = !neighbourhood.mesh.faces.are_triangles();
-  switch (options.arithmetic) {
-    case Arithmetic::kExact:
-      rows = (quads ? detail::prove_quads_exactly : detail::prove_exactly)(neighbourhood, options);
-      name = "exact";
-      break;
-    case Arithmetic::kResidues:
-      rows = (quads ? detail::prove_quads_in_residues : detail::prove_in_residues)(neighbourhood, options);
-      name = "residues";
-      break;
-    case Arithmetic::kDigits:
-      rows = (quads ? detail::prove_quads_in_digits : detail::prove_in_digits)(neighbourhood, options);
-      name = "digits";
-      break;
-  }
+  struct Way {
+    std::vector<ProofRow> (*prove)(const Neighbourhood&, const MapOptions&, bool quads);
+    const char* name;
+  };
+  constexpr Way kWays[]{{detail::prove_exactly, "exact"},
+                        {detail::prove_in_residues, "residues"},
+                        {detail::prove_in_digits, "digits"}};  // in the order of Arithmetic
+  const auto& [prove, name] = kWays[static_cast<std::size_t>(options.arithmetic)];
+  std::vector<ProofRow> rows = prove(neighbourhood, options, !neighbourhood.mesh.faces.are_triangles());
   for (ProofRow& row : rows) row.map.arithmetic = name;
   return rows;
 }

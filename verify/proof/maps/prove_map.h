@@ -31,4 +31,15 @@ struct MapOptions {
 ///   throws   data::ArgumentError: kResidues, a valence that they do not have
 std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options = {});
 
+namespace detail {
+
+/// In one arithmetic, of a .cpp file each; of quads or not.
+std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options,
+                                    bool quads);
+std::vector<ProofRow> prove_in_residues(const Neighbourhood& neighbourhood, const MapOptions& options,
+                                        bool quads);
+std::vector<ProofRow> prove_in_digits(const Neighbourhood& neighbourhood, const MapOptions& options,
+                                      bool quads);
+
+}  // namespace detail
 }  // namespace limitcheck::verify

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "verify/proof/maps/prove_map.h"
-#include "verify/proof/topologies/quad_neighbourhood.h"
+#include "verify/proof/topologies/neighbourhood.h"
 
 namespace limitcheck::verify {
 namespace {

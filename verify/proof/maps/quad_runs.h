@@ -17,7 +17,7 @@
 #include "fast/stream/kernel/kernel.h"
 #include "fast/window/quad_edge.h"
 #include "fast/window/quad_window.h"
-#include "verify/proof/maps/linear_surface.h"
+#include "verify/proof/maps/kernel_runs.h"
 
 namespace limitcheck::verify {
 
@@ -42,7 +42,7 @@ inline fast::LatticePoint on_side(int side, int t, int size) {
           static_cast<std::uint32_t>(size)};
 }
 
-/// The sliding window and the borders of fans. The centre of a fan is a point of the lattice.
+/// The sliding window and the borders of fans.
 template <class N, class Surface>
 class QuadWindowRuns {
  public:
@@ -57,7 +57,7 @@ class QuadWindowRuns {
   /// The window on face 0. Calls visit(LatticePoint, const Vertex&) for every vertex of every strip: the
   /// points of inner rows twice, as the window delivers them.
   template <class Visit>
-  void quad(int depth, Visit&& visit) const {
+  void whole(int depth, Visit&& visit) const {
     fast::QuadWindow<N, Surface> window(depth, cut_.quads.adjacency.max_valence());
     const int size = 1 << depth;
     window.run(prepared_, 0, depth, [&](int row, const Vertex* strip) {
@@ -82,6 +82,10 @@ class QuadWindowRuns {
     }
   }
 
+  /// They are points of the lattice.
+  template <class Visit>
+  void centres(Visit&&) const {}
+
  private:
   CutQuads<N> cut_;
   fast::PreparedQuads<N, Surface> prepared_;
@@ -99,14 +103,14 @@ class QuadStreamRuns {
   QuadStreamRuns(const QuadStreamRuns&) = delete;
   QuadStreamRuns& operator=(const QuadStreamRuns&) = delete;
 
-  bool is_regular() const { return first_.kind(0) == fast::row_stream::QuadClass::kRegular; }
+  bool has_patch() const { return first_.kind(0) == fast::row_stream::QuadClass::kRegular; }
 
   /// Face 0 row by row, streamed. At depths at which only some meshes have origins near their sides, without
   /// and with these, one after the other.
   template <class Visit>
-  void quad(int depth, Visit&& visit) const {
+  void whole(int depth, Visit&& visit) const {
     for (const auto& placement : placements(depth)) {
-      whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
+      run_whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
         const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input.data());
         fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), {target}).run();
       });
@@ -115,7 +119,7 @@ class QuadStreamRuns {
   /// The same as a polynomial: a regular quad alone.
   template <class Visit>
   void patch(int depth, Visit&& visit) const {
-    whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
+    run_whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
       const auto batch = fast::row_stream::gather_patches<T>(rings, kFace, depth, 1, input.data());
       fast::row_stream::generic::QuadPatch<decltype(lane)>(batch, rings.placement(), work.data(), {target})
           .run();
@@ -174,7 +178,7 @@ class QuadStreamRuns {
     return {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {b[3], b[4], b[5]}};
   }
   template <class Visit, class Run>
-  void whole(int depth, Visit&& visit, Run&& run) const {
+  void run_whole(int depth, Visit&& visit, Run&& run) const {
     const int size = 1 << depth;
     const auto first = evaluate<Lane<0>>(first_, depth, size + 1, run),
                second = evaluate<Lane<1>>(second_, depth, size + 1, run);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The quick reference map is the slow one.
-#include "verify/proof/maps/shared_reference_map.h"
+#include "verify/proof/maps/reference_map.h"
 
 #include <gtest/gtest.h>
 

@@ -2,15 +2,46 @@
 // The number that a kernel runs on to show what it does: a row of weights over the control points.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "fast/rules/masks.h"
 #include "verify/proof/numbers/coefficient.h"
-#include "verify/proof/numbers/fault.h"
 
 namespace limitcheck::verify {
+
+/// Plants one wrong operation in the run of a kernel, which the proof must find. While one of these lives, stencils of its thread compute one operation wrongly: the `at`-th of its sort.
+class StencilFault {
+ public:
+  enum class Kind : std::uint8_t {
+    kFactor,     ///< a wrong coefficient: a product with a factor that is 2^-20 too large
+    kDropped,    ///< a wrong index: a sum without its second term
+    kDoubled,    ///< a wrong coefficient: a sum with its second term twice
+    kNeighbour,  ///< a wrong index: a sum with the second term of the sum before in place of its own
+    kCoordinate  ///< a wrong coordinate: a sum of y or z that is the sum of x before it
+  };
+
+  StencilFault(Kind kind, std::int64_t at) : kind_(kind), left_(at) { active_ = this; }
+  ~StencilFault() { active_ = nullptr; }
+  StencilFault(const StencilFault&) = delete;
+  StencilFault& operator=(const StencilFault&) = delete;
+
+  static StencilFault* active() { return active_; }
+  Kind kind() const { return kind_; }
+  bool is_product() const { return kind_ == Kind::kFactor; }
+  /// Counts one operation of the fault's sort; true for the one to spoil.
+  bool strikes() { return left_-- == 0; }
+  bool has_struck() const { return left_ < 0; }
+  /// Operations of its sort until it strikes.
+  std::int64_t left() const { return left_; }
+
+ private:
+  static inline thread_local StencilFault* active_ = nullptr;
+  Kind kind_;
+  std::int64_t left_;
+};
 
 /// A kernel that multiplies two control points, takes a root or asks which is larger is no linear map.
 struct NotLinear : std::logic_error {

@@ -20,18 +20,6 @@ using fast::Adjacency;
 
 constexpr std::int32_t kCorners = 4;
 
-data::ControlMesh with_positions(Faces faces) {
-  std::int32_t vertices = 0;
-  for (const std::int32_t v : faces.corners()) vertices = std::max(vertices, v + 1);
-  data::ControlMesh mesh;
-  mesh.faces = std::move(faces);
-  data::SplitMix64 random(static_cast<std::uint64_t>(vertices));
-  const auto coordinate = [&] { return static_cast<double>(random.next() >> 43) * 0x1p-20 - 1; };
-  for (std::int32_t v = 0; v < vertices; ++v)
-    mesh.positions.push_back({coordinate(), coordinate(), coordinate()});
-  return mesh;
-}
-
 /// Half-edges from A, B, C, D to their first neighbour of the pair, counter-clockwise: A to B, B to C, C to
 /// D, D to A; and the number of the pair's faces at each.
 struct CornerStart {
@@ -116,6 +104,18 @@ std::vector<std::size_t> surrounding(const data::ControlMesh& mesh) {
 
 }  // namespace
 
+data::ControlMesh with_positions(Faces faces) {
+  std::int32_t vertices = 0;
+  for (const std::int32_t v : faces.corners()) vertices = std::max(vertices, v + 1);
+  data::ControlMesh mesh;
+  mesh.faces = std::move(faces);
+  data::SplitMix64 random(static_cast<std::uint64_t>(vertices));
+  const auto coordinate = [&] { return static_cast<double>(random.next() >> 43) * 0x1p-20 - 1; };
+  for (std::int32_t v = 0; v < vertices; ++v)
+    mesh.positions.push_back({coordinate(), coordinate(), coordinate()});
+  return mesh;
+}
+
 std::string signature(const data::ControlMesh& mesh, std::int32_t half_edge) {
   const Adjacency adjacency(mesh);
   std::string text;
@@ -184,25 +184,30 @@ std::vector<Neighbourhood> boundary_pairs(const std::array<int, 4>& valence) {
     Neighbourhood cut = cut_out(with_positions(mesh.faces), 0);
     if (seen.insert(cut.name).second) result.push_back(std::move(cut));
   };
-  const std::vector<std::size_t> ring = surrounding(whole->mesh);
-  const std::size_t n = ring.size();
+  const Adjacency adjacency(whole->mesh);
+  const auto beyond = [&](std::int32_t h) { return static_cast<std::size_t>(adjacency.twin(h) / 3); };
+  // The pair's half-edges C D, D A, A B, B C.
+  for_each_removal(surrounding(whole->mesh), {beyond(1), beyond(2), beyond(3), beyond(4)}, without);
+  return result;
+}
+
+void for_each_removal(const std::vector<std::size_t>& around, const std::array<std::size_t, 4>& sides,
+                      const std::function<void(const std::set<std::size_t>& removed)>& visit) {
+  const std::size_t n = around.size();
   for (std::size_t length = 1; length < n; ++length) {
     for (std::size_t first = 0; first < n; ++first) {
       std::set<std::size_t> removed;
-      for (std::size_t k = 0; k < length; ++k) removed.insert(ring[(first + k) % n]);
-      without(removed);
+      for (std::size_t k = 0; k < length; ++k) removed.insert(around[(first + k) % n]);
+      visit(removed);
     }
   }
-  const Adjacency adjacency(whole->mesh);
-  const std::int32_t sides[] = {1, 2, 3, 4};  // the pair's half-edges C D, D A, A B, B C
   for (unsigned chosen = 1; chosen < 16; ++chosen) {
     std::set<std::size_t> removed;
     for (unsigned k = 0; k < 4; ++k)
-      if ((chosen >> k & 1U) != 0) removed.insert(adjacency.twin(sides[k]) / 3);
-    without(removed);
+      if ((chosen >> k & 1U) != 0) removed.insert(sides[k]);
+    visit(removed);
   }
-  without({ring.begin(), ring.end()});
-  return result;
+  visit({around.begin(), around.end()});
 }
 
 Neighbourhood face_alone() {

@@ -1,13 +1,50 @@
 // SPDX-License-Identifier: MIT
-// The result of the proofs about one kernel and one topology: a line of the table.
+// The kernels, and the result of the proofs about one of them and one topology: a line of the table.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <ctime>
 #include <optional>
 #include <string>
 
 namespace limitcheck::verify {
+
+/// What is proved: of pairs of triangles all but the last, of quads all but the centres of fans.
+enum class ProvedKernel : std::uint8_t {
+  kSlidingWindow,
+  kCrackEdge,
+  kCrackCentre,
+  kRowStream,
+  kRowStreamEdge,
+  kRowStreamPatch  ///< of regular quads
+};
+inline constexpr std::array kProvedKernels{ProvedKernel::kSlidingWindow, ProvedKernel::kCrackEdge,
+                                           ProvedKernel::kCrackCentre,   ProvedKernel::kRowStream,
+                                           ProvedKernel::kRowStreamEdge, ProvedKernel::kRowStreamPatch};
+constexpr const char* name_of(ProvedKernel kernel) {
+  constexpr std::array kNames{"sliding-window", "crack-edge",      "crack-centre",
+                              "row-stream",     "row-stream-edge", "row-stream-patch"};
+  return kNames[static_cast<std::size_t>(kernel)];
+}
+constexpr bool is_stream(ProvedKernel kernel) {
+  return kernel >= ProvedKernel::kRowStream;
+}
+
+/// Processor time of the calling thread: what a proof costs, however many share the machine.
+class ThreadClock {
+ public:
+  double seconds() const { return now() - start_; }
+
+ private:
+  static double now() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+  double start_ = now();
+};
 
 /// The weight that is wrong, and where.
 struct MapWitness {
@@ -25,7 +62,7 @@ struct MapProof {
   std::optional<MapWitness> witness;
 };
 
-/// The float32 kernel as it ships (shipped_kernels.h), on a few control meshes at each depth. A share above 1,
+/// The float32 kernel as it ships (deliver), on a few control meshes at each depth. A share above 1,
 /// or one that is no number, refutes the proof.
 struct ShippedProof {
   double position_share = 0;  ///< largest share of its own point's bound that the error of a position had
@@ -59,6 +96,17 @@ struct BoundProof {
   ShippedProof shipped;
 
   bool held() const { return share <= 1 && alike && shipped.held(); }
+  /// What is true of both: the worst of either.
+  void add(const BoundProof& other) {
+    first_depth = std::min(first_depth, other.first_depth);
+    last_depth = std::max(last_depth, other.last_depth);
+    for (const auto figure : {&BoundProof::position_bound, &BoundProof::position_worst,
+                              &BoundProof::tangent_bound, &BoundProof::tangent_worst,
+                              &BoundProof::normal_bound, &BoundProof::product_bound, &BoundProof::share})
+      this->*figure = std::max(this->*figure, other.*figure);
+    alike = alike && other.alike;
+    shipped.add(other.shipped);
+  }
 };
 
 /// Counted at the last depth, per distinct limit point of the pair (operation_count.h).
@@ -69,7 +117,7 @@ struct CostProof {
 
 struct ProofRow {
   std::string topology;  ///< signature of the pair (neighbourhood.h)
-  std::string kernel;    ///< sliding-window, crack-edge, crack-centre, row-stream, row-stream-edge
+  std::string kernel;    ///< name_of a ProvedKernel
   int first_depth = 0, last_depth = 0;
   std::int64_t points = 0;  ///< limit points compared
   double seconds = 0;       ///< processor time that this row took

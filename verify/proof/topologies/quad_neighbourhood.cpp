@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/topologies/quad_neighbourhood.h"
+#include "verify/proof/topologies/neighbourhood.h"
 
 #include <fmt/format.h>
 
@@ -9,25 +9,12 @@
 #include <utility>
 
 #include "data/cut_out.h"
-#include "data/splitmix64.h"
 #include "fast/mesh/cut_mesh.h"
 
 namespace limitcheck::verify {
 namespace {
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
-
-data::ControlMesh with_positions(data::Faces quads) {
-  std::int32_t vertices = 0;
-  for (const std::int32_t v : quads.corners()) vertices = std::max(vertices, v + 1);
-  data::ControlMesh mesh;
-  mesh.faces = std::move(quads);
-  data::SplitMix64 random(static_cast<std::uint64_t>(vertices));
-  const auto coordinate = [&] { return static_cast<double>(random.next() >> 43) * 0x1p-20 - 1; };
-  for (std::int32_t v = 0; v < vertices; ++v)
-    mesh.positions.push_back({coordinate(), coordinate(), coordinate()});
-  return mesh;
-}
 
 /// The quad, the faces beyond its sides, then those that fill each corner; and an edge of each corner that
 /// leads away from the quad.
@@ -104,21 +91,7 @@ std::vector<Neighbourhood> boundary_quads(const std::array<int, 4>& valence) {
     std::string name = name_of(mesh);
     if (seen.insert(name).second) result.push_back({std::move(name), std::move(mesh)});
   };
-  const std::size_t n = whole.around.size();
-  for (std::size_t length = 1; length < n; ++length) {
-    for (std::size_t first = 0; first < n; ++first) {
-      std::set<std::size_t> removed;
-      for (std::size_t k = 0; k < length; ++k) removed.insert(whole.around[(first + k) % n]);
-      add(removed);
-    }
-  }
-  for (unsigned chosen = 1; chosen < 16; ++chosen) {
-    std::set<std::size_t> removed;
-    for (std::size_t k = 0; k < 4; ++k)
-      if ((chosen >> k & 1U) != 0) removed.insert(1 + k);
-    add(removed);
-  }
-  add({whole.around.begin(), whole.around.end()});
+  for_each_removal(whole.around, {1, 2, 3, 4}, add);
   return result;
 }
 

@@ -14,7 +14,7 @@
 #include "fast/plan/depth.h"
 #include "fast/plan/pairing.h"
 #include "fast/plan/printed_rules.h"
-#include "verify/claims/pairing_oracle.h"
+#include "verify/claims/test_support/pairing_oracle.h"
 
 namespace limitcheck::verify {
 namespace {

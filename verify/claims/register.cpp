@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: MIT
+// The claims' tests are GoogleTest programs: asked what they have, run once each with a filter, and read by
+// the JSON they write.
 #include "verify/claims/register.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "verify/interrupt/interrupt.h"
+
+extern char** environ;
 
 namespace limitcheck::verify {
+namespace fs = std::filesystem;
 
 extern const char kClaimRegister[];  // generated from claims.json
 
@@ -17,10 +33,9 @@ const std::vector<Claim>& claim_register() {
     std::vector<Claim> list;
     for (const auto& row : json["claims"]) {
       const auto text = [&](const char* key) { return row.value(key, std::string()); };
-      Claim c{text("id"),   text("place"),   text("statement"), text("verdict"),
-              text("note"), text("finding"), text("why"),       {}};
-      if (!row["check"].is_null()) c.check = row["check"].get<std::vector<std::string>>();
-      list.push_back(std::move(c));
+      list.push_back({text("id"), text("place"), text("statement"), text("verdict"), text("note"),
+                      text("finding"), text("why"),
+                      row["check"].is_null() ? std::vector<std::string>{} : row["check"]});
     }
     return list;
   }();
@@ -37,21 +52,11 @@ std::vector<std::pair<std::string, std::int64_t>> count_verdicts(const std::vect
 }
 
 std::string_view word(ClaimOutcome outcome) {
-  switch (outcome) {
-    case ClaimOutcome::kHeld:
-      return "held";
-    case ClaimOutcome::kNotHeld:
-      return "not held";
-    case ClaimOutcome::kNotRun:
-      return "not run";
-    case ClaimOutcome::kNotCheckable:
-      return "not checkable";
-  }
-  return "not run";
+  constexpr std::string_view kWords[]{"held", "not held", "not run", "not checkable"};
+  return kWords[static_cast<std::size_t>(outcome)];
 }
 
 std::vector<std::filesystem::path> claim_programs(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
   const fs::path home = folder.empty() ? fs::read_symlink("/proc/self/exe").parent_path() : folder;
   std::vector<fs::path> programs;
   std::ifstream in(home / "claims_programs.txt");
@@ -83,6 +88,205 @@ std::string errata() {
       if (c.verdict != section.verdict) continue;
       out += fmt::format("| {} | {} | {} | {} |\n", c.id, cell(c.place), cell(c.statement), cell(c.note));
     }
+  }
+  return out;
+}
+
+namespace {
+
+// A folder of our own that goes away.
+class Scratch {
+ public:
+  Scratch() {
+    std::string pattern = (fs::temp_directory_path() / "limitcheck-claims-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
+    folder_ = pattern;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path file(const char* name) const { return folder_ / name; }
+
+ private:
+  fs::path folder_;
+};
+
+// Runs a program with its output in a file. Whether it ended by itself, in time. Throws Interrupted.
+bool run(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& output) {
+  constexpr auto kLimit = std::chrono::minutes(10);
+  std::vector<std::string> words{program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (auto& w : words) argv.push_back(w.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, program.c_str(), &actions, &attributes, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  if (error != 0) return false;
+  const auto deadline = std::chrono::steady_clock::now() + kLimit;
+  int status = 0;
+  for (auto pause = std::chrono::milliseconds(1); waitpid(child, &status, WNOHANG) == 0;) {
+    const bool stop = interrupted() != 0;
+    if (stop || std::chrono::steady_clock::now() > deadline) {
+      kill(-child, SIGKILL);  // and what it has started
+      waitpid(child, &status, 0);
+      if (stop) throw Interrupted();
+      return false;
+    }
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::milliseconds(50));
+  }
+  return WIFEXITED(status);
+}
+
+// "Prefix/Suite/0", "Name/3": the names in the sources are Suite and Name.
+std::string plain(const std::string& suite, const std::string& name) {
+  std::string s = suite;
+  if (const auto last = s.rfind('/');
+      last != std::string::npos && s.find_first_not_of("0123456789", last + 1) == std::string::npos)
+    s.resize(last);
+  if (const auto slash = s.rfind('/'); slash != std::string::npos) s.erase(0, slash + 1);
+  return s + "." + name.substr(0, name.find('/'));
+}
+
+struct Listed {
+  std::string filter;  // as the program knows it
+  std::string plain;
+};
+
+std::vector<Listed> list_tests(const fs::path& program, const Scratch& scratch) {
+  std::vector<Listed> tests;
+  const fs::path output = scratch.file("list");
+  if (!run(program, {"--gtest_list_tests"}, output)) return tests;
+  std::ifstream in(output);
+  std::string suite;
+  for (std::string line; std::getline(in, line);) {
+    line.resize(line.find("  #") == std::string::npos ? line.size() : line.find("  #"));
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    if (line.empty()) continue;
+    if (line[0] != ' ') {
+      suite = line.back() == '.' ? line.substr(0, line.size() - 1) : "";
+    } else if (!suite.empty()) {
+      const std::string name = line.substr(line.find_first_not_of(' '));
+      tests.push_back({suite + "." + name, plain(suite, name)});
+    }
+  }
+  return tests;
+}
+
+struct TestResult {
+  bool passed = true;
+  std::string failure;
+  std::vector<std::pair<std::string, std::string>> figures;
+};
+
+void take(const nlohmann::json& json, std::map<std::string, TestResult>& results) {
+  static const std::set<std::string> own{"name",   "value_param", "type_param", "status",
+                                         "result", "file",        "line",       "timestamp",
+                                         "time",   "classname",   "claim",      "failures"};
+  for (const auto& suite : json["testsuites"])
+    for (const auto& test : suite["testsuite"]) {
+      if (test.value("status", "") != "RUN") continue;
+      TestResult& r = results[plain(test["classname"], test["name"])];
+      if (test.contains("failures")) {
+        r.passed = false;
+        if (r.failure.empty()) r.failure = test["failures"][0].value("failure", "failed");
+      }
+      for (const auto& [key, value] : test.items())
+        if (!own.contains(key))
+          r.figures.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+}
+
+// Puts the figures into the claim's finding. A name that no test recorded is a mistake in the register, and
+// red.
+void tell_finding(ClaimResult& r) {
+  const std::string& words = r.claim->finding;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t open = words.find('{', at), close = words.find('}', std::min(open, words.size()));
+    r.finding += words.substr(at, open - at);
+    if (open == std::string::npos || close == std::string::npos) return;
+    const std::string name = words.substr(open + 1, close - open - 1);
+    const auto figure = std::find_if(r.figures.begin(), r.figures.end(),
+                                     [&](const auto& recorded) { return recorded.first == name; });
+    r.finding += figure != r.figures.end() ? figure->second : "?";
+    if (figure == r.figures.end() && r.outcome == ClaimOutcome::kHeld) {
+      r.outcome = ClaimOutcome::kNotHeld;
+      r.message = fmt::format("no test records the figure '{}' that the finding names", name);
+    }
+    at = close + 1;
+  }
+}
+
+}  // namespace
+
+std::vector<ClaimResult> run_claims(
+    const std::vector<const Claim*>& claims, const std::vector<fs::path>& programs,
+    const std::function<void(const std::string&, std::size_t, std::size_t)>& on_program) {
+  std::set<std::string> wanted;
+  for (const Claim* c : claims) wanted.insert(c->check.begin(), c->check.end());
+
+  const Scratch scratch;
+  std::map<std::string, TestResult> results;
+  std::map<std::string, std::string> broken;  // test: program that did not live to report on it
+  for (std::size_t k = 0; k < programs.size(); ++k) {
+    const std::string name = programs[k].filename().string();
+    if (on_program) on_program(name, k, programs.size());
+    std::string filter;
+    std::vector<std::string> asked;
+    for (const Listed& t : list_tests(programs[k], scratch)) {
+      if (!wanted.contains(t.plain)) continue;
+      filter += (filter.empty() ? "" : ":") + t.filter;
+      asked.push_back(t.plain);
+    }
+    if (asked.empty()) continue;
+    const fs::path report = scratch.file("report.json");
+    fs::remove(report);
+    const bool ended = run(
+        programs[k],
+        {fmt::format("--gtest_filter={}", filter), fmt::format("--gtest_output=json:{}", report.string())},
+        scratch.file("output"));
+    const auto json = nlohmann::json::parse(std::ifstream(report), nullptr, false);
+    if (ended && !json.is_discarded())
+      take(json, results);
+    else
+      for (const auto& t : asked) broken[t] = name;
+  }
+
+  std::vector<ClaimResult> out;
+  for (const Claim* c : claims) {
+    ClaimResult r{c, c->check.empty() ? ClaimOutcome::kNotCheckable : ClaimOutcome::kHeld, c->why, {}, {}};
+    for (const std::string& test : c->check) {
+      const auto found = results.find(test);
+      if (found == results.end()) {
+        if (r.outcome == ClaimOutcome::kNotHeld) continue;
+        r.outcome = ClaimOutcome::kNotRun;
+        r.message =
+            broken.contains(test)
+                ? fmt::format("{} broke down before {} had ended", broken[test], test)
+                : fmt::format("the program with {} is not here (it is part of a build with tests)", test);
+        continue;
+      }
+      if (!found->second.passed && r.outcome != ClaimOutcome::kNotHeld) {
+        r.outcome = ClaimOutcome::kNotHeld;
+        r.message = fmt::format("{}: {}", test, found->second.failure);
+      }
+      r.figures.insert(r.figures.end(), found->second.figures.begin(), found->second.figures.end());
+    }
+    if (r.outcome == ClaimOutcome::kHeld || r.outcome == ClaimOutcome::kNotHeld) tell_finding(r);
+    out.push_back(std::move(r));
   }
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/claims/pairing_oracle.h"
+#include "verify/claims/test_support/pairing_oracle.h"
 
 #include <fmt/core.h>
 

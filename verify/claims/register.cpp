@@ -33,9 +33,10 @@ const std::vector<Claim>& claim_register() {
     std::vector<Claim> list;
     for (const auto& row : json["claims"]) {
       const auto text = [&](const char* key) { return row.value(key, std::string()); };
-      list.push_back({text("id"), text("place"), text("statement"), text("verdict"), text("note"),
-                      text("finding"), text("why"),
-                      row["check"].is_null() ? std::vector<std::string>{} : row["check"]});
+      list.push_back(
+          {text("id"), text("place"), text("statement"), text("verdict"), text("note"), text("finding"),
+           text("why"),
+           row["check"].is_null() ? std::vector<std::string>{} : std::vector<std::string>(row["check"])});
     }
     return list;
   }();
@@ -98,9 +99,7 @@ namespace {
 class Scratch {
  public:
   Scratch() {
-    std::string pattern = (fs::temp_directory_path() / "limitcheck-claims-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
-    folder_ = pattern;
+    if (mkdtemp(folder_.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
   }
   ~Scratch() {
     std::error_code ignored;
@@ -108,10 +107,10 @@ class Scratch {
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
-  fs::path file(const char* name) const { return folder_ / name; }
+  fs::path file(const char* name) const { return fs::path(folder_) / name; }
 
  private:
-  fs::path folder_;
+  std::string folder_ = (fs::temp_directory_path() / "limitcheck-claims-XXXXXX").string();
 };
 
 // Runs a program with its output in a file. Whether it ended by itself, in time. Throws Interrupted.

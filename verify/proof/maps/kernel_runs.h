@@ -134,7 +134,7 @@ class StreamRuns {
     second_.whole({&pair, 1}, depth, second.data());
     for (int row = 0; row <= size; ++row) {
       for (int column = 0; column <= (alone ? row : size); ++column) {
-        const auto at = fast::row_stream::face_point(pair, size, column, row, row >= column);
+        const auto at = fast::face_point(pair, size, column, row, row >= column);
         const std::size_t k = 6 * (row * side + column);
         visit(at, frame(&first[k], &second[k]));
       }

@@ -70,7 +70,7 @@ struct Sink {
     const int size = 1 << depth;
     const bool outer = j == 0 || j == size;
     for (int i = 0; i <= size; i = outer || i + 1 > size ? i + 1 : i < j ? j : std::max(i + 1, size)) {
-      const fast::LatticePoint at = rs::face_point(pair, size, i, j, j >= i);
+      const fast::LatticePoint at = fast::face_point(pair, size, i, j, j >= i);
       if (at.face >= 0) add(at, vertices[i]);
     }
   }

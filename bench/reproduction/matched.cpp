@@ -13,7 +13,6 @@
 #include "bench/reproduction/turning.h"
 #include "data/generators/bumpy_sphere.h"
 #include "verify/cli/screen.h"
-#include "verify/picture/curve.h"
 #include "verify/picture/judge.h"
 
 namespace limitcheck::bench {

@@ -80,8 +80,8 @@ struct FrameEngine : FrameState {
   /// The patches of this frame, in their order; then writes those that are fresh to their places, and adds
   /// the calls that draw them all.
   virtual void list_patches(std::vector<PatchWanted>& out) const = 0;
-  virtual void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) = 0;
-  virtual void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
+  virtual void write_patches(std::span<const BlockOffset> places, const PatchTarget<Real>& out) = 0;
+  virtual void add_patch_draws(std::span<const BlockOffset> places, IndexForm form, PatchIndices& patterns,
                                std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const = 0;
   /// Vertices of this frame whose normal came from the rule for vanishing tangents.
   virtual std::int64_t zero_normals() const = 0;

@@ -42,7 +42,7 @@ struct PatchWanted {
   bool comparable = true;  // false: the key does not tell everything; it is always made anew
 };
 
-struct PatchPlace {
+struct BlockOffset {
   std::int64_t first = 0;
   bool fresh = true;  // to be evaluated; else it is there
 };
@@ -55,7 +55,7 @@ struct PatchStore {
   void clear();
 
   std::vector<PatchWanted> list;  // the patches of a frame
-  std::vector<PatchPlace> places;
+  std::vector<BlockOffset> places;
   std::int64_t end = 0;      // vertices in use and between
   std::uint64_t writer = 0;  // FrameState::version of the frame that is here, 0: none
   std::uint64_t mesh = 0;    // FrameState::id of the last

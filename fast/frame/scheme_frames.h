@@ -129,7 +129,7 @@ struct SchemeFrames : FrameEngine<Real>, Scheme {
     for (std::size_t i = 0; i < patches.size(); ++i)
       out.push_back(wanted_patch(pairing.grids[i], patches[i], faces, plan));
   }
-  void add_patch_draws(std::span<const PatchPlace> places, IndexForm form, PatchIndices& patterns,
+  void add_patch_draws(std::span<const BlockOffset> places, IndexForm form, PatchIndices& patterns,
                        std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const final {
     for (std::size_t i = 0; i < patches.size(); ++i)
       fast::add_patch_draws(patches[i], faces, plan, places[i].first, form, patterns, indices, out);

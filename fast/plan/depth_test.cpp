@@ -236,13 +236,6 @@ TEST(Depth, EmptyMeshesAndVerticesWithoutFacesAreNoProblem) {
   EXPECT_EQ(Fixture(point).heuristics.degenerate_normals(), 3) << "vertices of one face count, too";
 }
 
-data::ControlMesh shaken(data::ControlMesh mesh, double amount, std::uint64_t seed) {
-  data::SplitMix64 random(seed);
-  for (auto& p : mesh.positions)
-    for (double& x : p) x += amount * (2 * random.unit() - 1);
-  return mesh;
-}
-
 TEST(Depth, MovedPointsGiveWhatTheyGiveToANewOne) {
   for (const data::ControlMesh& mesh : {shaken(grid_torus(6, 7), .2, 1), shaken(grid_sheet(5, 4), .1, 2)}) {
     Fixture moved(mesh);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "fast/mesh/sharpness.h"
@@ -176,5 +177,22 @@ class LimitSurface {
   static constexpr N kSquare = N(kParallel<N> * kParallel<N>);
   static constexpr N kSmallest = std::numeric_limits<N>::min();
 };
+
+/// The vertex of the limit of a control vertex, which was summed in the wide number. normal(degenerate) is its unit
+/// normal; linear numbers have no sizes, and no need of it.
+template <class N, class Surface, class Normal>
+typename Surface::Vertex control_vertex(const LimitFrame<typename NumberTraits<N>::Wide>& wide,
+                                        std::int64_t& zero_normals, Normal&& normal) {
+  if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
+    bool degenerate = false;
+    const WideVec3<N> unit = normal(degenerate);
+    if (degenerate) ++zero_normals;
+    return {narrow<N>(wide.position), narrow<N>(unit) + Vec3<N>{N(0), N(0), N(0)}};
+  } else {
+    const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
+    return Surface::vertex(
+        frame, [] { return WideVec3<N>{}; }, zero_normals);
+  }
+}
 
 }  // namespace limitcheck::fast

@@ -93,17 +93,10 @@ class PreparedMesh {
   Vertex limit_of(const Vec3<Wide>& v, std::span<const Vec3<Wide>> ring, bool open, VertexKind kind,
                   const Weights& weights) {
     const VertexLimit<Wide> wide = limit_of_kind(v, ring, open, kind, weights, darts_);
-    if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
-      bool degenerate = false;
-      const Vec3<Wide> normal =
-          vertex_normal<Wide>(wide, v, ring, open, degenerate, std::numeric_limits<double>::infinity(), kind);
-      if (degenerate) ++zero_normals_;
-      return {narrow<N>(wide.position), narrow<N>(normal) + Vec3<N>{N(0), N(0), N(0)}};
-    } else {  // linear numbers have no sizes, and no rounding either
-      const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
-      return Surface::vertex(
-          frame, [] { return Vec3<Wide>{}; }, zero_normals_);
-    }
+    return control_vertex<N, Surface>(wide, zero_normals_, [&](bool& degenerate) {
+      return vertex_normal<Wide>(wide, v, ring, open, degenerate, std::numeric_limits<double>::infinity(),
+                                 kind);
+    });
   }
 
   const Adjacency* adjacency_;

@@ -52,7 +52,6 @@ class SemiSharp {
   /// level after the other; empty if the edge is not semi-sharp.
   void along(std::int32_t h, int levels, std::vector<double>& out) const;
   bool has(std::int32_t h) const { return !steps_.empty() && mesh_->side_sharpness[h] > 0; }
-  data::Creasing creasing() const { return mesh_->creasing; }
 
  private:
   const QuadMesh* mesh_;
@@ -60,7 +59,7 @@ class SemiSharp {
 };
 
 /// The unit normal of a vertex: du x dv of its limit, unless they vanish or are parallel, as vertex_normal()
-/// of vertex_normal.h says; then that of substitute_star_normal(), and `degenerate` becomes true. [D12]
+/// of limit.h says; then that of substitute_star_normal(), and `degenerate` becomes true. [D12]
 ///   own   is subdivided then
 template <class W>
 Vec3<W> star_normal(const LimitFrame<W>& limit, OwnQuadStar<W>& own, bool& degenerate) {
@@ -130,16 +129,8 @@ class PreparedQuads {
 
   Vertex limit_of(OwnQuadStar<Wide>& own, const StarWeights<Weight>& weights) {
     const LimitFrame<Wide> wide = star_limit(own.star, weights);
-    if constexpr (std::is_same_v<Surface, LimitSurface<N>>) {
-      bool degenerate = false;
-      const Vec3<Wide> normal = star_normal(wide, own, degenerate);
-      if (degenerate) ++zero_normals_;
-      return {narrow<N>(wide.position), narrow<N>(normal) + Vec3<N>{N(0), N(0), N(0)}};
-    } else {  // linear numbers have no sizes
-      const LimitFrame<N> frame{narrow<N>(wide.position), narrow<N>(wide.du), narrow<N>(wide.dv)};
-      return Surface::vertex(
-          frame, [] { return Vec3<Wide>{}; }, zero_normals_);
-    }
+    return control_vertex<N, Surface>(wide, zero_normals_,
+                                      [&](bool& degenerate) { return star_normal(wide, own, degenerate); });
   }
 
   const QuadMesh* mesh_;
@@ -162,10 +153,6 @@ struct QuadCorner {
   WideVec3<N> centre{};  // before it was rounded
   StarSums<typename NumberTraits<N>::Wide> sums{};
 
-  bool has_left() const { return star.has_face(sector + 1); }   // a face beyond edge(sector + 1)
-  bool has_right() const { return star.has_face(sector - 1); }  // a face beyond edge(sector)
-  const Vec3<N>& along() const { return star.edge(sector); }
-  const Vec3<N>& opposite() const { return star.face(sector); }
   /// The next edges of the ring, if there are such faces.
   const Vec3<N>& beyond_left() const { return star.edge(sector + 2); }
   const Vec3<N>& beyond_right() const { return star.edge(sector - 1); }

@@ -27,7 +27,7 @@ struct StarWeights {
 ///   held      open: du = e_0 - c, dv = e_n - c, which is the tangent plane of up to two faces; closed: there
 ///             is none, and these are the smooth tangents.
 ///   dart      by iteration, in double to about 1e-14: they have no closed form; from 64 faces on in linear time
-///             (large_dart.h)
+///             (quad_limit.cpp)
 template <class S>
 StarWeights<S> star_weights(int faces, bool open, VertexKind kind);
 

@@ -213,7 +213,7 @@ class OwnQuadStar {
 };
 
 /// The unit normal of the faces of a star, weighted by area; zero if it is lost in rounding, as in
-/// area_normal() of vertex_normal.h. Rings of four are added in opposite pairs.
+/// area_normal() of limit.h. Rings of four are added in opposite pairs.
 template <class W>
 Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
   using std::sqrt;
@@ -231,7 +231,7 @@ Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
   return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
 }
 
-/// The unit normal where the tangents vanish or are parallel, as substitute_normal() of vertex_normal.h:
+/// The unit normal where the tangents vanish or are parallel, as substitute_normal() of limit.h:
 /// that of the faces after one to three steps, else before them, else (0, 0, 1). [D12]
 template <class W>
 Vec3<W> substitute_star_normal(OwnQuadStar<W>& own, double tolerance) {

@@ -41,12 +41,8 @@ void Ring::subdivide() {
   if (!points_.empty()) subdivide_in_place<double>(centre_, points_, open_, kind_);
 }
 
-VertexLimit<double> Ring::limit() const {
-  return limit_of_kind<double>(centre_, points_, open_, kind_, weights_.of(points_.size(), open_), darts_);
-}
-
 Point3 Ring::limit_position() const {
-  return points_.empty() ? centre_ : limit().position;
+  return limit_vertex().position;
 }
 
 Point3 Ring::limit_normal(bool* degenerate) const {
@@ -57,7 +53,8 @@ SurfaceVertex<double> Ring::limit_vertex(bool* degenerate, double farthest) cons
   bool without_tangents = true;
   SurfaceVertex<double> vertex{centre_, {0, 0, 1}};
   if (!points_.empty()) {
-    const VertexLimit<double> at = limit();
+    const VertexLimit<double> at =
+        limit_of_kind<double>(centre_, points_, open_, kind_, weights_.of(points_.size(), open_), darts_);
     vertex = {at.position,
               vertex_normal<double>(at, centre_, points_, open_, without_tangents, farthest, kind_)};
   }
@@ -105,31 +102,16 @@ void QuadRing::subdivide() {
   if (!tags_.empty()) tags_ = tags_.subspan(1);
 }
 
-void QuadRing::gather_final() {
-  final_.resize(own_.star.faces, own_.star.open, own_.star.kind);
-  final_.star.centre = own_.star.centre;
-  std::copy(own_.star.ring, own_.star.ring + own_.star.size(), final_.star.ring);
-  for (const StarTags& tags : tags_) final_.subdivide(&tags);
-}
-
-LimitFrame<double> QuadRing::limit() {
-  gather_final();
-  return star_limit(final_.star, weights_.of(final_.star.faces, final_.star.open, final_.star.kind));
-}
-
-Point3 QuadRing::limit_position() {
-  return faces() == 0 ? centre() : limit().position;
-}
-
-Point3 QuadRing::limit_normal(bool* degenerate) {
-  return limit_vertex(degenerate).normal;
-}
-
 SurfaceVertex<double> QuadRing::limit_vertex(bool* degenerate, double /*farthest*/) {
   bool without_tangents = true;
   SurfaceVertex<double> vertex{centre(), {0, 0, 1}};
   if (faces() > 0) {
-    const LimitFrame<double> at = limit();
+    final_.resize(own_.star.faces, own_.star.open, own_.star.kind);
+    final_.star.centre = own_.star.centre;
+    std::copy(own_.star.ring, own_.star.ring + own_.star.size(), final_.star.ring);
+    for (const StarTags& tags : tags_) final_.subdivide(&tags);
+    const LimitFrame<double> at =
+        star_limit(final_.star, weights_.of(final_.star.faces, final_.star.open, final_.star.kind));
     vertex = {at.position, star_normal(at, final_, without_tangents)};
   }
   if (degenerate != nullptr) *degenerate = without_tangents;

@@ -50,7 +50,7 @@ class Ring {
 
   /// Limit position of the centre. [eq. 3; claims C14, D1]
   Point3 limit_position() const;
-  /// Unit limit normal of the centre, from the tangents of vertex_limit.h by the rule of vertex_normal.h;
+  /// Unit limit normal of the centre, from the tangents of vertex_limit.h by the rule of limit.h;
   /// `degenerate`: whether the tangents vanish or are parallel. On the boundary with six or more faces the
   /// surface has no tangent plane [claim D5], and this is the plane of the masks' eigenvector.
   /// [erratum 1; D12]
@@ -67,8 +67,6 @@ class Ring {
   double cone_cosine(const Point3& normal) const;
 
  private:
-  VertexLimit<double> limit() const;
-
   Point3 centre_;
   std::vector<Point3> points_;
   bool open_ = false;
@@ -89,24 +87,16 @@ class QuadRing {
   /// star is that after the step already.
   void subdivide();
 
-  Point3 limit_position();
-  /// Unit limit normal of the centre; `degenerate`: whether the tangents vanish or are parallel. [D12]
-  Point3 limit_normal(bool* degenerate = nullptr);
-
-  /// Both.
+  /// Limit position and unit normal of the centre; `degenerate`: whether the tangents vanish or are parallel. [D12]
   SurfaceVertex<double> limit_vertex(bool* degenerate = nullptr, double farthest = 0);
 
   /// The smallest cosine between `normal` and the normals of the faces with area; 1 if there is none.
   double cone_cosine(const Point3& normal) const;
 
  private:
-  /// The star when nothing about it is semi-sharp any more.
-  void gather_final();
-  LimitFrame<double> limit();
-
   std::span<const StarTags> tags_;
-  int taken_ = 0;  // steps that the mesh has taken before
-  OwnQuadStar<double> own_, final_;
+  int taken_ = 0;                    // steps that the mesh has taken before
+  OwnQuadStar<double> own_, final_;  // final_: when nothing about it is semi-sharp any more
   StarWeightTable<double> weights_;
 };
 

@@ -52,7 +52,7 @@ Normals normals_of(const data::ControlMesh& mesh, std::int32_t v) {
   const PreparedMesh<double> window(adjacency, positions_of<double>(mesh));
   result.window = window.limit(v).normal;
   result.window_degenerate = window.zero_normals() > 0;
-  const BasicRings<ScalarNumber<double>> stream(mesh, adjacency);
+  const BasicLoopRings<ScalarNumber<double>> stream(mesh, adjacency);
   const double* n = stream.corner(v).head.data() + CornerBlock::kLimit + 3;
   result.stream = {n[0], n[1], n[2]};
   result.stream_degenerate = stream.degenerate_normals() > 0;
@@ -134,7 +134,7 @@ TEST(D12_OneRule, WritesNoNegativeZero) {
         for (const double c : {normal.x, normal.y, normal.z})
           EXPECT_NE(std::bit_cast<std::uint64_t>(c), std::bit_cast<std::uint64_t>(-0.)) << v << " " << down;
       const Adjacency adjacency(mesh);
-      const Rings rings(mesh, adjacency);
+      const LoopRings rings(mesh, adjacency);
       for (std::size_t k = 3; k < 6; ++k)
         EXPECT_NE(std::bit_cast<std::uint32_t>(rings.corner(v).head[CornerBlock::kLimit + k]),
                   std::bit_cast<std::uint32_t>(-0.f))

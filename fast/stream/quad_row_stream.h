@@ -15,19 +15,14 @@
 
 namespace limitcheck::fast::row_stream {
 
-struct SemiSharpQuads;
+class SemiSharpQuads;
 
-/// Row j of a batch of quads, overwritten by the next row or, if two are kept, by the one after it. Row 0 runs from corner A = 0 of a face to B = 1.
-struct QuadRowView {
+/// Row j of a batch of quads. Row 0 runs from corner A = 0 of a face to B = 1.
+struct QuadRowView : BatchRow {
   std::span<const std::uint32_t> index;  // of the quads, in the caller's list
-  int depth;
-  int j;
-  RowBuffer rows;
 
-  /// The side(depth) vertices of quad index[lane],
-  const Vertex* vertices(std::size_t lane) const { return rows.row(lane, j); }
-  /// and those of the row before, j > 0, if two are kept.
-  const Vertex* before(std::size_t lane) const { return rows.row(lane, j - 1); }
+  std::size_t size() const { return index.size(); }
+  std::size_t number(std::size_t lane) const { return index[lane]; }
 };
 
 /// A mesh of quads prepared for the kernel: the rings and limits of its vertices. Read-only afterwards,

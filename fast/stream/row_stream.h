@@ -43,6 +43,8 @@ struct Workspace {
   AlignedFloats input, work, row;
   /// Input and work for grids of a depth. Throws data::ArgumentError: depth is 0 to 10.
   void prepare(int depth, int lanes);
+  /// So many numbers of each.
+  void grow(int input_size, int work_size, int lanes);
   std::size_t bytes() const { return 4 * (input.size() + work.size() + row.size()); }
 };
 
@@ -69,17 +71,25 @@ struct RowBuffer {
   }
 };
 
-/// Row j of a batch of grids, overwritten by the next row or, if two are kept, by the one after it.
-struct RowView {
-  std::span<const Grid> grids;
+/// Row j of a batch, overwritten by the next row or, if two are kept, by the one after it.
+struct BatchRow {
   int depth;
   int j;
   RowBuffer rows;
 
-  /// The side(depth) vertices of grids[lane],
+  /// The side(depth) vertices of the grid in a lane,
   const Vertex* vertices(std::size_t lane) const { return rows.row(lane, j); }
   /// and those of the row before, j > 0, if two are kept.
   const Vertex* before(std::size_t lane) const { return rows.row(lane, j - 1); }
+};
+
+/// That of the grids from number `first` of the list on.
+struct RowView : BatchRow {
+  std::span<const Grid> grids;
+  std::size_t first;
+
+  std::size_t size() const { return grids.size(); }
+  std::size_t number(std::size_t lane) const { return first + lane; }
 };
 
 /// A control mesh prepared for the kernel: the rings and limits of its vertices. Read-only afterwards, so
@@ -95,7 +105,7 @@ class RowStream {
  public:
   /// Keeps references to the adjacency and the kernel, which must outlive it. The mesh has a position for
   /// each vertex of the adjacency.
-  ///   throws   data::ArgumentError: what Rings refuse
+  ///   throws   data::ArgumentError: what LoopRings refuse
   RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency,
             const Kernel& kernel = kernels().front());
   RowStream(const data::ControlMesh& mesh, Adjacency&&, const Kernel& kernel = kernels().front()) = delete;
@@ -106,7 +116,7 @@ class RowStream {
   void move_points(const TriangleMesh& mesh);
 
   const Kernel& kernel() const { return kernel_; }
-  const Rings& rings() const { return rings_; }
+  const LoopRings& rings() const { return rings_; }
 
   /// Calls visit(context, RowView) for each row of each batch of grids, which all have this depth; a batch is a
   /// part of the list. From C, rows and columns are counted from that corner.
@@ -136,6 +146,9 @@ class RowStream {
              const Kernel* kernel = nullptr) const;
 
  private:
+  template <class At>
+  void put_at(const At& at, std::span<const Grid> grids, int depth, Workspace& workspace, Order order,
+              Stores stores) const;
   void batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
                void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const;
   /// How many of a list, and at most `most`, go together: one that is next to a cut goes alone.
@@ -144,7 +157,7 @@ class RowStream {
 
   const Adjacency& adjacency_;
   const Kernel& kernel_;
-  Rings rings_;
+  LoopRings rings_;
   std::shared_ptr<const CutGrids> cut_;  // null: there is none
 };
 

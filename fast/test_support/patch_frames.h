@@ -109,15 +109,6 @@ inline std::vector<Model> models() {
           {"semi-sharp", data::named_mesh("mixed-sharp:3:30"), quads}};
 }
 
-inline std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most,
-                                               data::SplitMix64& random) {
-  std::vector<std::int32_t> depth;
-  for (std::size_t f = 0; f < faces; ++f)
-    depth.push_back(static_cast<std::int32_t>(below(random, static_cast<std::size_t>(most - least) + 1)) +
-                    least);
-  return depth;
-}
-
 /// The next frame of a walk: mostly small changes; sometimes faces appear or go, or everything does.
 inline void step(std::vector<std::int32_t>& depth, data::SplitMix64& random) {
   const std::size_t what = below(random, 8);

@@ -15,15 +15,10 @@
 #include "data/control_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/splitmix64.h"
-#include "fast/test_support/refined_quads.h"
+#include "fast/test_support/quad_refinement.h"
 #include "fast/test_support/shared_points.h"
 
 namespace limitcheck::fast::row_stream {
-
-struct NamedMesh {
-  std::string name;
-  data::ControlMesh mesh;
-};
 
 /// A closed mesh with two vertices of valence n, which are opposite corners of n quads each; 2n of valence 3.
 inline data::ControlMesh trapezohedron(int n) {

@@ -236,4 +236,103 @@ inline int vertex_at(const std::vector<RefinedPolygons>& level, const LatticePoi
   return level[l].faces[face][j == 0 ? i : 3 - i];
 }
 
+/// A mesh of quads without sharp edges after some steps: limits with their normals.
+struct RefinedQuads {
+  struct Limit {
+    Point position, normal;
+  };
+
+  static RefinedQuads of(const data::ControlMesh& mesh, int depth) {
+    RefinedQuads out{{RefinedPolygons::of(mesh)}, {}};
+    for (int d = 0; d < depth; ++d) out.level.push_back(out.level.back().step());
+    out.incident.resize(out.points().size());
+    const auto& faces = out.level.back().faces;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (const int v : faces[f]) out.incident[v].push_back(static_cast<int>(f));
+    return out;
+  }
+
+  const std::vector<Point>& points() const { return level.back().points; }
+  /// At (i, j) / 2^depth of a control face.
+  Limit limit(std::size_t face, int i, int j) const {
+    return limit(vertex_at(level, {static_cast<std::int32_t>(face), static_cast<std::uint32_t>(i),
+                                   static_cast<std::uint32_t>(j), 1u << (level.size() - 1)}));
+  }
+
+  std::vector<RefinedPolygons> level;
+  std::vector<std::vector<int>> incident;
+
+ private:
+  Limit limit(int v) const {
+    const Ring ring = ring_of(v);
+    const std::size_t faces_here = ring.face.size();
+    const Point c = points()[v];
+    const auto n = static_cast<long double>(faces_here), pi = std::numbers::pi_v<long double>;
+    const auto e = [&](std::size_t k) { return points()[ring.edge[k]]; };
+    const auto f = [&](std::size_t k) { return points()[ring.face[k]]; };
+    Point position{}, u{}, w{};
+    if (ring.open) {
+      position = (1.L / 6) * (4.L * c + e(0) + e(faces_here));
+      u = e(0) - e(faces_here);
+      if (faces_here == 1) {
+        w = e(0) + e(1) - 2.L * c;
+      } else {
+        const long double t = pi / n;
+        const long double lambda =
+            (5 + std::cos(t) + std::cos(t / 2) * std::sqrt(2 * (9 + std::cos(t)))) / 16;
+        const long double cot = 1 / std::tan(t / 2), q = 4 * lambda - 1;
+        const long double end = (4 * lambda * std::sin(t) - (8 * lambda - 1) * cot) / (q * q);
+        w = end * (e(0) + e(faces_here)) + (-2 * end - cot * (16 * lambda - 2) / q) * c;
+        for (std::size_t k = 1; k < faces_here; ++k) w = w + 4 * std::sin(k * t) * e(k);
+        for (std::size_t k = 0; k < faces_here; ++k)
+          w = w + (std::sin(k * t) + std::sin((k + 1) * t)) / q * f(k);
+      }
+    } else {
+      const long double t = 2 * pi / n;
+      const long double lambda = (5 + std::cos(t) + std::cos(t / 2) * std::sqrt(2 * (9 + std::cos(t)))) / 16;
+      position = n / (n + 5) * c;
+      for (std::size_t k = 0; k < faces_here; ++k) {
+        position = position + 4 / (n * (n + 5)) * e(k) + 1 / (n * (n + 5)) * f(k);
+        u = u + 4 * std::cos(k * t) * e(k) +
+            (std::cos(k * t) + std::cos((k + 1) * t)) / (4 * lambda - 1) * f(k);
+        w = w + 4 * std::sin(k * t) * e(k) +
+            (std::sin(k * t) + std::sin((k + 1) * t)) / (4 * lambda - 1) * f(k);
+      }
+    }
+    const Point normal = cross_product(u, w);
+    return {position, 1 / norm(normal) * normal};
+  }
+
+  struct Ring {  // counter-clockwise; open: one more edge neighbour than face neighbours
+    std::vector<int> edge, face;
+    bool open = false;
+  };
+
+  Ring ring_of(int v) const {
+    std::map<int, std::pair<int, int>> next;  // edge neighbour -> face neighbour, edge neighbour after it
+    std::set<int> second;
+    for (const int f : incident[v]) {
+      const auto& q = level.back().faces[f];
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (q[k] != v) continue;
+        next[q[(k + 1) % 4]] = {q[(k + 2) % 4], q[(k + 3) % 4]};
+        second.insert(q[(k + 3) % 4]);
+      }
+    }
+    Ring ring;
+    int first = next.begin()->first;
+    for (const auto& entry : next)
+      if (second.count(entry.first) == 0) first = entry.first, ring.open = true;
+    int at = first;
+    do {
+      ring.edge.push_back(at);
+      const auto found = next.find(at);
+      if (found == next.end()) break;
+      ring.face.push_back(found->second.first);
+      at = found->second.second;
+    } while (at != first);
+    return ring;
+  }
+};
+
 }  // namespace limitcheck::fast

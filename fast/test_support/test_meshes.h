@@ -5,10 +5,40 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "data/control_mesh.h"
+#include "data/splitmix64.h"
 
 namespace limitcheck::fast {
+
+struct NamedMesh {
+  std::string name;
+  data::ControlMesh mesh;
+};
+
+/// Moves every vertex by up to `amount`, rounded to float.
+inline data::ControlMesh shaken(data::ControlMesh mesh, double amount, std::uint64_t seed) {
+  data::SplitMix64 random(seed);
+  for (auto& p : mesh.positions) {
+    for (double& x : p) x = static_cast<float>(x + amount * (2 * random.unit() - 1));
+  }
+  return mesh;
+}
+
+/// One depth for each face, uniform in least .. most.
+inline std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most,
+                                               data::SplitMix64& random) {
+  std::vector<std::int32_t> depth(faces);
+  for (auto& d : depth)
+    d = least + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(most - least + 1));
+  return depth;
+}
+inline std::vector<std::int32_t> random_depths(std::size_t faces, int least, int most, std::uint64_t seed) {
+  data::SplitMix64 random(seed);
+  return random_depths(faces, least, most, random);
+}
 
 inline data::ControlMesh single_triangle() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};

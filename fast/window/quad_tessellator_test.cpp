@@ -15,6 +15,7 @@
 #include "fast/test_support/collecting_sink.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/quad_refinement.h"
+#include "fast/test_support/test_meshes.h"
 #include "fast/window/tessellator.h"
 
 namespace limitcheck::fast {
@@ -26,22 +27,6 @@ TessellatorOptions quads(Repair repair) {
   options.cracks.repair = repair;
   options.provenance = true;
   return options;
-}
-
-std::vector<std::int32_t> random_depths(const data::ControlMesh& mesh, int low, int high,
-                                        std::uint64_t seed) {
-  data::SplitMix64 random(seed);
-  std::vector<std::int32_t> depth(mesh.faces.size());
-  for (auto& d : depth)
-    d = low + static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(high - low + 1));
-  return depth;
-}
-
-data::ControlMesh shaken(data::ControlMesh mesh, std::uint64_t seed) {
-  data::SplitMix64 random(seed);
-  for (auto& p : mesh.positions)
-    for (double& x : p) x = static_cast<float>(x + .2 * (random.unit() - .5));
-  return mesh;
 }
 
 struct Shape {
@@ -58,7 +43,7 @@ std::vector<Shape> shapes() {
                          {data::creased_cube(2), 0},      {data::creased_cube(10), 0, true},
                          {data::dart(5, false), 1, true}, {data::corner(3, false), 1, true},
                          {data::crease_ring(10), 0, true}};
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].mesh = shaken(out[i].mesh, i);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].mesh = shaken(out[i].mesh, .1, i);
   return out;
 }
 
@@ -78,7 +63,7 @@ TEST(QuadFrame, HasNoCracksAtAnyDepths) {
       Tessellator<float> tessellator(shape.mesh, quads(repair));
       for (std::uint64_t seed = 0; seed < 6; ++seed) {
         const std::string what = "shape " + std::to_string(which) + " seed " + std::to_string(seed);
-        const auto depth = random_depths(shape.mesh, seed < 3 ? 0 : 2, 4, seed);
+        const auto depth = random_depths(shape.mesh.faces.size(), seed < 3 ? 0 : 2, 4, seed);
         DrawList<float> list;
         IndexedMesh<float> mesh;
         const FrameStats a = tessellator.frame(depth, list), b = tessellator.frame(depth, mesh);
@@ -144,7 +129,7 @@ TEST(QuadFrame, EveryPointLiesWhereItsProvenanceSays) {
     while (level.size() < 5) level.push_back(level.back().step());
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       Tessellator<double> tessellator(shape.mesh, quads(repair));
-      const auto depth = random_depths(shape.mesh, 0, 3, 7);
+      const auto depth = random_depths(shape.mesh.faces.size(), 0, 3, 7);
       DrawList<double> list;
       IndexedMesh<double> mesh;
       tessellator.frame(depth, list);
@@ -211,7 +196,7 @@ TEST(QuadFrame, DepthsFollowTheView) {
 
 TEST(QuadFrame, TheNumberOfThreadsChangesNothing) {
   const auto mesh = data::mixed_mesh(3);
-  const auto depth = random_depths(mesh, -1, 4, 1);
+  const auto depth = random_depths(mesh.faces.size(), -1, 4, 1);
   TessellatorOptions one = quads(Repair::kStitch), many = one;
   one.threads = 1;
   many.threads = 4;
@@ -226,7 +211,7 @@ TEST(QuadFrame, TheNumberOfThreadsChangesNothing) {
 TEST(QuadFrame, ASinkGetsTheWholeList) {
   const auto mesh = data::mixed_pawn(40);
   Tessellator<float> tessellator(mesh, quads(Repair::kStitch));
-  const auto depth = random_depths(mesh, -1, 6, 2);
+  const auto depth = random_depths(mesh.faces.size(), -1, 6, 2);
   DrawList<float> list;
   CollectingSink sink;
   const FrameStats a = tessellator.frame(depth, list);

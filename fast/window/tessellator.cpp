@@ -262,7 +262,7 @@ struct WindowFrames final : SchemeFrames<Real, Scheme> {
         patches.size(), [](std::size_t i) { return i; },
         [&](std::size_t i, Worker&) { return this->index_writer(i, layout, out); });
   }
-  void write_patches(std::span<const PatchPlace> places, const PatchTarget<Real>& out) override {
+  void write_patches(std::span<const BlockOffset> places, const PatchTarget<Real>& out) override {
     fresh.clear();
     for (std::size_t i = 0; i < places.size(); ++i)
       if (places[i].fresh) fresh.push_back(i);

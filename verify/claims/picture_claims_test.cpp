@@ -15,7 +15,6 @@
 #include "data/generators/bumpy_sphere.h"
 #include "fast/window/tessellator.h"
 #include "verify/picture/canvas.h"
-#include "verify/picture/curve.h"
 #include "verify/picture/judge.h"
 
 namespace limitcheck::verify {

@@ -3,15 +3,27 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "fast/frame/sink.h"
 #include "fast/plan/depth.h"
-#include "verify/picture/picture.h"
 
 namespace limitcheck::verify {
+
+/// The shade that each pixel shows, in 0 .. 255, not rounded; kNothing where no surface is. Top row first.
+struct Picture {
+  static constexpr float kNothing = -1;
+
+  int width = 0, height = 0;
+  std::vector<float> shade;
+
+  float at(int x, int y) const {
+    return shade[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
+};
 
 /// Draws triangles with a depth buffer, one sample in the middle of each pixel, grey, one light above the
 /// viewer's left shoulder: shade = 255 (0.22 + 0.78 max(0, normal . light)) with the normal interpolated

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "verify/picture/picture.h"
+#include "verify/picture/canvas.h"
 
 namespace limitcheck::verify {
 

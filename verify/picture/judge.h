@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -43,5 +45,10 @@ class Judge {
   data::ControlMesh mesh_;
   std::vector<Picture> truth_;
 };
+
+/// y at x on the curve through points (x, y), both positive: straight lines between neighbours, in
+/// logarithms. Nothing where x lies outside the points. Errors against triangles and triangles against errors
+/// are read off so: what a strategy needs lies between two of its settings.
+std::optional<double> on_curve(std::vector<std::pair<double, double>> points, double x);
 
 }  // namespace limitcheck::verify

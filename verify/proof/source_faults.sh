@@ -25,7 +25,7 @@ declare -A sources=(
   [shipped]="verify/proof/bounds/shipped_kernels_test.cpp verify/proof/bounds/shipped_kernels.cpp fast/stream/kernel/targets.cpp
     fast/stream/kernel/quad_targets.cpp fast/stream/gather/rings.cpp fast/rules/quad_limit.cpp"
   [bits]="fast/stream/host/row_stream_test.cpp fast/stream/gather/rings.cpp"
-  [darts]="fast/rules/large_dart_test.cpp fast/rules/quad_limit.cpp")
+  [darts]="fast/rules/dart_test.cpp fast/rules/quad_limit.cpp")
 
 # compile FINDER FOLDER FILE: its objects, into the folder those alone that depend on the file.
 compile() {

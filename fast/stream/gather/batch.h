@@ -50,19 +50,19 @@ enum class Order : std::uint8_t { kFromA = 0, kFromC = 2 };
 /// grids; the lanes that remain repeat the last grid. A singleton without neighbour gets ghosts for its dummy
 /// partner.
 template <class N>
-void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Grid> grids, int depth,
-            int lanes, typename N::Scalar* input, Order order = Order::kFromA);
+void gather(const Adjacency& adjacency, const BasicLoopRings<N>& rings, std::span<const Grid> grids,
+            int depth, int lanes, typename N::Scalar* input, Order order = Order::kFromA);
 
 /// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) *
 /// lanes numbers.
 template <class N>
-void gather_edges(const Adjacency& adjacency, const BasicRings<N>& rings,
+void gather_edges(const Adjacency& adjacency, const BasicLoopRings<N>& rings,
                   std::span<const std::int32_t> half_edges, int depth, int lanes, typename N::Scalar* input);
 
 namespace detail {
 
 // A corner's vertex, and the index in its ring of core entry 0 (the first of the grid's own points).
-struct Place {
+struct CornerSlot {
   std::int32_t vertex;
   std::int32_t core;
 };
@@ -70,7 +70,7 @@ struct Place {
 // Corner blocks of `group` lanes, whose rings are walked side by side. With an origin of its own a grid or
 // edge wants differences from the corner; they are exact or nearly so.
 template <int group, class N>
-void put_group(const BasicRings<N>& rings, const Place* places, int width, int depth, int lanes,
+void put_group(const BasicLoopRings<N>& rings, const CornerSlot* places, int width, int depth, int lanes,
                typename N::Scalar* out) {
   using T = typename N::Scalar;
   const T *head[group], *centre[group], *column[group];
@@ -78,14 +78,14 @@ void put_group(const BasicRings<N>& rings, const Place* places, int width, int d
   std::int32_t at[group], period[group];
   const auto point = [points = rings.points().data()](std::int32_t k) { return points[k].data(); };
   for (int lane = 0; lane < group; ++lane) {
-    const Place place = places[lane];
+    const CornerSlot place = places[lane];
     head[lane] = rings.corner(place.vertex).head.data();
     centre[lane] = point(place.vertex);
     const auto ring = rings.ring(place.vertex);
     entries[lane] = rings.entries().data() + ring.first;
     period[lane] = ring.period;
     at[lane] = place.core - 1 - depth;
-    if (ring.period != BasicRings<N>::kOpen) {
+    if (ring.period != BasicLoopRings<N>::kOpen) {
       at[lane] %= ring.period;
       at[lane] += at[lane] < 0 ? ring.period : 0;
     }
@@ -103,7 +103,7 @@ void put_group(const BasicRings<N>& rings, const Place* places, int width, int d
 }
 
 template <class N>
-void put_corners(const BasicRings<N>& rings, const Place* places, int width, int depth, int lanes,
+void put_corners(const BasicLoopRings<N>& rings, const CornerSlot* places, int width, int depth, int lanes,
                  typename N::Scalar* out) {
   if (lanes % 4 == 0) {
     for (int lane = 0; lane < lanes; lane += 4)
@@ -117,7 +117,7 @@ void put_corners(const BasicRings<N>& rings, const Place* places, int width, int
 // Where a singleton without neighbour has no fourth corner: the ghost across its diagonal, and nothing around
 // it that matters.
 template <class N>
-void put_ghost(const BasicRings<N>& rings, Place a, int corner, int depth, int lanes,
+void put_ghost(const BasicLoopRings<N>& rings, CornerSlot a, int corner, int depth, int lanes,
                typename N::Scalar* out) {
   using T = typename N::Scalar;
   const auto ring = rings.ring(a.vertex);
@@ -133,9 +133,9 @@ void put_ghost(const BasicRings<N>& rings, Place a, int corner, int depth, int l
 }  // namespace detail
 
 template <class N>
-void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<const Grid> grids, int depth,
-            int lanes, typename N::Scalar* input, Order order) {
-  detail::Place places[4][kMaxLanes];
+void gather(const Adjacency& adjacency, const BasicLoopRings<N>& rings, std::span<const Grid> grids,
+            int depth, int lanes, typename N::Scalar* input, Order order) {
+  detail::CornerSlot places[4][kMaxLanes];
   bool ghost[kMaxLanes];
   for (int lane = 0; lane < lanes; ++lane) {
     const Grid& grid = grids[std::min(static_cast<std::size_t>(lane), grids.size() - 1)];
@@ -160,9 +160,9 @@ void gather(const Adjacency& adjacency, const BasicRings<N>& rings, std::span<co
 }
 
 template <class N>
-void gather_edges(const Adjacency& adjacency, const BasicRings<N>& rings,
+void gather_edges(const Adjacency& adjacency, const BasicLoopRings<N>& rings,
                   std::span<const std::int32_t> half_edges, int depth, int lanes, typename N::Scalar* input) {
-  detail::Place p[kMaxLanes], q[kMaxLanes];
+  detail::CornerSlot p[kMaxLanes], q[kMaxLanes];
   for (int lane = 0; lane < lanes; ++lane) {
     const std::int32_t h = half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
     // From Q to the left neighbour, which comes before P in Q's ring.

@@ -92,8 +92,8 @@ template PlacedPoints<float> place_points(std::span<const std::array<double, 3>>
 template PlacedPoints<double> place_points(std::span<const std::array<double, 3>>);
 template PlacedPoints<float> place(const data::ControlMesh&);
 template PlacedPoints<double> place(const data::ControlMesh&);
-template class BasicRings<ScalarNumber<float>>;
-template class BasicRings<ScalarNumber<double>>;
+template class BasicLoopRings<ScalarNumber<float>>;
+template class BasicLoopRings<ScalarNumber<double>>;
 
 template <class T>
 PlacedPoints<T> place(const QuadMesh& mesh) {

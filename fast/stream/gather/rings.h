@@ -57,17 +57,17 @@ PlacedPoints<T> place(const data::ControlMesh& mesh);
 /// from its being invariant at every level. At a vertex that is held
 /// q = 2 v + 2 cos(k pi / 3) (r_0 - v): 2 r_0, v + r_0, 3 v - r_0, 4 v - 2 r_0, 3 v - r_0, v + r_0.
 template <class N>
-class BasicRings {
+class BasicLoopRings {
  public:
   using T = typename N::Scalar;
   using Wide = typename NumberTraits<T>::Wide;
 
   /// One point per vertex of the adjacency; throws data::ArgumentError otherwise. Of darts only the limits are
-  /// right: what becomes of their rings is not what the kernel knows of a corner. Keeps a reference to the
+  /// right: their rings do not follow the corner recurrence that the kernel assumes. Keeps a reference to the
   /// kinds, which must outlive it.
-  BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds = {});
-  BasicRings(const data::ControlMesh& mesh, const Adjacency& adjacency, VertexKinds kinds = {})
-      : BasicRings(adjacency, place<T>(mesh), kinds) {}
+  BasicLoopRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds = {});
+  BasicLoopRings(const data::ControlMesh& mesh, const Adjacency& adjacency, VertexKinds kinds = {})
+      : BasicLoopRings(adjacency, place<T>(mesh), kinds) {}
 
   /// Other points, for the same adjacency: what depends on the topology alone stays.
   ///   throws   data::ArgumentError: not one point per vertex
@@ -125,6 +125,7 @@ class BasicRings {
   std::int64_t degenerate_normals_ = 0;
 };
 
-using Rings = BasicRings<ScalarNumber<float>>;
+using LoopRings = BasicLoopRings<ScalarNumber<float>>;
+using Rings = LoopRings;  // its name until 0.2
 
 }  // namespace limitcheck::fast::row_stream

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BasicRings for any number; rings.cpp instantiates it for float and double.
+// BasicLoopRings for any number; rings.cpp instantiates it for float and double.
 #pragma once
 
 #include <algorithm>
@@ -37,14 +37,14 @@ std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
 }
 
 template <class N>
-BasicRings<N>::BasicRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
+BasicLoopRings<N>::BasicLoopRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
     : kinds_(kinds), weights_(adjacency.max_valence()) {
   lay_out(adjacency);
   move_points(adjacency, std::move(points));
 }
 
 template <class N>
-void BasicRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> points) {
+void BasicLoopRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> points) {
   if (points.points.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
     throw data::ArgumentError("rings: " + std::to_string(points.points.size()) + " points for " +
                               std::to_string(adjacency.vertex_count()) + " vertices");
@@ -61,7 +61,7 @@ void BasicRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> poin
 
 // Where each vertex' entries and ghosts go, and the weights of the valences there are.
 template <class N>
-void BasicRings<N>::lay_out(const Adjacency& adjacency) {
+void BasicLoopRings<N>::lay_out(const Adjacency& adjacency) {
   const auto vertices = static_cast<std::size_t>(adjacency.vertex_count());
   rings_.resize(vertices);
   corners_.resize(vertices);
@@ -82,8 +82,8 @@ void BasicRings<N>::lay_out(const Adjacency& adjacency) {
 }
 
 template <class N>
-void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind,
-                                Scratch& scratch) {
+void BasicLoopRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind,
+                                    Scratch& scratch) {
   // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
   const std::span<const std::int32_t> fan = adjacency.fan(v);
   const Ring ring = rings_[v];
@@ -137,8 +137,8 @@ void BasicRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, Vert
 
 // The open ring continued by kReach entries at either end: index k of the ring is at [k + kReach].
 template <class N>
-void BasicRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, Ring ring,
-                                  Scratch& scratch) {
+void BasicLoopRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r,
+                                      Ring ring, Scratch& scratch) {
   const int last = static_cast<int>(r.size()) - 1;
   auto& all = scratch.continued;
   all.resize(r.size() + 2 * kReach);
@@ -173,8 +173,9 @@ void BasicRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<cons
 }
 
 template <class N>
-void BasicRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0, const Weight& k1,
-                               const VertexLimit<Wide>& limit, const Vec3<Wide>& normal) {
+void BasicLoopRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0,
+                                   const Weight& k1, const VertexLimit<Wide>& limit,
+                                   const Vec3<Wide>& normal) {
   auto& head = corners_[v].head;
   const auto put = [&](std::size_t at, const Vec3<Wide>& wide) {
     const Vec3<T> x = narrow<T>(wide);

@@ -16,7 +16,7 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// N = ScalarNumber<T> or LinearNumber<T, k>, see number.h and BasicRings for what T needs. A vertex of the
+/// N = ScalarNumber<T> or LinearNumber<T, k>, see number.h and BasicLoopRings for what T needs. A vertex of the
 /// output is six numbers: limit position in the caller's coordinates, then the unit normal or, for linear
 /// numbers, one tangent as the kernel has it, not placed:
 ///   inside a face, on the rows of the grid   slant 4^d (4 dx + 2 dy), across 4^d (2 dx + 4 dy)
@@ -47,7 +47,7 @@ class NumberStream {
   template <class... Arguments>
   NumberStream(Adjacency&&, Arguments&&...) = delete;
 
-  const BasicRings<N>& rings() const { return rings_; }
+  const BasicLoopRings<N>& rings() const { return rings_; }
 
   /// All vertices of grids of one depth, 0..10: those of grids[p] from out[6 p side^2], row by row, side =
   /// 2^depth + 1. Throws data::ArgumentError for another depth.
@@ -88,7 +88,7 @@ class NumberStream {
   }
 
   const Adjacency& adjacency_;
-  BasicRings<N> rings_;
+  BasicLoopRings<N> rings_;
 };
 
 using DoubleStream = NumberStream<ScalarNumber<double>>;

@@ -5,24 +5,16 @@
 #include <array>
 #include <optional>
 
-#include "data/error.h"
+#include "fast/stream/gather/alone.h"
 #include "fast/stream/gather/quad_batch.h"
-#include "fast/stream/gather/semi_sharp_quads.h"
-#include "fast/stream/kernel/output_targets.h"
+#include "fast/stream/host/rows.h"
 
 namespace limitcheck::fast::row_stream {
 
 namespace {
 
-int checked(int depth) {
-  if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
-  return depth;
-}
-
 void prepare(Workspace& workspace, int depth, int lanes) {
-  const auto n = static_cast<std::size_t>(lanes);
-  workspace.input.grow(n * static_cast<std::size_t>(quad_input_size(checked(depth))));
-  workspace.work.grow(n * static_cast<std::size_t>(quad_work_size(depth)));
+  workspace.grow(quad_input_size(checked(depth)), quad_work_size(depth), lanes);
 }
 
 /// The quads of a list that wait for others of their class.
@@ -75,8 +67,7 @@ struct Evaluation {
   int depth;
   Workspace& workspace;
   Order order = Order::kFromA;
-  std::optional<SemiSharpEvaluator> alone = {};
-  std::vector<Vertex> sides = {};
+  std::optional<AloneEvaluator<SemiSharpQuads>> alone = {};
 
   void run(QuadClass kind, std::span<const std::uint32_t> index, const QuadTarget<float>& target) {
     if (kind == QuadClass::kSemiSharp) return run_alone(faces[index.front()], target);
@@ -109,54 +100,11 @@ struct Evaluation {
 
   void run_alone(std::int32_t face, const QuadTarget<float>& target) {
     if (!alone) alone.emplace(*semi_sharp, rings, depth);
-    const auto n = static_cast<std::size_t>(side(depth));
-    sides.resize(4 * n);
-    for (int k = 0; k < 4; ++k) {
-      const std::int32_t h = 4 * face + (k + static_cast<int>(order)) % 4;
-      Vertex* const out = sides.data() + static_cast<std::size_t>(k) * n;
-      if (!rings.touches_semi_sharp(h)) evaluate_sides(rings, kernel, {&h, 1}, depth, workspace, &out);
-    }
-    alone->quad(4 * face + static_cast<int>(order), sides.data(), target);
+    alone->grid(face, order, target, [&](std::int32_t h, Vertex* out) {
+      evaluate_sides(rings, kernel, {&h, 1}, depth, workspace, &out);
+    });
   }
 };
-
-struct Rows {
-  QuadRowView view;
-  void (*visit)(void*, const QuadRowView&);
-  void* context;
-};
-
-void visit_row(void* context, int j) {
-  Rows& rows = *static_cast<Rows*>(context);
-  rows.view.j = j;
-  rows.visit(rows.context, rows.view);
-}
-
-// Where quad i begins.
-auto one_after_the_other(Vertex* out, int depth) {
-  const auto n = static_cast<std::size_t>(side(depth));
-  return [out, size = n * n](std::size_t i) { return out + i * size; };
-}
-
-// Rows of whole quads past the caches, each from its place at(i) on.
-template <class At>
-void write_runs(const QuadRowStream& stream, std::span<const std::int32_t> faces, int depth,
-                Workspace& workspace, const At& at, Order order) {
-  struct Runs {
-    std::array<LineStream, kMaxLanes> lane;
-    const At& at;
-    static void visit(void* context, const QuadRowView& view) {
-      auto& runs = *static_cast<Runs*>(context);
-      const auto n = static_cast<std::size_t>(side(view.depth));
-      for (std::size_t k = 0; k < view.index.size(); ++k) {
-        if (view.j == 0) runs.lane[k].start(reinterpret_cast<std::byte*>(runs.at(view.index[k])));
-        runs.lane[k].append(reinterpret_cast<const std::byte*>(view.vertices(k)), n * sizeof(Vertex));
-        if (view.j + 1 == static_cast<int>(n)) runs.lane[k].finish();
-      }
-    }
-  } runs{{}, at};
-  stream.rows(faces, depth, workspace, &Runs::visit, &runs, order);
-}
 
 }  // namespace
 
@@ -192,12 +140,12 @@ void QuadRowStream::rows(std::span<const std::int32_t> faces, int depth, Workspa
                          void (*visit)(void*, const QuadRowView&), void* context, Order order,
                          Kept kept) const {
   prepare(workspace, depth, kernel_.lanes);
-  Rows rows{{{}, depth, 0, RowBuffer::in(workspace.row, depth, kernel_.lanes, kept)}, visit, context};
+  RowVisitor<QuadRowView> rows{
+      {{depth, 0, RowBuffer::in(workspace.row, depth, kernel_.lanes, kept)}, {}}, visit, context};
   const RowBuffer& buffer = rows.view.rows;
   std::array<float*, kMaxLanes> lane;
   for (int k = 0; k < kMaxLanes; ++k) lane[k] = buffer.base + std::min(k, kernel_.lanes - 1) * buffer.pitch;
-  const QuadTarget<float> target{lane.data(), buffer.stride, visit ? &visit_row : nullptr, &rows,
-                                 buffer.mask};
+  const QuadTarget<float> target{lane.data(), buffer.stride, rows.call(), &rows, buffer.mask};
   Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace, order};
   Queue::go(rings_, faces, kernel_.lanes, [&](QuadClass kind, std::span<const std::uint32_t> index) {
     rows.view.index = index;
@@ -228,8 +176,10 @@ void QuadRowStream::streamed(std::span<const std::int32_t> faces, int depth, Wor
 template <class At>
 void QuadRowStream::put_at(const At& at, std::span<const std::int32_t> faces, int depth, Workspace& workspace,
                            Order order, Stores stores) const {
-  if (stores == Stores::kPastCaches && !kernel_.quad_lines)
-    return write_runs(*this, faces, depth, workspace, at, order);
+  if (stores == Stores::kPastCaches && !kernel_.quad_lines) {
+    Runs<QuadRowView, At> runs{at, stores};
+    return rows(faces, depth, workspace, &runs.visit, &runs, order);
+  }
   prepare(workspace, depth, kernel_.lanes);
   Evaluation evaluation{rings_, semi_sharp_.get(), kernel_, faces, depth, workspace, order};
   evaluation.to_places(at, stores);
@@ -240,7 +190,7 @@ void QuadRowStream::edges(std::span<const std::int32_t> half_edges, int depth, W
   const QuadKernel& kernel = other != nullptr ? *other : kernel_;
   prepare(workspace, depth, kernel.lanes);
   const auto lanes = static_cast<std::size_t>(kernel.lanes), n = static_cast<std::size_t>(side(depth));
-  std::optional<SemiSharpEvaluator> alone;
+  std::optional<AloneEvaluator<SemiSharpQuads>> alone;
   std::array<std::int32_t, kMaxLanes> some;
   std::array<Vertex*, kMaxLanes> to;
   std::size_t count = 0;
@@ -248,7 +198,7 @@ void QuadRowStream::edges(std::span<const std::int32_t> half_edges, int depth, W
     const std::int32_t h = half_edges[e];
     if (rings_.touches_semi_sharp(h)) {
       if (!alone) alone.emplace(*semi_sharp_, rings_, depth);
-      alone->side(h, out + n * e);
+      alone->edge(h, out + n * e);
     } else {
       some[count] = h, to[count] = out + n * e, ++count;
     }

@@ -19,7 +19,6 @@
 #include "fast/stream/gather/quad_batch.h"
 #include "fast/stream/kernel/kernel.h"
 #include "fast/test_support/quad_meshes.h"
-#include "fast/test_support/refined_quads.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/window/quad_window.h"
 
@@ -58,54 +57,19 @@ double least_height(const data::ControlMesh& mesh) {
   return least;
 }
 
-struct Worst {
-  double position = 0, normal = 0;  // in diagonals, and per coordinate of the unit vector
-  std::string where = "nowhere";
-};
-
-Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const std::vector<Vertex>& got,
-                               const std::set<int>& held = {}) {
-  const RefinedQuads expected = RefinedQuads::of(mesh, depth, held);
-  const double scale = data::box_diagonal(mesh);
-  Worst worst;
-  const auto raise = [&](double& most, double error, std::size_t f, int i, int j) {
-    if (error <= most) return;
-    most = error;  // NaN too
-    worst.where = "face " + std::to_string(f) + " (" + std::to_string(i) + ", " + std::to_string(j) + ")";
-  };
-  const int n = side(depth);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        const RefinedQuads::Limit e = expected.limit(f, i, j);
-        const Vertex& v = got[(f * n + j) * n + i];
-        for (int c = 0; c < 3; ++c) {
-          raise(worst.position, std::abs(v.position[c] - static_cast<double>(e.position[c])) / scale, f, i,
-                j);
-          raise(worst.normal, std::abs(v.normal[c] - static_cast<double>(e.normal[c])), f, i, j);
-        }
-      }
-    }
-  }
-  return worst;
-}
-
 void expect_the_limit_surface(const std::vector<NamedMesh>& meshes) {
-  Worst all;
-  for (const auto& [name, mesh] : meshes) {
-    const data::ControlMesh single = shaken(mesh, 0, 0);
-    for (int depth = 0; depth <= (mesh.faces.size() > 60 ? 4 : 5); ++depth) {
-      const Worst worst =
-          worst_against_refinement(single, depth, evaluate(single, depth, quad_kernels().front()));
-      EXPECT_LE(worst.position, 1.2e-7) << name << " depth " << depth << " " << worst.where;
-      const double bound = 2.4e-7 * (1 << depth) * data::box_diagonal(mesh) / least_height(mesh);
-      EXPECT_LE(worst.normal, bound) << name << " depth " << depth << " " << worst.where;
-      all.position = std::max(all.position, worst.position);
-      all.normal = std::max(all.normal, worst.normal);
-    }
-  }
-  ::testing::Test::RecordProperty("worst_position", std::to_string(all.position * 1e9) + "e-9");
-  ::testing::Test::RecordProperty("worst_normal", std::to_string(all.normal * 1e9) + "e-9");
+  const auto worst_of = [](const data::ControlMesh& mesh, int depth) {
+    const auto got = evaluate(mesh, depth, quad_kernels().front());
+    const RefinedQuads expected = RefinedQuads::of(mesh, depth);
+    const int n = side(depth);
+    Worst worst;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          worst.see(got[(f * n + j) * n + i], expected.limit(f, i, j), data::box_diagonal(mesh), f, i, j);
+    return worst;
+  };
+  expect_all_limits(meshes, 4, worst_of, least_height);
 }
 
 TEST(QuadStream, GivesTheLimitSurfaceOfClosedMeshes) {
@@ -156,140 +120,35 @@ TEST(QuadStreamOrigins, KeepNormalsToAHundredThousandthAtDepthsFourAndFive) {
   }
 }
 
-/// The first bits seen for each point on a side or corner, and how often others came.
-class SharedQuadPoints {
- public:
-  void add(const data::ControlMesh& mesh, std::size_t face, int i, int j, int size, const Vertex& v,
-           const std::vector<std::int32_t>& known) {
-    const auto q = mesh.faces[face];
-    const auto name = [&](int corner) { return known.empty() ? q[corner % 4] : known[q[corner % 4]]; };
-    const int along[4] = {i, j, size - i, size - j};
-    const bool on[4] = {j == 0, i == size, j == size, i == 0};
-    for (int k = 0; k < 4; ++k) {
-      if (!on[k]) continue;
-      std::int32_t a = name(k), b = name(k + 1), at = along[k];
-      if (at == 0) b = a;
-      if (at == size) a = b, at = 0;
-      if (a > b) std::swap(a, b), at = size - at;
-      if (a == b) at = 0;
-      std::array<std::uint32_t, 6> bits;
-      std::memcpy(bits.data(), &v, sizeof bits);
-      const auto [seen, fresh] = first_.try_emplace({a, b, at}, bits);
-      if (fresh) continue;
-      ++compared_;
-      if (seen->second != bits) ++different_;
+void add_quads_and_sides(const data::ControlMesh& mesh, int depth, const QuadKernel& kernel,
+                         const std::vector<std::int32_t>& known, SharedPoints& shared) {
+  const int n = side(depth);
+  const auto points = evaluate(mesh, depth, kernel);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (int k = 0; k < n; ++k)
+      for (const auto& [i, j] : {std::pair{k, 0}, {k, n - 1}, {0, k}, {n - 1, k}})
+        shared.add(mesh, f, i, j, n - 1, points[(f * n + j) * n + i], known);
+  const QuadMesh quads(mesh);
+  const QuadRowStream stream(quads, kernel);
+  std::vector<std::int32_t> half_edges(4 * mesh.faces.size());
+  std::iota(half_edges.begin(), half_edges.end(), 0);
+  std::vector<Vertex> out(half_edges.size() * n);
+  Workspace workspace;
+  stream.edges(half_edges, depth, workspace, out.data());
+  for (std::size_t h = 0; h < half_edges.size(); ++h) {
+    for (int t = 0; t < n; ++t) {
+      const int i[4] = {t, n - 1, n - 1 - t, 0}, j[4] = {0, t, n - 1, n - 1 - t};
+      shared.add(mesh, h / 4, i[h % 4], j[h % 4], n - 1, out[h * n + t], known);
     }
   }
-  std::int64_t compared() const { return compared_; }
-  std::int64_t different() const { return different_; }
-
- private:
-  std::map<std::array<std::int32_t, 3>, std::array<std::uint32_t, 6>> first_;
-  std::int64_t compared_ = 0, different_ = 0;
-};
-
-// Claim D14, on every variant the machine has: the same point has the same bits from every quad and from the
-// side alone, however the mesh is written down; and from every variant.
-void expect_equal_bits(const std::vector<NamedMesh>& meshes, int most) {
-  std::int64_t compared = 0;
-  for (const auto& [name, mesh] : meshes) {
-    const data::ControlMesh single = shaken(mesh, 0, 0);
-    for (int depth = 0; depth <= (mesh.faces.size() > 60 ? most - 2 : most); ++depth) {
-      SharedQuadPoints shared;
-      const int n = side(depth);
-      for (std::uint64_t seed = 0; seed < 3; ++seed) {
-        std::vector<std::int32_t> number, known(mesh.positions.size());
-        const data::ControlMesh other = renumbered_quads(single, seed, number);
-        for (std::size_t v = 0; v < known.size(); ++v) known[number[v]] = static_cast<std::int32_t>(v);
-        for (const QuadKernel& kernel : quad_kernels()) {
-          if (!kernel.fused && depth > 3) continue;
-          const auto points = evaluate(other, depth, kernel);
-          for (std::size_t f = 0; f < other.faces.size(); ++f) {
-            for (int k = 0; k < n; ++k) {
-              for (const auto& [i, j] : {std::pair{k, 0}, {k, n - 1}, {0, k}, {n - 1, k}})
-                shared.add(other, f, i, j, n - 1, points[(f * n + j) * n + i], known);
-            }
-          }
-          const QuadMesh quads(other);
-          const QuadRowStream stream(quads, kernel);
-          std::vector<std::int32_t> half_edges(4 * other.faces.size());
-          std::iota(half_edges.begin(), half_edges.end(), 0);
-          std::vector<Vertex> out(half_edges.size() * n);
-          Workspace workspace;
-          stream.edges(half_edges, depth, workspace, out.data());
-          for (std::size_t h = 0; h < half_edges.size(); ++h) {
-            for (int t = 0; t < n; ++t) {
-              const int i[4] = {t, n - 1, n - 1 - t, 0}, j[4] = {0, t, n - 1, n - 1 - t};
-              shared.add(other, h / 4, i[h % 4], j[h % 4], n - 1, out[h * n + t], known);
-            }
-          }
-        }
-      }
-      EXPECT_EQ(shared.different(), 0) << name << " depth " << depth << " of " << shared.compared();
-      compared += shared.compared();
-    }
-  }
-  ::testing::Test::RecordProperty("compared", std::to_string(compared));
 }
 
 TEST(QuadStreamBits, AreEqualFromEveryQuadOfAClosedMesh) {
-  expect_equal_bits(closed_meshes(), 6);
+  expect_all_bits(closed_meshes(), 6, 4, 3, quad_kernels(), renumbered_quads, add_quads_and_sides);
 }
 
 TEST(QuadStreamBits, AreEqualFromEveryQuadOfAMeshWithBoundary) {
-  expect_equal_bits(open_meshes(), 6);
-}
-
-// What is sharp, and faces of other than four corners, against the sliding window in double.
-TEST(QuadStream, GivesTheSurfaceOfTheWindowWhereEdgesAreSharp) {
-  std::vector<NamedMesh> meshes{{"creased cube", data::creased_cube(10)},
-                                {"crease ring", data::crease_ring(10)},
-                                {"prism", data::polygon_prism(5)},
-                                {"mixed pawn", data::mixed_pawn(5)}};
-  for (const int n : {3, 4, 5, 7}) meshes.push_back({"dart " + std::to_string(n), data::dart(n, false)});
-  for (const int k : {2, 3, 4, 5}) meshes.push_back({"corner " + std::to_string(k), data::corner(k, false)});
-  auto spike = data::quad_cube();
-  spike.sharpness.vertices.push_back({0, 10});
-  meshes.push_back({"spike", spike});
-  auto edge_and_corner = shaken(quad_sheet(2, 2), .1, 9);
-  edge_and_corner.sharpness.boundary = data::Boundary::kEdgeAndCorner;
-  meshes.push_back({"edge and corner", edge_and_corner});
-  for (const auto& [name, mesh] : meshes) {
-    data::ControlMesh single = mesh;
-    for (auto& p : single.positions)
-      for (double& x : p) x = static_cast<float>(x);
-    const QuadMesh quads(single);
-    std::vector<Vec3<double>> positions;
-    for (const auto& p : quads.positions) positions.push_back({p[0], p[1], p[2]});
-    const PreparedQuads<double> prepared(quads, positions);
-    const QuadRowStream stream(quads);
-    std::vector<std::int32_t> faces(static_cast<std::size_t>(quads.adjacency.face_count()));
-    std::iota(faces.begin(), faces.end(), 0);
-    for (int depth = 0; depth <= 6; ++depth) {
-      const int n = side(depth);
-      std::vector<Vertex> got(faces.size() * n * n);
-      Workspace workspace;
-      stream.whole(faces, depth, workspace, got.data());
-      QuadWindow<double> window(depth, quads.adjacency.max_valence());
-      double position = 0, normal = 0;
-      for (const std::int32_t f : faces) {
-        window.run(prepared, f, depth, [&](int row, const SurfaceVertex<double>* strip) {
-          for (int q = 0; q < 2 * n; ++q) {
-            const int j = n - 1 - row - q % 2;
-            const Vertex& v = got[(f * n + j) * n + q / 2];
-            const std::array p{strip[q].position.x, strip[q].position.y, strip[q].position.z};
-            const std::array w{strip[q].normal.x, strip[q].normal.y, strip[q].normal.z};
-            for (int c = 0; c < 3; ++c) {
-              position = std::max(position, std::abs(v.position[c] - p[c]));
-              normal = std::max(normal, std::abs(v.normal[c] - w[c]));
-            }
-          }
-        });
-      }
-      EXPECT_LE(position / data::box_diagonal(single), 1.2e-7) << name << " depth " << depth;
-      EXPECT_LE(normal, 1e-5 * (1 << depth)) << name << " depth " << depth;
-    }
-  }
+  expect_all_bits(open_meshes(), 6, 4, 3, quad_kernels(), renumbered_quads, add_quads_and_sides);
 }
 
 // The two sides of a cut have a point each, in one place.

@@ -1,81 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include "fast/stream/row_stream.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <optional>
-#include <span>
-#include <vector>
 
-#include "data/error.h"
-#include "fast/stream/gather/cut_grids.h"
-#include "fast/stream/kernel/output_targets.h"
-#include "fast/stream/row_stream.h"
+#include "fast/stream/gather/alone.h"
+#include "fast/stream/host/rows.h"
 
 namespace limitcheck::fast::row_stream {
-
-namespace {
-
-constexpr std::size_t kLine = 64;
-
-int checked(int depth) {
-  if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
-  return depth;
-}
-
-struct Rows {
-  RowView view;
-  void (*visit)(void*, const RowView&);
-  void* context;
-};
-
-void visit_row(void* context, int j) {
-  Rows& rows = *static_cast<Rows*>(context);
-  rows.view.j = j;
-  rows.visit(rows.context, rows.view);
-}
-
-// Rows of at most kMaxLanes whole grids, each as a run from its place on.
-struct Runs {
-  const Grid* first;
-  Vertex* const* places;
-  Stores stores;
-  std::array<LineStream, kMaxLanes> lines = {};
-
-  static void visit(void* context, const RowView& view) {
-    Runs& runs = *static_cast<Runs*>(context);
-    const auto length = static_cast<std::size_t>(side(view.depth));
-    const auto first_grid = static_cast<std::size_t>(view.grids.data() - runs.first);
-    for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
-      Vertex* const to = runs.places[first_grid + lane];
-      const Vertex* const row = view.vertices(lane);
-      if (runs.stores == Stores::kOrdinary) {
-        std::copy_n(row, length, to + static_cast<std::size_t>(view.j) * length);
-        continue;
-      }
-      LineStream& lines = runs.lines[lane];
-      if (view.j == 0) lines.start(reinterpret_cast<std::byte*>(to));
-      lines.append(reinterpret_cast<const std::byte*>(row), length * sizeof(Vertex));
-      if (view.j + 1 == side(view.depth)) lines.finish();
-    }
-  }
-};
-
-// write(grids, places) for at most kMaxLanes grids at a time, which lie one after the other.
-template <class Write>
-void one_after_the_other(std::span<const Grid> grids, int depth, Vertex* out, const Write& write) {
-  const auto length = static_cast<std::size_t>(side(depth)), size = length * length;
-  std::array<Vertex*, kMaxLanes> places;
-  while (!grids.empty()) {
-    const std::size_t count = std::min(grids.size(), places.size());
-    for (std::size_t k = 0; k < count; ++k) places[k] = out + k * size;
-    write(grids.first(count), places.data());
-    grids = grids.subspan(count), out += count * size;
-  }
-}
-
-}  // namespace
 
 void AlignedFloats::Free::operator()(float* p) const {
   std::free(p);
@@ -83,18 +19,22 @@ void AlignedFloats::Free::operator()(float* p) const {
 
 void AlignedFloats::grow(std::size_t count) {
   if (count <= size_) return;
-  const std::size_t bytes = (4 * count + kLine - 1) / kLine * kLine;
-  auto* p = static_cast<float*>(std::aligned_alloc(kLine, bytes));
+  constexpr std::size_t kCacheLine = 64;
+  const std::size_t bytes = (4 * count + kCacheLine - 1) / kCacheLine * kCacheLine;
+  auto* p = static_cast<float*>(std::aligned_alloc(kCacheLine, bytes));
   if (!p) throw std::bad_alloc();
   std::memset(p, 0, bytes);
   data_.reset(p);
   size_ = count;
 }
 
+void Workspace::grow(int input_size, int work_size, int lanes) {
+  input.grow(static_cast<std::size_t>(lanes * input_size));
+  work.grow(static_cast<std::size_t>(lanes * work_size));
+}
+
 void Workspace::prepare(int depth, int lanes) {
-  const auto n = static_cast<std::size_t>(lanes);
-  input.grow(n * static_cast<std::size_t>(input_size(checked(depth))));
-  work.grow(n * static_cast<std::size_t>(work_size(depth)));
+  grow(input_size(checked(depth)), work_size(depth), lanes);
 }
 
 RowBuffer RowBuffer::in(AlignedFloats& memory, int depth, int lanes, Kept kept) {
@@ -123,8 +63,6 @@ std::size_t RowStream::together(std::span<const T> list, std::size_t most) const
   return std::max<std::ptrdiff_t>(1, std::find_if(list.begin(), list.begin() + count, alone) - list.begin());
 }
 
-template std::size_t RowStream::together(std::span<const Grid> list, std::size_t most) const;
-
 void RowStream::move_points(const TriangleMesh& mesh) {
   rings_.move_points(adjacency_, place<float>(mesh.points()));
   if (cut_) cut_ = std::make_shared<const CutGrids>(mesh);
@@ -139,26 +77,22 @@ void RowStream::batches(const Kernel& kernel, std::span<const Grid> grids, int d
                         void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   workspace.prepare(depth, kernel.lanes);
-  Rows rows{{{}, depth, 0, RowBuffer::in(workspace.row, depth, kernel.lanes, kept)}, visit, context};
-  const RowBuffer& buffer = rows.view.rows;
-  const Target<float> target{buffer.base, buffer.pitch, buffer.stride, visit ? &visit_row : nullptr,
-                             &rows,       buffer.mask};
-  std::optional<CutGridEvaluator> alone;
-  std::vector<Vertex> along;
-  for (std::size_t first = 0; first < grids.size(); first += rows.view.grids.size()) {
-    rows.view.grids = grids.subspan(first, together(grids.subspan(first), lanes));
-    if (cut_ && cut_->touches(grids[first])) {
+  RowVisitor<RowView> rows{
+      {{depth, 0, RowBuffer::in(workspace.row, depth, kernel.lanes, kept)}, {}, 0}, visit, context};
+  RowView& view = rows.view;
+  const Target<float> target{view.rows.base, view.rows.pitch, view.rows.stride,
+                             rows.call(),    &rows,           view.rows.mask};
+  std::optional<AloneEvaluator<CutGrids>> alone;
+  for (view.first = 0; view.first < grids.size(); view.first += view.size()) {
+    view.grids = grids.subspan(view.first, together(grids.subspan(view.first), lanes));
+    if (cut_ && cut_->touches(view.grids.front())) {
       if (!alone) alone.emplace(*cut_, rings_, depth);
-      const GridEdges on(adjacency_, grids[first], order);
-      const auto n = static_cast<std::size_t>(side(depth));
-      along.resize(GridEdges::kCount * n);
-      for (std::size_t k = 0; k < GridEdges::kCount; ++k)
-        if (on.of[k] >= 0 && !cut_->touches(on.of[k]))
-          edges({&on.of[k], 1}, depth, workspace, along.data() + k * n, &kernel);
-      alone->grid(grids[first], order, along.data(), target);
+      alone->grid(view.grids.front(), order, target, [&](std::int32_t h, Vertex* out) {
+        edges({&h, 1}, depth, workspace, out, &kernel);
+      });
       continue;
     }
-    gather(adjacency_, rings_, rows.view.grids, depth, kernel.lanes, workspace.input.data(), order);
+    gather(adjacency_, rings_, view.grids, depth, kernel.lanes, workspace.input.data(), order);
     kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
 }
@@ -179,21 +113,9 @@ void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspa
     kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
   }
   // The lanes beyond the last grid write too, but not into the caller's memory.
-  struct Rest {
-    const Grid* grids;
-    Vertex* out;
-  } rest{grids.data() + full, out + full * grid_size};
-  batches(
-      kernel, grids.subspan(full), depth, workspace,
-      [](void* context, const RowView& view) {
-        const Rest& to = *static_cast<const Rest*>(context);
-        const auto n = static_cast<std::size_t>(side(view.depth)), j = static_cast<std::size_t>(view.j);
-        for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
-          const auto grid = static_cast<std::size_t>(&view.grids[lane] - to.grids);
-          std::copy_n(view.vertices(lane), n, to.out + (grid * n + j) * n);
-        }
-      },
-      &rest, Order::kFromA, Kept::kOneRow);
+  const auto at = one_after_the_other(out + full * grid_size, depth);
+  Runs<RowView, decltype(at)> rest{at, Stores::kOrdinary};
+  batches(kernel, grids.subspan(full), depth, workspace, &rest.visit, &rest, Order::kFromA, Kept::kOneRow);
 }
 
 void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
@@ -201,11 +123,10 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
   const Kernel& kernel = other != nullptr ? *other : kernel_;
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   const auto length = static_cast<std::size_t>(side(depth));
-  workspace.input.grow(lanes * static_cast<std::size_t>(edge_input_size(checked(depth))));
-  workspace.work.grow(lanes * static_cast<std::size_t>(edge_work_size(depth)));
+  workspace.grow(edge_input_size(checked(depth)), edge_work_size(depth), kernel.lanes);
   const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
 
-  std::optional<CutGridEvaluator> alone;
+  std::optional<AloneEvaluator<CutGrids>> alone;
   std::size_t first = 0;
   for (std::span<const std::int32_t> batch; first < half_edges.size(); first += batch.size()) {
     batch = half_edges.subspan(first, together(half_edges.subspan(first), lanes));
@@ -226,32 +147,35 @@ void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Works
   }
 }
 
-void RowStream::put(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* const* places,
-                    Order order, Stores stores) const {
+template <class At>
+void RowStream::put_at(const At& at, std::span<const Grid> grids, int depth, Workspace& workspace,
+                       Order order, Stores stores) const {
   workspace.prepare(depth, kernel_.lanes);
   const auto lanes = static_cast<std::size_t>(kernel_.lanes);
-  std::size_t count = 0;
-  for (; !grids.empty(); grids = grids.subspan(count), places += count) {
-    count = together(grids, lanes);
-    const std::span<const Grid> batch = grids.first(count);
+  std::size_t first = 0;
+  for (std::span<const Grid> batch; first < grids.size(); first += batch.size()) {
+    batch = grids.subspan(first, together(grids.subspan(first), lanes));
     if (kernel_.run_lines == nullptr || (cut_ && cut_->touches(batch.front()))) {
-      Runs runs{batch.data(), places, stores};
-      rows(batch, depth, workspace, &Runs::visit, &runs, order);
+      const auto place = [&](std::size_t i) { return at(first + i); };
+      Runs<RowView, decltype(place)> runs{place, stores};
+      rows(batch, depth, workspace, &runs.visit, &runs, order);
       continue;
     }
     std::array<float*, kMaxLanes> lane;  // those beyond the last grid repeat it, place and all
-    for (std::size_t k = 0; k < lanes; ++k) lane[k] = &places[std::min(k, count - 1)]->position.x;
+    for (std::size_t k = 0; k < lanes; ++k) lane[k] = &at(first + std::min(k, batch.size() - 1))->position.x;
     gather(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data(), order);
     kernel_.run_lines(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), lane.data(),
                       stores);
   }
 }
 
+void RowStream::put(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* const* places,
+                    Order order, Stores stores) const {
+  put_at([&](std::size_t i) { return places[i]; }, grids, depth, workspace, order, stores);
+}
+
 void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const {
-  workspace.prepare(depth, kernel_.lanes);
-  one_after_the_other(grids, depth, out, [&](std::span<const Grid> some, Vertex* const* places) {
-    put(some, depth, workspace, places, Order::kFromA, Stores::kPastCaches);
-  });
+  put_at(one_after_the_other(out, depth), grids, depth, workspace, Order::kFromA, Stores::kPastCaches);
   fence(Stores::kPastCaches);
 }
 

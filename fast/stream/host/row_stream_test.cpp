@@ -16,11 +16,6 @@
 namespace limitcheck::fast::row_stream {
 namespace {
 
-struct NamedMesh {
-  std::string name;
-  data::ControlMesh mesh;
-};
-
 std::vector<NamedMesh> closed_meshes() {
   return {{"tetrahedron", tetrahedron()},
           {"octahedron", octahedron()},
@@ -51,11 +46,6 @@ double shortest_edge(const data::ControlMesh& mesh) {
   return shortest;
 }
 
-struct Worst {
-  double position = 0, normal = 0;  // in diagonals, and per coordinate of the unit vector
-  std::string where = "nowhere";
-};
-
 Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const Kernel& kernel) {
   const Adjacency adjacency(mesh);
   const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
@@ -68,46 +58,23 @@ Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const K
   const RefinedMesh expected = RefinedMesh::of(mesh, depth);
   const double scale = data::box_diagonal(mesh);
   Worst worst;
-  const auto raise = [&](double& most, double error, std::size_t p, int i, int j) {
-    if (error <= most) return;
-    most = error;  // NaN too
-    worst.where = "grid " + std::to_string(p) + " (" + std::to_string(i) + ", " + std::to_string(j) + ")";
-  };
   for (std::size_t p = 0; p < grids.size(); ++p) {
     for (int j = 0; j <= size; ++j) {
       for (int i = 0; i <= size; ++i) {
         const LatticePoint at = face_point(grids[p], size, i, j, j >= i);
         if (at.face < 0) continue;
-        const RefinedMesh::Limit e = expected.limit(at);
-        const Vertex& v = out[(p * side(depth) + j) * side(depth) + i];
-        for (int c = 0; c < 3; ++c) {
-          raise(worst.position, std::abs(v.position[c] - static_cast<double>(e.position[c])) / scale, p, i,
-                j);
-          raise(worst.normal, std::abs(v.normal[c] - static_cast<double>(e.normal[c])), p, i, j);
-        }
+        worst.see(out[(p * side(depth) + j) * side(depth) + i], expected.limit(at), scale, p, i, j);
       }
     }
   }
   return worst;
 }
 
-// Rounding: about one ulp of the largest coordinate in position. The tangents of depth d are differences of
-// points that lie 2^-d edges apart, so the same ulp weighs more in the normal.
 void expect_the_limit_surface(const std::vector<NamedMesh>& meshes) {
-  Worst all;
-  for (const auto& [name, mesh] : meshes) {
-    const data::ControlMesh single = shaken(mesh, 0, 0);
-    for (int depth = 0; depth <= 5; ++depth) {
-      const Worst worst = worst_against_refinement(single, depth, kernels().front());
-      EXPECT_LE(worst.position, 1.2e-7) << name << " depth " << depth << " " << worst.where;
-      const double bound = 2.4e-7 * (1 << depth) * data::box_diagonal(mesh) / shortest_edge(mesh);
-      EXPECT_LE(worst.normal, bound) << name << " depth " << depth << " " << worst.where;
-      all.position = std::max(all.position, worst.position);
-      all.normal = std::max(all.normal, worst.normal);
-    }
-  }
-  ::testing::Test::RecordProperty("worst_position", std::to_string(all.position * 1e9) + "e-9");
-  ::testing::Test::RecordProperty("worst_normal", std::to_string(all.normal * 1e9) + "e-9");
+  expect_all_limits(
+      meshes, 5,
+      [](const auto& mesh, int depth) { return worst_against_refinement(mesh, depth, kernels().front()); },
+      shortest_edge);
 }
 
 TEST(RowStream, GivesTheLimitSurfaceOfClosedMeshes) {
@@ -118,37 +85,21 @@ TEST(RowStream, GivesTheLimitSurfaceWithItsBoundaryCurve) {
   expect_the_limit_surface(open_meshes());
 }
 
-// Claim D14, on every variant the machine has: the same point has the same bits from every face, however the
-// mesh is written down, and from every variant.
-void expect_equal_bits(const std::vector<NamedMesh>& meshes, int most) {
-  std::int64_t compared = 0;
-  for (const auto& [name, mesh] : meshes) {
-    const data::ControlMesh single = shaken(mesh, 0, 0);
-    for (int depth = 0; depth <= most; ++depth) {
-      SharedPoints shared;
-      for (std::uint64_t seed = 0; seed < 4; ++seed) {
-        std::vector<std::int32_t> number, known(mesh.positions.size());
-        const data::ControlMesh other = renumbered(single, seed, number);
-        for (std::size_t v = 0; v < known.size(); ++v) known[number[v]] = static_cast<std::int32_t>(v);
-        for (const Kernel& kernel : kernels()) {
-          if (!kernel.fused && depth > 3) continue;
-          add_shared_points(other, depth, kernel, known, shared);
-          add_edges(other, depth, kernel, known, shared);
-        }
-      }
-      EXPECT_EQ(shared.different(), 0) << name << " depth " << depth << " of " << shared.compared();
-      compared += shared.compared();
-    }
-  }
-  ::testing::Test::RecordProperty("compared", std::to_string(compared));
+void expect_equal_bits(const std::vector<NamedMesh>& meshes) {
+  expect_all_bits(
+      meshes, 5, 5, 4, kernels(), renumbered,
+      [](const auto& mesh, int depth, const Kernel& kernel, const auto& known, SharedPoints& shared) {
+        add_shared_points(mesh, depth, kernel, known, shared);
+        add_edges(mesh, depth, kernel, known, shared);
+      });
 }
 
 TEST(RowStreamBits, AreEqualFromEveryFaceOfAClosedMesh) {
-  expect_equal_bits(closed_meshes(), 5);
+  expect_equal_bits(closed_meshes());
 }
 
 TEST(RowStreamBits, AreEqualFromEveryFaceOfAMeshWithBoundary) {
-  expect_equal_bits(open_meshes(), 5);
+  expect_equal_bits(open_meshes());
 }
 
 TEST(RowStreamTargets, EachRunsTheCodeItNames) {

@@ -18,6 +18,7 @@
 #include "fast/stream/stream_tessellator.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/global_refinement.h"
+#include "fast/test_support/test_meshes.h"
 #include "fast/window/tessellator.h"
 
 namespace limitcheck::fast {
@@ -93,13 +94,6 @@ TessellatorOptions options(Repair repair) {
   return o;
 }
 
-std::vector<std::int32_t> random_depths(const data::ControlMesh& mesh, int most, std::uint64_t seed) {
-  data::SplitMix64 random(seed);
-  std::vector<std::int32_t> depth(mesh.faces.size());
-  for (auto& d : depth) d = static_cast<std::int32_t>(random.next() % static_cast<std::uint64_t>(most + 1));
-  return depth;
-}
-
 int loops_of(const data::ControlMesh& mesh) {
   const Adjacency adjacency(mesh);
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
@@ -144,7 +138,7 @@ template <class Real, class Engine>
 void expect_the_surface(Engine&& engine, const Shape& shape, Limits& limits, double bound, int& judged,
                         const std::string& what) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    const auto depth = random_depths(shape.mesh, kDepth, seed);
+    const auto depth = random_depths(shape.mesh.faces.size(), 0, kDepth, seed);
     DrawList<Real> list;
     IndexedMesh<Real> mesh;
     engine.frame(depth, list);

@@ -27,6 +27,8 @@ namespace {
 
 static_assert(kMaxDepth == kDeepest);
 
+constexpr auto none = [](std::size_t) { return false; };  // is skipped
+
 // The variant of four lanes of the same instructions, or the kernel itself.
 template <class Kernel>
 const Kernel& with_few_lanes(const Kernel& kernel, const Kernel* (*find)(const char*)) {
@@ -103,36 +105,30 @@ struct LoopStreamFrames final : SchemeFrames<float, LoopScheme>, StreamHooks {
 
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
     stores = stores_of(out);
-    const std::size_t count = last - first;
-    run(std::span<const Grid>(pairing.grids).subspan(first, count),
-        std::span<const LoopPatch>(patches).subspan(first, count),
-        [&](std::size_t i, LoopStreamWorker& worker) {
-          return draw_writer(first, first + i, out, worker.scratch());
-        });
+    run(
+        first, last,
+        [&](std::size_t i, LoopStreamWorker& worker) { return draw_writer(first, i, out, worker.scratch()); },
+        none);
   }
   void index(const IndexLayout& layout, IndexedMesh<float>& out) override {
     stores = Stores::kOrdinary;
-    run(pairing.grids, patches,
-        [&](std::size_t i, LoopStreamWorker&) { return index_writer(i, layout, out); });
+    run(
+        0, patches.size(), [&](std::size_t i, LoopStreamWorker&) { return index_writer(i, layout, out); },
+        none);
   }
-  void write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) override {
+  void write_patches(std::span<const BlockOffset> places, const PatchTarget<float>& out) override {
     PatchTarget<float> target = out;
     target.compact_row = &compact;
     std::size_t points = 0;  // of patches that are placed
-    fresh_grids.clear(), fresh_patches.clear(), firsts.clear();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (!places[i].fresh) continue;
-      fresh_grids.push_back(pairing.grids[i]);
-      fresh_patches.push_back(patches[i]);
-      firsts.push_back(places[i].first);
-      if (patches[i].full()) points += static_cast<std::size_t>(GridBlock{1 << patches[i].depth}.size());
-    }
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i].fresh && patches[i].full())
+        points += static_cast<std::size_t>(GridBlock{1 << patches[i].depth}.size());
     // Past the caches row by row is slower than through them.
     stores = stream.kernel().run_lines != nullptr ? stores_for(sizeof(Vertex) * points) : Stores::kOrdinary;
     run(
-        fresh_grids, fresh_patches,
-        [&](std::size_t i, LoopStreamWorker&) { return patch_writer(fresh_patches[i], firsts[i], target); },
-        target.takes_vertices() && placement.is_identity());
+        0, patches.size(),
+        [&](std::size_t i, LoopStreamWorker&) { return patch_writer(patches[i], places[i].first, target); },
+        [&](std::size_t i) { return !places[i].fresh; }, target.takes_vertices() && placement.is_identity());
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
@@ -140,24 +136,17 @@ struct LoopStreamFrames final : SchemeFrames<float, LoopScheme>, StreamHooks {
   }
   std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
 
-  // Evaluates patches in parallel, shown[i] into make_writer(i, worker); a writer must not care about the
-  // order of patches. placed: it has a place for each patch of two displayed faces.
-  template <class MakeWriter>
-  void run(std::span<const Grid> grids, std::span<const LoopPatch> shown, MakeWriter&& make_writer,
-           bool placed = false) {
-    batches.make(shown, static_cast<std::size_t>(stream.kernel().lanes),
+  // Evaluates patches first .. last - 1 but those skipped in parallel, each into make_writer(i, worker); a writer
+  // must not care about the order of patches. placed: it has a place for each patch of two displayed faces.
+  template <class MakeWriter, class Skip>
+  void run(std::size_t first, std::size_t last, MakeWriter&& make_writer, Skip&& skip, bool placed = false) {
+    batches.make(patches, first, last, skip, static_cast<std::size_t>(stream.kernel().lanes),
                  static_cast<std::size_t>(few_lanes.lanes), placed);
-    const LoopStreamFrame frame{adjacency,
-                                stream,
-                                few_lanes,
-                                plan,
-                                grids,
-                                shown,
-                                control ? &*control : nullptr,
-                                centres,
-                                options.cracks.centre,
-                                stores};
-    run_batches(arena, workers, batches.list().size(), shown.size(),
+    const PreparedMesh<float>* const prepared = control ? &*control : nullptr;
+    const LoopStreamFrame frame{
+        adjacency, stream, few_lanes, plan, pairing.grids, patches, prepared, centres, options.cracks.centre,
+        stores};
+    run_batches(arena, workers, batches.list().size(), batches.count(),
                 [&](LoopStreamWorker& worker, std::size_t b) {
                   const LoopBatch& batch = batches.list()[b];
                   if (worker.scratch().stride < std::size_t{1} << max_depth)
@@ -174,10 +163,6 @@ struct LoopStreamFrames final : SchemeFrames<float, LoopScheme>, StreamHooks {
   std::vector<CachedCentre> centres;
   std::vector<LoopStreamWorker> workers;
   LoopBatches batches;
-  // The patches of a frame that are to be evaluated, and where they go.
-  std::vector<Grid> fresh_grids;
-  std::vector<LoopPatch> fresh_patches;
-  std::vector<std::int64_t> firsts;
 };
 
 struct QuadStreamFrames final : SchemeFrames<float, QuadScheme>, StreamHooks {
@@ -209,7 +194,7 @@ struct QuadStreamFrames final : SchemeFrames<float, QuadScheme>, StreamHooks {
     run(
         0, patches.size(), [&](std::size_t i) { return index_writer(i, layout, out); }, none);
   }
-  void write_patches(std::span<const PatchPlace> places, const PatchTarget<float>& out) override {
+  void write_patches(std::span<const BlockOffset> places, const PatchTarget<float>& out) override {
     PatchTarget<float> target = out;
     target.compact_row = &compact;
     const bool placed = target.takes_vertices() && placement.is_identity();
@@ -275,7 +260,6 @@ struct QuadStreamFrames final : SchemeFrames<float, QuadScheme>, StreamHooks {
     });
   }
 
-  static constexpr auto none = [](std::size_t) { return false; };
   std::optional<QuadRowStream> stream;
   const QuadKernel& few_lanes;
   std::vector<std::int32_t> rank;  // of each quad, in the order that is best for the lanes

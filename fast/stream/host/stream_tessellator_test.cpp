@@ -11,21 +11,26 @@
 #include <string>
 #include <vector>
 
+#include "data/bounding_box.h"
 #include "data/error.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/generators/sharp_meshes.h"
 #include "fast/test_support/collecting_sink.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
+#include "fast/window/tessellator.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
 
-std::vector<std::int32_t> random_depths(std::size_t faces, int most, std::uint64_t seed) {
-  data::SplitMix64 random(seed);
-  std::vector<std::int32_t> depth;
-  for (std::size_t f = 0; f < faces; ++f)
-    depth.push_back(static_cast<std::int32_t>(below(random, static_cast<std::size_t>(most) + 2)) - 1);
-  return depth;
+TessellatorOptions options_of(data::Scheme scheme, Repair repair) {
+  TessellatorOptions options;
+  options.scheme = scheme;
+  options.provenance = true;
+  options.cracks.repair = repair;
+  return options;
 }
+constexpr auto kLoop = data::Scheme::kLoop, kQuads = data::Scheme::kCatmullClark;
 
 std::vector<data::ControlMesh> meshes() {
   return {shaken(tetrahedron(), .2, 1),    shaken(grid_torus(4, 5), .2, 2), shaken(bipyramid(9), .2, 3),
@@ -39,21 +44,16 @@ TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
   for (const auto& mesh : meshes()) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-        TessellatorOptions options;
-        options.provenance = true;
-        options.cracks.repair = repair;
-        StreamTessellator tessellator(mesh, options);
+        StreamTessellator tessellator(mesh, options_of(kLoop, repair));
         DrawList<float> list;
-        tessellator.frame(random_depths(mesh.faces.size(), 4, seed), list);
+        tessellator.frame(random_depths(mesh.faces.size(), -1, 4, seed), list);
         // One table for all depths would be wrong: a point at two depths may differ in bits. Edges have one
         // depth.
         std::map<std::uint32_t, SharedPoints> shared;
         for (std::size_t v = 0; v < list.vertices.size(); ++v) {
           const LatticePoint& at = list.provenance[v];
           if (at.denominator == 3) continue;
-          Vertex vertex;
-          std::memcpy(static_cast<void*>(&vertex), &list.vertices[v], sizeof vertex);
-          shared[at.denominator].add(mesh, at, vertex, {});
+          shared[at.denominator].add(mesh, at, list.vertices[v], {});
         }
         for (const auto& [denominator, points] : shared) {
           EXPECT_EQ(points.different(), 0) << "seed " << seed << " 1/" << denominator;
@@ -65,45 +65,65 @@ TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
   RecordProperty("compared", std::to_string(compared));
 }
 
-// Every directed edge of the indexed mesh's triangles has its opposite, or lies on the mesh's border or
-// beside a culled face: no crack and no T-vertex, for shared vertices have one index.
-TEST(StreamFrame, ClosesEveryEdgeOfAClosedMeshAtRandomDepths) {
-  for (const auto& mesh : {shaken(tetrahedron(), .2, 1), shaken(grid_torus(4, 5), .2, 2)}) {
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      auto depth = random_depths(mesh.faces.size(), 4, seed);
-      for (auto& d : depth) d = std::max(d, 0);
-      StreamTessellator tessellator(mesh);
+// No crack and no T-vertex: every directed edge of the indexed mesh's triangles has its opposite, for shared
+// vertices have one index; and no point at a border differs in bits by the face that it comes from.
+void expect_closed(const data::ControlMesh& mesh, data::Scheme scheme, std::uint64_t seeds) {
+  for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+    StreamTessellator tessellator(mesh, options_of(scheme, repair));
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      const auto depth = random_depths(mesh.faces.size(), 0, 4, seed);
       IndexedMesh<float> out;
       tessellator.frame(depth, out);
       std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-      for (const auto& t : out.triangles) {
+      for (const auto& t : out.triangles)
         for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
-      }
       for (const auto& [edge, count] : edges) {
         ASSERT_EQ(count, 1);
         ASSERT_TRUE(edges.count({edge.second, edge.first}))
             << edge.first << " " << edge.second << " seed " << seed;
       }
+      std::map<std::array<float, 3>, std::array<float, 3>> known;
+      for (const auto& [p, n] : out.vertices) known[{p.x, p.y, p.z}] = {n.x, n.y, n.z};
+      DrawList<float> list;
+      tessellator.frame(depth, list);
+      for (std::size_t v = 0; v < list.vertices.size(); ++v) {
+        const auto& [p, n] = list.vertices[v];
+        const auto found = known.find({p.x, p.y, p.z});
+        ASSERT_NE(found, known.end()) << seed << " " << v;
+        ASSERT_EQ(found->second, (std::array{n.x, n.y, n.z})) << seed << " " << v;
+      }
     }
   }
 }
 
+TEST(StreamFrame, ClosesEveryEdgeOfAClosedMeshAtRandomDepths) {
+  for (const auto& mesh : {shaken(tetrahedron(), .2, 1), shaken(grid_torus(4, 5), .2, 2)})
+    expect_closed(mesh, kLoop, 20);
+  for (const auto& mesh : {data::quad_cube(), data::quad_torus(6, 5), data::pawn(5), data::mixed_pawn(5),
+                           data::creased_cube(2), data::crease_ring(1, 5)})
+    expect_closed(mesh, kQuads, 6);
+}
+
 TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
-  const auto mesh = shaken(grid_torus(5, 6), .2, 7);
-  const auto depth = random_depths(mesh.faces.size(), 5, 11);
-  DrawList<float> expected;
-  TessellatorOptions options;
-  options.threads = 1;
-  StreamTessellator(mesh, options).frame(depth, expected);
-  for (const Kernel& kernel : kernels()) {
-    for (const int threads : {1, 2, 8}) {
-      if (!kernel.fused && threads > 1) continue;
-      options.threads = threads;
-      DrawList<float> out;
-      StreamTessellator(mesh, options, kernel).frame(depth, out);
-      ASSERT_EQ(out.vertices.size(), expected.vertices.size());
-      EXPECT_EQ(std::memcmp(out.vertices.data(), expected.vertices.data(), 24 * out.vertices.size()), 0)
-          << kernel.name << " " << threads;
+  auto pawn = data::pawn(6);
+  pawn.sharpness.vertices.push_back({pawn.faces[2][0], 1.5F});
+  for (const auto scheme : {kLoop, kQuads}) {
+    const auto mesh = scheme == kLoop ? shaken(grid_torus(5, 6), .2, 7) : pawn;
+    const auto depth = random_depths(mesh.faces.size(), -1, 5, 11);
+    TessellatorOptions options = options_of(scheme, scheme == kLoop ? Repair::kFan : Repair::kStitch);
+    options.threads = 1;
+    DrawList<float> expected;
+    StreamTessellator(mesh, options).frame(depth, expected);
+    for (const Kernel& kernel : kernels()) {
+      for (const int threads : {1, 2, 8}) {
+        if (!kernel.fused && threads > 1) continue;
+        options.threads = threads;
+        DrawList<float> out;
+        StreamTessellator(mesh, options, kernel).frame(depth, out);
+        ASSERT_EQ(out.vertices.size(), expected.vertices.size());
+        EXPECT_EQ(std::memcmp(out.vertices.data(), expected.vertices.data(), 24 * out.vertices.size()), 0)
+            << kernel.name << " " << threads;
+      }
     }
   }
 }
@@ -111,23 +131,24 @@ TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
 // What a thread needs does not grow with the mesh, and stays within a second-level cache: the kernel's rows,
 // two rows of output, and the border points of the faces that a batch repairs.
 TEST(StreamFrame, NeedsAQuarterOfAMegabytePerThreadAtDepthFive) {
-  std::size_t most = 0;
-  for (const int size : {5, 20}) {
-    const auto mesh = shaken(grid_torus(size, size), .1, 7);
-    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-      TessellatorOptions options;
-      options.cracks.repair = repair;
-      StreamTessellator tessellator(mesh, options);
-      IndexedMesh<float> out;
-      tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), 5), out);
-      most = std::max(most, tessellator.worker_bytes());
-      auto depth = random_depths(mesh.faces.size(), 5, 3);
-      tessellator.frame(depth, out);
-      most = std::max(most, tessellator.worker_bytes());
+  for (const auto scheme : {kLoop, kQuads}) {
+    std::size_t most = 0;
+    for (const int size : {5, 20}) {
+      const auto mesh =
+          scheme == kLoop ? shaken(grid_torus(size, size), .1, 7) : data::quad_torus(size, size);
+      for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+        if (scheme == kQuads && repair == Repair::kStitch) continue;  // keeps whole faces
+        StreamTessellator tessellator(mesh, options_of(scheme, repair));
+        IndexedMesh<float> out;
+        tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), 5), out);
+        most = std::max(most, tessellator.worker_bytes());
+        tessellator.frame(random_depths(mesh.faces.size(), -1, 5, 3), out);
+        most = std::max(most, tessellator.worker_bytes());
+      }
     }
+    EXPECT_LE(most, scheme == kLoop ? 256'000u : 256u << 10);
+    RecordProperty(scheme == kLoop ? "bytes" : "bytes_of_quads", std::to_string(most));
   }
-  EXPECT_LE(most, 256'000u);
-  RecordProperty("bytes", std::to_string(most));
 }
 
 // A mesh times 2^k, k even far out: the same surface times 2^k, the same normals, to the last bit.
@@ -144,9 +165,7 @@ TEST(StreamFrame, ScalesByPowersOfTwoExactly) {
     StreamTessellator(scaled).frame(depth, out);
     for (std::size_t v = 0; v < out.vertices.size(); ++v) {
       const auto &a = out.vertices[v], &b = expected.vertices[v];
-      ASSERT_EQ(a.position.x, std::ldexp(b.position.x, exponent));
-      ASSERT_EQ(a.position.y, std::ldexp(b.position.y, exponent));
-      ASSERT_EQ(a.position.z, std::ldexp(b.position.z, exponent));
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(a.position[c], std::ldexp(b.position[c], exponent));
       ASSERT_EQ(a.normal, b.normal);
     }
   }
@@ -168,11 +187,11 @@ TEST(StreamFrame, StandsAShiftOfAThousandTimesItsSize) {
   double position = 0, normal = 0;
   for (std::size_t v = 0; v < out.vertices.size(); ++v) {
     const auto &a = out.vertices[v], &b = expected.vertices[v];
-    position = std::max({position, std::abs(a.position.x - 2000. - b.position.x),
-                         std::abs(a.position.y + 2000. - b.position.y),
-                         std::abs(a.position.z - 1000. - b.position.z)});
-    normal = std::max<double>({normal, std::abs(a.normal.x - b.normal.x), std::abs(a.normal.y - b.normal.y),
-                               std::abs(a.normal.z - b.normal.z)});
+    const double shift[] = {2000, -2000, 1000};
+    for (int c = 0; c < 3; ++c) {
+      position = std::max(position, std::abs(a.position[c] - shift[c] - b.position[c]));
+      normal = std::max<double>(normal, std::abs(a.normal[c] - b.normal[c]));
+    }
   }
   EXPECT_LE(position, 0x1p-14 + 1e-6);  // ulp(2000) / 2, and the rounding of both computations
   EXPECT_LE(normal, 2e-5);              // both within the bound of row_stream_test.cpp
@@ -181,12 +200,52 @@ TEST(StreamFrame, StandsAShiftOfAThousandTimesItsSize) {
 }
 
 TEST(StreamFrame, OnTheFlyDeliversTheSameAsTheWholeList) {
-  TessellatorOptions options;
-  options.provenance = true;
-  for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-    options.cracks.repair = repair;
-    StreamTessellator tessellator(grid_torus(32, 40), options);
-    expect_a_sink_gets_the_whole_list(tessellator);
+  for (const auto scheme : {kLoop, kQuads}) {
+    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+      const auto mesh = scheme == kLoop ? grid_torus(32, 40) : data::quad_torus(50, 50);
+      StreamTessellator tessellator(mesh, options_of(scheme, repair));
+      expect_a_sink_gets_the_whole_list(tessellator);
+    }
+  }
+}
+
+// The sliding window's frames are judged by tests of their own: the same draws of the same places, and the
+// same points but for rounding.
+TEST(QuadStreamFrame, HasTheDrawsAndThePointsOfTheWindowInDouble) {
+  const std::vector<data::ControlMesh> meshes{
+      data::quad_cube(),       data::quad_torus(6, 5), data::pawn(5),          data::mixed_pawn(5),
+      data::polygon_prism(7),  data::dart(5, false),   data::creased_cube(10), data::creased_cube(2),
+      data::crease_ring(1, 5), data::quad_fan(3, 1),   data::quad_wheel(9, 2)};
+  for (const auto& mesh : meshes) {
+    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+      for (const FanCentre centre : {FanCentre::kLimit, FanCentre::kFlatLimit, FanCentre::kFlatControl}) {
+        TessellatorOptions options = options_of(kQuads, repair);
+        options.cracks.centre = centre;
+        StreamTessellator ours(mesh, options);
+        Tessellator<double> window(mesh, options);
+        for (std::uint64_t seed = 0; seed < 6; ++seed) {
+          const auto depth = random_depths(mesh.faces.size(), -1, seed == 0 ? 6 : 4, seed);
+          DrawList<float> got;
+          DrawList<double> want;
+          ours.frame(depth, got);
+          window.frame(depth, want);
+          ASSERT_EQ(got.vertices.size(), want.vertices.size());
+          ASSERT_EQ(got.draws.size(), want.draws.size());
+          ASSERT_EQ(got.provenance, want.provenance);
+          double position = 0, normal = 0;
+          for (std::size_t v = 0; v < got.vertices.size(); ++v) {
+            const auto& a = got.vertices[v];
+            const auto& b = want.vertices[v];
+            for (int c = 0; c < 3; ++c) {
+              position = std::max(position, std::abs(a.position[c] - b.position[c]));
+              normal = std::max(normal, std::abs(a.normal[c] - b.normal[c]));
+            }
+          }
+          EXPECT_LE(position / data::box_diagonal(mesh), 1.2e-7) << seed;
+          EXPECT_LE(normal, 1e-3) << seed;
+        }
+      }
+    }
   }
 }
 

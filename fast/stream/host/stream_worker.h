@@ -39,14 +39,21 @@ struct LoopBatch {
 /// Batches of at most `lanes` patches, or `few` of those delivered whole. In a fixed order.
 class LoopBatches {
  public:
-  /// placed: patches of two displayed faces have a place each, where the rows lie as they come from C.
-  void make(std::span<const LoopPatch> patches, std::size_t lanes, std::size_t few, bool placed) {
+  /// Of patches first .. last - 1 but those skipped.
+  ///   placed   patches of two displayed faces have a place each, where the rows lie as they come from C
+  template <class Skip>
+  void make(std::span<const LoopPatch> patches, std::size_t first, std::size_t last, Skip&& skip,
+            std::size_t lanes, std::size_t few, bool placed) {
     for (auto& list : sorted_) list.clear();
     batches_.clear();
-    for (std::size_t i = 0; i < patches.size(); ++i)
+    count_ = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      if (skip(i)) continue;
+      ++count_;
       sorted_[static_cast<std::size_t>(delivery_of(patches[i], placed)) +
               kDeliveries * static_cast<std::size_t>(patches[i].depth)]
           .push_back(i);
+    }
     // A remainder joins the row batches, which would leave lanes empty, too.
     for (std::size_t depth = 0; depth <= kMaxDepth && placed; ++depth) {
       auto& pairs = sorted_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kPlaced)];
@@ -59,12 +66,14 @@ class LoopBatches {
       const auto delivery = static_cast<Delivery>(k % kDeliveries);
       const std::size_t most = delivery == Delivery::kWhole ? few : lanes;
       const std::span<const std::size_t> list(sorted_[k]);
-      for (std::size_t first = 0; first < list.size(); first += most)
+      for (std::size_t at = 0; at < list.size(); at += most)
         batches_.push_back({delivery, static_cast<int>(k / kDeliveries),
-                            list.subspan(first, std::min(most, list.size() - first))});
+                            list.subspan(at, std::min(most, list.size() - at))});
     }
   }
   const std::vector<LoopBatch>& list() const { return batches_; }
+  /// Patches in all of them.
+  std::size_t count() const { return count_; }
 
  private:
   static Delivery delivery_of(const LoopPatch& patch, bool placed) {
@@ -77,6 +86,7 @@ class LoopBatches {
 
   std::array<std::vector<std::size_t>, kDeliveries*(kMaxDepth + 1)> sorted_;
   std::vector<LoopBatch> batches_;
+  std::size_t count_ = 0;
 };
 
 /// The border points of a batch's repaired faces: edges of one depth go together, one in each lane.
@@ -217,17 +227,16 @@ class LoopStreamWorker {
       const LoopStreamFrame& frame;
       const LoopBatch& batch;
       std::vector<Writer>& writers;
-      const Grid* grids;
-    } context{frame, batch, writers, grids_.data()};
+    } context{frame, batch, writers};
     frame.stream.rows(
         grids_, batch.depth, workspace_,
         [](void* opaque, const RowView& view) {
           if (view.j == 0) return;
           Context& c = *static_cast<Context*>(opaque);
-          const auto first = static_cast<std::size_t>(view.grids.data() - c.grids);
-          for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
-            take_rows(c.frame.patches[c.batch.patches[first + lane]], view, lane, c.batch.delivery,
-                      c.writers[first + lane]);
+          for (std::size_t lane = 0; lane < view.size(); ++lane) {
+            const std::size_t i = view.number(lane);
+            take_rows(c.frame.patches[c.batch.patches[i]], view, lane, c.batch.delivery, c.writers[i]);
+          }
         },
         &context, batch.delivery == Delivery::kRowsFromC ? Order::kFromC : Order::kFromA, Kept::kTwoRows);
   }

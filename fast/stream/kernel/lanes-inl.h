@@ -345,8 +345,38 @@ struct LineTarget {
 
 #endif  // AVX-512
 
+/// add.operator()<lanes>() for each number of lanes that this target has variants of, the most first.
+template <class Add>
+void for_each_lane_count(Add&& add) {
+#if HWY_TARGET == HWY_AVX3
+  add.template operator()<16>();
+#elif HWY_TARGET == HWY_AVX2
+  add.template operator()<8>();
+#endif
+  add.template operator()<4>();
+}
+
 }  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
 #endif
+
+#if HWY_ONCE
+namespace limitcheck::fast::row_stream {
+
+/// ask() once for each target that this machine can run: Highway's own choice first, which is the best.
+template <class Ask>
+void ask_every_target(Ask&& ask) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    ask();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace limitcheck::fast::row_stream
+#endif  // HWY_ONCE
 
 #endif  // per target

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fast/stream/kernel/targets.h"
 
-#include <cstring>
 #include <vector>
 
 #include "fast/stream/kernel/kernel.h"
@@ -54,36 +53,20 @@ HWY_ATTR void run_in_lines(const QuadBatch<float>& batch, const KernelPlacement<
 }
 #endif
 
-template <int lanes>
-void add_quad_kernel(std::vector<QuadKernel>& list) {
-  QuadKernel kernel{target_name(lanes),
-                    lanes,
-                    HWY_NATIVE_FMA != 0,
-                    &run_quads<lanes>,
-                    &run_patches<lanes>,
-                    &run_sides<lanes>,
-                    nullptr,
-                    nullptr};
-#if HWY_TARGET == HWY_AVX3
-  if (lanes == 16) {
-    kernel.quad_lines = &run_in_lines<QuadStream>;
-    kernel.patch_lines = &run_in_lines<QuadPatch>;
-  }
-#endif
-  list.push_back(kernel);
-}
-
 #endif  // not the baseline
 
 void list_quad_kernels([[maybe_unused]] std::vector<QuadKernel>& list) {
-#if HWY_TARGET == HWY_AVX3
-  add_quad_kernel<16>(list);
-#endif
-#if HWY_TARGET == HWY_AVX2
-  add_quad_kernel<8>(list);
-#endif
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-  add_quad_kernel<4>(list);
+  for_each_lane_count([&]<int lanes>() {
+    list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_quads<lanes>, &run_patches<lanes>,
+                    &run_sides<lanes>, nullptr, nullptr});
+#if HWY_TARGET == HWY_AVX3
+    if (lanes == 16) {
+      list.back().quad_lines = &run_in_lines<QuadStream>;
+      list.back().patch_lines = &run_in_lines<QuadPatch>;
+    }
+#endif
+  });
 #endif
 }
 
@@ -116,33 +99,17 @@ const char* run_scalar_sides(const QuadBatch<float>& batch, const KernelPlacemen
   return "scalar";
 }
 
-std::vector<QuadKernel> find_quad_kernels() {
-  std::vector<QuadKernel> list;
-  // Highway's own choice is the best target; the others are asked for one at a time.
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    HWY_DYNAMIC_DISPATCH(list_quad_kernels)(list);
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  list.push_back(
-      {"scalar", 1, false, &run_scalar_quads, &run_scalar_patches, &run_scalar_sides, nullptr, nullptr});
-  return list;
-}
-
 }  // namespace
 
 std::span<const QuadKernel> quad_kernels() {
-  static const std::vector<QuadKernel> list = find_quad_kernels();
+  static const std::vector<QuadKernel> list = [] {
+    std::vector<QuadKernel> all;
+    ask_every_target([&] { HWY_DYNAMIC_DISPATCH(list_quad_kernels)(all); });
+    all.push_back(
+        {"scalar", 1, false, &run_scalar_quads, &run_scalar_patches, &run_scalar_sides, nullptr, nullptr});
+    return all;
+  }();
   return list;
-}
-
-const QuadKernel* find_quad_kernel(const char* name) {
-  for (const QuadKernel& kernel : quad_kernels()) {
-    if (std::strcmp(kernel.name, name) == 0) return &kernel;
-  }
-  return nullptr;
 }
 
 }  // namespace limitcheck::fast::row_stream

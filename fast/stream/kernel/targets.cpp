@@ -2,7 +2,6 @@
 #include "fast/stream/kernel/targets.h"
 
 #include <array>
-#include <cstring>
 #include <vector>
 
 #include "fast/stream/kernel/kernel.h"
@@ -50,27 +49,17 @@ HWY_ATTR void run_lines(float* input, int depth, const KernelPlacement<float>& p
 }
 #endif
 
-template <int lanes>
-void add(std::vector<Kernel>& list) {
-  Kernel kernel{target_name(lanes),     lanes,  HWY_NATIVE_FMA != 0, &run_lanes<lanes>,
-                &run_edge_lanes<lanes>, nullptr};
-#if HWY_TARGET == HWY_AVX3
-  if (lanes == 16) kernel.run_lines = &run_lines;
-#endif
-  list.push_back(kernel);
-}
-
 #endif  // not the baseline
 
 void list_kernels([[maybe_unused]] std::vector<Kernel>& list) {
-#if HWY_TARGET == HWY_AVX3
-  add<16>(list);
-#endif
-#if HWY_TARGET == HWY_AVX2
-  add<8>(list);
-#endif
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-  add<4>(list);
+  for_each_lane_count([&]<int lanes>() {
+    list.push_back(
+        {target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_lanes<lanes>, &run_edge_lanes<lanes>, nullptr});
+#if HWY_TARGET == HWY_AVX3
+    if (lanes == 16) list.back().run_lines = &run_lines;
+#endif
+  });
 #endif
 }
 
@@ -97,32 +86,16 @@ void run_edge_scalar(const float* input, int depth, const KernelPlacement<float>
   strip.scatter(generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
 }
 
-std::vector<Kernel> find_kernels() {
-  std::vector<Kernel> list;
-  // Highway's own choice is the best target; the others are asked for one at a time.
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    HWY_DYNAMIC_DISPATCH(list_kernels)(list);
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  list.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar, nullptr});
-  return list;
-}
-
 }  // namespace
 
 std::span<const Kernel> kernels() {
-  static const std::vector<Kernel> list = find_kernels();
+  static const std::vector<Kernel> list = [] {
+    std::vector<Kernel> all;
+    ask_every_target([&] { HWY_DYNAMIC_DISPATCH(list_kernels)(all); });
+    all.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar, nullptr});
+    return all;
+  }();
   return list;
-}
-
-const Kernel* find_kernel(const char* name) {
-  for (const Kernel& kernel : kernels()) {
-    if (std::strcmp(kernel.name, name) == 0) return &kernel;
-  }
-  return nullptr;
 }
 
 }  // namespace limitcheck::fast::row_stream

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 
 #include "fast/frame/stores.h"
 #include "fast/stream/kernel/layout.h"
@@ -31,9 +32,6 @@ struct Kernel {
 /// The variants that this machine can run, best first; the last is plain scalar code and always there.
 std::span<const Kernel> kernels();
 
-/// The variant of that name, or nullptr if there is none or the machine cannot run it.
-const Kernel* find_kernel(const char* name);
-
 /// One compiled variant, named as those for Loop's scheme. All give the same bits.
 struct QuadKernel {
   const char* name;
@@ -57,6 +55,17 @@ struct QuadKernel {
 std::span<const QuadKernel> quad_kernels();
 
 /// The variant of that name, or nullptr if there is none or the machine cannot run it.
-const QuadKernel* find_quad_kernel(const char* name);
+template <class Variant>
+const Variant* find_variant(std::span<const Variant> all, std::string_view name) {
+  for (const Variant& variant : all)
+    if (name == variant.name) return &variant;
+  return nullptr;
+}
+inline const Kernel* find_kernel(const char* name) {
+  return find_variant(kernels(), name);
+}
+inline const QuadKernel* find_quad_kernel(const char* name) {
+  return find_variant(quad_kernels(), name);
+}
 
 }  // namespace limitcheck::fast::row_stream

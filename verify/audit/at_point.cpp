@@ -7,9 +7,7 @@
 #include <array>
 #include <limits>
 
-#include "data/bounding_box.h"
 #include "data/error.h"
-#include "verify/audit/ask_earlier.h"
 #include "verify/evidence/evidence.h"
 #include "verify/row/bounds.h"
 #include "verify/subject/weights_option.h"
@@ -23,11 +21,9 @@ bool AtPoint::held() const {
 }
 
 AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place& place, int threads) {
-  std::vector<std::int32_t> asked = mesh.face_depth;
-  if (asked.empty()) asked.assign(mesh.mesh.faces.size(), mesh.depth);
-  for (const std::int32_t f : mesh.mesh.holes) asked[f] = -1;
+  const std::vector<std::int32_t> asked = asked_depths(mesh, mesh.depth);
   Session session(*subject.subject, mesh.mesh, subject.options, Session::Input::kValid, mesh.scheme());
-  ask_earlier(session, mesh, asked, mesh.depth, threads);
+  warm_up(session, mesh, mesh.depth, threads);
   const Tessellation tessellation = session.tessellate(asked, threads);
   const lc_capabilities& capabilities = session.capabilities();
   ReferenceSurface truth(session.mesh(), mesh.scheme(), mesh.depth, capabilities.points,
@@ -38,28 +34,12 @@ AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place&
         fmt::format("the point is none that a subject delivers at depth {}: U and V are multiples of 1/{}",
                     mesh.depth, truth.lattice().n()));
   truth.prepare(std::array{id});
-
-  std::vector<Lattice::Id> points = locate(tessellation, truth.lattice());
-  std::vector<Use> uses = find_uses(tessellation, points, truth.lattice(), truth.sides());
-  double magnitude = 0;
-  for (const Vector& p : session.mesh().positions) magnitude = std::max(magnitude, largest(p));
-  const Evidence e{subject.label(),
-                   mesh.name,
-                   capabilities,
-                   session.mesh(),
-                   asked,
-                   tessellation,
-                   truth.lattice(),
-                   truth,
-                   std::move(points),
-                   std::move(uses),
-                   unit_of_length(data::box_diagonal(session.mesh()), magnitude),
-                   magnitude};
+  const Evidence e = gather(subject, mesh, session, session.mesh(), asked, tessellation, truth);
 
   AtPoint result;
   result.refined = capabilities.points == LC_POINTS_REFINED;
   result.in_float = capabilities.precision == LC_FLOAT32;
-  result.bound = position_bound(capabilities.precision, truth.steps(), e.magnitude, e.diagonal);
+  result.bound = e.position_bound_at(id);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Sides::Id first_side = Lattice::kNone;
   for (const Use& use : e.uses) {

@@ -12,8 +12,6 @@
 #include <span>
 #include <utility>
 
-#include "data/bounding_box.h"
-#include "verify/audit/ask_earlier.h"
 #include "verify/checks/check_oracle.h"
 #include "verify/checks/checks.h"
 #include "verify/evidence/vector.h"
@@ -22,9 +20,8 @@
 #include "verify/recognise/recognise.h"
 #include "verify/relations/relation_row.h"
 #include "verify/relations/relations.h"
-#include "verify/report/result_json.h"
-#include "verify/row/bounds.h"
-#include "verify/row/clock.h"
+#include "verify/report/json.h"
+#include "verify/row/statistics.h"
 #include "verify/subject/weights_option.h"
 
 namespace limitcheck::verify {
@@ -234,17 +231,14 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
 
   // The whole mesh is tessellated, and all of it but a sample is culled.
   const MeshSample* sample = mesh.sample.get();
-  std::vector<std::int32_t> asked = mesh.face_depth;
-  if (asked.empty()) asked.assign(mesh.mesh.faces.size(), depth_of(mesh));
-  for (const std::int32_t f : mesh.mesh.holes) asked[f] = -1;
-  if (sample) asked = sample->cull(std::move(asked));
+  std::vector<std::int32_t> asked = asked_depths(mesh, depth_of(mesh));
   std::optional<Session> session;
   std::optional<Tessellation> tessellation;
   const Clock clock;
   try {
     step(rows.subject, mesh.name, "tessellates");
     session.emplace(*audited.subject, mesh.mesh, audited.options, Session::Input::kValid, mesh.scheme());
-    ask_earlier(*session, mesh, asked, depth_of(mesh), threads_);
+    warm_up(*session, mesh, depth_of(mesh), threads_);
     tessellation.emplace(session->tessellate(asked, threads_));
     rows.add("tessellates", Status::kHeld, "");
     results.back().of = 1;
@@ -269,18 +263,10 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   }
   const data::ControlMesh& judged = part ? *part : session->mesh();
 
-  const lc_capabilities& capabilities = session->capabilities();
   step(rows.subject, mesh.name, "reference");
-  ReferenceSurface& truth = reference(judged, mesh.scheme(), depth_of(mesh), capabilities);
-  std::vector<Lattice::Id> points = locate(*tessellation, truth.lattice());
-  const std::string no_reference = prepare(truth, points);
-  std::vector<Use> uses = find_uses(*tessellation, points, truth.lattice(), truth.sides());
-  double magnitude = 0;  // of the whole
-  for (const Vector& p : session->mesh().positions) magnitude = std::max(magnitude, largest(p));
-  const double diagonal = unit_of_length(data::box_diagonal(session->mesh()), magnitude);
-  const Evidence evidence{
-      rows.subject,    mesh.name, capabilities,      judged,          asked,    *tessellation,
-      truth.lattice(), truth,     std::move(points), std::move(uses), diagonal, magnitude};
+  ReferenceSurface& truth = reference(judged, mesh.scheme(), depth_of(mesh), session->capabilities());
+  const Evidence evidence = gather(audited, mesh, *session, judged, asked, *tessellation, truth);
+  const std::string no_reference = prepare(truth, evidence.point);
   close(*session, results.front());
 
   run_checks(evidence, rows, no_reference);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The auditor audited: good subjects hold, every planted fault turns the checks red that are meant to see it,
-// and a subject that refuses or crashes in an orderly way is a row.
-#include "verify/audit/audit.h"
-
+// The auditor audited: good subjects hold, every planted fault turns the checks red that are meant to see it, a
+// subject that refuses or crashes in an orderly way is a row, and a signal ends an audit whatever it is at.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -10,14 +8,16 @@
 #include <csignal>
 #include <map>
 #include <ostream>
+#include <semaphore>
 #include <set>
 
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
+#include "verify/audit/audit.h"
 #include "verify/checks/checks.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/mutants/faulty_subjects.h"
-#include "verify/row/reproduce.h"
+#include "verify/row/commands.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
 
@@ -184,7 +184,7 @@ TEST(PlantedFaults, TheWitnessNamesThePointAndTheCommandThatRecomputesIt) {
   for (const std::string& l : {r.witness->l1, r.witness->l2}) EXPECT_TRUE(l == "0" || l == "1") << l;
   EXPECT_EQ(eval_command(r),
             fmt::format("limitcheck eval bumpy:60 {} {} {}{}", r.witness->face, r.witness->l1, r.witness->l2,
-                        r.in_float ? " --precision float" : ""));
+                        r.precision == LC_FLOAT32 ? " --precision float" : ""));
 }
 
 TEST(Audit, TheNullSubjectFailsCleanly) {
@@ -314,5 +314,36 @@ TEST(Interrupt, KeepsWhatWasDoneAndSaysWhatWasNot) {
   EXPECT_EQ(count["cube"][Status::kNotRun], 1) << "one row for all of what was not begun";
 }
 
+// Signals, and never answers.
+lc_status hang(void*, const lc_request*, lc_tessellation*, const char**) {
+  raise(SIGTERM);
+  std::binary_semaphore never(0);
+  never.acquire();
+  return LC_FAILED;
+}
+
+// In a process of its own, since what is left uses what stands here.
+[[noreturn]] void audit_and_leave() {
+  lc_subject subject = *find_subject("naive");
+  subject.tessellate = hang;
+  const InterruptGuard guard;
+  Auditor auditor(1, 1);
+  auditor.leave_what_is_interrupted();
+  const std::vector<AuditSubject> subjects{{&subject, ""}};
+  const std::vector<AuditMesh> meshes{{"icosahedron", data::named_mesh("icosahedron")},
+                                      {"octahedron", data::named_mesh("octahedron")}};
+  const std::vector<Result> results = auditor.run(subjects, meshes);
+  const bool told = std::all_of(results.begin(), results.end(), [](const Result& r) {
+    return r.status == Status::kNotRun && r.message == "interrupted";
+  });
+  leave(told && results.size() > 10 && auditor.gave_up() && auditor.abandoned() ? 42 : 1, 2);
+}
+
+TEST(AbandonedAudit, HasARowForEachCheckOfWhatWasBegun) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(audit_and_leave(), testing::ExitedWithCode(42), "");
+}
+
 }  // namespace
+
 }  // namespace limitcheck::verify

@@ -2,7 +2,6 @@
 #include "verify/audit/shrink.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "verify/evidence/face_depths.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/relations.h"
+#include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -59,7 +59,7 @@ class Shrinker {
  public:
   Shrinker(const AuditMesh& mesh, int depth, const std::function<bool(const AuditMesh&, int)>& fails,
            const ShrinkLimits& limits)
-      : best_{mesh, depth, 0}, fails_(fails), limits_(limits), start_(std::chrono::steady_clock::now()) {
+      : best_{mesh, depth, 0}, fails_(fails), limits_(limits) {
     best_.mesh.depth = -1;  // the one that is tried
     best_.mesh.depths = after_of(mesh.depths);
     if (!best_.mesh.depths.empty()) best_.mesh.depths += "uniform";
@@ -85,8 +85,7 @@ class Shrinker {
 
  private:
   bool late() const {
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
-    return interrupted() != 0 || best_.attempts >= limits_.attempts || since.count() >= limits_.seconds;
+    return interrupted() != 0 || best_.attempts >= limits_.attempts || clock_.seconds() >= limits_.seconds;
   }
 
   bool take(AuditMesh candidate) {
@@ -167,15 +166,15 @@ class Shrinker {
     attempt([](data::Sharpness& s) { s.boundary = data::Boundary::kEdge; });
     attempt([](data::Sharpness& s) { s.creasing = data::Creasing::kUniform; });
     attempt([](data::Sharpness& s) { s.triangles = data::TriangleRule::kCatmark; });
-    for (std::size_t k = 0; k < best_.mesh.mesh.sharpness.edges.size() && !late();)
-      if (!attempt(
-              [&](data::Sharpness& s) { s.edges.erase(s.edges.begin() + static_cast<std::ptrdiff_t>(k)); }))
-        ++k;
-    for (std::size_t k = 0; k < best_.mesh.mesh.sharpness.vertices.size() && !late();)
-      if (!attempt([&](data::Sharpness& s) {
-            s.vertices.erase(s.vertices.begin() + static_cast<std::ptrdiff_t>(k));
-          }))
-        ++k;
+    const auto one_by_one = [&](auto list) {  // of the sharpness
+      for (std::size_t k = 0; k < (best_.mesh.mesh.sharpness.*list).size() && !late();)
+        if (!attempt([&](data::Sharpness& s) {
+              (s.*list).erase((s.*list).begin() + static_cast<std::ptrdiff_t>(k));
+            }))
+          ++k;
+    };
+    one_by_one(&data::Sharpness::edges);
+    one_by_one(&data::Sharpness::vertices);
     return any;
   }
 
@@ -227,7 +226,7 @@ class Shrinker {
   Shrunk best_;
   const std::function<bool(const AuditMesh&, int)>& fails_;
   ShrinkLimits limits_;
-  std::chrono::steady_clock::time_point start_;
+  Clock clock_;
 };
 
 }  // namespace

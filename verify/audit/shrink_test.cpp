@@ -84,21 +84,24 @@ TEST(Shrink, SharpEdgesAndVerticesThatTheFaultDoesNotNeedGo) {
   }
 }
 
+Result finding_on(const AuditMesh& mesh, std::int64_t face) {
+  Result finding;
+  finding.subject = "mine";
+  finding.mesh = mesh.name;
+  finding.check = "positions";
+  finding.status = Status::kFinding;
+  finding.scheme = mesh.scheme();
+  finding.witness.emplace();
+  finding.witness->face = face;
+  return finding;
+}
+
 // What a face needs beyond its own tags comes along, and holes keep their faces.
 TEST(WitnessFiles, KeepSharpEdgesAndHoles) {
   AuditMesh mesh{"creased", data::named_mesh("creased-cube:3")};
   mesh.mesh.holes = {2};
-  Report report;
-  report.subjects = {"far"};
-  Result finding;
-  finding.subject = "far";
-  finding.mesh = mesh.name;
-  finding.check = "positions";
-  finding.status = Status::kFinding;
-  finding.witness = Witness{};
-  finding.witness->face = 1;
   const auto folder = std::filesystem::path(testing::TempDir()) / "sharp_witness";
-  const auto place = write_witness(folder, report, finding, mesh, "quick");
+  const auto place = write_witness(folder, {}, finding_on(mesh, 1), mesh, "quick");
   bool found = false;
   for (const auto& file : std::filesystem::recursive_directory_iterator(place))
     if (file.path().extension() == ".obj") {
@@ -194,15 +197,8 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
 // the corner.
 TEST(WitnessFiles, KeepPolygonsAndNameTheCorner) {
   AuditMesh mesh{"prism:5", data::named_mesh("prism:5")};
-  Result finding;
-  finding.subject = "mine";
-  finding.mesh = mesh.name;
-  finding.check = "positions";
-  finding.status = Status::kFinding;
-  finding.scheme = mesh.scheme();
+  Result finding = finding_on(mesh, 0);
   finding.depth = 2;
-  finding.witness.emplace();
-  finding.witness->face = 0;
   finding.witness->corner = 2;
   finding.witness->l1 = "1/2";
   finding.witness->l2 = "1";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/causes/cause_sorting.h"
-
+// Puts the red rows of a report to causes.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -12,26 +11,78 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/causes/region.h"
+#include "verify/causes/causes.h"
 
 namespace limitcheck::verify {
 namespace {
+
+// Where on a control mesh a surface is wrong, as far as it tells causes apart.
+enum class Region : std::uint8_t {
+  kNone,
+  kIrregular,      // in faces at extraordinary vertices or at the boundary
+  kSharp,          // at sharp edges and vertices
+  kDart,           // at the ends of sharp edges only
+  kBoundary,       // at boundary vertices only
+  kExtraordinary,  // at extraordinary vertices, and those of faces that are no quads, only
+  kEverywhere      // in regular places, too
+};
+
+Region region_of(PlaceKind kind) {
+  using enum Region;  // in the order of PlaceKind
+  constexpr Region kOf[] = {kEverywhere,    kIrregular,     kIrregular, kSharp, kSharp, kEverywhere,
+                            kExtraordinary, kExtraordinary, kBoundary,  kDart,  kSharp, kSharp};
+  return kOf[static_cast<std::size_t>(kind)];
+}
+
+// What is wrong in `whole` is wrong in `part` for the same reason: in the faces round a vertex and at it, along a
+// sharp edge and at its end.
+bool implies(Region whole, Region part) {
+  return whole == Region::kIrregular ? part == Region::kBoundary || part == Region::kExtraordinary
+                                     : whole == Region::kSharp && part == Region::kDart;
+}
+
+// The regions where a row of positions or normals has something wrong; at least one. A mesh without regular
+// places does not tell what is wrong everywhere from what is wrong at its most ordinary places: then
+// kEverywhere is among them.
+std::set<Region> regions(const Result& row) {
+  std::set<Region> found;
+  for (const PlaceCount& c : row.places)
+    if (c.bad > 0) found.insert(region_of(c.kind));
+  if (found.empty() || found.contains(Region::kEverywhere)) return {Region::kEverywhere};
+  const auto looked_at =
+      std::find_if(row.places.begin(), row.places.end(), [](const PlaceCount& c) { return c.of > 0; });
+  const bool perhaps = looked_at != row.places.end() && found.contains(region_of(looked_at->kind));
+  for (const Region whole : {Region::kIrregular, Region::kSharp})
+    if (found.contains(whole)) std::erase_if(found, [&](Region part) { return implies(whole, part); });
+  if (perhaps) found.insert(Region::kEverywhere);
+  return found;
+}
+
+// The counts that belong to a region, and those of regular places.
+std::vector<PlaceCount> counts_in(std::vector<PlaceCount> counts, Region region) {
+  std::erase_if(counts, [&](const PlaceCount& c) {
+    const Region own = region_of(c.kind);
+    return region != Region::kEverywhere && own != region && own != Region::kEverywhere &&
+           !implies(region, own);
+  });
+  return counts;
+}
 
 struct Key {
   std::string who;
   CauseKind kind = CauseKind::kOther;
   Region region = Region::kNone;
   std::string more;  // kOther, kBreakdown, kRefuses: what tells causes of this kind apart
-  auto tie() const { return std::tie(who, kind, region, more); }
-  friend bool operator<(const Key& a, const Key& b) { return a.tie() < b.tie(); }
+  auto operator<=>(const Key&) const = default;
 };
 
 bool is_one_of(const std::string& check, std::initializer_list<std::string_view> names) {
   return std::find(names.begin(), names.end(), check) != names.end();
 }
 
-bool says_not_finite(const Result& r) {
-  return !r.worst && r.message.find("not finite") != std::string::npos;
+CauseKind kind_of(const std::string& check) {
+  const RowKind* row = row_kind(check);
+  return row != nullptr ? row->cause : CauseKind::kOrder;
 }
 
 // The label without options.
@@ -51,16 +102,6 @@ std::string library(const Report& report, const std::string& label) {
   return version ? text.substr(0, end) : base_name(label);
 }
 
-bool is_of_surface(const Result& r) {
-  return is_one_of(r.check, {"positions", "refined-positions", "normals", "file-positions", "file-distance",
-                             "file-normals"});
-}
-
-// Normals at no angle at all with the exact ones.
-bool is_without_length(const Result& r) {
-  return r.unit == "degrees" && !r.worst;
-}
-
 // Numbers make no difference between messages.
 std::string without_numbers(const std::string& text) {
   std::string out;
@@ -69,23 +110,6 @@ std::string without_numbers(const std::string& text) {
   return out.substr(0, 60);
 }
 
-// The red rows of one subject in one case.
-class Case {
- public:
-  Case(const Report& report, std::vector<std::size_t> rows) : report_(report), rows_(std::move(rows)) {}
-
-  const std::vector<std::size_t>& rows() const { return rows_; }
-  const Result* find(std::initializer_list<std::string_view> names) const {
-    for (const std::size_t k : rows_)
-      if (is_one_of(report_.results[k].check, names)) return &report_.results[k];
-    return nullptr;
-  }
-
- private:
-  const Report& report_;
-  std::vector<std::size_t> rows_;
-};
-
 // Whether the subject's mesh is so small or large that squares of floats vanish or overflow.
 bool is_out_of_scale(const Report& report, const Result& r) {
   for (const auto& m : report.meshes)
@@ -93,21 +117,16 @@ bool is_out_of_scale(const Report& report, const Result& r) {
   return false;
 }
 
-// Puts the red rows of a report to causes.
 class Sorting {
  public:
   explicit Sorting(const Report& report) : report_(report) {
-    std::map<std::tuple<std::string, std::string, int, std::string, std::string, data::Scheme, std::string>,
-             std::vector<std::size_t>>
-        rows;
+    std::map<std::tuple<std::string, Case, data::Scheme, std::string>, Rows> cases;
     for (std::size_t k = 0; k < report.results.size(); ++k) {
       const Result& r = report.results[k];
-      if (is_bad(r))
-        rows[{r.subject, r.mesh, r.depth, r.depths, r.sample, r.scheme, r.triangulated}].push_back(k);
+      if (is_bad(r)) cases[{r.subject, case_of(r), r.scheme, r.triangulated}].push_back(k);
     }
-    for (auto& [key, list] : rows) cases_.emplace_back(report, std::move(list));
-    pin_regions();
-    for (const Case& c : cases_) sort(c);
+    pin_regions(cases);
+    for (const auto& [key, rows] : cases) sort(rows);
   }
 
   std::vector<Cause> take() {
@@ -117,9 +136,8 @@ class Sorting {
       std::sort(cause.rows.begin(), cause.rows.end());
       std::sort(cause.direct.begin(), cause.direct.end());
       std::set<std::string> names;
-      for (const std::size_t k : cause.rows) names.insert(base_name(report_.results[k].subject));
-      cause.who =
-          names.size() == 1 ? *names.begin() : library(report_, report_.results[cause.rows[0]].subject);
+      for (const std::size_t k : cause.rows) names.insert(base_name(row(k).subject));
+      cause.who = names.size() == 1 ? *names.begin() : library(report_, row(cause.rows[0]).subject);
       cause.kind = key.kind;
       all.push_back(std::move(cause));
     }
@@ -127,28 +145,38 @@ class Sorting {
   }
 
  private:
+  using Rows = std::vector<std::size_t>;  // the red ones of one subject in one case
+
+  const Result& row(std::size_t k) const { return report_.results[k]; }
+  // The first of these checks among the rows; report.results.size() if there is none.
+  std::size_t find(const Rows& rows, std::initializer_list<std::string_view> names) const {
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](std::size_t k) { return is_one_of(row(k).check, names); });
+    return found == rows.end() ? report_.results.size() : *found;
+  }
+  bool has(const Rows& rows, std::string_view check) const {
+    return find(rows, {check}) < report_.results.size();
+  }
+
   // Rows that are wrong in one region decide which regions there are; the others follow them.
-  void pin_regions() {
-    std::map<std::pair<std::string, Region>, int> pinned;
-    std::vector<std::size_t> several;
-    for (const Case& c : cases_)
-      for (const std::size_t k : c.rows()) {
-        const Result& r = report_.results[k];
-        if (!is_of_surface(r) || r.status != Status::kFinding) continue;
+  void pin_regions(const auto& cases) {
+    std::map<std::pair<std::string, Region>, int> sure;
+    Rows several;
+    for (const auto& [key, rows] : cases)
+      for (const std::size_t k : rows) {
+        const Result& r = row(k);
+        if (kind_of(r.check) != CauseKind::kSurface || r.status != Status::kFinding) continue;
         const std::set<Region> list = regions(r);  // the more special first, which wins where nothing is sure
-        if (list.size() > 1) {
-          several.push_back(k);
-          continue;
-        }
         region_[k] = *list.begin();
-        ++pinned[{base_name(r.subject), *list.begin()}];
+        if (list.size() > 1)
+          several.push_back(k);
+        else
+          ++sure[{base_name(r.subject), *list.begin()}];
       }
-    const std::map<std::pair<std::string, Region>, int> sure = pinned;
     for (const std::size_t k : several) {
-      const Result& r = report_.results[k];
-      const std::set<Region> list = regions(r);
+      const std::set<Region> list = regions(row(k));
       const auto count = [&](Region region) {
-        const auto found = sure.find({base_name(r.subject), region});
+        const auto found = sure.find({base_name(row(k).subject), region});
         return found == sure.end() ? 0 : found->second;
       };
       region_[k] = *std::max_element(list.begin(), list.end(),
@@ -156,15 +184,13 @@ class Sorting {
     }
   }
 
-  void put(std::size_t k, Key key, bool direct) {
-    const Region region = key.region;
-    Cause& cause = causes_[std::move(key)];
+  void put(std::size_t k, const Key& key, bool direct) {
+    Cause& cause = causes_[key];
     cause.rows.push_back(k);
     if (!direct) return;
     cause.direct.push_back(k);
-    const Result& r = report_.results[k];
-    if (region != Region::kNone)
-      add(cause.places[r.scheme == data::Scheme::kLoop ? 0 : 1], counts_in(r.places, region));
+    if (key.region != Region::kNone)
+      add(cause.places[row(k).scheme == data::Scheme::kLoop ? 0 : 1], counts_in(row(k).places, key.region));
   }
 
   // Whether two causes, of different subjects of one library and in one region, show the same errors: in half
@@ -174,9 +200,9 @@ class Sorting {
     for (const std::size_t i : a.direct) {
       bool both = false, same = false;
       for (const std::size_t k : b.direct) {
-        const Result &r = report_.results[i], &other = report_.results[k];
-        if (r.check != other.check || r.mesh != other.mesh || r.depth != other.depth ||
-            r.depths != other.depths)
+        const Result &r = row(i), &other = row(k);
+        if (std::tie(r.check, r.mesh, r.depth, r.depths) !=
+            std::tie(other.check, other.mesh, other.depth, other.depths))
           continue;
         both = true;
         same = same || std::abs(r.worst.value_or(0) - other.worst.value_or(0)) <= 0.1 * r.worst.value_or(0);
@@ -189,103 +215,93 @@ class Sorting {
 
   // Subjects of one library that call the same code.
   void merge_subjects() {
+    const auto library_of = [&](const Cause& c) { return library(report_, row(c.rows.front()).subject); };
     for (auto a = causes_.begin(); a != causes_.end(); ++a)
       for (auto b = std::next(a); b != causes_.end();) {
-        if (is_part_of(b->first, b->second, a->first, a->second)) {
-          b = merge(a->second, b);
-          continue;
-        }
-        const auto library_of = [&](const Cause& c) {
-          return library(report_, report_.results[c.rows.front()].subject);
-        };
-        if (a->first.kind != CauseKind::kSurface || b->first.kind != CauseKind::kSurface ||
-            a->first.region != b->first.region || library_of(a->second) != library_of(b->second) ||
-            !is_same(a->second, b->second)) {
+        auto& [key, to] = *a;
+        const auto& [other, from] = *b;
+        const bool surface = key.kind == CauseKind::kSurface && other.kind == CauseKind::kSurface;
+        if (!surface ||
+            (!is_part_of(other, from, key, to) &&
+             (key.region != other.region || library_of(to) != library_of(from) || !is_same(to, from)))) {
           ++b;
           continue;
         }
-        b = merge(a->second, b);
+        to.rows.insert(to.rows.end(), from.rows.begin(), from.rows.end());
+        to.direct.insert(to.direct.end(), from.direct.begin(), from.direct.end());
+        for (int scheme = 0; scheme < 2; ++scheme) add(to.places[scheme], from.places[scheme]);
+        b = causes_.erase(b);
       }
-  }
-
-  std::map<Key, Cause>::iterator merge(Cause& to, std::map<Key, Cause>::iterator from) {
-    const Cause& c = from->second;
-    to.rows.insert(to.rows.end(), c.rows.begin(), c.rows.end());
-    to.direct.insert(to.direct.end(), c.direct.begin(), c.direct.end());
-    for (int scheme = 0; scheme < 2; ++scheme) add(to.places[scheme], c.places[scheme]);
-    return causes_.erase(from);
   }
 
   bool has_positions(const Cause& c) const {
     return std::any_of(c.direct.begin(), c.direct.end(),
-                       [&](std::size_t k) { return report_.results[k].unit != "degrees"; });
+                       [&](std::size_t k) { return row(k).unit != "degrees"; });
   }
 
   // What is wrong at irregular vertices only, of a subject that is wrong in irregular faces in more rows. (At
   // depth 0 there are no other points.)
   bool is_part_of(const Key& part, const Cause& few, const Key& whole, const Cause& many) const {
-    return part.kind == CauseKind::kSurface && whole.kind == CauseKind::kSurface && part.who == whole.who &&
-           whole.region == Region::kIrregular &&
-           (part.region == Region::kBoundary || part.region == Region::kExtraordinary) &&
-           few.direct.size() < many.direct.size() && (!has_positions(few) || has_positions(many));
+    return part.who == whole.who && whole.region == Region::kIrregular &&
+           implies(whole.region, part.region) && few.direct.size() < many.direct.size() &&
+           (!has_positions(few) || has_positions(many));
   }
 
   // Where a row goes that stands for itself.
-  Key key_of(const Case& c, std::size_t k) const {
-    const Result& r = report_.results[k];
+  Key key_of(const Rows& rows, std::size_t k) const {
+    const Result& r = row(k);
     const std::string of_library = library(report_, r.subject), name = base_name(r.subject);
     if (r.status != Status::kFinding)
       return {name, CauseKind::kBreakdown, Region::kNone, without_numbers(r.message)};
-    if (r.check == "tessellates")
-      return {of_library, CauseKind::kRefuses, Region::kNone, without_numbers(r.message)};
-    if (r.check == "written") return {name, CauseKind::kUnwritten, Region::kNone, ""};
-    if (is_of_surface(r) && !is_without_length(r)) {
-      // The rule at the ends of sharp edges is one of the library, whatever evaluates between them.
-      const Region region = region_.at(k);
-      return {region == Region::kDart ? of_library : name, CauseKind::kSurface, region, ""};
-    }
-    if (is_of_surface(r) || is_one_of(r.check, {"finite", "degenerate-geometry", "file-finite"}) ||
-        says_not_finite(r) ||
-        (r.check == "normal-length" && (c.find({"finite"}) != nullptr || is_out_of_scale(report_, r))))
+    const CauseKind kind = kind_of(r.check);
+    const bool without_length = r.unit == "degrees" && !r.worst;  // at no angle at all with the exact ones
+    if ((kind == CauseKind::kSurface && without_length) ||
+        (kind != CauseKind::kSurface && r.not_finite > 0 && !r.worst) ||
+        (r.check == "normal-length" && (has(rows, "finite") || is_out_of_scale(report_, r))))
       return {of_library, CauseKind::kNotFinite, Region::kNone, ""};
-    if (is_one_of(r.check, {"coverage", "orientation", "file-coverage", "file-orientation"}))
-      return {name, CauseKind::kTiling, Region::kNone, ""};
-    if (is_one_of(r.check, {"shared-positions", "shared-normals", "watertight", "t-vertices", "continuity",
-                            "file-watertight"}))
-      return {of_library, CauseKind::kSeams, Region::kNone, ""};
-    if (r.check == "rejected-inputs") return {of_library, CauseKind::kAccepts, Region::kNone, ""};
-    if (is_one_of(r.check, {"normals-against-positions", "normal-length", "recognised"}) ||
-        r.check.starts_with("file-"))
-      return {name, CauseKind::kOther, Region::kNone, r.check};
-    return {of_library, CauseKind::kOrder, Region::kNone, ""};
+    switch (kind) {
+      case CauseKind::kSurface: {
+        // The rule at the ends of sharp edges is one of the library, whatever evaluates between them.
+        const Region region = region_.at(k);
+        return {region == Region::kDart ? of_library : name, kind, region, ""};
+      }
+      case CauseKind::kRefuses:
+        return {of_library, kind, Region::kNone, without_numbers(r.message)};
+      case CauseKind::kOther:
+        return {name, kind, Region::kNone, r.check};
+      case CauseKind::kUnwritten:
+      case CauseKind::kTiling:
+        return {name, kind, Region::kNone, ""};
+      default:
+        return {of_library, kind, Region::kNone, ""};
+    }
   }
 
   // Points off the surface turn normals, open cracks and change with the order of the faces; normals are more
   // often the reason why something changes with the order.
-  void sort(const Case& c) {
-    const Result* reason = c.find({"normals", "file-normals"});
-    if (reason == nullptr || reason->status != Status::kFinding)
-      reason = c.find({"positions", "refined-positions", "file-positions", "file-distance"});
-    const bool has_reason = reason != nullptr && reason->status == Status::kFinding;
-    for (const std::size_t k : c.rows()) {
-      const Result& r = report_.results[k];
-      const Key own = key_of(c, k);
+  void sort(const Rows& rows) {
+    const auto is_finding = [&](std::size_t k) {
+      return k < report_.results.size() && row(k).status == Status::kFinding;
+    };
+    std::size_t reason = find(rows, {"normals", "file-normals"});
+    if (!is_finding(reason))
+      reason = find(rows, {"positions", "refined-positions", "file-positions", "file-distance"});
+    for (const std::size_t k : rows) {
+      const std::string& check = row(k).check;
+      const Key own = key_of(rows, k);
       const bool follows =
-          r.status == Status::kFinding &&
-          !is_one_of(r.check, {"recognised", "file-recognised"}) &&  // what the reason does not explain
+          is_finding(k) &&
+          !is_one_of(check, {"recognised", "file-recognised"}) &&  // the reason explains no more
           (own.kind == CauseKind::kOrder || own.kind == CauseKind::kOther ||
-           is_one_of(r.check, {"orientation", "continuity", "file-watertight", "file-orientation"}));
-      if (follows && has_reason) {
-        put(k, key_of(c, static_cast<std::size_t>(reason - report_.results.data())), false);
-      } else {
-        const bool cracks = is_one_of(r.check, {"watertight", "t-vertices"});
-        put(k, own, !cracks || c.find({"shared-positions"}) == nullptr);
-      }
+           is_one_of(check, {"orientation", "continuity", "file-watertight", "file-orientation"}));
+      if (follows && is_finding(reason))
+        put(k, key_of(rows, reason), false);
+      else
+        put(k, own, !is_one_of(check, {"watertight", "t-vertices"}) || !has(rows, "shared-positions"));
     }
   }
 
   const Report& report_;
-  std::vector<Case> cases_;
   std::map<std::size_t, Region> region_;  // of each red row of positions and normals
   std::map<Key, Cause> causes_;
 };

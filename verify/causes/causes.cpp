@@ -1,26 +1,239 @@
 // SPDX-License-Identifier: MIT
 #include "verify/causes/causes.h"
 
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
 
-#include "verify/causes/cause_sorting.h"
-#include "verify/causes/cause_words.h"
-#include "verify/row/reproduce.h"
+#include "verify/evidence/cells.h"
+#include "verify/row/commands.h"
 
 namespace limitcheck::verify {
 namespace {
 
-// Pairs of subject and case among rows.
-std::int64_t count_cases(const Report& report, const std::vector<std::size_t>& rows) {
-  std::set<std::tuple<std::string, std::string, int, std::string, std::string>> cases;
-  for (const std::size_t k : rows) {
+// The worst of one check among the rows that show a cause.
+struct Worst {
+  double worst = 0, bound = 0;
+  std::int64_t bad = 0, of = 0;
+  const Result* row = nullptr;
+};
+
+std::map<std::string, Worst> worst_of(const Report& report, const Cause& cause) {
+  std::map<std::string, Worst> all;
+  for (const std::size_t k : cause.direct) {
     const Result& r = report.results[k];
-    cases.emplace(r.subject, r.mesh, r.depth, r.depths, r.sample);
+    Worst& w = all[r.check];
+    w.bad += r.bad;
+    w.of += r.of;
+    if (w.row != nullptr && r.worst.value_or(0) <= w.worst) continue;
+    w = {r.worst.value_or(0), r.bound.value_or(0), w.bad, w.of, &r};
   }
-  return static_cast<std::int64_t>(cases.size());
+  return all;
+}
+
+std::string percent(std::int64_t bad, std::int64_t of) {
+  const double share = of > 0 ? 100.0 * static_cast<double>(bad) / static_cast<double>(of) : 0;
+  return share >= 1 ? fmt::format("{:.0f} %", share) : fmt::format("{:.1g} %", share);
+}
+
+std::string degrees(double x) {
+  return x >= 10 ? fmt::format("{:.0f}°", x) : fmt::format("{:.2g}°", x);
+}
+
+void describe_surface(const Report& report, Cause& cause) {
+  std::vector<std::string> what, size;
+  double distance = 0, angle = 0;
+  for (const auto& [check, w] : worst_of(report, cause)) {
+    const bool normals = w.row->unit == "degrees";
+    what.emplace_back(normals ? "normals" : check == "refined-positions" ? "refined points" : "positions");
+    if (normals) {
+      angle = w.worst;
+      size.push_back(degrees(w.worst));
+    } else {
+      distance = std::max(distance, w.worst);
+      size.insert(size.begin(), fmt::format("{:.1e} diagonals", w.worst));
+    }
+  }
+  std::sort(what.rbegin(), what.rend());  // positions before normals
+  what.erase(std::unique(what.begin(), what.end()), what.end());
+  std::string title = fmt::format("{}", fmt::join(what, " and "));
+  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+  const std::string loop = where_wrong(cause.places[0]), quads = where_wrong(cause.places[1]);
+  const std::string where = loop.empty() || loop == quads ? quads
+                            : quads.empty()               ? loop
+                                                          : loop + " (Catmull-Clark: " + quads + ")";
+  const bool all = is_everywhere(cause.places[loop.empty() ? 1 : 0]);
+  cause.title = fmt::format("{} are off by up to {}{}{}", title, fmt::join(size, " and "),
+                            where.empty() ? ""
+                            : all         ? ", "
+                                          : ", only ",
+                            where);
+  if (what.size() == 1 && what[0] == "normals") cause.look = "the points are right: look at the tangents";
+  for (const std::size_t k : cause.direct)
+    if (const auto& known = report.results[k].recognised) cause.look = "the points are " + known->what;
+  if (cause.look.empty())
+    cause.look = all             ? "rounding, or rules that every face has in common"
+                 : where.empty() ? ""
+                                 : "the rules and tables for just these places";
+  cause.size = distance >= 1e-3 || angle >= 5 ? 3 : distance >= 1e-5 || angle >= 0.5 ? 2 : 1;
+}
+
+void describe_not_finite(const Report& report, Cause& cause) {
+  const auto worst = worst_of(report, cause);
+  std::vector<std::string> when;
+  std::vector<PlaceCount> places;
+  for (const std::size_t k : cause.direct)
+    if (report.results[k].check == "finite") add(places, report.results[k].places);
+  if (const std::string where = where_wrong(places); !where.empty()) when.push_back(where);
+  if (worst.contains("degenerate-geometry"))
+    when.emplace_back("where all control points are on one line or are one point");
+  if (worst.contains("scaling")) when.emplace_back("on meshes 2^40 times smaller or larger");
+  cause.title = fmt::format("NaN, infinity or a normal of length 0{}{}", when.empty() ? "" : ": ",
+                            fmt::join(when, "; "));
+  cause.look =
+      "where a vector is divided by its length: the length is 0, or its square is too small or large";
+  cause.size = 3;
+}
+
+void describe_seams(const Report& report, Cause& cause) {
+  const auto worst = worst_of(report, cause);
+  const auto positions = worst.find("shared-positions"), normals = worst.find("shared-normals");
+  if (positions == worst.end() && normals == worst.end()) {
+    cause.title = worst.contains("t-vertices") || worst.contains("watertight")
+                      ? "Cracks: faces that meet do not end in the same vertices"
+                      : "Faces that meet differ at common points by more than rounding";
+    cause.look = "edges between faces of different depth";
+    cause.size = 2;
+    return;
+  }
+  std::vector<std::string> shares;
+  double gap = 0, turn = 0;
+  if (positions != worst.end()) {
+    shares.push_back(percent(positions->second.bad, positions->second.of) + " of the positions");
+    gap = positions->second.worst;
+  }
+  if (normals != worst.end()) {
+    shares.push_back(percent(normals->second.bad, normals->second.of) + " of the normals");
+    turn = normals->second.worst;
+  }
+  cause.title = fmt::format("Points that faces share differ in bits: {}, by up to {:.1e} diagonals{}",
+                            fmt::join(shares, " and "), gap, turn > 0 ? " and " + degrees(turn) : "");
+  cause.look = "sums whose order depends on the face; compute what is shared once, or in one order";
+  cause.size = 1;
+}
+
+// What a subject took that it should have refused, over all rows.
+void describe_accepts(const Report& report, Cause& cause) {
+  std::vector<std::string> taken;
+  for (const std::size_t k : cause.direct)
+    for (const std::string& what : report.results[k].accepted)
+      if (std::find(taken.begin(), taken.end(), what) == taken.end()) taken.push_back(what);
+  std::string list = taken.empty() ? "" : ": " + fmt::format("{}", fmt::join(taken, ", "));
+  constexpr std::size_t kLongest = 160;
+  if (list.size() > kLongest) list = list.substr(0, list.rfind(' ', kLongest)) + " ...";
+  cause.title = "Broken meshes are accepted without a word" + list;
+  cause.look = "what is checked of a mesh before it is used";
+  cause.size = 1;
+}
+
+std::string first_sentence(const std::string& message) {
+  const std::string text = message.substr(0, message.find_first_of("\n;"));
+  return text.size() > 140 ? text.substr(0, 140) + " ..." : text;
+}
+
+void put_in_words(const Report& report, Cause& cause) {
+  const Result& example = report.results[cause.example];
+  const auto plain = [&](const char* what, const char* look, int size) {
+    cause.title = fmt::format("{}: {}", what, first_sentence(example.message));
+    cause.look = look;
+    cause.size = size;
+  };
+  switch (cause.kind) {
+    case CauseKind::kSurface:
+      return describe_surface(report, cause);
+    case CauseKind::kNotFinite:
+      return describe_not_finite(report, cause);
+    case CauseKind::kSeams:
+      return describe_seams(report, cause);
+    case CauseKind::kAccepts:
+      return describe_accepts(report, cause);
+    case CauseKind::kBreakdown:
+      return plain(example.status == Status::kCrash     ? "Crashes"
+                   : example.status == Status::kTimeout ? "Does not answer in time"
+                                                        : "Fails",
+                   "", 3);
+    case CauseKind::kRefuses:
+      return plain("A valid mesh is refused", "say so in the capabilities, or take it", 2);
+    case CauseKind::kUnwritten:
+      return plain("Arrays are not as announced", "", 3);
+    case CauseKind::kTiling:
+      return plain("Faces are not tiled once, or triangles face the wrong way", "", 3);
+    case CauseKind::kOrder:
+    case CauseKind::kOther: {
+      std::set<std::string> checks;
+      double worst = 0;
+      for (const std::size_t k : cause.direct) {
+        checks.insert(report.results[k].check);
+        worst = std::max(worst, report.results[k].worst.value_or(0));
+      }
+      cause.title =
+          cause.kind == CauseKind::kOrder
+              ? fmt::format("The answer depends on what it must not depend on ({})", fmt::join(checks, ", "))
+              : fmt::format("{}: {}", fmt::join(checks, ", "),
+                            example.message.empty() ? "beyond its bound" : first_sentence(example.message));
+      if (worst > 0 && example.unit == "bounds")
+        cause.title += fmt::format(", up to {:.2g} times what rounding explains", worst);
+      cause.look = cause.kind == CauseKind::kOrder ? first_sentence(example.message) : "";
+      cause.size = worst >= 100 ? 3 : 2;
+      return;
+    }
+  }
+}
+
+using Pairs = std::set<std::pair<std::string, Case>>;  // of subject and case
+
+Pairs pairs_of(const Report& report, const std::vector<std::size_t>& rows) {
+  Pairs pairs;
+  for (const std::size_t k : rows) pairs.emplace(report.results[k].subject, case_of(report.results[k]));
+  return pairs;
+}
+
+// The kind of neighbourhood (verify/evidence/cells.h) that all cases with a cause look at and no other of the cases
+// that were looked at for it: one feature, or a pair of them if it is no single one. "" if that leaves several.
+std::string only_with(const Report& report, const Pairs& wrong, const Pairs& looked) {
+  std::map<Case, const CaseCells*> known;
+  for (const CaseCells& c : report.cases) known[c.at] = &c;
+  std::map<Case, bool> is_wrong;  // of any of the subjects
+  for (const auto& [subject, at] : looked) is_wrong[at] |= wrong.contains({subject, at});
+  std::map<data::Scheme, CellSet> always, elsewhere;
+  for (const auto& [at, bad] : is_wrong) {
+    const auto found = known.find(at);
+    if (found == known.end()) return "";
+    const auto& [where, scheme, looks_at] = *found->second;
+    if (!bad) {
+      add_cells(elsewhere.try_emplace(scheme, looks_at.size()).first->second, looks_at);
+      continue;
+    }
+    CellSet& all = always.try_emplace(scheme, looks_at).first->second;
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = all[k] && looks_at[k];
+  }
+  if (always.size() != 1) return "";
+  const auto& [scheme, all] = *always.begin();
+  const CellSet& others = elsewhere[scheme];
+  std::string one, pair;
+  int singles = 0, pairs = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!all[k] || others.empty() || others[k]) continue;
+    const Cell& cell = cells(scheme)[k];
+    ++(cell.first == cell.second ? singles : pairs);
+    (cell.first == cell.second ? one : pair) = cell.name();
+  }
+  return singles == 1 ? one : singles == 0 && pairs == 1 ? pair : "";
 }
 
 std::int64_t faces_of(const Report& report, const Result& r) {
@@ -48,45 +261,21 @@ void complete(const Report& report, Cause& cause) {
   cause.example = *std::min_element(cause.direct.begin(), cause.direct.end(),
                                     [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
 
-  cause.cases = count_cases(report, cause.direct);
   std::vector<std::size_t> looked;
   for (std::size_t k = 0; k < report.results.size(); ++k) {
     const Result& r = report.results[k];
-    if (subjects.contains(r.subject) && (checks.empty() || checks.contains(r.check)) &&
-        r.status != Status::kNotRun && r.status != Status::kNotSupported)
+    if (subjects.contains(r.subject) && (checks.empty() || checks.contains(r.check)) && looked_at(r))
       looked.push_back(k);
   }
-  cause.of = count_cases(report, looked);
+  const Pairs wrong = pairs_of(report, cause.direct), all = pairs_of(report, looked);
+  cause.cases = static_cast<std::int64_t>(wrong.size());
+  cause.of = static_cast<std::int64_t>(all.size());
+  if (cause.kind == CauseKind::kSurface || cause.kind == CauseKind::kNotFinite)
+    cause.only_with = only_with(report, wrong, all);
   cause.share = 2 * cause.cases >= cause.of ? 3 : 10 * cause.cases >= cause.of ? 2 : 1;
 }
 
 }  // namespace
-
-std::string_view word(CauseKind kind) {
-  switch (kind) {
-    case CauseKind::kBreakdown:
-      return "breakdown";
-    case CauseKind::kRefuses:
-      return "refuses";
-    case CauseKind::kUnwritten:
-      return "unwritten";
-    case CauseKind::kNotFinite:
-      return "not-finite";
-    case CauseKind::kSurface:
-      return "surface";
-    case CauseKind::kTiling:
-      return "tiling";
-    case CauseKind::kSeams:
-      return "seams";
-    case CauseKind::kOrder:
-      return "order";
-    case CauseKind::kAccepts:
-      return "accepts";
-    case CauseKind::kOther:
-      return "other";
-  }
-  return "other";
-}
 
 std::string_view Cause::severity() const {
   const int product = size * share;
@@ -98,6 +287,7 @@ std::vector<Cause> causes(const Report& report) {
   for (Cause& cause : all) {
     complete(report, cause);
     put_in_words(report, cause);
+    if (!cause.only_with.empty()) cause.title += "; of all neighbourhoods only with " + cause.only_with;
   }
   const auto rank = [](const Cause& c) { return std::tuple(c.size * c.share, c.size, c.cases); };
   std::stable_sort(all.begin(), all.end(), [&](const Cause& a, const Cause& b) { return rank(a) > rank(b); });

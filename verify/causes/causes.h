@@ -7,26 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "verify/row/places.h"
 #include "verify/row/result.h"
+#include "verify/row/rows.h"
 
 namespace limitcheck::verify {
-
-enum class CauseKind : std::uint8_t {
-  kBreakdown,  // the subject crashed, hung or failed
-  kRefuses,    // it refused a valid mesh
-  kUnwritten,  // arrays are too short, overrun or not filled in
-  kNotFinite,  // NaN, infinity, or a normal without length
-  kSurface,    // points or normals are not those of the surface
-  kTiling,     // faces are not tiled once, or face the wrong way
-  kSeams,      // what faces that meet deliver at common points is not the same
-  kOrder,      // the answer depends on what it must not depend on: order, position, size, an earlier request
-  kAccepts,    // a broken mesh is taken
-  kOther       // any other row, the check's name says which
-};
-
-/// "not-finite": stable.
-std::string_view word(CauseKind kind);
 
 /// One thing that is wrong with one subject, or with several of one library.
 struct Cause {
@@ -39,6 +23,7 @@ struct Cause {
   std::size_t example = 0;                // of report.results: one of `direct`, on the smallest mesh there is
   std::int64_t cases = 0, of = 0;         // pairs of subject and case where it shows, of how many looked at
   int size = 1, share = 1;                // how large and how frequent it is, each from 1 to 3 (severity())
+  std::string only_with;                  // the one kind of neighbourhood that it shows at, if there is one
   std::string title;                      // what is wrong, in one line
   std::string look;                       // where to look for it; may be empty
   std::vector<std::string> consequences;  // rows that are red because of it, and are not `direct`
@@ -55,6 +40,9 @@ struct Cause {
 /// surface are parted by the places of the control mesh where they are: each row is put to the cause with
 /// most rows among those of the places where it has something wrong.
 std::vector<Cause> causes(const Report& report);
+
+/// The first half of it: the causes with who, kind, rows, direct and places.
+std::vector<Cause> sorted_into_causes(const Report& report);
 
 /// What to type to see an example of a cause: what came beside what should have come.
 ///   level   of the audit

@@ -11,8 +11,9 @@
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
-#include "verify/report/baseline.h"
+#include "verify/evidence/cells.h"
 #include "verify/report/json.h"
+#include "verify/report/known.h"
 #include "verify/report/overview.h"
 #include "verify/subject/registry.h"
 
@@ -85,7 +86,7 @@ TEST(Causes, NumbersThatAreNoneAreOneCauseOfALibrary) {
   Result finite = red("lib-a", "m", "finite", 0), line = red("lib-b", "m", "degenerate-geometry", 0);
   Result scaled = red("lib-b", "m", "scaling", 0);
   scaled.worst.reset();
-  scaled.message = "times 2^-40: 7 points are not finite, 0 in the original";
+  scaled.not_finite = 7;
   Report report = report_of({finite, line, scaled});
   report.descriptions = {{"lib-a", "Lib 3.5 A: this"}, {"lib-b", "Lib 3.5 B: that"}};
   const std::vector<Cause> all = causes(report);
@@ -143,6 +144,40 @@ TEST(Causes, AreComparedOnlyInPlacesThatAMeshHas) {
   dart.places = {{PlaceKind::kIrregularFace, 0, 0, 9}, {PlaceKind::kDart, 0, 1, 1}};
   EXPECT_EQ(causes(report_of({regular, only})).size(), 2U);
   EXPECT_EQ(causes(report_of({regular, dart})).size(), 2U);
+}
+
+// Wrong in a and b, right in c: only one kind of neighbourhood is in both and not in the third.
+TEST(Causes, NameTheOneKindOfNeighbourhoodWhereTheyShow) {
+  const auto number_of = [](const char* name) {
+    const auto& all = cells(data::Scheme::kLoop);
+    return std::find_if(all.begin(), all.end(), [&](const Cell& c) { return c.name() == name; }) -
+           all.begin();
+  };
+  Report report = report_of({red("s", "a", "positions", 3), red("s", "b", "positions", 2),
+                             red("s", "c", "positions", 0), red("s", "a", "mirror", 9)});
+  report.results[2].status = Status::kHeld;
+  const auto looks_at = [&](const char* mesh, std::initializer_list<const char*> names) {
+    CaseCells& c = report.cases.emplace_back(CaseCells{{mesh, 0, "", ""}, data::Scheme::kLoop, {}});
+    c.cells.resize(cells(data::Scheme::kLoop).size());
+    for (const char* name : names) c.cells.at(static_cast<std::size_t>(number_of(name))) = true;
+  };
+  looks_at("a", {"3 faces", "2 infinite edges", "2 infinite edges, 3 faces", "inside"});
+  looks_at("b", {"3 faces", "2 infinite edges", "2 infinite edges, 3 faces", "depth 1"});
+  looks_at("c", {"3 faces", "2 infinite edges", "inside", "depth 1"});
+  const std::vector<Cause> all = causes(report);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].only_with, "2 infinite edges, 3 faces");
+  EXPECT_TRUE(all[0].title.ends_with("; of all neighbourhoods only with 2 infinite edges, 3 faces"))
+      << all[0].title;
+
+  // Two that tell them apart name nothing, and so does a report in which everything is wrong.
+  for (CaseCells& c : report.cases)
+    c.cells.at(static_cast<std::size_t>(number_of("depth 2, some faces culled"))) =
+        c.at != report.cases[2].at;
+  EXPECT_EQ(causes(report)[0].only_with, "");
+  report.results[2].status = Status::kFinding;
+  report.results[2].bad = 1;
+  EXPECT_EQ(causes(report)[0].only_with, "");
 }
 
 TEST(Causes, CoverEveryRedRowOfRealSubjects) {

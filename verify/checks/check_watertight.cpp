@@ -9,10 +9,7 @@
 #include <optional>
 
 #include "verify/checks/checks.h"
-#include "verify/checks/confirm.h"
-#include "verify/checks/diagonals.h"
-#include "verify/evidence/outline.h"
-#include "verify/evidence/weld.h"
+#include "verify/checks/welded_surface.h"
 #include "verify/watertight/watertight.h"
 
 namespace limitcheck::verify {
@@ -230,10 +227,8 @@ void tell(const SurfaceReport& report, const Cracks& cracks, const Outline& outl
 }  // namespace
 
 std::vector<Result> check_watertight(const Evidence& e) {
-  Result surface = e.result("watertight"), tees = e.result("t-vertices");
-  surface.unit = "elements";  // points, edges and triangles
-  tees.unit = "edges";
-  surface.bound = tees.bound = 0;
+  Result surface = e.result("watertight", "elements", 0);  // points, edges and triangles
+  Result tees = e.result("t-vertices", "edges", 0);
   if (e.tessellation.triangle_count() == 0) {
     surface.status = tees.status = Status::kNotRun;
     return {surface, tees};
@@ -265,9 +260,10 @@ std::vector<Result> check_watertight(const Evidence& e) {
   };
   mention(coincident_boundary_edges(e), "coincident boundary edges");
   mention(faces_without_area(e), "faces without area");
-  if (const std::int64_t count = not_finite(e.tessellation); count > 0)
-    say(surface,
-        fmt::format("{} vertices that are not finite go with the others of their lattice points", count));
+  surface.not_finite = not_finite(e.tessellation);
+  if (surface.not_finite > 0)
+    say(surface, fmt::format("{} vertices that are not finite go with the others of their lattice points",
+                             surface.not_finite));
 
   tees.of = static_cast<std::int64_t>(ours.open_edges.size());
   tees.bad = cracks.split;

@@ -1,15 +1,67 @@
 // SPDX-License-Identifier: MIT
-// The checks. Each is one function in one file: evidence in, rows out. No check relies on another one having
-// held.
+// The checks. Each is one function: evidence in, rows out. No check relies on another one having held.
+//
+// Findings are confirmed in certified arithmetic: what is beyond its bound by the reference in double is
+// evaluated again.
 #pragma once
 
+#include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "verify/evidence/evidence.h"
 
 namespace limitcheck::verify {
+
+/// What certified arithmetic says of the values that are beyond their bounds by the reference in double.
+struct Confirmation {
+  std::int64_t looked = 0;     // evaluated again
+  std::int64_t acquitted = 0;  // of these: within the bound after all, or at a point where nothing is judged
+  std::int64_t left = 0;       // beyond the bound in double and not looked at, though some were acquitted
+  std::int64_t worst = -1;     // the first that was confirmed
+  std::string message;         // empty unless some were acquitted
+};
+
+/// Evaluates the points of the errors that are beyond their bounds in certified arithmetic, in the order of
+/// error over bound, until one is confirmed. If that is the very first, double and certified numbers agree,
+/// and the errors of all others count as they are. If any was acquitted, double cannot be trusted on this
+/// mesh: then up to kMostCertified are evaluated, and the others are not judged.
+///   error    of each vertex, or of each use of a vertex; negative where there is none; corrected where it
+///            was looked at
+///   side     whose exact point it is held against
+///   bound    of an error
+///   measure  the error against the exact point, negative if nothing can be judged there
+/// A point that the certified evaluator does not take counts as confirmed. Throws Interrupted.
+inline constexpr std::int64_t kMostCertified = 1000;
+Confirmation confirm(const Evidence& e, std::vector<double>& error,
+                     const std::function<Sides::Id(std::size_t)>& side,
+                     const std::function<double(std::size_t)>& bound,
+                     const std::function<double(std::size_t, const ExactPoint&)>& measure);
+
+/// Errors of which some have bounds of their own, and all of it in a row:
+///   worst, bound, rms, p99   of the points whose bound is the ordinary one; worst and bound of another point where
+///                            that is the one that the row is about
+///   ill_conditioned          of the other points: how many, and how far their bounds go
+///   confirmed                what the row is about: an error that was confirmed, or -1: the worst
+///   why                      the other points, in words
+/// Returns the error that the row's witness is, or -1.
+std::int64_t judge(const std::vector<double>& error, const std::function<double(std::size_t)>& bound,
+                   double ordinary_bound, std::int64_t confirmed, const char* why, Result& row);
+
+/// confirm() and judge() of angles of normals in degrees, one for each of e.uses against normal_bound_at() of its
+/// side.
+std::int64_t judge_angles(const Evidence& e, std::vector<double>& angle,
+                          const std::function<double(std::size_t, const ExactPoint&)>& measure, Result& row);
+
+/// Whether a row of normals has any to look at; if not, it says why.
+///   of_limits   the subject must deliver limit points, too
+bool has_normals(const Evidence& e, Result& row, bool of_limits = false);
+
+/// Says how many of something a row leaves out because they are NaN or infinite: only `finite` (or `written`)
+/// reports those.
+void say_left_out(Result& row, std::int64_t count, const char* what);
 
 /// `written`: array defects and overruns that the host found, and entries that still hold the bytes with
 /// which the memory was handed out.

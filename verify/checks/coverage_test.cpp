@@ -33,22 +33,31 @@ int shared_edge() {
   return -1;
 }
 
-// Corners, two points per coarse side and four on the shared one, fanned out from the centre (1/3, 1/3).
-Script fan() {
+// A fan round one point, out to the border.
+Script fan_round(lc_provenance middle, const std::vector<lc_provenance>& rim) {
   Script s;
-  const int shared = shared_edge();
-  const std::array<std::array<std::uint32_t, 2>, 3> corner{{{0, 0}, {4, 0}, {0, 4}}};
-  for (int k = 0; k < 3; ++k) {
-    const auto& a = corner[k];
-    const auto& b = corner[(k + 1) % 3];
-    for (std::uint32_t step = 0; step < 4; step += k == shared ? 1 : 2)
-      s.points.push_back(
-          {0, (a[0] * (4 - step) + b[0] * step) / 4, (a[1] * (4 - step) + b[1] * step) / 4, 4});
-  }
-  const auto rim = static_cast<std::uint32_t>(s.points.size());
-  s.points.push_back({0, 1, 1, 3});
-  for (std::uint32_t k = 0; k < rim; ++k) s.triangles.push_back({rim, k, (k + 1) % rim});
+  s.points = rim;
+  const auto count = static_cast<std::uint32_t>(rim.size());
+  s.points.push_back(middle);
+  for (std::uint32_t k = 0; k < count; ++k) s.triangles.push_back({count, k, (k + 1) % count});
   return s;
+}
+
+// Counter-clockwise round face 0, in steps of 1/n; of 1/(2 n) along the edge that begins at corner `fine`.
+std::vector<lc_provenance> rim(std::uint32_t n, int fine) {
+  std::vector<lc_provenance> points;
+  const std::uint32_t m = 2 * n;
+  for (int k = 0; k < 3; ++k)
+    for (std::uint32_t a = 0; a < m; a += k == fine ? 1 : 2)
+      points.push_back(k == 0   ? lc_provenance{0, a, 0, m}
+                       : k == 1 ? lc_provenance{0, m - a, a, m}
+                                : lc_provenance{0, 0, m - a, m});
+  return points;
+}
+
+// Two points per coarse side and four on the shared one, fanned out from the centre.
+Script fan() {
+  return fan_round({0, 1, 1, 3}, rim(2, shared_edge()));
 }
 
 TEST(Coverage, AFanRoundTheCentreTilesAFaceNextToAFinerOne) {
@@ -177,28 +186,6 @@ TEST(Coverage, AFaceDisplayedDeeperThanAnyNeighbourIsFoundOut) {
       << r.message;
 }
 
-// A fan round one point, out to the border.
-Script fan_round(lc_provenance middle, const std::vector<lc_provenance>& rim) {
-  Script s;
-  s.points = rim;
-  const auto count = static_cast<std::uint32_t>(rim.size());
-  s.points.push_back(middle);
-  for (std::uint32_t k = 0; k < count; ++k) s.triangles.push_back({count, k, (k + 1) % count});
-  return s;
-}
-
-// Counter-clockwise round face 0, in steps of 1/n; of 1/(2 n) along the edge that begins at corner `fine`.
-std::vector<lc_provenance> rim(std::uint32_t n, int fine) {
-  std::vector<lc_provenance> points;
-  const std::uint32_t m = 2 * n;
-  for (int k = 0; k < 3; ++k)
-    for (std::uint32_t a = 0; a < m; a += k == fine ? 1 : 2)
-      points.push_back(k == 0   ? lc_provenance{0, a, 0, m}
-                       : k == 1 ? lc_provenance{0, m - a, a, m}
-                                : lc_provenance{0, 0, m - a, m});
-  return points;
-}
-
 // Asked for depth 2, beside a face of depth 3: a fan leaves out the points inside, all of them if it is the
 // paper's fan round the centre.
 TEST(Coverage, AFanBesideADeeperFaceLacksThePointsInside) {
@@ -223,7 +210,7 @@ TEST(Coverage, AFanBesideADeeperFaceLacksThePointsInside) {
 }
 
 TEST(Coverage, AFanWithoutThePointsOfItsBorderIsFoundOut) {
-  Script s = fan_round({0, 1, 1, 3}, rim(2, shared_edge()));  // asked for 2, its border has depth 1
+  Script s = fan();  // asked for 2, its border has depth 1
   s.faces.assign(s.triangles.size(), 0);
   const Result r = check_coverage(*Scripted(data::triangle_pair(), {2, 3}, s)).at(0);
   EXPECT_EQ(r.bad, 2) << r.message;

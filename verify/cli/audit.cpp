@@ -255,7 +255,7 @@ int audit(const Job& job) {
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;
     const bool whole = a.shard.of().is_whole();
     report.incomplete = incomplete(auditor, meshes, report, signal, whole);
-    if (whole) report.coverage = verify::coverage_of(report.results, coverage);
+    if (whole) verify::add_coverage(report, coverage);
     const bool judged = settle(a.output, report);
     const bool done = signal == 0 && !auditor.out_of_memory();
     const auto not_written = write_files(job, {audited, meshes, report, a.threads}, journal.get(), done);

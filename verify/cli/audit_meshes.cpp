@@ -22,7 +22,7 @@
 #include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/relations/refusal.h"
-#include "verify/report/result_json.h"
+#include "verify/report/json.h"
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::cli {

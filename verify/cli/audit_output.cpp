@@ -17,19 +17,18 @@
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/baseline.h"
 #include "verify/report/html_report.h"
 #include "verify/report/json.h"
-#include "verify/report/judged.h"
-#include "verify/report/waivers.h"
+#include "verify/report/known.h"
+#include "verify/report/overview.h"
 #include "verify/report/witness_files.h"
-#include "verify/row/explain.h"
+#include "verify/row/rows.h"
 
 namespace limitcheck::cli {
 
 void add_report_options(CLI::App& command, ReportOptions& a) {
   std::vector<std::string> checks;
-  for (const auto& e : verify::explanations())
+  for (const auto& e : verify::row_kinds())
     if (!e.check.starts_with("file-")) checks.emplace_back(e.check);
   command
       .add_option("--require", a.required,
@@ -98,7 +97,7 @@ bool explained(const OutputArguments& a) {
   if (a.explain.empty()) return false;
   bool found = false;
   std::string known = "all";
-  for (const auto& e : verify::explanations()) {
+  for (const auto& e : verify::row_kinds()) {
     known += fmt::format(", {}", e.check);
     if (a.explain != "all" && verify::current_name(a.explain) != e.check) continue;
     fmt::print("{}{}\n  meaning  {}\n  bound    {}\n  from     {}\n", found ? "\n" : "", e.check, e.meaning,
@@ -130,7 +129,7 @@ void waive(const ReportOptions& a, verify::Report& report) {
 
 bool judged_as_required(const ReportOptions& a, verify::Report& report) {
   std::string missing;
-  for (const verify::NeverJudged& none : verify::never_judged(report, a.required))
+  for (const verify::Unjudged& none : verify::unjudged(report, a.required))
     missing += (missing.empty() ? "" : "; ") + none.text();
   for (const verify::Coverage& c : report.coverage)
     if (a.require_coverage && !c.never.empty())

@@ -19,7 +19,6 @@
 #include "verify/report/json.h"
 #include "verify/report/junit.h"
 #include "verify/report/overview.h"
-#include "verify/report/result_json.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -63,7 +62,7 @@ int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
     for (std::size_t unit = s; unit < whole.plan.units; unit += subjects)
       for (verify::Result& row : verify::rows_of(whole.results.at(unit)))
         report.results.push_back(std::move(row));
-  report.coverage = verify::coverage_of(report.results, verify::coverage_question(plan.at("coverage")));
+  verify::add_coverage(report, verify::coverage_question(plan.at("coverage")));
   report.seconds = whole.seconds;
   report.containment = whole.containment;
   report.printed = whole.printed;

@@ -4,19 +4,26 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
 #include <utility>
 
+#include "data/bounding_box.h"
+#include "verify/evidence/face_depths.h"
 #include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
 
-Result Evidence::result(std::string check) const {
+Result Evidence::result(std::string_view check, std::string_view unit, std::optional<double> bound) const {
   Result r;
   r.subject = subject;
   r.mesh = mesh_name;
-  r.check = std::move(check);
+  r.check = check;
+  r.unit = unit;
+  r.bound = bound;
   r.depth = lattice.depth();
-  r.in_float = capabilities.precision == LC_FLOAT32;
+  r.precision = capabilities.precision;
   r.scheme = lattice.scheme();
   r.weights = reference.weights();
   r.status = Status::kHeld;
@@ -34,6 +41,15 @@ Witness Evidence::at_use(const Use& use) const {
   Witness w = at(reference.sides().place(use.side));
   w.vertex = use.vertex;
   return w;
+}
+
+double Evidence::position_bound() const {
+  return verify::position_bound(capabilities.precision, reference.steps(), magnitude, diagonal);
+}
+
+double Evidence::position_bound_at(Lattice::Id id) const {
+  return verify::position_bound(capabilities.precision, reference.steps(), magnitude, diagonal,
+                                reference.terms_at(id));
 }
 
 double Evidence::normal_bound_at(Sides::Id side) const {
@@ -127,6 +143,141 @@ std::vector<Use> find_uses(const Tessellation& t, const std::vector<Lattice::Id>
     std::stable_sort(uses.begin(), uses.end(),
                      [](const Use& a, const Use& b) { return a.vertex < b.vertex; });
   return uses;
+}
+
+namespace {
+
+// The kinds of all lattice points of a mesh.                                              O(faces) to make
+class NeighbourhoodCounts {
+ public:
+  explicit NeighbourhoodCounts(const Lattice& lattice);
+
+  // Kind, and number of faces where PlaceCount has one; nothing counted. `id` is a lattice point.
+  PlaceCount of(Lattice::Id id) const;
+
+ private:
+  const Lattice& lattice_;
+  std::vector<PlaceCount> vertex_;
+  std::vector<PlaceKind> face_;
+  std::vector<bool> sharp_edge_;
+};
+
+NeighbourhoodCounts::NeighbourhoodCounts(const Lattice& lattice) : lattice_(lattice) {
+  const data::ControlMesh& mesh = lattice.mesh();
+  const std::size_t vertices = mesh.positions.size();
+  const bool loop = lattice.scheme() == data::Scheme::kLoop;
+
+  // Round each vertex.
+  std::vector<int> faces(vertices, 0), sharp_edges(vertices, 0);
+  std::vector<bool> boundary(vertices, false), sharp(vertices, false), quads(vertices, true);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (const std::int32_t v : mesh.faces[f]) {
+      ++faces[v];
+      if (!loop && mesh.faces[f].size() != 4) quads[v] = false;
+    }
+  std::set<std::pair<std::int32_t, std::int32_t>> tagged;
+  for (const data::SharpEdge& s : mesh.sharpness.edges)
+    if (s.sharpness > 0) tagged.emplace(std::min(s.a, s.b), std::max(s.a, s.b));
+  for (const data::SharpVertex& s : mesh.sharpness.vertices) sharp[s.vertex] = s.sharpness > 0;
+  sharp_edge_.resize(lattice.edges().size());
+  for (std::size_t k = 0; k < lattice.edges().size(); ++k) {
+    const Lattice::Edge& e = lattice.edges()[k];
+    sharp_edge_[k] = !e.on_boundary() && tagged.contains({e.a, e.b});
+    for (const std::int32_t v : {e.a, e.b}) {
+      if (e.on_boundary()) boundary[v] = true;
+      if (sharp_edge_[k]) ++sharp_edges[v];
+    }
+  }
+  if (mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner)
+    for (std::size_t v = 0; v < vertices; ++v)
+      if (boundary[v] && faces[v] == 1) sharp[v] = true;
+
+  const int regular = loop ? 6 : 4;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    PlaceCount& place = vertex_.emplace_back();
+    const int count = sharp_edges[v] + (boundary[v] && sharp_edges[v] > 0 ? 2 : 0);
+    place.kind = sharp[v] || count > 2 ? PlaceKind::kCorner
+                 : count == 2          ? PlaceKind::kCrease
+                 : count == 1          ? PlaceKind::kDart
+                 : boundary[v]         ? PlaceKind::kBoundaryVertex
+                 : !quads[v]           ? PlaceKind::kPolygonVertex
+                 : faces[v] != regular ? PlaceKind::kExtraordinaryVertex
+                                       : PlaceKind::kRegularVertex;
+    if (place.kind == PlaceKind::kBoundaryVertex || place.kind == PlaceKind::kExtraordinaryVertex)
+      place.faces = faces[v];
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    PlaceKind kind = !loop && mesh.faces[f].size() != 4 ? PlaceKind::kIrregularFace : PlaceKind::kRegularFace;
+    for (const std::int32_t v : mesh.faces[f]) {
+      const PlaceKind at = vertex_[v].kind;
+      kind = std::max(kind, at >= PlaceKind::kDart             ? PlaceKind::kSharpFace
+                            : at == PlaceKind::kBoundaryVertex ? PlaceKind::kBoundaryFace
+                            : at == PlaceKind::kRegularVertex  ? PlaceKind::kRegularFace
+                                                               : PlaceKind::kIrregularFace);
+    }
+    face_.push_back(kind);
+  }
+}
+
+PlaceCount NeighbourhoodCounts::of(Lattice::Id id) const {
+  if (lattice_.is_vertex(id)) return vertex_[id];
+  if (!lattice_.is_shared(id)) return {face_[lattice_.place(id).face], -1, 0, 0};
+  const std::size_t k = lattice_.edge_of(id);
+  if (sharp_edge_[k]) return {PlaceKind::kSharpEdge, -1, 0, 0};
+  const Lattice::Edge& edge = lattice_.edges()[k];
+  PlaceKind kind = face_[edge.face[0]];
+  if (!edge.on_boundary()) kind = std::max(kind, face_[edge.face[1]]);
+  return {kind, -1, 0, 0};
+}
+
+}  // namespace
+
+void count_places(Result& row, const Lattice& lattice, std::size_t count,
+                  const std::function<Lattice::Id(std::size_t)>& id,
+                  const std::function<int(std::size_t)>& state) {
+  if (!is_bad(row)) return;
+  const NeighbourhoodCounts places(lattice);
+  std::map<std::pair<PlaceKind, std::int32_t>, PlaceCount> counts;
+  for (std::size_t k = 0; k < count; ++k) {
+    const int wrong = state(k);
+    const Lattice::Id point = wrong < 0 ? Lattice::kNone : id(k);
+    if (point == Lattice::kNone) continue;
+    const PlaceCount at = places.of(point);
+    PlaceCount& sum = counts.try_emplace({at.kind, at.faces}, at).first->second;
+    sum.bad += wrong;
+    ++sum.of;
+  }
+  row.places.clear();
+  for (const auto& [key, sum] : counts) row.places.push_back(sum);
+}
+
+std::vector<std::int32_t> asked_depths(const AuditMesh& mesh, int depth) {
+  std::vector<std::int32_t> asked = mesh.face_depth;
+  if (asked.empty()) asked.assign(mesh.mesh.faces.size(), depth);
+  for (const std::int32_t f : mesh.mesh.holes) asked[f] = -1;
+  return mesh.sample ? mesh.sample->cull(std::move(asked)) : asked;
+}
+
+void warm_up(Session& session, const AuditMesh& mesh, int deepest, int threads) {
+  const bool each = session.capabilities().per_face_depth != 0;
+  for (auto& depths : earlier_depths(mesh.depths, mesh.mesh.faces.size(), deepest, each)) {
+    for (const std::int32_t f : mesh.mesh.holes) depths[f] = -1;
+    if (mesh.sample) depths = mesh.sample->cull(std::move(depths));
+    (void)session.tessellate(depths, threads);
+  }
+}
+
+Evidence gather(const AuditSubject& subject, const AuditMesh& mesh, const Session& session,
+                const data::ControlMesh& judged, std::span<const std::int32_t> asked,
+                const Tessellation& tessellation, const ReferenceSurface& truth) {
+  const Lattice& lattice = truth.lattice();
+  std::vector<Lattice::Id> points = locate(tessellation, lattice);
+  std::vector<Use> uses = find_uses(tessellation, points, lattice, truth.sides());
+  double magnitude = 0;
+  for (const Vector& p : session.mesh().positions) magnitude = std::max(magnitude, largest(p));
+  const double diagonal = unit_of_length(data::box_diagonal(session.mesh()), magnitude);
+  return {subject.label(), mesh.name, session.capabilities(), judged,          asked,    tessellation,
+          lattice,         truth,     std::move(points),      std::move(uses), diagonal, magnitude};
 }
 
 }  // namespace limitcheck::verify

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "verify/evidence/audit_case.h"
 #include "verify/evidence/lattice.h"
 #include "verify/evidence/reference_surface.h"
 #include "verify/host/host.h"
@@ -35,11 +39,14 @@ struct Evidence {
   double magnitude = 0;               // largest absolute coordinate of the control mesh
 
   /// A result of this subject and mesh, held and with nothing in it.
-  Result result(std::string check) const;
+  Result result(std::string_view check, std::string_view unit = {}, std::optional<double> bound = {}) const;
   /// The witness for a vertex: where it lies by its provenance.
   Witness at_vertex(std::int64_t vertex) const;
   /// The same as the side of a use names it, if the point has several.
   Witness at_use(const Use& use) const;
+  /// How far a position may be from the exact one, in diagonals; of ordinary places, and at a point.
+  double position_bound() const;
+  double position_bound_at(Lattice::Id id) const;
   /// How far a normal on a side that has one may be from the exact one, in degrees: normal_bound, or more
   /// where the surface is ill-conditioned (bounds.h).
   double normal_bound_at(Sides::Id side) const;
@@ -68,5 +75,28 @@ std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice&
 ///   point   of each vertex
 std::vector<Use> find_uses(const Tessellation& tessellation, const std::vector<Lattice::Id>& point,
                            const Lattice& lattice, const Sides& sides);
+
+/// Fills in `places` of a row that is_bad; does nothing for others.
+///   count   how many points were looked at
+///   id      of each; kNone is skipped
+///   state   1 wrong, 0 right, -1 not looked at
+void count_places(Result& row, const Lattice& lattice, std::size_t count,
+                  const std::function<Lattice::Id(std::size_t)>& id,
+                  const std::function<int(std::size_t)>& state);
+
+/// The depth of each face that a subject is asked for: of faces that are holes, or outside the sample, -1.
+///   depth   of faces that have none of their own
+std::vector<std::int32_t> asked_depths(const AuditMesh& mesh, int depth);
+
+/// Asks for what `mesh.depths` asks for beforehand (face_depths.h), and throws the answers away. Throws as
+/// Session::tessellate does.
+///   deepest   depth that a face has in the request to come
+void warm_up(Session& session, const AuditMesh& mesh, int deepest, int threads);
+
+/// The evidence of what a session delivered. All but the first two outlive it; the truth may be prepared later.
+///   judged   the session's mesh, or its part that is a sample; `asked`, `tessellation`, `truth` are of that
+Evidence gather(const AuditSubject& subject, const AuditMesh& mesh, const Session& session,
+                const data::ControlMesh& judged, std::span<const std::int32_t> asked,
+                const Tessellation& tessellation, const ReferenceSurface& truth);
 
 }  // namespace limitcheck::verify

@@ -118,26 +118,29 @@ std::vector<FaceDepths> earlier_depths(const std::string& depths, std::size_t fa
 }
 
 Depths parse_depths(const std::string& text) {
-  if (const std::string before = after_of(text); before.size() > 6) {
+  const auto seed_in = [](std::string_view word) {
     std::uint64_t seed = 0;
-    const auto [end, error] = std::from_chars(before.data() + 6, before.data() + before.size(), seed);
-    if (error == std::errc() && end + 1 == before.data() + before.size() && *end == ':' &&
-        after_of(text.substr(before.size())).empty()) {
-      Depths depths = parse_depths(text.substr(before.size()));
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seed);
+    return error == std::errc{} && end == word.data() + word.size() ? std::optional(seed) : std::nullopt;
+  };
+  const std::string_view view(text);
+  if (const std::string before = after_of(text); before.size() > 7 && before.ends_with(':')) {
+    const auto seed = seed_in(view.substr(6, before.size() - 7));
+    const std::string rest = text.substr(before.size());
+    if (seed && after_of(rest).empty()) {
+      Depths depths = parse_depths(rest);
       depths.after = seed;
       return depths;
     }
   }
   for (const char* word : {"uniform", "view", "face0-culled", "all-culled"})
-    if (text == word) return {text, {}, false, {}, {}};
-  if (text.starts_with("file:")) return {"file", {}, false, text.substr(5), {}};
-  if (text == "random") return {text, 1, false, {}, {}};
+    if (text == word) return {.kind = text};
+  if (text.starts_with("file:")) return {.kind = "file", .file = text.substr(5)};
+  if (text == "random") return {.kind = text, .seed = 1};
   if (text.starts_with("random:")) {
-    Depths depths{"random", 0, text.ends_with(":visible"), {}, {}};
-    const std::string_view seed =
-        std::string_view(text).substr(7, text.size() - 7 - (depths.visible ? 8 : 0));
-    const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), *depths.seed);
-    if (error == std::errc() && end == seed.data() + seed.size()) return depths;
+    const bool visible = text.ends_with(":visible");
+    if (const auto seed = seed_in(view.substr(7, text.size() - 7 - (visible ? 8 : 0))))
+      return {.kind = "random", .seed = seed, .visible = visible};
   }
   throw data::ArgumentError(fmt::format(
       "--depths {}: uniform, random[:SEED[:visible]], view, face0-culled, all-culled or file:FILE, and "

@@ -7,11 +7,63 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
 
+#include "data/numeral.h"
+#include "reference/surface/certified.h"
 #include "reference/surface/surface.h"
 #include "verify/interrupt/interrupt.h"
 
 namespace limitcheck::verify {
+namespace {
+
+constexpr int kDigits = 40;
+
+std::vector<std::string> digits(const reference::Enclosure3& point) {
+  return {point[0].value, point[1].value, point[2].value};
+}
+
+Vector rounded(const reference::Enclosure3& point) {
+  return {data::parse<double>(point[0].value), data::parse<double>(point[1].value),
+          data::parse<double>(point[2].value)};
+}
+
+}  // namespace
+
+struct CertifiedSurface::State {
+  std::mutex mutex;
+  std::optional<reference::CertifiedEvaluator> evaluator;
+  std::unordered_map<Sides::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
+};
+
+CertifiedSurface::CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights)
+    : lattice_(lattice), sides_(sides), weights_(weights), state_(std::make_unique<State>()) {}
+CertifiedSurface::~CertifiedSurface() = default;
+
+const ExactPoint* CertifiedSurface::at(Sides::Id side) const {
+  const std::scoped_lock lock(state_->mutex);
+  const auto [place, is_new] = state_->kept.try_emplace(side);
+  std::optional<ExactPoint>& point = place->second;
+  if (is_new) try {
+      if (!state_->evaluator) {
+        if (lattice_.scheme() == data::Scheme::kLoop)
+          state_->evaluator.emplace(lattice_.mesh(), weights_);
+        else
+          state_->evaluator.emplace(lattice_.mesh(), lattice_.scheme());
+      }
+      const Place p = sides_.place(side);
+      const auto exact =
+          state_->evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                                      reference::Parameter::fraction(p.j, p.denominator), kDigits);
+      point = {rounded(exact.position), rounded(exact.normal), digits(exact.position), digits(exact.normal),
+               exact.normal_kind == reference::NormalKind::kRegular};
+    } catch (const std::exception&) {  // a neighbourhood that it does not take: the word in double stands
+    }
+  return point ? &*point : nullptr;
+}
+
 namespace {
 
 // See normal_condition(). In units of the larger tangent, so that nothing overflows or vanishes.
@@ -47,6 +99,17 @@ int steps_of(const data::ControlMesh& mesh, int depth) {
   return std::max(depth, static_cast<int>(std::ceil(most)));
 }
 
+// See terms_of().
+std::vector<std::int64_t> terms(const data::Faces& faces, std::size_t vertices) {
+  std::vector<std::int64_t> at(vertices, 1), most(faces.size(), 0);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const std::int32_t v : faces[f]) at[v] += static_cast<std::int64_t>(faces[f].size()) - 2;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const std::int32_t v : faces[f]) most[f] = std::max(most[f], at[v]);
+  if (std::all_of(most.begin(), most.end(), [](std::int64_t n) { return n <= kOrdinaryTerms; })) most.clear();
+  return most;
+}
+
 }  // namespace
 
 // The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
@@ -63,6 +126,7 @@ ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme s
       steps_(points == LC_POINTS_LIMIT ? steps_of(mesh, depth) : depth),
       points_(points),
       weights_(weights),
+      terms_(terms(mesh_.faces, mesh_.positions.size())),
       evaluator_(std::make_unique<Evaluator>()),
       certified_(lattice_, sides_, weights) {
   const auto size = static_cast<std::size_t>(lattice_.size());

@@ -1,20 +1,49 @@
 // SPDX-License-Identifier: MIT
-// The exact surface at the lattice points of a control mesh: the expected values of the checks.
+// The exact surface at the lattice points of a control mesh: the expected values of the checks, in double, and
+// in certified arithmetic, which is the last word on a finding.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "reference/loop/masks.h"
-#include "verify/evidence/certified_surface.h"
 #include "verify/evidence/lattice.h"
 #include "verify/evidence/sides.h"
 #include "verify/evidence/vector.h"
+#include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
+
+/// One point: to 40 significant digits of the largest coordinate, and the same rounded to double.
+struct ExactPoint {
+  Vector position, normal;
+  std::vector<std::string> position_digits, normal_digits;  // x, y, z
+  bool has_normal;  // false: the tangents may be parallel, or there is no tangent plane (D5, D12)
+};
+
+/// The limit surface of the lattice's control mesh (reference/surface/certified.h).
+class CertifiedSurface {
+ public:
+  /// `lattice` and `sides` outlive this. Nothing is computed yet: an audit without a finding never needs any
+  /// of it.
+  CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights);
+  ~CertifiedSurface();
+
+  /// A side of a point; nullptr where the evaluator cannot certify it. It takes some milliseconds and is
+  /// kept. Any number of threads may ask.
+  const ExactPoint* at(Sides::Id side) const;
+
+ private:
+  struct State;
+  const Lattice& lattice_;
+  const Sides& sides_;
+  reference::Weights weights_;
+  std::unique_ptr<State> state_;
+};
 
 /// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that
 /// several subjects share it.
@@ -37,6 +66,12 @@ class ReferenceSurface {
   const Sides& sides() const { return sides_; }
   /// How many steps a subject takes at least: the depth, or until semi-sharp edges are smooth.
   int steps() const { return steps_; }
+  /// How many points the longest sum of a face has: the mask at the corner with most points in its faces, the
+  /// corner included. The surface over the face depends on no other rings. (bounds.h)
+  std::int64_t terms_of(std::int32_t face) const { return terms_.empty() ? kOrdinaryTerms : terms_[face]; }
+  std::int64_t terms_at(Lattice::Id id) const {
+    return terms_.empty() || id == Lattice::kNone ? kOrdinaryTerms : terms_[lattice_.place(id).face];
+  }
   lc_points points() const { return points_; }
   reference::Weights weights() const { return weights_; }
 
@@ -73,6 +108,7 @@ class ReferenceSurface {
   int steps_;
   lc_points points_;
   reference::Weights weights_;
+  std::vector<std::int64_t> terms_;  // of each face; empty: no more than kOrdinaryTerms
   std::unique_ptr<Evaluator> evaluator_;
   CertifiedSurface certified_;
   std::vector<Vector> position_, normal_;

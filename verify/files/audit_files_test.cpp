@@ -15,8 +15,8 @@
 #include "verify/files/checks/diagnosis.h"
 #include "verify/files/checks/hausdorff.h"
 #include "verify/files/test_files.h"
-#include "verify/recognise/schemes.h"
-#include "verify/row/explain.h"
+#include "verify/recognise/guessed_rule.h"
+#include "verify/row/rows.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -213,7 +213,7 @@ TEST(AuditFiles, NoCheckIsWithoutAFileThatItRefusesAndAnExplanation) {
     killers.insert("file-recognised");
 
   std::set<std::string> explained;
-  for (const Explanation& e : explanations())
+  for (const RowKind& e : row_kinds())
     if (e.check.starts_with("file-")) explained.emplace(e.check);
   EXPECT_EQ(killers, explained);
   for (const Result& r : audit(mesh, good).results) EXPECT_TRUE(explained.contains(r.check)) << r.check;
@@ -304,13 +304,13 @@ TEST(AuditFiles, SaysWhatItLooksLike) {
   const std::string message = row(audit(mesh, refined), "file-distance").message;
   EXPECT_NE(message.find("refined by Loop's rule (2 steps)"), std::string::npos) << message;
   EXPECT_NE(message.find("the limit mask"), std::string::npos) << message;
-  const std::string warren = said(scheme_points(mesh, Scheme::kWarren, 2, true));
+  const std::string warren = said(scheme_points(mesh, GuessedRule::kWarren, 2, true));
   EXPECT_NE(warren.find("limit points of Loop's rule with Warren's simplified weights (2 steps)"),
             std::string::npos)
       << warren;
-  const std::string flat = said(scheme_points(mesh, Scheme::kLinear, 2, false));
+  const std::string flat = said(scheme_points(mesh, GuessedRule::kLinear, 2, false));
   EXPECT_NE(flat.find("nothing was subdivided"), std::string::npos) << flat;
-  const std::string other = said(scheme_points(mesh, Scheme::kCatmullClark, 2, true));
+  const std::string other = said(scheme_points(mesh, GuessedRule::kCatmullClark, 2, true));
   EXPECT_NE(other.find("not Loop subdivision at all"), std::string::npos) << other;
 }
 
@@ -339,13 +339,13 @@ FileTessellation cloud_of(std::vector<Vector> points, Writing writing) {
 TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
   struct Case {
     const char* mesh;
-    Scheme scheme;
+    GuessedRule scheme;
     int steps;
   };
   for (const Case& c :
-       {Case{"bumpy:200", Scheme::kLoop, 3}, Case{"wheel:50", Scheme::kLoop, 3},
-        Case{"holes", Scheme::kLoop, 3}, Case{"quad-wheel:7", Scheme::kCatmullClark, 3},
-        Case{"quad-cube", Scheme::kCatmullClark, 2}, Case{"prism:5", Scheme::kCatmullClark, 2}})
+       {Case{"bumpy:200", GuessedRule::kLoop, 3}, Case{"wheel:50", GuessedRule::kLoop, 3},
+        Case{"holes", GuessedRule::kLoop, 3}, Case{"quad-wheel:7", GuessedRule::kCatmullClark, 3},
+        Case{"quad-cube", GuessedRule::kCatmullClark, 2}, Case{"prism:5", GuessedRule::kCatmullClark, 2}})
     for (const auto& [writing, written] : kWritings) {
       const bool all = c.mesh == std::string("quad-cube") || c.mesh == std::string("holes");
       if (!all && writing != "float") continue;
@@ -382,7 +382,7 @@ TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
 // Sixty of them, each by less than the others are off the limit surface.
 TEST(AuditFiles, SixtySmallFaultsAmongRefinedPointsAreCounted) {
   const auto mesh = data::named_mesh("bumpy:800");
-  FileTessellation t = cloud_of(scheme_points(mesh, Scheme::kLoop, 3, false), kWritings.at("float"));
+  FileTessellation t = cloud_of(scheme_points(mesh, GuessedRule::kLoop, 3, false), kWritings.at("float"));
   const std::size_t stride = t.positions.size() / 60;
   for (std::size_t k = 0; k < 60; ++k) t.positions[k * stride][2] += 1e-4;
   const FilesAudit a = audit(mesh, t);

@@ -11,7 +11,7 @@
 #include "verify/files/read/test_quad_files.h"
 #include "verify/files/test_files.h"
 #include "verify/projection/test_meshes.h"
-#include "verify/recognise/schemes.h"
+#include "verify/recognise/guessed_rule.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -75,7 +75,7 @@ TEST(QuadFiles, LoopsPointsOfTheTriangulatedMeshAreNamed) {
     const std::string flat =
         row(audit_quads(mesh, read_obj([&] {
                           std::string text;
-                          for (const Vector& p : scheme_points(cut, Scheme::kLinear, 2, false))
+                          for (const Vector& p : scheme_points(cut, GuessedRule::kLinear, 2, false))
                             text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
                           return text;
                         }())),

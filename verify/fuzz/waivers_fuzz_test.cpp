@@ -5,7 +5,7 @@
 #include <string>
 
 #include "data/error.h"
-#include "verify/report/waivers.h"
+#include "verify/report/known.h"
 
 using namespace limitcheck::verify;
 

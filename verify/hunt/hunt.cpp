@@ -11,7 +11,7 @@
 #include "verify/evidence/face_depths.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/witness_files.h"
-#include "verify/row/reproduce.h"
+#include "verify/row/commands.h"
 
 namespace limitcheck::verify {
 

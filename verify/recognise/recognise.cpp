@@ -10,17 +10,87 @@
 #include <string>
 #include <utility>
 
-#include "verify/recognise/likeness.h"
+#include "data/cut_out.h"
+#include "reference/mesh/support.h"
+#include "verify/evidence/faces_around.h"
+#include "verify/recognise/guessed_rule.h"
 #include "verify/recognise/normal_origin.h"
-#include "verify/recognise/schemes.h"
-#include "verify/recognise/wrong_faces.h"
 #include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 namespace {
 
+// Some of the faces where a tessellation is wrong: to put a guess off that is wrong there, before what it
+// makes of the whole mesh is computed.
+// They are parts of a mesh with all that their surface depends on.
+class WrongFaces {
+ public:
+  // So many of the faces with vertices farther than `tolerance` from the truth, from the worst to the least.
+  WrongFaces(const Evidence& e, double tolerance, std::size_t most);
+
+  // Whether the mesh has so many more faces that looking at these first is worth it.
+  bool worthwhile() const;
+  // What a scheme makes of these faces, with places on the whole mesh; nothing but what is right there.
+  //   tags, lattice   as placed_scheme_points() wants them
+  SchemePoints points(bool tags, GuessedRule scheme, int steps, bool limit, data::Scheme lattice) const;
+
+ private:
+  const data::ControlMesh& whole_;
+  std::vector<std::int32_t> faces_;  // of the part: the wrong ones first, then what their surface depends on
+  std::size_t wrong_ = 0;            // how many of those
+  data::ControlMesh part_;
+};
+
+WrongFaces::WrongFaces(const Evidence& e, double tolerance, std::size_t most) : whole_(e.mesh) {
+  std::vector<double> error(whole_.faces.size());
+  for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
+    const Lattice::Id id = e.point[v];
+    const Vector got = e.tessellation.position(v);
+    if (id == Lattice::kNone || !is_finite(got)) continue;
+    double& worst = error[e.tessellation.provenance()[v].face];
+    worst = std::max(worst, norm(got - e.reference.position(id)));
+  }
+  std::vector<std::int32_t> ranked;
+  for (std::size_t f = 0; f < error.size(); ++f)
+    if (error[f] > tolerance) ranked.push_back(static_cast<std::int32_t>(f));
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [&](std::int32_t f, std::int32_t g) { return error[f] > error[g]; });
+  // The middle ones of as many parts, since the very worst may be wrong for another reason.
+  std::vector<std::int32_t> wrong;
+  const std::size_t count = std::min(most, ranked.size());
+  for (std::size_t k = 0; k < count; ++k) wrong.push_back(ranked[(2 * k + 1) * ranked.size() / (2 * count)]);
+
+  wrong_ = wrong.size();
+  const FacesAround around(whole_.faces, whole_.positions.size());
+  faces_ = reference::support_of(
+      std::move(wrong), whole_.faces, [&](std::int32_t v) { return around.of(v); },
+      whole_.sharpness.creasing);
+  data::CutOut cut = data::cut_out(whole_.faces, faces_);
+  part_ = {cut.of(whole_.positions), {}, cut.of(whole_.sharpness)};
+  part_.faces = std::move(cut.faces);
+}
+
+bool WrongFaces::worthwhile() const {
+  return wrong_ > 0 && 2 * faces_.size() < whole_.faces.size();
+}
+
+SchemePoints WrongFaces::points(bool tags, GuessedRule scheme, int steps, bool limit,
+                                data::Scheme lattice) const {
+  SchemePoints points =
+      placed_scheme_points(tags ? part_ : without_tags(part_), scheme, steps, limit, lattice);
+  for (Place& p : points.place) {
+    if (p.denominator == 0) continue;
+    const auto face = static_cast<std::size_t>(p.face);
+    if (face < wrong_)
+      p.face = faces_[face];
+    else
+      p.denominator = 0;
+  }
+  return points;
+}
+
 struct Guess {
-  Scheme scheme;
+  GuessedRule scheme;
   bool limit;
   const char* remark;
   bool tags = true;  // with the sharp edges and vertices of the control mesh
@@ -32,15 +102,15 @@ std::vector<Guess> guesses_for(const Evidence& e) {
   const char* no_step = wants_limit ? "" : "; the capabilities should name them so";
   const char *warren = "; Warren's is another surface", *no_loop = "; this is not Loop subdivision at all";
   const bool loop = e.lattice.scheme() == data::Scheme::kLoop;
-  const Scheme own = loop ? Scheme::kLoop : Scheme::kCatmullClark;
+  const GuessedRule own = loop ? GuessedRule::kLoop : GuessedRule::kCatmullClark;
   std::vector<Guess> guesses{{own, false, no_limit}, {own, true, no_step}};
   if (loop)
-    guesses.insert(guesses.end(), {{Scheme::kWarren, false, warren},
-                                   {Scheme::kWarren, true, warren},
-                                   {Scheme::kLinear, false, "; nothing was subdivided"}});
+    guesses.insert(guesses.end(), {{GuessedRule::kWarren, false, warren},
+                                   {GuessedRule::kWarren, true, warren},
+                                   {GuessedRule::kLinear, false, "; nothing was subdivided"}});
   if (loop && e.lattice.depth() > 0)  // at depth 0 Catmull and Clark's is the control mesh again
-    guesses.insert(guesses.end(),
-                   {{Scheme::kCatmullClark, false, no_loop}, {Scheme::kCatmullClark, true, no_loop}});
+    guesses.insert(guesses.end(), {{GuessedRule::kCatmullClark, false, no_loop},
+                                   {GuessedRule::kCatmullClark, true, no_loop}});
   if (!e.mesh.sharpness.empty())
     for (const bool limit : {false, true})
       guesses.push_back({own, limit, "; its sharp edges and vertices were not taken as sharp", false});
@@ -118,8 +188,7 @@ std::optional<Result> origin_of_points(const Evidence& e, Result& positions) {
     if (const std::int64_t v = statistics.worst_at; v >= 0) {
       const Vector expected = points.position[at[e.point[v]]], got = e.tessellation.position(v);
       worst = e.at_vertex(v);
-      worst->expected = {expected.begin(), expected.end()};
-      worst->got = {got.begin(), got.end()};
+      worst->show(expected, got);
     }
     say_recognised(*row, recognised, statistics, bound, worst);
   }

@@ -137,6 +137,7 @@ std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
       r.of = 1;
       r.bad = is_bad(r);
       r.bound = 0;
+      if (r.status == Status::kFinding) r.accepted.emplace_back("accepted");
       r.message = std::move(refusal.message);
       results.push_back(std::move(r));
     }

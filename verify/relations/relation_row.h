@@ -1,17 +1,66 @@
 // SPDX-License-Identifier: MIT
-// One row of the relations while the requests for it are made.
+// One row of the relations while its requests are made: two tessellations of one surface, point by point.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
 
 #include "verify/evidence/audit_case.h"
-#include "verify/relations/relation_comparison.h"
+#include "verify/relations/variants.h"
 
 namespace limitcheck::verify {
+
+/// What one variant came to.
+struct Comparison {
+  std::int64_t of = 0, bad = 0, other_bits = 0;
+  std::int64_t not_finite = 0;      // points that are, in the original
+  double position = 0, normal = 0;  // the largest differences: diagonals, degrees
+  double worst = 0;                 // the largest of both in units of its bound
+  std::optional<Witness> witness;
+  std::string message;
+};
+
+/// Compares with the tessellation of the evidence, which outlives this.
+class Compared {
+ public:
+  explicit Compared(const Evidence& e);
+
+  /// `t` is what the subject made of `v`; `slack` is how many results' errors may add up. Points that are not
+  /// finite on either side are left out, as long as there are no more of them than in the original.
+  Comparison with(const Tessellation& t, const Variant& v, double slack) const;
+
+ private:
+  using Key = std::int64_t;  // of a point and a face
+  // The vertices by which a face delivers a point. There may be as many as a polygon has corners.
+  struct Delivered {
+    std::int64_t first, last;
+  };
+  struct Digest {
+    Key key;
+    std::uint64_t bits;
+    std::int64_t vertex;
+    auto operator<=>(const Digest&) const = default;
+  };
+
+  bool same(const Tessellation& t, std::int64_t k, const Variant& v, std::int64_t mine) const;
+  // The first vertex of several that has the same bits.
+  std::optional<std::int64_t> with_same_bits(const Tessellation& t, std::int64_t k, const Variant& v,
+                                             Key key) const;
+
+  const Evidence& e_;
+  const bool uniform_;
+  std::unordered_map<Key, Delivered> by_face_;
+  std::vector<Digest> several_;  // all vertices where a face delivers a point more than once, sorted
+  std::unordered_map<Lattice::Id, std::int64_t> by_point_;
+  std::unordered_set<Lattice::Id> not_finite_;  // points
+};
 
 /// The status of a row in which a request ended with this error: kNotSupported for LC_NOT_SUPPORTED, kFinding
 /// for LC_INVALID_INPUT (the mesh was valid) and for an answer that breaks the protocol, kCrash or kTimeout
@@ -46,6 +95,8 @@ class RelationRow {
     r_.of += of;
   }
   void note(Status status, const std::string& message);
+  /// What was taken that should have been refused.
+  void accepted(const std::string& what) { r_.accepted.push_back(what); }
   /// Sets the witness if there is none yet.
   void witness(const Witness& w) {
     if (!r_.witness) r_.witness = w;
@@ -60,5 +111,11 @@ class RelationRow {
   Result r_;
   std::string comparison_;
 };
+
+/// Asks for the tessellation of the evidence eight times in one session, each time after something else
+/// (verify/host/in_turns.h), and the fourth time with 8 threads, and once in a session for each mesh that may
+/// come first: each must have the bits that it had in a process that was asked for nothing else. NaNs are
+/// compared by their bits, too.
+void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence& e, const Compared& compared);
 
 }  // namespace limitcheck::verify

@@ -15,10 +15,9 @@
 #include <utility>
 
 #include "verify/relations/relation_row.h"
-#include "verify/relations/relation_state.h"
-#include "verify/relations/sharp_variants.h"
+#include "verify/relations/variants.h"
 #include "verify/row/bounds.h"
-#include "verify/row/clock.h"
+#include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -193,6 +192,7 @@ class Relations {
       const Refusal& refusal = refusals[k];
       if (!refusal.asked) continue;
       row.count(refusal.status != Status::kHeld, 1);
+      if (refusal.status == Status::kFinding) row.accepted(broken_meshes()[k].what);
       row.note(refusal.status, refusal.message.empty()
                                    ? ""
                                    : fmt::format("{}: {}", broken_meshes()[k].what, refusal.message));
@@ -233,21 +233,21 @@ class Relations {
     // They may differ by two results' errors and as many diagonals.
     void compare(const std::string& what, const Points& got, const Points& expected, double more) const {
       constexpr int kMostSteps = 10;  // of another sharpness than the mesh has
-      const double limit =
-          more + 2 * position_bound(e_.capabilities.precision, std::max(e_.reference.steps(), kMostSteps),
-                                    e_.magnitude, std::max(e_.diagonal, 1e-300));
       Comparison c;
       for (std::size_t k = 0; k < got.size(); ++k) {
         if (!is_finite(got[k]) || !is_finite(expected[k])) continue;
         ++c.of;
+        const auto id = static_cast<Lattice::Id>(k);
+        const double limit =
+            more + 2 * position_bound(e_.capabilities.precision, std::max(e_.reference.steps(), kMostSteps),
+                                      e_.magnitude, e_.diagonal, e_.reference.terms_at(id));
         const double off = norm(got[k] - expected[k]) / e_.diagonal;
         c.bad += off > limit;
         c.position = std::max(c.position, off);
         if (c.witness && off / limit <= c.worst) continue;
         c.worst = off / limit;
-        c.witness = e_.at_point(static_cast<Lattice::Id>(k));
-        c.witness->expected = {expected[k].begin(), expected[k].end()};
-        c.witness->got = {got[k].begin(), got[k].end()};
+        c.witness = e_.at_point(id);
+        c.witness->show(expected[k], got[k]);
       }
       row_.judge(what, c, false);
     }
@@ -344,7 +344,7 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
     } catch (const std::bad_alloc&) {
       throw;  // no memory of this program's
     } catch (const std::exception& error) {
-      Result failed = e.result(std::string(name));
+      Result failed = e.result(name);
       failed.status = Status::kError;
       failed.message = fmt::format("the check itself failed: {}", error.what());
       results.push_back(std::move(failed));

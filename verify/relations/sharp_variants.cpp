@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/relations/sharp_variants.h"
+#include "verify/relations/variants.h"
 
 #include <algorithm>
 #include <set>
@@ -36,62 +36,60 @@ std::vector<int> lasting_edges_at(const data::ControlMesh& mesh, const Lattice& 
 }
 
 Variant crease_order(const Evidence& e) {
-  Variant v = identity(e);
-  v.name = "with its sharp edges and vertices in another order";
-  data::Sharpness& sharp = v.mesh.sharpness;
-  std::reverse(sharp.edges.begin(), sharp.edges.end());
-  std::reverse(sharp.vertices.begin(), sharp.vertices.end());
-  for (data::SharpEdge& edge : sharp.edges) std::swap(edge.a, edge.b);
-  v.same_numbers = true;
-  return v;
+  return variant(e, "with its sharp edges and vertices in another order", true, [](Variant& v) {
+    data::Sharpness& sharp = v.mesh.sharpness;
+    std::reverse(sharp.edges.begin(), sharp.edges.end());
+    std::reverse(sharp.vertices.begin(), sharp.vertices.end());
+    for (data::SharpEdge& edge : sharp.edges) std::swap(edge.a, edge.b);
+  });
+}
+
+// Whether some edge or vertex, or an edge, is of such a sharpness.
+template <class Tags>
+bool any_is(const Tags& tags, bool (*of)(float)) {
+  return std::any_of(tags.begin(), tags.end(), [&](const auto& tag) { return of(tag.sharpness); });
+}
+bool any_is(const data::ControlMesh& mesh, bool (*of)(float)) {
+  return any_is(mesh.sharpness.edges, of) || any_is(mesh.sharpness.vertices, of);
 }
 
 bool has_infinite(const data::ControlMesh& mesh, const Lattice&) {
-  const auto infinite = [](const auto& tag) { return lasts(tag.sharpness); };
-  return std::any_of(mesh.sharpness.edges.begin(), mesh.sharpness.edges.end(), infinite) ||
-         std::any_of(mesh.sharpness.vertices.begin(), mesh.sharpness.vertices.end(), infinite);
+  return any_is(mesh, lasts);
 }
 Variant infinite_sharpness(const Evidence& e, float sharpness) {
-  Variant v = identity(e);
-  v.name = sharpness == data::kInfiniteSharpness ? "with the sharpness 10 where it is more"
-                                                 : "with the sharpness 100 where it is 10 and more";
-  const auto replace = [&](auto& tags) {
-    for (auto& tag : tags)
-      if (lasts(tag.sharpness)) tag.sharpness = sharpness;
-  };
-  replace(v.mesh.sharpness.edges);
-  replace(v.mesh.sharpness.vertices);
-  v.same_numbers = true;
-  return v;
+  const char* name = sharpness == data::kInfiniteSharpness ? "with the sharpness 10 where it is more"
+                                                           : "with the sharpness 100 where it is 10 and more";
+  return variant(e, name, true, [&](Variant& v) {
+    const auto replace = [&](auto& tags) {
+      for (auto& tag : tags)
+        if (lasts(tag.sharpness)) tag.sharpness = sharpness;
+    };
+    replace(v.mesh.sharpness.edges);
+    replace(v.mesh.sharpness.vertices);
+  });
 }
 
 bool has_lasting_crease_and_boundary(const data::ControlMesh& mesh, const Lattice& lattice) {
-  return !boundary_of(lattice).empty() &&
-         std::any_of(mesh.sharpness.edges.begin(), mesh.sharpness.edges.end(),
-                     [](const data::SharpEdge& e) { return lasts(e.sharpness); });
+  return !boundary_of(lattice).empty() && any_is(mesh.sharpness.edges, lasts);
 }
 Variant boundary_crease(const Evidence& e) {
-  Variant v = identity(e);
-  v.name = "with the edges of its boundary sharp for ever, which they are";
-  std::vector<data::SharpEdge>& sharp = v.mesh.sharpness.edges;
-  const auto boundary = boundary_of(e.lattice);
-  std::erase_if(sharp, [&](const data::SharpEdge& tag) {
-    const Edge edge = std::minmax(tag.a, tag.b);
-    return std::any_of(boundary.begin(), boundary.end(),
-                       [&](const Lattice::Edge& b) { return Edge(b.a, b.b) == edge; });
+  return variant(e, "with the edges of its boundary sharp for ever, which they are", true, [&](Variant& v) {
+    std::vector<data::SharpEdge>& sharp = v.mesh.sharpness.edges;
+    const auto boundary = boundary_of(e.lattice);
+    std::erase_if(sharp, [&](const data::SharpEdge& tag) {
+      const Edge edge = std::minmax(tag.a, tag.b);
+      return std::any_of(boundary.begin(), boundary.end(),
+                         [&](const Lattice::Edge& b) { return Edge(b.a, b.b) == edge; });
+    });
+    for (const Lattice::Edge& edge : boundary) sharp.push_back({edge.a, edge.b, data::kInfiniteSharpness});
   });
-  for (const Lattice::Edge& edge : boundary) sharp.push_back({edge.a, edge.b, data::kInfiniteSharpness});
-  v.same_numbers = true;
-  return v;
 }
 
 // A cut is the same surface if sharpness lasts wherever there is some, and no sharp edge ends in a dart.
 bool can_be_cut(const data::ControlMesh& mesh, const Lattice& lattice) {
   if (has_semi_sharp(mesh)) return false;
-  const data::Sharpness& sharp = mesh.sharpness;
   const std::vector<int> count = lasting_edges_at(mesh, lattice);
-  return std::any_of(sharp.edges.begin(), sharp.edges.end(),
-                     [](const data::SharpEdge& e) { return lasts(e.sharpness); }) &&
+  return any_is(mesh.sharpness.edges, lasts) &&
          std::none_of(count.begin(), count.end(), [](int n) { return n == 1; });
 }
 Variant cut_by_hand(const Evidence& e) {
@@ -165,10 +163,7 @@ std::optional<float> common_sharpness(const data::ControlMesh& mesh) {
 }
 
 bool has_semi_sharp(const data::ControlMesh& mesh) {
-  const auto semi_sharp = [](const auto& tag) { return ends(tag.sharpness); };
-  const data::Sharpness& sharp = mesh.sharpness;
-  return std::any_of(sharp.edges.begin(), sharp.edges.end(), semi_sharp) ||
-         std::any_of(sharp.vertices.begin(), sharp.vertices.end(), semi_sharp);
+  return any_is(mesh, ends);
 }
 
 data::ControlMesh with_sharpness(data::ControlMesh mesh, float sharpness) {

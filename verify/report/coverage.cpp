@@ -16,13 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-auto case_of(const Result& r) {
-  return std::tuple(r.mesh, r.depth, r.depths, r.sample, r.scheme);
-}
-auto case_of(const CaseCells& c) {
-  return std::tuple(c.mesh, c.depth, c.depths, c.sample, c.scheme);
-}
-
 bool is_declared(const Cell& cell, const Declared& by) {
   if ((cell.needs() & ~by.abilities) != 0) return false;
   for (const std::size_t f : {cell.first, cell.second})
@@ -39,8 +32,8 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
   std::set<data::Scheme> schemes;
   for (const AuditMesh& m : meshes) {
     schemes.insert(m.scheme());
-    question.cases.push_back(
-        {m.name, m.depths, m.sample ? m.sample->text() : "", m.depth, m.scheme(), cells_of(m)});
+    const Case at(m.name, m.depth, m.depths, m.sample ? m.sample->text() : "");
+    question.cases.push_back({at, m.scheme(), cells_of(m)});
   }
   for (const AuditSubject& s : subjects)
     for (const data::Scheme scheme : schemes) try {
@@ -57,8 +50,10 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
 
 Json coverage_json(const CoverageQuestion& question) {
   Json cases = Json::array(), declared = Json::array();
-  for (const auto& [mesh, depths, sample, depth, scheme, set] : question.cases)
+  for (const auto& [at, scheme, set] : question.cases) {
+    const auto& [mesh, depth, depths, sample] = at;
     cases.push_back({mesh, depths, sample, depth, static_cast<int>(scheme), text_of(set)});
+  }
   for (const auto& [subject, scheme, abilities, max_depth] : question.declared)
     declared.push_back({subject, static_cast<int>(scheme), abilities, max_depth});
   return {{"cases", cases}, {"declared", declared}};
@@ -68,7 +63,7 @@ CoverageQuestion coverage_question(const Json& json) {
   CoverageQuestion question;
   for (const Json& c : json.at("cases")) {
     const auto scheme = static_cast<data::Scheme>(c.at(4).get<int>());
-    question.cases.push_back({c.at(0), c.at(1), c.at(2), c.at(3), scheme, cell_set(c.at(5), scheme)});
+    question.cases.push_back({Case(c.at(0), c.at(3), c.at(1), c.at(2)), scheme, cell_set(c.at(5), scheme)});
   }
   for (const Json& d : json.at("declared"))
     question.declared.push_back({d.at(0), static_cast<data::Scheme>(d.at(1).get<int>()), d.at(2), d.at(3)});
@@ -76,18 +71,16 @@ CoverageQuestion coverage_question(const Json& json) {
 }
 
 std::vector<Coverage> coverage_of(const std::vector<Result>& results, const CoverageQuestion& question) {
-  std::set<std::tuple<std::string, std::string, int, std::string, std::string, data::Scheme>> judged;
+  std::set<std::tuple<std::string, Case, data::Scheme>> judged;
   for (const Result& r : results)
-    if ((r.check == "positions" || r.check == "refined-positions") && r.of > 0 &&
-        r.status != Status::kNotRun && r.status != Status::kNotSupported)
-      judged.insert(std::tuple_cat(std::tuple(r.subject), case_of(r)));
+    if ((r.check == "positions" || r.check == "refined-positions") && r.of > 0 && looked_at(r))
+      judged.emplace(r.subject, case_of(r), r.scheme);
   std::vector<Coverage> list;
   for (const Declared& by : question.declared) {
     const std::vector<Cell>& all = cells(by.scheme);
     CellSet looked(all.size());
     for (const CaseCells& c : question.cases)
-      if (c.scheme == by.scheme && judged.contains(std::tuple_cat(std::tuple(by.subject), case_of(c))))
-        add_cells(looked, c.cells);
+      if (c.scheme == by.scheme && judged.contains({by.subject, c.at, c.scheme})) add_cells(looked, c.cells);
     Coverage& coverage = list.emplace_back();
     coverage.subject = by.subject, coverage.scheme = by.scheme;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -100,6 +93,11 @@ std::vector<Coverage> coverage_of(const std::vector<Result>& results, const Cove
     }
   }
   return list;
+}
+
+void add_coverage(Report& report, CoverageQuestion question) {
+  report.coverage = coverage_of(report.results, question);
+  report.cases = std::move(question.cases);
 }
 
 std::string coverage_lines(const Report& report) {

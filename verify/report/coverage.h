@@ -11,13 +11,6 @@
 
 namespace limitcheck::verify {
 
-/// What a case of a report looks at, by what its rows say of it.
-struct CaseCells {
-  std::string mesh, depths, sample;
-  int depth = 0;
-  data::Scheme scheme = data::Scheme::kLoop;
-  CellSet cells;
-};
 /// What a subject declares for a scheme: LC_SHARP_.. and kNeeds.. (cells.h).
 struct Declared {
   std::string subject;
@@ -37,6 +30,8 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
 nlohmann::json coverage_json(const CoverageQuestion& question);
 CoverageQuestion coverage_question(const nlohmann::json& json);
 
+/// Fills in `cases` and `coverage` of a report with all its rows.
+void add_coverage(Report& report, CoverageQuestion question);
 /// For each subject, and scheme that a case is of: a cell counts as looked at where positions were judged.
 std::vector<Coverage> coverage_of(const std::vector<Result>& results, const CoverageQuestion& question);
 

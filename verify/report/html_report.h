@@ -34,4 +34,7 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
 std::string to_html(const Report& report, const std::vector<Cause>& causes,
                     const std::vector<std::optional<ErrorShape>>& shapes, const std::string& level);
 
+/// html/page.html, with %DATA% where the report goes.
+extern const char* const kHtmlPage;
+
 }  // namespace limitcheck::verify

@@ -5,70 +5,157 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
+#include "data/error.h"
 #include "verify/causes/causes.h"
 #include "verify/mesh_output/atomic_file.h"
-#include "verify/report/judged.h"
-#include "verify/row/reproduce.h"
+#include "verify/report/overview.h"
+#include "verify/row/commands.h"
+#include "verify/row/fields.h"
+#include "verify/row/rows.h"
 
 namespace limitcheck::verify {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
-Json finite(const std::optional<double>& x) {
-  return x && std::isfinite(*x) ? Json(*x) : Json(nullptr);
+std::string_view word(data::Scheme scheme) {
+  return data::name_of(scheme);
 }
-Json index(std::int64_t k) {
-  return k >= 0 ? Json(k) : Json(nullptr);
+std::string_view word(lc_precision precision) {
+  return precision == LC_FLOAT32 ? "float" : "double";
 }
-Json text(const std::string& s) {
-  return s.empty() ? Json(nullptr) : Json(s);
+std::string_view word(reference::Weights weights) {
+  return weights == reference::Weights::kWarren ? "warren" : "loop";
 }
+template <class E>
+constexpr E kLast{};
+template <>
+constexpr Status kLast<Status> = Status::kError;
+template <>
+constexpr PlaceKind kLast<PlaceKind> = PlaceKind::kCorner;
+template <>
+constexpr data::Scheme kLast<data::Scheme> = data::Scheme::kCatmullClark;
+template <>
+constexpr lc_precision kLast<lc_precision> = LC_FLOAT64;
+template <>
+constexpr reference::Weights kLast<reference::Weights> = reference::Weights::kWarren;
 
-Json ill_conditioned(const Result& r) {
-  if (!r.ill_conditioned) return nullptr;
-  return {{"count", r.ill_conditioned->count},
-          {"bound", finite(r.ill_conditioned->bound)},
-          {"worst", finite(r.ill_conditioned->worst)}};
-}
-
-Json places(const Result& r) {
-  if (r.places.empty()) return nullptr;
-  Json list = Json::array();
-  for (const PlaceCount& c : r.places)
-    list.push_back({{"where", word(c.kind)},
-                    {"faces", c.faces > 0 ? Json(c.faces) : Json(nullptr)},
-                    {"count", c.bad},
-                    {"of", c.of}});
-  return list;
-}
-
-Json witness(const Result& r, const std::string& level) {
-  const std::optional<Witness>& w = r.witness;
-  if (!w) return nullptr;
-  return {{"face", index(w->face)},
-          {"corner", index(w->corner)},
-          {"l1", text(w->l1)},
-          {"l2", text(w->l2)},
-          {"vertex", index(w->vertex)},
-          {"triangle", index(w->triangle)},
-          {"expected", numbers(w->expected)},
-          {"got", numbers(w->got)},
-          {"expected_digits", w->expected_digits.empty() ? Json(nullptr) : Json(w->expected_digits)},
-          {"command", text(eval_command(r))},
-          {"difference", text(difference_command(r))},
-          {"reproduce", is_bad(r) ? Json(audit_command(r, level)) : Json(nullptr)}};
+double number_of(const Json& json) {
+  return json.is_string() ? std::strtod(json.get_ref<const std::string&>().c_str(), nullptr)
+                          : json.get<double>();
 }
 
-Json recognised(const Result& r) {
-  if (!r.recognised) return nullptr;
-  const auto& [what, scheme, steps, limit, tags] = *r.recognised;
-  return {{"what", what}, {"scheme", scheme}, {"steps", steps}, {"limit", limit}, {"tags", tags}};
+// The number of an enumerator, or its word.
+template <class E>
+E enumerator(const Json& json) {
+  for (int k = 0; k <= static_cast<int>(kLast<E>); ++k)
+    if (json.is_string() ? json.get_ref<const std::string&>() == word(static_cast<E>(k)) : json == k)
+      return static_cast<E>(k);
+  throw data::ArgumentError("no such kind: " + json.dump());
 }
 
-Json changes(const Report& report) {
+template <class T>
+constexpr bool kIsList = false;
+template <class T>
+constexpr bool kIsList<std::vector<T>> = true;
+template <class T>
+constexpr bool kIsOptional = false;
+template <class T>
+constexpr bool kIsOptional<std::optional<T>> = true;
+struct Nothing {
+  template <class Member>
+  void operator()(const char*, Member&) {}
+};
+template <class T>
+constexpr bool kHasFields = requires(T& row) {
+  visit_fields(row, Nothing{});
+};
+
+// As a report has it: what does not apply, or is no number, is null.
+template <class T>
+Ordered shown(const T& x) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    return x.empty() ? Ordered(nullptr) : Ordered(x);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return x;
+  } else if constexpr (std::is_integral_v<T>) {
+    return x >= 0 ? Ordered(x) : Ordered(nullptr);
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return std::isfinite(x) ? Ordered(x) : Ordered(nullptr);
+  } else if constexpr (std::is_enum_v<T>) {
+    return word(x);
+  } else if constexpr (kIsOptional<T>) {
+    return x ? shown(*x) : Ordered(nullptr);
+  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+    return numbers(x);
+  } else if constexpr (kIsList<T>) {
+    if (x.empty()) return nullptr;
+    Ordered list = Ordered::array();
+    for (const auto& element : x) list.push_back(shown(element));
+    return list;
+  } else {
+    Ordered object = Ordered::object();
+    visit_fields(x, [&](const char* name, const auto& member) {
+      if (*name != '\0') object[name] = shown(member);
+    });
+    return object;
+  }
+}
+
+// So that nothing is lost: a row is the array of its fields.
+template <class T>
+Json kept(const T& x) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return number(x);
+  } else if constexpr (std::is_enum_v<T>) {
+    return static_cast<int>(x);
+  } else if constexpr (kIsOptional<T>) {
+    return x ? kept(*x) : Json(nullptr);
+  } else if constexpr (kIsList<T>) {
+    Json list = Json::array();
+    for (const auto& element : x) list.push_back(kept(element));
+    return list;
+  } else if constexpr (kHasFields<T>) {
+    Json list = Json::array();
+    visit_fields(x, [&](const char*, const auto& member) { list.push_back(kept(member)); });
+    return list;
+  } else {
+    return x;
+  }
+}
+
+// Both again: of an object the fields that it has, of an array all.
+template <class T>
+void read(const Json& json, T& x) {
+  if constexpr (std::is_floating_point_v<T>) {
+    x = number_of(json);
+  } else if constexpr (std::is_enum_v<T>) {
+    x = enumerator<T>(json);
+  } else if constexpr (kIsOptional<T>) {
+    x.reset();
+    if (!json.is_null()) read(json, x.emplace());
+  } else if constexpr (kIsList<T>) {
+    x.clear();
+    for (const Json& element : json) read(element, x.emplace_back());
+  } else if constexpr (kHasFields<T>) {
+    std::size_t k = 0;
+    visit_fields(x, [&](const char* name, auto& member) {
+      if (json.is_array())
+        read(json.at(k++), member);
+      else if (const auto field = json.find(name); field != json.end() && !field->is_null())
+        read(*field, member);
+    });
+  } else {
+    json.get_to(x);
+  }
+}
+
+Ordered changes(const Report& report) {
   if (!report.changes) return nullptr;
   const auto& c = *report.changes;
   return {{"baseline", c.baseline}, {"new", c.appeared}, {"worse", c.worse},
@@ -76,8 +163,8 @@ Json changes(const Report& report) {
 }
 
 // The causes, and for each row the number of its cause.
-Json causes_json(const Report& report, const std::string& level, std::vector<int>& cause_of) {
-  Json list = Json::array();
+Ordered causes_json(const Report& report, const std::string& level, std::vector<int>& cause_of) {
+  Ordered list = Ordered::array();
   for (const Cause& c : causes(report)) {
     const int number = static_cast<int>(list.size()) + 1;
     for (const std::size_t k : c.rows) cause_of[k] = number;
@@ -87,7 +174,7 @@ Json causes_json(const Report& report, const std::string& level, std::vector<int
                     {"kind", word(c.kind)},
                     {"severity", c.severity()},
                     {"title", c.title},
-                    {"look", text(c.look)},
+                    {"look", shown(c.look)},
                     {"subjects", c.subjects},
                     {"cases", c.cases},
                     {"of", c.of},
@@ -95,43 +182,57 @@ Json causes_json(const Report& report, const std::string& level, std::vector<int
                     {"consequences", c.consequences},
                     {"mesh", example.mesh},
                     {"depth", example.depth},
-                    {"depths", text(example.depths)},
-                    {"command", text(command_for(report, c, level))}});
+                    {"depths", shown(example.depths)},
+                    {"command", shown(command_for(report, c, level))}});
   }
   return list;
 }
 
-}  // namespace
-
-Json number(double x) {
-  return std::isnan(x) ? Json("nan") : std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x);
+// A row, the number of its cause, and the commands that show its witness.
+Ordered row_json(const Result& r, int cause, const std::string& level) {
+  Ordered row = shown(r), witness = std::move(row["witness"]);
+  row.erase("witness");
+  row["cause"] = shown(cause);
+  if (r.witness) {
+    witness["command"] = shown(eval_command(r));
+    witness["difference"] = shown(difference_command(r));
+    witness["reproduce"] = is_bad(r) ? Ordered(audit_command(r, level)) : Ordered(nullptr);
+  }
+  row["witness"] = std::move(witness);
+  return row;
 }
 
-Json numbers(const std::vector<double>& list) {
+}  // namespace
+
+Ordered number(double x) {
+  return std::isnan(x) ? Ordered("nan") : std::isinf(x) ? Ordered(x > 0 ? "inf" : "-inf") : Ordered(x);
+}
+
+Ordered numbers(const std::vector<double>& list) {
   if (list.empty()) return nullptr;
-  Json out = Json::array();
+  Ordered out = Ordered::array();
   for (const double x : list) out.push_back(number(x));
   return out;
 }
 
 std::string to_json(const Report& report, const std::string& level) {
-  Json out{{"program", "limitcheck audit"},
-           {"version", report.version},
-           {"depth", report.depth},
-           {"depths", report.depths},
-           {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
-           {"sample", text(report.sample)},
-           {"seconds", report.seconds},
-           {"held", report.held()},
-           {"containment", text(report.containment)},
-           {"incomplete", text(report.incomplete)},
-           {"printed", text(report.printed)},
-           {"changes", changes(report)},
-           {"never_judged", Json::array()}};
-  for (const NeverJudged& none : never_judged(report))
+  Ordered out{{"program", "limitcheck audit"},
+              {"version", report.version},
+              {"depth", report.depth},
+              {"depths", report.depths},
+              {"seed", report.seed ? Ordered(*report.seed) : Ordered(nullptr)},
+              {"sample", shown(report.sample)},
+              {"seconds", report.seconds},
+              {"held", report.held()},
+              {"containment", shown(report.containment)},
+              {"incomplete", shown(report.incomplete)},
+              {"printed", shown(report.printed)},
+              {"changes", changes(report)},
+              {"never_judged", Ordered::array()}};
+  for (const Unjudged& none : unjudged(report))
     out["never_judged"].push_back(
-        {{"subject", none.subject}, {"check", none.check}, {"reason", text(none.reason)}});
-  out["coverage"] = Json::array();
+        {{"subject", none.subject}, {"check", none.check}, {"reason", shown(none.reason)}});
+  out["coverage"] = Ordered::array();
   for (const Coverage& c : report.coverage) {
     constexpr std::size_t kNamed = 100;
     const std::vector<std::string> named(
@@ -144,47 +245,48 @@ std::string to_json(const Report& report, const std::string& level) {
                                {"never", named}});
   }
   out["subjects"] = report.subjects;
-  out["meshes"] = Json::array();
-  for (const auto& m : report.meshes)
-    out["meshes"].push_back({{"name", m.name},
-                             {"vertices", m.vertices},
-                             {"faces", m.faces},
-                             {"diagonal", m.diagonal},
-                             {"scheme", data::name_of(m.scheme)},
-                             {"triangulated", text(m.triangulated)}});
+  out["meshes"] = Ordered::array();
+  for (const Report::Mesh& m : report.meshes) out["meshes"].push_back(shown(m));
   std::vector<int> cause_of(report.results.size(), -1);
   out["causes"] = causes_json(report, level, cause_of);
-  out["results"] = Json::array();
-  for (std::size_t k = 0; k < report.results.size(); ++k) {
-    const Result& r = report.results[k];
-    out["results"].push_back({{"subject", r.subject},
-                              {"mesh", r.mesh},
-                              {"depth", r.depth},
-                              {"depths", text(r.depths)},
-                              {"sample", text(r.sample)},
-                              {"scheme", data::name_of(r.scheme)},
-                              {"triangulated", text(r.triangulated)},
-                              {"precision", r.in_float ? "float" : "double"},
-                              {"check", r.check},
-                              {"status", word(r.status)},
-                              {"count", r.bad},
-                              {"of", r.of},
-                              {"worst", finite(r.worst)},
-                              {"bound", finite(r.bound)},
-                              {"unit", text(r.unit)},
-                              {"rms", finite(r.rms)},
-                              {"p99", finite(r.p99)},
-                              {"worst_absolute", finite(r.worst_absolute)},
-                              {"worst_ulps", finite(r.worst_ulps)},
-                              {"ill_conditioned", ill_conditioned(r)},
-                              {"places", places(r)},
-                              {"recognised", recognised(r)},
-                              {"seconds", r.seconds},
-                              {"message", text(r.message)},
-                              {"cause", index(cause_of[k])},
-                              {"witness", witness(r, level)}});
-  }
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  out["results"] = Ordered::array();
+  for (std::size_t k = 0; k < report.results.size(); ++k)
+    out["results"].push_back(row_json(report.results[k], cause_of[k], level));
+  return out.dump(1, ' ', false, Ordered::error_handler_t::replace) + "\n";
+}
+
+Result reported_row(const Json& json) {
+  Result row;
+  read(json, row);
+  row.check = current_name(row.check);
+  return row;
+}
+
+Json rows_json(const std::vector<Result>& rows) {
+  return kept(rows);
+}
+
+std::vector<Result> rows_of(const Json& json) {
+  std::vector<Result> rows;
+  for (const Json& row : json) rows.push_back(reported_row(row));
+  return rows;
+}
+
+Json header_json(const Report& report) {
+  return {{"version", report.version},   {"depth", report.depth},
+          {"depths", report.depths},     {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
+          {"sample", report.sample},     {"meshes", kept(report.meshes)},
+          {"subjects", report.subjects}, {"descriptions", report.descriptions}};
+}
+
+Report header_of(const Json& json) {
+  Report report;
+  json.at("version").get_to(report.version), json.at("depth").get_to(report.depth);
+  json.at("depths").get_to(report.depths), json.at("sample").get_to(report.sample);
+  if (!json.at("seed").is_null()) report.seed = json.at("seed").get<std::uint64_t>();
+  read(json.at("meshes"), report.meshes);
+  json.at("subjects").get_to(report.subjects), json.at("descriptions").get_to(report.descriptions);
+  return report;
 }
 
 void write_text(const std::filesystem::path& file, const std::string& content) {

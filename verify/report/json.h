@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report of an audit as JSON.
+// The report of an audit as JSON, and its rows as JSON that loses nothing.
 #pragma once
 
 #include <filesystem>
@@ -19,6 +19,16 @@ namespace limitcheck::verify {
 /// verify/report/schema/audit.schema.json.
 ///   level   of the audit, for the commands that repeat it
 std::string to_json(const Report& report, const std::string& level = "standard");
+/// A row of `results` again, as far as it has it: what is missing is as in an empty row. Throws
+/// nlohmann::json::exception: a value is of another type; data::ArgumentError: a word means nothing.
+Result reported_row(const nlohmann::json& row);
+
+/// Rows to go on with and to merge: nothing is lost. Reading throws as reported_row().
+nlohmann::json rows_json(const std::vector<Result>& rows);
+std::vector<Result> rows_of(const nlohmann::json& json);
+/// What a report says before its first row: version, depths, meshes, subjects.
+nlohmann::json header_json(const Report& report);
+Report header_of(const nlohmann::json& json);
 
 /// JSON has no NaN and no infinity: these are the words "nan", "inf", "-inf".
 nlohmann::ordered_json number(double x);

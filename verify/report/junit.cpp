@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "verify/row/case_names.h"
-#include "verify/row/reproduce.h"
+#include "verify/row/commands.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -50,28 +49,19 @@ std::string outcome(const Result& r) {
 
 std::string xml_text(const std::string& text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-      case '\t':
-        out += ' ';
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20) out += c;
-    }
-  }
+  for (const char c : text)
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\n' || c == '\t')
+      out += ' ';
+    else if (static_cast<unsigned char>(c) >= 0x20)
+      out += c;
   return out;
 }
 

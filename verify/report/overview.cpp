@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "verify/report/coverage.h"
-#include "verify/report/judged.h"
 #include "verify/report/table.h"
-#include "verify/row/case_names.h"
+#include "verify/row/commands.h"
+#include "verify/row/rows.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -58,20 +58,17 @@ std::string one_line(const Cause& cause, std::size_t number, bool colour) {
 }  // namespace
 
 const std::vector<CheckGroup>& check_groups() {
-  static const std::vector<CheckGroup> groups{
-      {"delivers", {"tessellates", "written"}},
-      {"finite", {"finite"}},
-      {"positions", {"positions", "refined-positions", "recognised"}},
-      {"normals", {"normals", "normal-length", "normals-against-positions"}},
-      {"tiling", {"orientation", "coverage", "t-vertices"}},
-      {"seams", {"shared-positions", "shared-normals", "continuity", "watertight"}},
-      {"order",
-       {"determinism", "face-order", "vertex-order", "corner-rotation", "mirror", "rotation", "translation",
-        "crease-order", "infinite-sharpness", "boundary-crease", "cut-by-hand", "fractional-sharpness",
-        "state"}},
-      {"tiny,huge", {"scaling"}},
-      {"degenerate", {"degenerate-geometry"}},
-      {"bad input", {"rejected-inputs"}}};
+  static const std::vector<CheckGroup> groups = [] {
+    std::vector<CheckGroup> all;
+    for (const RowKind& row : row_kinds()) {
+      if (row.group.empty()) continue;
+      auto group =
+          std::find_if(all.begin(), all.end(), [&](const CheckGroup& g) { return g.title == row.group; });
+      if (group == all.end()) group = all.insert(all.end(), {row.group, {}});
+      group->checks.push_back(row.check);
+    }
+    return all;
+  }();
   return groups;
 }
 
@@ -81,15 +78,14 @@ std::string GroupVerdict::text() const {
 }
 
 GroupVerdict verdict_of(const Report& report, const std::string& subject, const CheckGroup& group) {
-  std::set<std::tuple<std::string, int, std::string, std::string>> bad, looked;
+  std::set<Case> bad, looked;
   GroupVerdict v;
   for (const Result& r : report.results) {
     if (r.subject != subject ||
         std::find(group.checks.begin(), group.checks.end(), r.check) == group.checks.end())
       continue;
-    const std::tuple key(r.mesh, r.depth, r.depths, r.sample);
-    if (r.status != Status::kNotSupported && r.status != Status::kNotRun) looked.insert(key);
-    if (is_bad(r)) bad.insert(key);
+    if (looked_at(r)) looked.insert(case_of(r));
+    if (is_bad(r)) bad.insert(case_of(r));
     v.waived = v.waived || r.status == Status::kWaived;
     v.stale = v.stale || r.status == Status::kUnexpectedPass;
     v.warning = v.warning || r.status == Status::kQualityWarning;
@@ -127,9 +123,8 @@ std::string waiver_lines(const Report& report) {
     if (r.check == "waiver") out += r.message + "\n";
     if (r.status != Status::kWaived && r.status != Status::kUnexpectedPass) continue;
     const char* what = r.status == Status::kWaived ? "waived" : "stale waiver";
-    const std::size_t until = r.message.find("waived until");
     auto& [count, first] = groups[{what, fmt::format("{} / {}", r.subject, r.check)}];
-    if (++count == 1) first = until == std::string::npos ? r.message : r.message.substr(until);
+    if (++count == 1) first = r.waiver;
   }
   for (const auto& [key, group] : groups)
     out += fmt::format("{}: {}, {} case{}: {}\n", key.first, key.second, group.first,
@@ -148,7 +143,7 @@ std::string summary(const Report& report) {
       fmt::format("{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
                   noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
   out += coverage_lines(report);
-  for (const NeverJudged& none : never_judged(report)) out += none.text() + "\n";
+  for (const Unjudged& none : unjudged(report)) out += none.text() + "\n";
   if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
   return out;
 }
@@ -216,6 +211,45 @@ std::string causes_in_full(const Report& report, const std::vector<Cause>& cause
     out += "\n";
   }
   return out;
+}
+
+std::string Unjudged::text() const {
+  return fmt::format("{} of {} {} never judged{}{}", check, subject, check.ends_with('s') ? "were" : "was",
+                     reason.empty() ? "" : ": ", reason);
+}
+
+std::vector<Unjudged> unjudged(const Report& report, const std::vector<std::string>& checks) {
+  std::vector<Unjudged> missing;
+  for (const std::string& subject : report.subjects)
+    for (const std::string& check : checks) {
+      Unjudged none{subject, check, "", false};
+      bool judged = false;
+      for (const Result& r : report.results) {
+        if (r.subject != subject || r.check != check) continue;
+        judged = judged || looked_at(r);
+        if (none.reason.empty() && !r.message.empty())
+          none.reason = r.message, none.not_asked = r.status == Status::kNotSupported && r.of == 0;
+      }
+      if (!judged) missing.push_back(std::move(none));
+    }
+  return missing;
+}
+
+std::vector<Unjudged> unjudged(const Report& report) {
+  std::vector<Unjudged> missing = unjudged(report, {"positions", "normals", "rejected-inputs"});
+  std::erase_if(missing, [&](const Unjudged& none) {
+    if (none.check == "rejected-inputs") return !none.not_asked;
+    const auto any = [&](const auto& of) {
+      return std::any_of(report.results.begin(), report.results.end(),
+                         [&](const Result& r) { return r.subject == none.subject && of(r); });
+    };
+    // What it tessellates nothing of, because it does not do the scheme, the table says.
+    return !any([&](const Result& r) { return r.check == none.check; }) ||
+           !any([&](const Result& r) { return r.check == "tessellates" && looked_at(r); }) ||
+           (none.check == "positions" &&
+            any([](const Result& r) { return r.check == "refined-positions" && looked_at(r); }));
+  });
+  return missing;
 }
 
 }  // namespace limitcheck::verify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report on one screen.
+// The report on one screen, and what it does not say: checks that looked at nothing.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct CheckGroup {
   std::string_view title;
   std::vector<std::string_view> checks;
 };
-/// Each row of the audit of subjects is in exactly one.
+/// As the table of rows has them (row/rows.h).
 const std::vector<CheckGroup>& check_groups();
 
 /// How the rows of one subject in one group came out.
@@ -52,5 +52,22 @@ std::string to_overview(const Report& report, const std::vector<Cause>& causes, 
 
 /// The causes in full: title, where to look, how often, what follows from it, the command.
 std::string causes_in_full(const Report& report, const std::vector<Cause>& causes, const std::string& level);
+
+struct Unjudged {
+  std::string subject, check;
+  std::string reason;      // the first that a row gives; may be empty
+  bool not_asked = false;  // the row of the reason says that the subject is not asked
+
+  /// "normals of cgal were never judged: it delivers none".
+  std::string text() const;
+};
+
+/// For each subject those of `checks` that looked at nothing on any mesh.
+std::vector<Unjudged> unjudged(const Report& report, const std::vector<std::string>& checks);
+
+/// The same for positions (of the limit surface or of the refined mesh) and normals, of subjects that have
+/// rows of these names, and for broken meshes, of subjects that are not asked because they do not validate;
+/// rows of tessellation files have other names.
+std::vector<Unjudged> unjudged(const Report& report);
 
 }  // namespace limitcheck::verify

@@ -2,6 +2,7 @@
 // Table and JSON.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -10,7 +11,7 @@
 
 #include "verify/report/json.h"
 #include "verify/report/table.h"
-#include "verify/row/reproduce.h"
+#include "verify/row/commands.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -128,6 +129,41 @@ TEST(Json, HasTheStableKeys) {
   EXPECT_EQ(row["witness"]["l1"], "3/8");
   EXPECT_EQ(row["witness"]["got"][1], "nan");
   EXPECT_TRUE(json["results"][0]["witness"].is_null());
+}
+
+// A part of a report loses nothing; a report is read as far as it has it.
+TEST(Json, RowsAreReadAsTheyWereWritten) {
+  Result r = example().results.back();
+  r.depths = "random:1", r.sample = "9:1", r.triangulated = "fan";
+  r.precision = LC_FLOAT32, r.scheme = data::Scheme::kCatmullClark, r.weights = reference::Weights::kWarren;
+  r.worst_absolute = .5, r.worst_ulps = std::numeric_limits<double>::infinity();
+  r.ill_conditioned = {7, .25, .125};
+  r.witness->corner = 3, r.witness->expected_digits = {"0.1", "0.2"};
+  r.message = "one", r.accepted = {"two"}, r.not_finite = 3, r.waiver = "four";
+  r.places = {{PlaceKind::kBoundaryVertex, 4, 1, 2}, {PlaceKind::kCorner, -1, 0, 1}};
+  r.decades = {0, 5}, r.seconds = 1.5;
+  r.recognised = {"what", "loop", 2, true, false};
+  const auto json = rows_json({r});
+  const Result again = rows_of(nlohmann::json::parse(json.dump())).at(0);
+  EXPECT_EQ(rows_json({again}), json);
+  EXPECT_EQ(again.weights, reference::Weights::kWarren);
+  EXPECT_TRUE(std::isnan(again.witness->got[1]));
+
+  Report report = example();
+  report.results.back() = r;
+  auto reported = nlohmann::json::parse(to_json(report))["results"][3];
+  Result kept = reported_row(reported);
+  EXPECT_EQ(kept.weights, reference::Weights::kLoop) << "a report does not have it";
+  EXPECT_FALSE(kept.worst_ulps) << "no number";
+  kept.weights = r.weights, kept.decades = r.decades, kept.accepted = r.accepted;
+  kept.not_finite = r.not_finite, kept.waiver = r.waiver, kept.worst_ulps = r.worst_ulps;
+  EXPECT_EQ(rows_json({kept}), json);
+  reported["status"] = "fynding";
+  EXPECT_THROW(reported_row(reported), std::exception);
+  auto altered = json;
+  for (auto& field : altered[0])
+    if (field == static_cast<int>(Status::kFinding)) field = 99;
+  EXPECT_THROW(rows_of(altered), std::exception);
 }
 
 TEST(Json, IsWrittenWholeOrNotAtAll) {

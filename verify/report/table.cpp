@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "verify/report/overview.h"
-#include "verify/row/case_names.h"
-#include "verify/row/reproduce.h"
+#include "verify/row/commands.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -26,30 +25,24 @@ struct Line {
   std::int64_t bad_meshes = 0, looked_at = 0;
 };
 
+// How a status is shown.
+struct StatusWords {
+  const char* verdict;
+  int rank;  // of findings before rows that held
+  const char* colour;
+};
+const StatusWords& words_of(Status status) {
+  static constexpr StatusWords kWords[] = {
+      {"held", 2, "32"},        {"FINDING", 4, "31"},      {"warning", 3, "2"}, {"waived", 3, "2"},
+      {"STALE WAIVER", 3, "2"}, {"not supported", 1, "2"}, {"not run", 0, "2"}, {"CRASH", 5, "1;31"},
+      {"TIMEOUT", 5, "1;31"},   {"ERROR", 5, "1;31"}};
+  return kWords[static_cast<std::size_t>(status)];
+}
+
 // Whether x is worse than y: findings before rows that held, then by the worst value in units of its bound;
 // for bound 0, and for equal values, by the share of bad elements.
 bool worse(const Result& a, const Result& b) {
-  const auto rank = [](const Result& r) {
-    switch (r.status) {
-      case Status::kCrash:
-      case Status::kTimeout:
-      case Status::kError:
-        return 4.;
-      case Status::kFinding:
-        return 3.;
-      case Status::kUnexpectedPass:
-      case Status::kQualityWarning:
-      case Status::kWaived:
-        return 2.5;
-      case Status::kHeld:
-        return 2.;
-      case Status::kNotSupported:
-        return 1.;
-      case Status::kNotRun:
-        return 0.;
-    }
-    return 0.;
-  };
+  const auto rank = [](const Result& r) { return words_of(r.status).rank; };
   if (rank(a) != rank(b)) return rank(a) > rank(b);
   const auto excess = [](const Result& r) {
     if (r.bound == 0) return 0.0;
@@ -71,36 +64,10 @@ std::vector<Line> lines_of(const Report& report, const std::string& subject) {
     if (line == lines.end()) line = lines.insert(lines.end(), Line{r.check, {}, nullptr, 0, 0});
     line->results.push_back(&r);
     line->bad_meshes += is_bad(r);
-    line->looked_at += r.status != Status::kNotSupported && r.status != Status::kNotRun;
+    line->looked_at += looked_at(r);
     if (line->shown == nullptr || worse(r, *line->shown)) line->shown = &r;
   }
   return lines;
-}
-
-const char* verdict(Status status) {
-  switch (status) {
-    case Status::kHeld:
-      return "held";
-    case Status::kFinding:
-      return "FINDING";
-    case Status::kQualityWarning:
-      return "warning";
-    case Status::kWaived:
-      return "waived";
-    case Status::kUnexpectedPass:
-      return "STALE WAIVER";
-    case Status::kNotSupported:
-      return "not supported";
-    case Status::kNotRun:
-      return "not run";
-    case Status::kCrash:
-      return "CRASH";
-    case Status::kTimeout:
-      return "TIMEOUT";
-    case Status::kError:
-      return "ERROR";
-  }
-  return "ERROR";
 }
 
 bool is_breakdown(Status status) {
@@ -108,13 +75,9 @@ bool is_breakdown(Status status) {
 }
 
 std::string painted(Status status, bool colour) {
-  const std::string padded = fmt::format("{:<14}", verdict(status));
-  if (!colour) return padded;
-  const char* code = status == Status::kHeld      ? "32"
-                     : status == Status::kFinding ? "31"
-                     : is_breakdown(status)       ? "1;31"
-                                                  : "2";
-  return fmt::format("\033[{}m{}\033[0m", code, padded);
+  const auto& [verdict, rank, code] = words_of(status);
+  const std::string padded = fmt::format("{:<14}", verdict);
+  return colour ? fmt::format("\033[{}m{}\033[0m", code, padded) : padded;
 }
 
 std::string amount(const std::optional<double>& x) {

@@ -11,8 +11,7 @@
 #include "reference/surface/certified.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/report/json.h"
-#include "verify/row/case_names.h"
-#include "verify/row/reproduce.h"
+#include "verify/row/commands.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -30,7 +29,7 @@ std::string plain(const std::string& text) {
 
 // The limit surface at the witness, on the mesh as the subject gets it.
 void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
-  if (r.in_float)
+  if (r.precision == LC_FLOAT32)
     for (auto& p : mesh.positions)
       for (double& x : p) x = static_cast<double>(static_cast<float>(x));
   constexpr int kDigits = 40;
@@ -94,7 +93,7 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
             {"mesh", result.mesh},
             {"control", "control.obj"},
             {"scheme", data::name_of(result.scheme)},
-            {"precision", result.in_float ? "float" : "double"},
+            {"precision", result.precision == LC_FLOAT32 ? "float" : "double"},
             {"count", result.bad},
             {"of", result.of},
             {"worst", result.worst && std::isfinite(*result.worst) ? Json(*result.worst) : Json(nullptr)},

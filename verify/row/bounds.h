@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "verify/subject/subject.h"
 
@@ -28,17 +29,36 @@ inline double unit_of_length(double diagonal, double magnitude) {
   return diagonal > 0 ? diagonal : magnitude > 0 ? magnitude : 1;
 }
 
+/// Of sums of so many terms: the vertex of valence 32 of Loop's scheme, of 16 of Catmull-Clark's.
+inline constexpr std::int64_t kOrdinaryTerms = 33;
+
+/// How many roundings of size u M a step may add to each coordinate (M = largest coordinate), where its longest
+/// sum has so many terms.
+///
+/// A new point is a sum of products w_k p_k with weights that add up to 1, none below 0. Rounding a weight and
+/// its product makes at most 2 u w_k M, of all of them 2 u M. Each of the terms - 1 additions rounds a partial
+/// sum, which is no larger than M, and so makes at most u M, in whatever order: together (terms + 1) u M, to the
+/// first order in u. An order and numbers are easily found that reach terms * u M (bounds_test.cpp).
+///
+/// An ordinary stencil has 3 to 7 terms, which is eight roundings. Of longer sums up to kOrdinaryTerms errors do
+/// not all go one way at each of the steps: measured, eight are enough for them, too.
+inline std::int64_t roundings(std::int64_t terms) {
+  return terms <= kOrdinaryTerms ? 8 : terms + 1;
+}
+
 /// How far a position may be from the exact one, in fractions of the bounding-box diagonal.
 ///
 /// Every point of a subdivision is a convex combination of the level before: errors are not amplified, each
-/// level and the limit mask add their own roundings. Eight roundings of size u * M in each coordinate at each
-/// of depth + 2 steps (M = largest coordinate; an ordinary stencil has 3 to 7 terms), three coordinates:
-///     sqrt(3) * 8 (depth + 2) u M.
-/// At depth 5 on a bumpy sphere (M = 0.3 diagonals) this is 1.7e-6 in float; the good subjects reach 1e-7,
-/// the smallest fault in a mask that anybody would make is 1e-4. In double the reference itself, judged
-/// against 50 digits, is the limit: never less than 1e-14.
-inline double position_bound(lc_precision precision, int depth, double magnitude, double diagonal) {
-  const double rounding = std::sqrt(3.0) * 8 * (depth + 2) * unit_roundoff(precision) * magnitude / diagonal;
+/// level and the limit mask add their own roundings, at depth + 2 steps, in three coordinates:
+///     sqrt(3) * roundings (depth + 2) u M.
+/// With eight roundings, at depth 5 on a bumpy sphere (M = 0.3 diagonals) this is 1.7e-6 in float; the good
+/// subjects reach 1e-7, the smallest fault in a mask that anybody would make is 1e-4. In double the reference
+/// itself, judged against 50 digits, is the limit: never less than 1e-14.
+///   terms   of the longest sum of the place: ReferenceSurface::terms_at()
+inline double position_bound(lc_precision precision, int depth, double magnitude, double diagonal,
+                             std::int64_t terms = kOrdinaryTerms) {
+  const double rounding = std::sqrt(3.0) * static_cast<double>(roundings(terms)) * (depth + 2) *
+                          unit_roundoff(precision) * magnitude / diagonal;
   return precision == LC_FLOAT32 ? rounding : std::max(rounding, 1e-14);
 }
 

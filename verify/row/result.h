@@ -3,16 +3,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "data/scheme.h"
 #include "reference/loop/masks.h"
-#include "verify/row/places.h"
+#include "verify/subject/subject.h"
 
 namespace limitcheck::verify {
 
@@ -33,6 +35,49 @@ enum class Status {
 /// "timeout", "error": stable.
 std::string_view word(Status status);
 
+/// What kind of place of a control mesh a point lies at, as far as the rules of subdivision tell places apart,
+/// from the most ordinary to the most special. A point on an edge counts to the more special of its faces.
+enum class PlaceKind : std::uint8_t {
+  kRegularFace,          // inside a face (or on its edges) none of whose vertices is any of those below
+  kBoundaryFace,         // .. that touches the boundary
+  kIrregularFace,        // .. at an extraordinary vertex, or no quad of Catmull-Clark's scheme
+  kSharpFace,            // .. at a sharp edge or vertex
+  kSharpEdge,            // on a sharp edge
+  kRegularVertex,        // a control vertex inside the mesh, of valence 6 (Loop) or 4
+  kExtraordinaryVertex,  // of any other valence
+  kPolygonVertex,        // Catmull-Clark: inside the mesh, at a face that is no quad
+  kBoundaryVertex,       // on the boundary
+  kDart,                 // where one sharp edge ends
+  kCrease,               // between two sharp edges
+  kCorner                // three and more sharp edges, or a sharp vertex
+};
+
+/// How many of the points at one kind of place were wrong, of how many looked at.
+///   faces   around the vertex, for kExtraordinaryVertex and kBoundaryVertex; otherwise -1
+struct PlaceCount {
+  PlaceKind kind = PlaceKind::kRegularFace;
+  std::int32_t faces = -1;
+  std::int64_t bad = 0, of = 0;
+};
+
+inline bool is_vertex(PlaceKind kind) {
+  return kind >= PlaceKind::kRegularVertex;
+}
+
+/// "boundary-vertex": stable, for the report's JSON.
+std::string_view word(PlaceKind kind);
+
+/// Adds counts of one list to another; both are ascending by kind and faces.
+void add(std::vector<PlaceCount>& to, const std::vector<PlaceCount>& counts);
+
+/// Whether something is wrong inside regular faces.
+bool is_everywhere(const std::vector<PlaceCount>& counts);
+
+/// The places with something wrong, in words that follow "only": "at boundary vertices of 4 or more faces", and
+/// that nothing regular was looked at, if so; empty if nothing is wrong. Where is_everywhere(): "everywhere, in
+/// regular faces, too".
+std::string where_wrong(const std::vector<PlaceCount>& counts);
+
 /// Where to look. Whatever does not apply is -1 or empty.
 struct Witness {
   std::int64_t face = -1;      // control face, from 0 in file order
@@ -43,6 +88,11 @@ struct Witness {
   std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
   int corner = -1;  // of a face that is cut into quads, the one whose quad l1 and l2 are of
 
+  /// What should have come, and what came.
+  void show(const std::array<double, 3>& what, const std::array<double, 3>& instead) {
+    expected.assign(what.begin(), what.end());
+    got.assign(instead.begin(), instead.end());
+  }
   /// "FACE" or, of a face that is cut into quads, "FACE:CORNER": as `limitcheck eval` takes it.
   std::string where() const {
     return std::to_string(face) + (corner < 0 ? "" : ":" + std::to_string(corner));
@@ -71,7 +121,7 @@ struct Result {
   std::string subject, mesh, check;
   int depth = 0;               // of the deepest face
   std::string depths, sample;  // how the depths were chosen, and "FACES:SEED": as --depths, --sample take it
-  bool in_float = false;  // the subject works in float: expected values are those of the mesh rounded to it
+  lc_precision precision = LC_FLOAT64;  // of the subject: expected values are those of the mesh rounded to it
   data::Scheme scheme = data::Scheme::kLoop;
   std::string
       triangulated;  // how larger faces of the mesh were cut, as --triangulate takes it; empty: they were not
@@ -84,7 +134,10 @@ struct Result {
   std::optional<double> worst_ulps;      // ... and in units in the last place of the subject's precision
   std::optional<IllConditioned> ill_conditioned;  // normals: if there are any
   std::optional<Witness> witness;
-  std::string message;  // one sentence, may be empty
+  std::string message;  // sentences for who reads it; nothing looks for words in them. May be empty
+  std::vector<std::string> accepted;  // of broken meshes: what was wrong with those that it took
+  std::int64_t not_finite = 0;        // points left out for it; of relations, that are finite in the original
+  std::string waiver;                 // what became of it by a waiver: "waived until 2027-01-31: known"
   /// Of findings in positions and normals: where on the control mesh they are, ascending by kind and faces.
   std::vector<PlaceCount> places;
   /// Positions and normals: how many errors there are of each power of ten (statistics.h).
@@ -98,6 +151,18 @@ inline bool is_bad(const Result& r) {
   return r.status == Status::kFinding || r.status == Status::kCrash || r.status == Status::kTimeout ||
          r.status == Status::kError;
 }
+inline bool looked_at(const Result& r) {
+  return r.status != Status::kNotSupported && r.status != Status::kNotRun;
+}
+
+/// What a row looks at: a mesh at its depths.
+using Case = std::tuple<std::string, int, std::string, std::string>;
+inline Case case_of(const Result& r) {
+  return {r.mesh, r.depth, r.depths, r.sample};
+}
+
+/// Adds a sentence, if there is one, to what a row says.
+void say(Result& row, const std::string& sentence);
 
 /// The status that the numbers of a row give, whatever status it says: for rows that were stored, to be held
 /// against that. Deterministic, of this row alone.
@@ -119,6 +184,13 @@ struct Coverage {
   std::int64_t declared() const { return looked + static_cast<std::int64_t>(never.size()); }
 };
 
+/// The kinds of neighbourhood that a case looks at: element k, whether cells(scheme)[k] (evidence/cells.h).
+struct CaseCells {
+  Case at;
+  data::Scheme scheme = data::Scheme::kLoop;
+  std::vector<bool> cells;
+};
+
 /// What the audit was run on and with: the header of table and JSON.
 struct Report {
   struct Mesh {
@@ -138,7 +210,8 @@ struct Report {
   std::vector<std::string> subjects;
   std::map<std::string, std::string> descriptions;  // of subjects, by their label: "OpenSubdiv 3.5 Far: ..."
   std::vector<Result> results;
-  std::vector<Coverage> coverage;  // of audits of subjects
+  std::vector<Coverage> coverage;  // of audits of subjects ...
+  std::vector<CaseCells> cases;    // ... and what it is made of
   double seconds = 0;
   std::string containment;  // how the processes of isolated subjects were held; empty: there were none
   std::string printed;      // by the subjects, on standard output and standard error
@@ -153,17 +226,11 @@ struct Report {
   std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
-  bool looked() const {
-    return std::any_of(results.begin(), results.end(), [](const Result& r) {
-      return r.status != Status::kNotSupported && r.status != Status::kNotRun;
-    });
-  }
+  bool looked() const { return std::any_of(results.begin(), results.end(), looked_at); }
   bool held() const {
     if (!incomplete.empty()) return false;
     if (changes) return changes->appeared + changes->worse == 0;
-    for (const Result& r : results)
-      if (is_bad(r)) return false;
-    return true;
+    return std::none_of(results.begin(), results.end(), is_bad);
   }
 };
 

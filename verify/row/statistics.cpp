@@ -44,13 +44,17 @@ std::vector<std::int64_t> decades(const std::vector<double>& errors) {
   return counts;
 }
 
+void settle(Result& row) {
+  row.status = row.bad > 0 ? Status::kFinding : row.of == 0 ? Status::kNotRun : Status::kHeld;
+}
+
 void take(Result& row, const Statistics& statistics) {
   row.bad = statistics.bad;
   row.of = statistics.of;
   row.worst = statistics.worst;
   row.rms = statistics.rms;
   row.p99 = statistics.p99;
-  row.status = statistics.of == 0 ? Status::kNotRun : statistics.bad > 0 ? Status::kFinding : Status::kHeld;
+  settle(row);
 }
 
 }  // namespace limitcheck::verify

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+// What a row measures: errors, and the time that it took to look.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -28,7 +30,21 @@ Statistics summarise(const std::vector<double>& errors, double bound);
 inline constexpr int kDecades = 21, kFirstDecade = -17;
 std::vector<std::int64_t> decades(const std::vector<double>& errors);
 
+/// The status of a row by its counts: not run if nothing was looked at.
+void settle(Result& row);
+
 /// Counts, worst, rms and p99 into a row, and its status: not run if nothing was looked at.
 void take(Result& row, const Statistics& statistics);
+
+/// Seconds since it was made.
+class Clock {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace limitcheck::verify

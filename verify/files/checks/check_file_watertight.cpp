@@ -286,6 +286,7 @@ std::vector<Result> check_file_watertight(const FileEvidence& e) {
     say(r, fmt::format("{} {}", count, what), ", ");
   };
   part(static_cast<std::int64_t>(cracks.size()), "open edges that are no boundary");
+  r.not_finite = report.degenerate_triangles;
   part(report.degenerate_triangles, "triangles with a corner that is not finite");
   part(report.duplicate_triangles, "duplicate triangles");
   part(report.crowded_edges, "edges of three or more triangles");

@@ -13,8 +13,7 @@
 
 #include "data/triangulate.h"
 #include "data/validate.h"
-#include "verify/recognise/likeness.h"
-#include "verify/recognise/schemes.h"
+#include "verify/recognise/guessed_rule.h"
 #include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
@@ -52,26 +51,29 @@ struct Cages {
       : cut{control.positions, data::triangulate(control, data::Triangulation::kFan).faces,
             control.sharpness},
         whole(control) {}
-  bool has(Scheme scheme) const {
-    return scheme == Scheme::kCatmullClark || whole.faces.are_triangles() ||
+  bool has(GuessedRule scheme) const {
+    return scheme == GuessedRule::kCatmullClark || whole.faces.are_triangles() ||
            data::validate(cut, data::Scheme::kLoop).empty();
   }
-  const data::ControlMesh& of(Scheme scheme) const { return scheme == Scheme::kCatmullClark ? whole : cut; }
+  const data::ControlMesh& of(GuessedRule scheme) const {
+    return scheme == GuessedRule::kCatmullClark ? whole : cut;
+  }
   // Vertices after so many steps, about: half as many as triangles, or as many as quads.
-  double vertices_after(Scheme scheme, int steps) const {
+  double vertices_after(GuessedRule scheme, int steps) const {
     const data::ControlMesh& mesh = of(scheme);
     const double growth = std::pow(4, steps);
-    return scheme == Scheme::kCatmullClark ? .25 * (growth * static_cast<double>(mesh.faces.corners().size()))
-                                           : .5 * (growth * static_cast<double>(mesh.faces.size()));
+    return scheme == GuessedRule::kCatmullClark
+               ? .25 * (growth * static_cast<double>(mesh.faces.corners().size()))
+               : .5 * (growth * static_cast<double>(mesh.faces.size()));
   }
 };
 
 // The scheme that the file is judged by, and what it is called.
-Scheme own_scheme(const FileEvidence& e) {
-  return e.scheme() == data::Scheme::kLoop ? Scheme::kLoop : Scheme::kCatmullClark;
+GuessedRule own_scheme(const FileEvidence& e) {
+  return e.scheme() == data::Scheme::kLoop ? GuessedRule::kLoop : GuessedRule::kCatmullClark;
 }
-const char* owner(Scheme scheme) {
-  return scheme == Scheme::kLoop ? "Loop" : "Catmull and Clark";
+const char* owner(GuessedRule scheme) {
+  return scheme == GuessedRule::kLoop ? "Loop" : "Catmull and Clark";
 }
 
 // The stride with which about kSample elements of a list are taken.
@@ -102,7 +104,7 @@ Sampled sample(const FileEvidence& e) {
 }
 
 struct Guess {
-  Scheme scheme;
+  GuessedRule scheme;
   int steps;
   bool limit, tags;         // tags: with the sharp edges and vertices of the control mesh
   std::vector<double> off;  // of the sample from its points
@@ -139,18 +141,19 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   const Cages cages(e.control);
   const data::ControlMesh smooth = without_tags(e.control);
   const Cages smooth_cages(smooth);
-  const Scheme own = own_scheme(e);
+  const GuessedRule own = own_scheme(e);
   const auto have = static_cast<double>(sampled.placed.size());
   const auto unlike = [&](int steps) { return std::abs(std::log(cages.vertices_after(own, steps) / have)); };
-  for (const Scheme scheme : {Scheme::kLoop, Scheme::kWarren, Scheme::kLinear, Scheme::kCatmullClark}) {
+  for (const GuessedRule scheme :
+       {GuessedRule::kLoop, GuessedRule::kWarren, GuessedRule::kLinear, GuessedRule::kCatmullClark}) {
     if (!cages.has(scheme)) continue;
     for (int steps = 0; steps <= 7; ++steps) {
       const double count = cages.vertices_after(scheme, steps);
       if (count > 3 * have + 100 || count < have / 8 || count > 2e6) continue;
       for (const auto& [limit, tags] :
            {std::pair{false, true}, std::pair{true, true}, std::pair{false, false}, std::pair{true, false}}) {
-        if (limit && ((scheme == own && tags) || scheme == Scheme::kLinear || steps == 0)) continue;
-        if (!tags && (e.control.sharpness.empty() || scheme == Scheme::kLinear)) continue;
+        if (limit && ((scheme == own && tags) || scheme == GuessedRule::kLinear || steps == 0)) continue;
+        if (!tags && (e.control.sharpness.empty() || scheme == GuessedRule::kLinear)) continue;
         const auto cloud = scheme_points((tags ? cages : smooth_cages).of(scheme), scheme, steps, limit);
         guesses.all.push_back({scheme, steps, limit, tags, {}});
         for (const Nearest& n : nearest(sampled.points, cloud)) guesses.all.back().off.push_back(n.distance);
@@ -162,17 +165,17 @@ Guesses guess(const FileEvidence& e, const Sampled& sampled) {
   return guesses;
 }
 
-const char* remark(Scheme scheme, bool tags, Scheme own) {
+const char* remark(GuessedRule scheme, bool tags, GuessedRule own) {
   if (!tags) return "; its sharp edges and vertices were not taken as sharp";
   if (scheme == own) return "; what is missing is the last step, the limit mask";
   switch (scheme) {
-    case Scheme::kLoop:
+    case GuessedRule::kLoop:
       return "; this is not Catmull-Clark subdivision at all: the faces were cut into triangles first";
-    case Scheme::kWarren:
+    case GuessedRule::kWarren:
       return "; Warren's is another surface";
-    case Scheme::kCatmullClark:
+    case GuessedRule::kCatmullClark:
       return "; this is not Loop subdivision at all: more steps bring it no nearer";
-    case Scheme::kLinear:
+    case GuessedRule::kLinear:
       break;
   }
   return "; nothing was subdivided";
@@ -250,7 +253,7 @@ Diagnosis diagnose(const FileEvidence& e) {
   if (sampled.points.empty()) return {};
   const double size = e.surface.diagonal();
   const auto [guesses, refined] = guess(e, sampled);
-  const Scheme own = own_scheme(e);
+  const GuessedRule own = own_scheme(e);
   // As all coordinates were written; or all but some, which may be those of wrong points; or in few digits.
   const std::vector<Vector>& points = e.tessellation.positions;
   for (const Written& how : {written(points), written(points, .05), written(points, .05, true)}) {
@@ -279,7 +282,7 @@ Diagnosis diagnose(const FileEvidence& e) {
   }
   std::vector<std::string> told;
   const auto& t = e.tessellation;
-  if (own == Scheme::kLoop && 2 * t.quads > t.polygons)
+  if (own == GuessedRule::kLoop && 2 * t.quads > t.polygons)
     told.push_back(
         fmt::format("{} of {} faces are quads, which Loop's rule does not make: another scheme, such as "
                     "Catmull and Clark's",
@@ -289,7 +292,7 @@ Diagnosis diagnose(const FileEvidence& e) {
         "not {} subdivision of this control mesh: the control mesh refined {} times by {}'s rule, not "
         "even moved to the limit, is within {:.2g} diagonals of the surface, these vertices are off by up to "
         "{:.2g}. If a scale, an offset or a rotation is in between, --fit takes it out",
-        own == Scheme::kLoop ? "Loop" : "Catmull-Clark", refined.steps, owner(own), refined.worst / size,
+        own == GuessedRule::kLoop ? "Loop" : "Catmull-Clark", refined.steps, owner(own), refined.worst / size,
         sampled.worst / size));
   return {told, std::nullopt, {}};
 }
@@ -305,7 +308,7 @@ std::string blind_spots(const FileEvidence& e) {
     if (sides == 0) return "";
     beside_corners = beside_corners || sides == 1;
   }
-  const Scheme scheme = e.scheme() == data::Scheme::kLoop ? Scheme::kLoop : Scheme::kCatmullClark;
+  const GuessedRule scheme = e.scheme() == data::Scheme::kLoop ? GuessedRule::kLoop : GuessedRule::kCatmullClark;
   const auto refined = scheme_points(e.control, scheme, beside_corners ? 1 : 0, false);
   const auto limits = scheme_points(e.control, scheme, beside_corners ? 1 : 0, true);
   double farthest = 0;

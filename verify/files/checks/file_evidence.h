@@ -59,7 +59,7 @@ bool lacks(const std::vector<T>& list, const char* what, Result& row) {
   return true;
 }
 /// Adds a sentence, unless it is empty, to the message of a row.
-inline void say(Result& row, const std::string& sentence, const char* between = "; ") {
+inline void say(Result& row, const std::string& sentence, const char* between) {
   if (!sentence.empty()) row.message += (row.message.empty() ? "" : between) + sentence;
 }
 inline std::vector<double> list(const Vector& v) {

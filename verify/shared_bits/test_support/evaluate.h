@@ -13,7 +13,7 @@
 #include "fast/plan/pairing.h"
 #include "fast/stream/kernel/targets.h"
 #include "verify/evidence/face_depths.h"
-#include "verify/relations/rewriting.h"
+#include "verify/relations/variants.h"
 #include "verify/shared_bits/test_support/shared_bits.h"
 
 namespace limitcheck::verify {

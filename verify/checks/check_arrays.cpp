@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include "verify/checks/checks.h"
+#include "verify/evidence/evidence.h"
+#include "verify/evidence/vector.h"
+#include "verify/row/statistics.h"
+
+namespace limitcheck::verify {
+namespace {
+
+constexpr std::int32_t kUnwritten32 = -1;  // 0xFFFFFFFF
+
+// Adds `bad` entries; the first sentence and witness stay.
+void add(Result& r, std::int64_t bad, const std::string& message) {
+  if (bad == 0) return;
+  r.bad += bad;
+  r.message += r.message.empty() ? message : "; " + message;
+}
+
+}  // namespace
+
+std::vector<Result> check_written(const Evidence& e) {
+  Result r = e.result("written", "entries", 0);
+  const Tessellation& t = e.tessellation;
+
+  // What the host found: arrays that cannot be read, indices out of range, guard zones written to.
+  std::int64_t structural = 0;
+  for (const Defect& d : t.defects()) {
+    add(r, std::max<std::int64_t>(d.count, 1), d.message);
+    ++structural;
+  }
+  for (const Overrun& o : t.overruns())
+    add(r, 1,
+        fmt::format("{} written {} bytes {} its memory", o.array, o.distance,
+                    o.before ? "in front of" : "behind"));
+
+  // Entries that still hold the bytes they were handed out with.
+  std::int64_t positions = 0, normals = 0, provenance = 0, triangles = 0, faces = 0;
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+    const bool position = t.position_unwritten(v), normal = t.has_normals() && t.normal_unwritten(v);
+    const lc_provenance& p = t.provenance()[v];
+    const bool where = p.face == kUnwritten32 && p.denominator == static_cast<std::uint32_t>(kUnwritten32);
+    positions += position;
+    normals += normal;
+    provenance += where;
+    if ((position || normal) && !where && !r.witness) r.witness = e.at_vertex(v);
+  }
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
+    bool any = false;
+    for (const std::uint32_t v : t.triangles()[k]) any = any || v == static_cast<std::uint32_t>(kUnwritten32);
+    triangles += any;
+    faces += t.triangle_face()[k] == kUnwritten32;
+    if (any && !r.witness) {
+      r.witness = Witness{};
+      r.witness->triangle = k;
+      r.witness->face = t.triangle_face()[k];
+    }
+  }
+  add(r, positions, fmt::format("{} positions unwritten", positions));
+  add(r, normals, fmt::format("{} normals unwritten", normals));
+  add(r, provenance, fmt::format("{} provenances unwritten", provenance));
+  add(r, triangles, fmt::format("{} triangles unwritten", triangles));
+  add(r, faces, fmt::format("{} control faces of triangles unwritten", faces));
+
+  if (t.vertex_count() == 0 && structural == 0)
+    for (const std::int32_t d : e.face_depth)
+      if (d >= 0) {
+        add(r, 1, "nothing was delivered");
+        break;
+      }
+  r.of = 3 * t.vertex_count() + 2 * t.triangle_count();
+  if (r.bad > 0) r.status = Status::kFinding;
+  return {r};
+}
+
+std::vector<Result> check_finite(const Evidence& e) {
+  Result r = e.result("finite", "vectors", 0);
+  const Tessellation& t = e.tessellation;
+  std::int64_t positions = 0, normals = 0;
+  const auto look = [&](std::int64_t v, const Vector& value, std::int64_t& count) {
+    if (is_finite(value)) return;
+    ++count;
+    if (r.witness) return;
+    r.witness = e.at_vertex(v);
+    r.witness->got = {value.begin(), value.end()};
+  };
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+    if (!t.position_unwritten(v)) look(v, t.position(v), positions);
+    if (t.has_normals() && !t.normal_unwritten(v)) look(v, t.normal(v), normals);
+  }
+  r.of = t.vertex_count() * (t.has_normals() ? 2 : 1);
+  r.bad = positions + normals;
+  settle(r);
+  if (r.bad > 0)
+    r.message = fmt::format("{} positions and {} normals are NaN or infinite", positions, normals);
+  count_places(
+      r, e.lattice, e.point.size(), [&](std::size_t v) { return e.point[v]; },
+      [&](std::size_t v) { return static_cast<int>(!is_finite(t, static_cast<std::int64_t>(v))); });
+  return {r};
+}
+
+}  // namespace limitcheck::verify

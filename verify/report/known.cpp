@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "verify/report/known.h"
+
+#include <fmt/core.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+#include "data/error.h"
+#include "data/untrusted_json.h"
+#include "verify/report/json.h"
+#include "verify/row/commands.h"
+#include "verify/row/rows.h"
+
+namespace limitcheck::verify {
+namespace {
+
+std::vector<int> numbers(const std::string& version) {
+  std::vector<int> parts;
+  static const std::regex digits("[0-9]{1,9}");
+  for (std::sregex_iterator m(version.begin(), version.end(), digits), end; m != end; ++m)
+    parts.push_back(std::stoi(m->str()));
+  return parts;
+}
+
+bool matches(const std::string& pattern, const std::string& text) {
+  return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
+}
+
+bool covers(const Waiver& w, const Result& r, const std::map<std::string, std::string>& versions) {
+  if (!matches(w.subject, r.subject) || !matches(w.check, r.check) || !matches(w.shape, r.mesh)) return false;
+  if (w.from.empty() && w.before.empty()) return true;
+  const auto found = versions.find(r.subject);
+  if (found == versions.end() || found->second.empty()) return false;
+  const auto version = numbers(found->second);
+  return (w.from.empty() || version >= numbers(w.from)) && (w.before.empty() || version < numbers(w.before));
+}
+
+bool is_a_day(const std::string& date) {
+  const auto number = [&](std::size_t at, std::size_t count) { return std::stoi(date.substr(at, count)); };
+  return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
+                                     std::chrono::month(static_cast<unsigned>(number(5, 2))),
+                                     std::chrono::day(static_cast<unsigned>(number(8, 2))))
+      .ok();
+}
+
+nlohmann::json parse(const std::string& text) try {
+  return data::parse_untrusted(text);
+} catch (const data::ArgumentError& error) {
+  throw data::ArgumentError(fmt::format("waivers: {}", error.what()));
+}
+
+}  // namespace
+
+std::vector<Waiver> parse_waivers(const std::string& text) {
+  const auto json = parse(text);
+  if (json.is_discarded() || !json.is_object() || !json.contains("waivers") || !json["waivers"].is_array())
+    throw data::ArgumentError("waivers: not a JSON object with an array \"waivers\"");
+  static const std::set<std::string> known{"subject", "versions", "check", "shape",
+                                           "bound",   "reason",   "link",  "expires"};
+  static const std::regex date("[0-9]{4}-[0-9]{2}-[0-9]{2}");
+  std::vector<Waiver> list;
+  for (const auto& row : json["waivers"]) {
+    const auto refuse = [&](const std::string& what) {
+      throw data::ArgumentError(fmt::format("waiver {}: {}", list.size() + 1, what));
+    };
+    if (!row.is_object()) refuse("not an object");
+    for (const auto& [key, value] : row.items())
+      if (!known.contains(key)) refuse(fmt::format("there is no field \"{}\"", key));
+    const auto field = [&](const nlohmann::json& in, const char* key, const char* fallback) {
+      if (!in.contains(key)) {
+        if (fallback != nullptr) return std::string(fallback);
+        refuse(fmt::format("\"{}\" is missing", key));
+      }
+      if (!in[key].is_string()) refuse(fmt::format("\"{}\" is not text", key));
+      return in[key].get<std::string>();
+    };
+    Waiver w;
+    w.subject = field(row, "subject", nullptr);
+    w.check = current_name(field(row, "check", nullptr));
+    w.shape = field(row, "shape", "*");
+    w.reason = field(row, "reason", nullptr);
+    w.link = field(row, "link", "");
+    w.expires = field(row, "expires", nullptr);
+    if (!std::regex_match(w.expires, date) || !is_a_day(w.expires))
+      refuse("\"expires\" is no date as 2027-01-31");
+    if (row.contains("versions")) {
+      if (!row["versions"].is_object()) refuse("\"versions\" is not an object");
+      w.from = field(row["versions"], "from", "");
+      w.before = field(row["versions"], "before", "");
+    }
+    if (row.contains("bound")) {
+      if (!row["bound"].is_number()) refuse("\"bound\" is not a number");
+      w.bound = row["bound"].get<double>();
+    }
+    list.push_back(std::move(w));
+  }
+  return list;
+}
+
+void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
+                   const std::map<std::string, std::string>& versions, const std::string& today) {
+  std::vector<Result> notes;
+  for (std::size_t k = 0; k < waivers.size(); ++k) {
+    const Waiver& w = waivers[k];
+    const auto note = [&](const std::string& what) {
+      Result r;
+      r.subject = w.subject;
+      r.mesh = w.shape;
+      r.check = "waiver";
+      r.depth = report.depth;
+      r.status = Status::kQualityWarning;
+      r.message = fmt::format("waiver {} ({} of {}) {}", k + 1, w.check, w.subject, what);
+      notes.push_back(std::move(r));
+    };
+    if (today > w.expires) {
+      note(fmt::format("expired on {}", w.expires));
+      continue;
+    }
+    std::vector<Result*> held;
+    bool used = false, any = false;
+    for (Result& r : report.results) {
+      if (!covers(w, r, versions)) continue;
+      any = true;
+      if (r.status == Status::kHeld) held.push_back(&r);
+      if (!is_bad(r)) continue;
+      used = true;
+      // A breakdown has no worst value that a bound could be held against.
+      const bool within = r.status != Status::kFinding || !w.bound || (r.worst && *r.worst <= *w.bound);
+      if (within) r.status = Status::kWaived;
+      r.waiver = fmt::format("{} until {}: {}{}", within ? "waived" : "beyond the waiver", w.expires,
+                             w.reason, w.link.empty() ? "" : fmt::format(" ({})", w.link));
+      say(r, r.waiver);
+    }
+    if (!any) note("covers nothing that was audited");
+    if (used || !any) continue;
+    for (Result* r : held) {
+      r->status = Status::kUnexpectedPass;
+      r->message = r->waiver = fmt::format("holds, though waiver {} expects a finding: {}", k + 1, w.reason);
+    }
+    if (held.empty()) note("covers no finding");
+  }
+  for (Result& r : notes) {
+    if (std::find(report.subjects.begin(), report.subjects.end(), r.subject) == report.subjects.end())
+      report.subjects.push_back(r.subject);
+    report.results.push_back(std::move(r));
+  }
+}
+
+std::string version_in(const std::string& description) {
+  static const std::regex pattern("[0-9]+(\\.[0-9]+)*");
+  std::smatch match;
+  return std::regex_search(description, match, pattern) ? match.str() : "";
+}
+
+namespace {
+
+using Key = std::tuple<std::string, std::string, Case>;  // subject, check
+Key key_of(const Result& r) {
+  return {r.subject, r.check, case_of(r)};
+}
+
+std::map<Key, Result> baseline_rows(const std::string& text, const std::string& file) try {
+  const nlohmann::json json = data::parse_untrusted(text);
+  if (!json.is_object() || json.value("program", nlohmann::json()) != "limitcheck audit" ||
+      !json.contains("results") || !json["results"].is_array())
+    throw data::ArgumentError(
+        fmt::format("--baseline {}: no report that limitcheck audit --json wrote", file));
+  std::map<Key, Result> rows;
+  for (const nlohmann::json& row : json["results"]) {
+    for (const char* key : {"subject", "mesh", "check", "status", "count", "of", "worst"}) (void)row.at(key);
+    Result known = reported_row(row);
+    rows[key_of(known)] = std::move(known);
+  }
+  return rows;
+} catch (const nlohmann::json::exception& error) {
+  throw data::ArgumentError(fmt::format("--baseline {}: {}", file, error.what()));
+}
+
+bool is_worse(const Result& now, const Result& before) {
+  if (now.status != Status::kFinding)
+    return before.status == Status::kFinding || before.status == Status::kWaived;
+  // Of a finding, no number is the largest.
+  const auto worst = [](const Result& r) {
+    return r.worst.value_or(std::numeric_limits<double>::infinity());
+  };
+  const auto share = [](const Result& r) {
+    return static_cast<double>(r.bad) / static_cast<double>(r.of > 0 ? r.of : 1);
+  };
+  return worst(now) > kWorse * worst(before) || share(now) > kWorse * share(before);
+}
+
+}  // namespace
+
+void compare_with_baseline(Report& report, const std::string& json, const std::string& file) {
+  const std::map<Key, Result> before = baseline_rows(json, file);
+  Report::Changes changes;
+  changes.baseline = file;
+  std::vector<std::string> appeared, worse, gone;
+  for (const Result& r : report.results) {
+    const auto found = before.find(key_of(r));
+    const bool was =
+        found != before.end() && (is_bad(found->second) || found->second.status == Status::kWaived);
+    const std::string name = fmt::format("{} / {} on {}", r.subject, r.check, case_name(report, r));
+    if (is_bad(r) && !was)
+      appeared.push_back("new: " + name);
+    else if (is_bad(r) && is_worse(r, found->second))
+      worse.push_back("worse: " + name);
+    else if (is_bad(r))
+      ++changes.same;
+    else if (was && (r.status == Status::kHeld || r.status == Status::kQualityWarning))
+      gone.push_back("gone: " + name);
+  }
+  changes.appeared = static_cast<std::int64_t>(appeared.size());
+  changes.worse = static_cast<std::int64_t>(worse.size());
+  changes.gone = static_cast<std::int64_t>(gone.size());
+  for (auto* list : {&appeared, &worse, &gone})
+    changes.named.insert(changes.named.end(), list->begin(), list->end());
+  report.changes = std::move(changes);
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// What a waiver covers, and what is said of one that is of no use; of the table of rows, of JUnit, and of the
+// kinds of neighbourhood that were looked at.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "data/error.h"
+#include "data/generators/named_mesh.h"
+#include "verify/audit/default_plan.h"
+#include "verify/checks/checks.h"
+#include "verify/relations/relations.h"
+#include "verify/report/coverage.h"
+#include "verify/report/junit.h"
+#include "verify/report/known.h"
+#include "verify/row/rows.h"
+
+namespace limitcheck::verify {
+namespace {
+
+Report report() {
+  Report r;
+  r.subjects = {"mine", "mine:level=2"};
+  for (const char* subject : {"mine", "mine:level=2"})
+    for (const char* mesh : {"bumpy:60", "fan:4"}) {
+      Result row;
+      row.subject = subject;
+      row.mesh = mesh;
+      row.check = "positions";
+      row.status = Status::kFinding;
+      row.bad = 1;
+      row.of = 2;
+      row.worst = 1e-3;
+      r.results.push_back(row);
+    }
+  return r;
+}
+
+Waiver waiver() {
+  Waiver w;
+  w.subject = "mine";
+  w.check = "positions";
+  w.shape = "bumpy:*";
+  w.reason = "known";
+  w.expires = "2027-01-31";
+  return w;
+}
+
+TEST(Waivers, CoverASubjectACheckAndAShapeAndNothingElse) {
+  Report r = report();
+  apply_waivers(r, {waiver()}, {}, "2026-11-21");
+  ASSERT_EQ(r.results.size(), 4U);
+  EXPECT_EQ(r.results[0].status, Status::kWaived);
+  EXPECT_NE(r.results[0].message.find("known"), std::string::npos);
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(r.results[k].status, Status::kFinding);
+  EXPECT_FALSE(r.held());
+}
+
+TEST(Waivers, AreGoodUpToTheirOwnBoundOnly) {
+  Report r = report();
+  Waiver w = waiver();
+  w.bound = 1e-4;
+  apply_waivers(r, {w}, {}, "2026-11-21");
+  EXPECT_EQ(r.results[0].status, Status::kFinding);
+  EXPECT_NE(r.results[0].message.find("beyond the waiver"), std::string::npos);
+  r = report();
+  r.results[0].worst.reset();  // not finite
+  w.bound = 1;
+  apply_waivers(r, {w}, {}, "2026-11-21");
+  EXPECT_EQ(r.results[0].status, Status::kFinding);
+}
+
+TEST(Waivers, EndWithTheirLastDay) {
+  Report r = report();
+  apply_waivers(r, {waiver()}, {}, "2027-01-31");
+  EXPECT_EQ(r.results[0].status, Status::kWaived);
+  r = report();
+  apply_waivers(r, {waiver()}, {}, "2027-02-01");
+  EXPECT_EQ(r.results[0].status, Status::kFinding);
+  ASSERT_EQ(r.results.size(), 5U);
+  EXPECT_EQ(r.results[4].status, Status::kQualityWarning);
+  EXPECT_NE(r.results[4].message.find("expired"), std::string::npos);
+}
+
+TEST(Waivers, HoldForARangeOfVersions) {
+  for (const auto& [version, covered] : {std::pair{"3.4.9", false},
+                                         {"3.5", true},
+                                         {"3.5.1", true},
+                                         {"3.10", true},
+                                         {"4", false},
+                                         {"", false}}) {
+    Report r = report();
+    Waiver w = waiver();
+    w.from = "3.5";
+    w.before = "4";
+    apply_waivers(r, {w}, {{"mine", version}}, "2026-11-21");
+    EXPECT_EQ(r.results[0].status == Status::kWaived, covered) << version;
+  }
+  EXPECT_EQ(version_in("OpenSubdiv 3.5 Far: uniform"), "3.5");
+  EXPECT_EQ(version_in("our own"), "");
+}
+
+TEST(Waivers, WithoutAnythingToCoverAreReported) {
+  Report r = report();
+  Waiver w = waiver();
+  w.shape = "torus";
+  apply_waivers(r, {w}, {}, "2026-11-21");
+  ASSERT_EQ(r.results.size(), 5U);
+  EXPECT_NE(r.results[4].message.find("covers nothing"), std::string::npos);
+  r = report();
+  r.results[0].status = Status::kHeld;
+  apply_waivers(r, {waiver()}, {}, "2026-11-21");
+  EXPECT_EQ(r.results[0].status, Status::kUnexpectedPass);
+}
+
+TEST(Waivers, ThatAreNotUnderstoodAreRefused) {
+  EXPECT_EQ(parse_waivers(R"({"waivers":[{"subject":"a","check":"b","reason":"c","expires":"2027-01-01",
+      "versions":{"from":"1"},"bound":0.5}]})")
+                .at(0)
+                .from,
+            "1");
+  for (const char* bad :
+       {"", "[]", R"({"waivers":[1]})", R"({"waivers":[{"subject":"a"}]})",
+        R"({"waivers":[{"subject":"a","check":"b","reason":"c","expires":"soon"}]})",
+        R"({"waivers":[{"subject":"a","check":"b","reason":"c","expires":"2027-01-01","bund":1}]})",
+        R"({"waivers":[{"subject":"a","check":"b","reason":"c","expires":"2027-01-01","bound":"1"}]})",
+        R"({"waivers":[{"subject":1,"check":"b","reason":"c","expires":"2027-01-01"}]})"})
+    EXPECT_THROW(parse_waivers(bad), data::ArgumentError) << bad;
+}
+
+TEST(Waivers, MayNameARowThatHasBecomePartOfAnother) {
+  const auto check = [](const std::string& named) {
+    return parse_waivers(R"({"waivers":[{"subject":"a","check":")" + named +
+                         R"(","reason":"c","expires":"2027-01-01"}]})")
+        .at(0)
+        .check;
+  };
+  EXPECT_EQ(check("extreme-scale"), "scaling");
+  EXPECT_EQ(check("state"), "state");
+}
+
+TEST(Explain, KnowsEveryRowOnce) {
+  std::set<std::string_view> rows{"tessellates",  "refined-positions", "recognised",
+                                  "oracle-faces", "oracle-double",     "oracle-parts"},
+      explained;
+  for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());
+  rows.insert(relation_rows().begin(), relation_rows().end());
+  for (const RowKind& e : row_kinds()) {
+    if (e.check.starts_with("file-")) continue;  // those of files: verify/files/audit_files_test.cpp
+    EXPECT_TRUE(explained.insert(e.check).second) << e.check;
+    EXPECT_FALSE(e.meaning.empty() || e.bound.empty() || e.source.empty()) << e.check;
+  }
+  EXPECT_EQ(rows, explained);
+}
+
+TEST(JUnit, EscapesAndCounts) {
+  Report r = report();
+  r.results[0].message = "a < b & \"c\"\x01";
+  r.results[1].status = Status::kNotSupported;
+  const std::string xml = to_junit(r);
+  EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
+  EXPECT_EQ(xml.find('\x01'), std::string::npos);
+  EXPECT_NE(xml.find("<testsuite name=\"mine\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"1\""),
+            std::string::npos)
+      << xml;
+}
+
+AuditMesh named(const std::string& name, int depth) {
+  AuditMesh m{name, data::named_mesh(name)};
+  m.depth = depth;
+  return m;
+}
+
+// A report of rows that judged positions, or could not.
+Report report_of(const CoverageQuestion& question, Status status) {
+  Report report;
+  report.subjects = {"s"};
+  for (const CaseCells& c : question.cases) {
+    Result r;
+    r.subject = "s", r.check = "positions", r.scheme = c.scheme;
+    std::tie(r.mesh, r.depth, r.depths, r.sample) = c.at;
+    r.status = status, r.of = 1;
+    report.results.push_back(r);
+  }
+  report.coverage = coverage_of(report.results, question);
+  return report;
+}
+
+TEST(Coverage, CountsWhatWasJudgedAndNothingElse) {
+  CoverageQuestion question = coverage_question({}, {named("star:1:J.J.3", 1), named("torus", 2)});
+  question.declared = {{"s", data::Scheme::kLoop, LC_SHARP_CREASES, 12}};
+  const Coverage held = report_of(question, Status::kHeld).coverage.at(0);
+  EXPECT_GT(held.looked, 50);
+  EXPECT_EQ(held.declared() + held.not_declared,
+            static_cast<std::int64_t>(cells(data::Scheme::kLoop).size()));
+  const auto never = [&](const char* name) {
+    return std::find(held.never.begin(), held.never.end(), name) != held.never.end();
+  };
+  EXPECT_FALSE(never("2 infinite edges"));
+  EXPECT_TRUE(never("3 infinite edges"));
+  EXPECT_FALSE(never("1 semi-sharp edge")) << "which is not declared";
+  EXPECT_EQ(report_of(question, Status::kFinding).coverage.at(0).looked, held.looked);
+  EXPECT_EQ(report_of(question, Status::kNotSupported).coverage.at(0).looked, 0);
+  EXPECT_EQ(report_of(question, Status::kNotRun).coverage.at(0).looked, 0);
+
+  const CoverageQuestion again = coverage_question(nlohmann::json::parse(coverage_json(question).dump()));
+  EXPECT_EQ(report_of(again, Status::kHeld).coverage.at(0).never, held.never);
+}
+
+TEST(Coverage, OfThePlanIsWholeAndMissesWhatADeletedMeshAloneHad) {
+  std::vector<AuditMesh> plan = default_plan(Level::kQuick);
+  const auto never = [&] {
+    CoverageQuestion question = coverage_question({}, plan);
+    constexpr std::int32_t kAll = LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS |
+                                  LC_SHARP_SMOOTH_TRIANGLES | kNeedsBoundary | kNeedsDepths;
+    for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+      question.declared.push_back({"s", scheme, kAll, 12});
+    return report_of(question, Status::kHeld);
+  };
+  const Report whole = never();
+  for (const Coverage& c : whole.coverage) EXPECT_TRUE(c.never.empty()) << c.never.front();
+  EXPECT_EQ(coverage_lines(whole).find("never"), std::string::npos);
+  std::erase_if(plan, [](const AuditMesh& m) { return m.name.find("stars:") != std::string::npos; });
+  const Report part = never();
+  for (const Coverage& c : part.coverage) EXPECT_FALSE(c.never.empty());
+  EXPECT_NE(coverage_lines(part).find("; never: "), std::string::npos);
+}
+
+}  // namespace
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "verify/row/commands.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <string_view>
+#include <vector>
+
+namespace limitcheck::verify {
+namespace {
+
+bool uniform(const Result& r) {
+  return r.depths.empty() || r.depths == "uniform";
+}
+
+}  // namespace
+
+std::string case_name(const Report& report, const Result& r) {
+  if (report.depths != "plan") return r.mesh;
+  return fmt::format("{} ({}{}{})", r.mesh, uniform(r) ? fmt::format("depth {}", r.depth) : r.depths,
+                     r.sample.empty() ? "" : ", sample ", r.sample);
+}
+
+std::string depths_in_short(std::span<const Result* const> results) {
+  std::set<int> depths;
+  bool unequal = false;
+  for (const Result* r : results) {
+    if (!looked_at(*r)) continue;
+    if (uniform(*r))
+      depths.insert(r->depth);
+    else
+      unequal = true;
+  }
+  std::vector<std::string> runs;
+  for (auto first = depths.begin(); first != depths.end();) {
+    auto last = first;
+    while (std::next(last) != depths.end() && *std::next(last) == *last + 1) ++last;
+    runs.push_back(first == last ? fmt::format("{}", *first) : fmt::format("{}-{}", *first, *last));
+    first = std::next(last);
+  }
+  return fmt::format("{}{}", fmt::join(runs, " "), unequal ? "*" : "");
+}
+
+std::string depths_in_full(const Report& report, const std::string& subject) {
+  std::set<int> depths;
+  std::vector<std::string> unequal;
+  for (const Result& r : report.results) {
+    if (r.subject != subject || !looked_at(r)) continue;
+    if (uniform(r))
+      depths.insert(r.depth);
+    else if (std::find(unequal.begin(), unequal.end(), r.depths) == unequal.end())
+      unequal.push_back(r.depths);
+  }
+  return fmt::format("{}{}{}", fmt::join(depths, " "),
+                     unequal.empty() ? "" : "; *: ", fmt::join(unequal, ", "));
+}
+
+namespace {
+
+// A word for the shell.
+std::string quoted(const std::string& text) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said
+// otherwise.
+std::string mesh_options(const Result& result) {
+  std::string text;
+  if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));
+  if (!result.triangulated.empty()) text += fmt::format(" --triangulate {}", result.triangulated);
+  return text;
+}
+
+std::string depth_options(const Result& result) {
+  if (result.depths.empty() || result.depths == "uniform") return "";
+  return fmt::format(" --depths {}", quoted(result.depths));
+}
+
+bool names_a_point(const Result& result) {
+  return result.witness && result.witness->face >= 0 && !result.witness->l1.empty();
+}
+
+}  // namespace
+
+std::string eval_command(const Result& result) {
+  static const std::set<std::string_view> kOfLimit{"positions",      "normals",       "finite",
+                                                   "file-positions", "file-distance", "file-normals"};
+  if (!names_a_point(result) || !kOfLimit.contains(result.check)) return "";
+  return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
+                     result.witness->l1, result.witness->l2, mesh_options(result),
+                     result.precision == LC_FLOAT32 ? " --precision float" : "",
+                     result.weights == reference::Weights::kWarren ? " --weights warren" : "");
+}
+
+std::string difference_command(const Result& result) {
+  static const std::set<std::string_view> kOfPoints{
+      "positions", "refined-positions", "normals",       "normal-length",
+      "finite",    "shared-positions",  "shared-normals"};
+  if (!names_a_point(result) || !kOfPoints.contains(result.check)) return "";
+  return fmt::format("limitcheck eval --subject {} {} {} {} {} --depth {}{}{}", quoted(result.subject),
+                     quoted(result.mesh), result.witness->where(), result.witness->l1, result.witness->l2,
+                     result.depth, depth_options(result), mesh_options(result));
+}
+
+std::string audit_command(const Result& result, const std::string& level) {
+  std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
+                                    quoted(result.mesh), result.depth) +
+                        mesh_options(result);
+  if (level != "standard") command += fmt::format(" --level {}", level);
+  command += depth_options(result);
+  if (!result.sample.empty()) command += " --sample " + result.sample;
+  return command;
+}
+
+}  // namespace limitcheck::verify

@@ -41,10 +41,12 @@ class Validator {
       : mesh_(mesh),
         scheme_(scheme),
         numbering_(numbering),
+        triangles_(mesh.faces.are_triangles()),
         vertices_(mesh.positions.size()),
         used_(vertices_, false),
         tainted_(vertices_, false),
         removed_(mesh.faces.size(), false) {
+    if (triangles_) return;
     face_of_.reserve(mesh.faces.corners().size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       face_of_.insert(face_of_.end(), mesh.faces[f].size(), static_cast<std::int32_t>(f));
@@ -204,13 +206,16 @@ class Validator {
   }
 
   // Half-edges are numbered like the corners that they leave.
+  std::int32_t face_of(std::int32_t h) const { return triangles_ ? h / 3 : face_of_[h]; }
   std::int32_t next(std::int32_t h) const {
+    if (triangles_) return h % 3 == 2 ? h - 2 : h + 1;
     const auto f = static_cast<std::size_t>(face_of_[h]);
     return static_cast<std::size_t>(h) + 1 == mesh_.faces.first_corner(f + 1)
                ? static_cast<std::int32_t>(mesh_.faces.first_corner(f))
                : h + 1;
   }
   std::int32_t previous(std::int32_t h) const {
+    if (triangles_) return h % 3 == 0 ? h + 2 : h - 1;
     const auto f = static_cast<std::size_t>(face_of_[h]);
     return static_cast<std::size_t>(h) == mesh_.faces.first_corner(f)
                ? static_cast<std::int32_t>(mesh_.faces.first_corner(f + 1)) - 1
@@ -221,43 +226,61 @@ class Validator {
 
   std::pair<std::int32_t, std::int32_t> edge(std::int32_t h) const { return std::minmax({from(h), to(h)}); }
 
-  // Groups the half-edges by edge, and pairs the two of an edge in `twin_`.
+  // Groups the half-edges by edge.
   void check_edges() {
-    std::vector<std::int32_t> half_edges;
-    half_edges.reserve(face_of_.size());
-    for (std::size_t h = 0; h < face_of_.size(); ++h)
-      if (!removed_[face_of_[h]]) half_edges.push_back(static_cast<std::int32_t>(h));
-    sort_by(half_edges, vertices_, [&](std::int32_t h) { return edge(h).second; });
-    sort_by(half_edges, vertices_, [&](std::int32_t h) { return edge(h).first; });
-
-    twin_.assign(face_of_.size(), -1);
-    for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
-      const auto [v0, v1] = edge(half_edges[begin]);
-      while (end < half_edges.size() && edge(half_edges[end]) == std::pair(v0, v1)) ++end;
-      const std::int32_t a = half_edges[begin];
-      if (end - begin == 2) {
-        const std::int32_t b = half_edges[begin + 1];
-        if (from(a) == to(b)) {
-          twin_[a] = b;
-          twin_[b] = a;
-          continue;
-        }
-        report(MeshFault::kOrientationClash, {v0, v1, face_of_[a], face_of_[b]},
-               fmt::format("faces {} and {} both run from {} to {}", face(face_of_[a]), face(face_of_[b]),
-                           vertex(from(a)), vertex(to(a))),
-               face_of_[b]);
-        tainted_[v0] = tainted_[v1] = true;
-      } else if (end - begin > 2) {
-        std::vector<std::int32_t> its;
-        for (std::size_t k = begin; k < end; ++k) its.push_back(face_of_[half_edges[k]]);
-        std::vector<std::int64_t> elements = {v0, v1};
-        elements.insert(elements.end(), its.begin(), its.end());
-        report(MeshFault::kNonmanifoldEdge, std::move(elements),
-               fmt::format("edge {}–{} has {} faces ({})", vertex(v0), vertex(v1), its.size(), faces(its)),
-               its[2]);
-        tainted_[v0] = tainted_[v1] = true;
+    // All sides by their smaller vertex; those of one are few, but for a hub.
+    struct Side {
+      std::int32_t larger, half_edge;
+    };
+    std::vector<std::int32_t> start(vertices_ + 1, 0);
+    const auto for_each_half_edge = [&](auto what) {
+      for (std::size_t c = 0; c < mesh_.faces.corners().size(); ++c)
+        if (const auto h = static_cast<std::int32_t>(c); !removed_[face_of(h)]) what(h, edge(h));
+    };
+    for_each_half_edge([&](std::int32_t, const auto& ends) { ++start[ends.first + 1]; });
+    for (std::size_t v = 0; v < vertices_; ++v) start[v + 1] += start[v];
+    std::vector<Side> sides(start.back());
+    std::vector<std::int32_t> place(start.begin(), start.end() - 1);
+    for_each_half_edge([&](std::int32_t h, const auto& ends) {
+      sides[place[ends.first]++] = {ends.second, h};
+    });
+    twin_.assign(mesh_.faces.corners().size(), -1);
+    for (std::size_t v = 0; v < vertices_; ++v) {
+      const auto end = sides.begin() + start[v + 1];
+      std::sort(sides.begin() + start[v], end, [](const Side& a, const Side& b) {
+        return a.larger != b.larger ? a.larger < b.larger : a.half_edge < b.half_edge;
+      });
+      for (auto one = sides.begin() + start[v]; one != end;) {
+        const auto next = std::find_if(one, end, [&](const Side& s) { return s.larger != one->larger; });
+        look_at_edge(static_cast<std::int32_t>(v), one->larger, std::span(one, next));
+        one = next;
       }
     }
+  }
+
+  // Pairs the two half-edges of an edge; anything but one, or two that run opposite ways, is a fault.
+  template <class Sides>
+  void look_at_edge(std::int32_t v0, std::int32_t v1, const Sides& its) {
+    if (its.size() < 2) return;
+    const std::int32_t a = its[0].half_edge, b = its[1].half_edge;
+    if (its.size() == 2 && from(a) == to(b)) {
+      twin_[a] = b;
+      twin_[b] = a;
+      return;
+    }
+    std::vector<std::int64_t> elements = {v0, v1};
+    for (const auto& side : its) elements.push_back(face_of(side.half_edge));
+    const std::vector<std::int64_t> at(elements.begin() + 2, elements.end());
+    tainted_[v0] = tainted_[v1] = true;
+    if (its.size() == 2)
+      report(MeshFault::kOrientationClash, std::move(elements),
+             fmt::format("faces {} and {} both run from {} to {}", face(at[0]), face(at[1]), vertex(from(a)),
+                         vertex(to(a))),
+             at[1]);
+    else
+      report(MeshFault::kNonmanifoldEdge, std::move(elements),
+             fmt::format("edge {}–{} has {} faces ({})", vertex(v0), vertex(v1), at.size(), faces(at)),
+             at[2]);
   }
 
   // Walks round every vertex from its first corner; a corner that no walk reached belongs to another fan.
@@ -267,23 +290,23 @@ class Validator {
     std::vector<std::int32_t> finding_of(vertices_, -1);
     for (std::size_t corner = 0; corner < twin_.size(); ++corner) {
       const auto h = static_cast<std::int32_t>(corner);
-      if (removed_[face_of_[h]] || reached[h]) continue;
+      if (removed_[face_of(h)] || reached[h]) continue;
       const std::int32_t v = from(h);
       if (tainted_[v]) continue;
       if (walk(h, reached) == 2 && first_face[v] < 0)  // closed: two faces that share both edges at v
         report(MeshFault::kLowValence, {v},
-               fmt::format("interior vertex {} has valence 2 (faces {}, {})", vertex(v), face(face_of_[h]),
-                           face(face_of_[twin_[h]])),
-               std::max(face_of_[h], face_of_[twin_[h]]), v);
+               fmt::format("interior vertex {} has valence 2 (faces {}, {})", vertex(v), face(face_of(h)),
+                           face(face_of(twin_[h]))),
+               std::max(face_of(h), face_of(twin_[h])), v);
       if (first_face[v] < 0) {
-        first_face[v] = face_of_[h];
+        first_face[v] = face_of(h);
         continue;
       }
       if (finding_of[v] < 0) {
         finding_of[v] = static_cast<std::int32_t>(findings_.size());
-        report(MeshFault::kBowtieVertex, {v, first_face[v]}, "", face_of_[h], v);
+        report(MeshFault::kBowtieVertex, {v, first_face[v]}, "", face_of(h), v);
       }
-      findings_[finding_of[v]].elements.push_back(face_of_[h]);
+      findings_[finding_of[v]].elements.push_back(face_of(h));
     }
     for (MeshFinding& finding : findings_) {
       if (finding.fault != MeshFault::kBowtieVertex) continue;
@@ -324,10 +347,9 @@ class Validator {
     };
     std::map<std::pair<std::int32_t, std::int32_t>, Tagged> edges;
     for (const SharpEdge& e : mesh_.sharpness.edges) edges[std::minmax(e.a, e.b)];
-    for (std::size_t h = 0; !edges.empty() && h < face_of_.size(); ++h)
-      if (!removed_[face_of_[h]])
-        if (const auto at = edges.find(edge(static_cast<std::int32_t>(h))); at != edges.end())
-          at->second.exists = true;
+    for (std::int32_t h = 0; !edges.empty() && h < std::ssize(mesh_.faces.corners()); ++h)
+      if (!removed_[face_of(h)])
+        if (const auto at = edges.find(edge(h)); at != edges.end()) at->second.exists = true;
     std::int64_t tag = 0;
     const auto look = [&](const std::string& what, std::vector<std::int64_t> elements, Tagged& before,
                           float value) {
@@ -371,11 +393,12 @@ class Validator {
   const ControlMesh& mesh_;
   Scheme scheme_;
   Numbering numbering_;
+  bool triangles_;  // only: then no table is needed to go from a corner to its face and on
   std::size_t vertices_;
   std::vector<bool> used_;               // by a face, even a refused one
   std::vector<bool> tainted_;            // vertices on which no verdict is possible
   std::vector<bool> removed_;            // faces already refused
-  std::vector<std::int32_t> face_of_;    // of each corner
+  std::vector<std::int32_t> face_of_;    // of each corner; empty if all are triangles
   std::vector<std::int64_t> last_face_;  // that named the vertex
   std::vector<std::int32_t> twin_;
   std::vector<MeshFinding> findings_;

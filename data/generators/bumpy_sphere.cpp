@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "data/generators/bumpy_sphere.h"
 
+#include <CGAL/Delaunay_triangulation_on_sphere_2.h>
+#include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "data/building_blocks.h"
 #include "data/splitmix64.h"
@@ -28,33 +32,50 @@ std::array<double, 3> random_direction(SplitMix64& random) {
   }
 }
 
-// The hull's triangles in terms of the given points. CGAL returns the hull's vertices in an order of its own;
-// they are recognised by their coordinates, which it copies.
+// The triangles of the hull of some points, each by number(point) of its corners. A triangulation of the sphere by the
+// directions is their hull and is found ten times as fast as that of any points; it leaves out points that lie too near
+// each other.
+template <class Number>
+std::vector<Triangle> faces_of_hull(const std::vector<Point>& points, Number&& number) {
+  using Traits = CGAL::Delaunay_triangulation_on_sphere_traits_2<Kernel>;
+  using Vertex =
+      CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Traits,
+                                                  CGAL::Triangulation_on_sphere_vertex_base_2<Traits>>;
+  using Face = CGAL::Triangulation_on_sphere_face_base_2<Traits>;
+  CGAL::Delaunay_triangulation_on_sphere_2<Traits, CGAL::Triangulation_data_structure_2<Vertex, Face>> sphere(
+      Traits(CGAL::ORIGIN, 1));
+  sphere.insert(points.begin(), points.end());
+  std::vector<Triangle> triangles;
+  triangles.reserve(2 * points.size());
+  if (sphere.number_of_vertices() == points.size() && sphere.number_of_ghost_faces() == 0 &&
+      sphere.number_of_solid_faces() == 2 * points.size() - 4) {
+    for (auto v = sphere.vertices_begin(); v != sphere.vertices_end(); ++v) v->info() = number(v->point());
+    for (auto f = sphere.solid_faces_begin(); f != sphere.solid_faces_end(); ++f)
+      triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+    return triangles;
+  }
+  std::vector<Point> vertices;
+  std::vector<std::array<std::size_t, 3>> faces;
+  CGAL::convex_hull_3(points.begin(), points.end(), vertices, faces);
+  for (const auto& [a, b, c] : faces)
+    triangles.push_back({number(vertices[a]), number(vertices[b]), number(vertices[c])});
+  return triangles;
+}
+
+// Each begins with its smallest corner; sorted. CGAL's points are recognised by their coordinates, which it copies.
 std::vector<Triangle> hull(const std::vector<std::array<double, 3>>& directions) {
   std::vector<Point> points;
   points.reserve(directions.size());
   for (const auto& d : directions) points.emplace_back(d[0], d[1], d[2]);
-  std::vector<Point> vertices;
-  std::vector<std::array<std::size_t, 3>> faces;
-  CGAL::convex_hull_3(points.begin(), points.end(), vertices, faces);
-
-  std::vector<std::int32_t> by_place(directions.size());
-  for (std::size_t i = 0; i < by_place.size(); ++i) by_place[i] = static_cast<std::int32_t>(i);
-  std::sort(by_place.begin(), by_place.end(), [&](auto a, auto b) { return directions[a] < directions[b]; });
-  std::vector<std::int32_t> original(vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const std::array<double, 3> place = {vertices[i].x(), vertices[i].y(), vertices[i].z()};
-    original[i] = *std::lower_bound(by_place.begin(), by_place.end(), place,
-                                    [&](auto a, const auto& b) { return directions[a] < b; });
-  }
-
-  std::vector<Triangle> triangles;
-  triangles.reserve(faces.size());
-  for (const auto& face : faces) {
-    Triangle t = {original[face[0]], original[face[1]], original[face[2]]};
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    triangles.push_back(t);
-  }
+  std::vector<std::pair<std::array<double, 3>, std::int32_t>> by_place;
+  by_place.reserve(directions.size());
+  for (const auto& d : directions) by_place.emplace_back(d, static_cast<std::int32_t>(by_place.size()));
+  std::sort(by_place.begin(), by_place.end());
+  std::vector<Triangle> triangles = faces_of_hull(points, [&](const Point& p) {
+    return std::lower_bound(by_place.begin(), by_place.end(), std::pair(std::array{p.x(), p.y(), p.z()}, -1))
+        ->second;
+  });
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }

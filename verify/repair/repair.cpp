@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "data/validate.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -65,6 +67,19 @@ class Repair {
   }
 
   std::size_t faces() const { return polygons_.size(); }
+
+  /// Whether there is nothing to do but for tags, found in a tenth of the time that it takes to do nothing.
+  bool is_valid() const {
+    data::ControlMesh mesh;
+    if (points_.size() > kMostIndices) return false;
+    for (const Point& p : points_) mesh.positions.push_back({p.x(), p.y(), p.z()});
+    std::vector<std::int32_t> face;
+    for (const Polygon& p : polygons_) {
+      face.assign(p.begin(), p.end());
+      mesh.faces.push_back(face);
+    }
+    return data::validate(mesh, data::Scheme::kCatmullClark).empty();
+  }
 
   void weld() {
     // Only finite points have an order, so unused vertices are dropped first.
@@ -153,20 +168,22 @@ class Repair {
 
   /// Sharp edges and vertices that are none any more go; of several at one place the sharpest stays.
   void drop_tags() {
+    if (tags_.empty()) return;
     std::map<std::pair<std::int64_t, std::int64_t>, double> most;
-    for (const Polygon& p : polygons_)
-      for (std::size_t k = 0; k < p.size(); ++k) {
-        const auto a = static_cast<std::int64_t>(p[k]), b = static_cast<std::int64_t>(p[(k + 1) % p.size()]);
-        most[std::minmax(a, b)] = most[{-1, a}] = -1;
-      }
+    constexpr double kNone = -1;  // no edge or vertex of the mesh
+    for (const Tag& t : tags_) most[ends(t)] = kNone;
+    std::set<std::pair<std::int64_t, std::int64_t>> there;
+    for_each_edge_and_vertex([&](std::int64_t a, std::int64_t b) {
+      if (const auto at = most.find(std::minmax(a, b)); at != most.end()) there.insert(at->first);
+    });
     for (const Tag& t : tags_)
-      if (const auto at = most.find(ends(t)); at != most.end())
-        at->second = std::max(at->second, t.sharpness);
+      if (double& sharpness = most[ends(t)]; there.contains(ends(t)))
+        sharpness = std::max(sharpness, t.sharpness);
     const std::size_t before = tags_.size();
     std::erase_if(tags_, [&](const Tag& t) {
-      const auto at = most.find(ends(t));
-      const bool stays = t.sharpness >= 0 && at != most.end() && at->second == t.sharpness;
-      if (stays) most.erase(at);
+      double& sharpness = most[ends(t)];
+      const bool stays = t.sharpness >= 0 && sharpness == t.sharpness;
+      if (stays) sharpness = kNone;
       return !stays;
     });
     // Copies stand at the end, wherever the vertex was cut: in an order of their own they stay as they are.
@@ -203,6 +220,7 @@ class Repair {
 
  private:
   using Tag = data::io::PolygonSoup::SharpTag;
+  static constexpr std::size_t kMostIndices = std::numeric_limits<std::int32_t>::max();
 
   static bool has_repeated_corners(Polygon p) {
     std::sort(p.begin(), p.end());
@@ -227,6 +245,7 @@ class Repair {
   }
   /// Edges and vertices of copies are as sharp as those that they were copied from.
   void copy_tags(const std::vector<std::pair<std::size_t, std::size_t>>& copies) {
+    if (tags_.empty() || copies.empty()) return;
     std::map<std::int64_t, std::int64_t> origin;
     for (const auto& [vertex, copy] : copies) {
       const auto from = origin.find(static_cast<std::int64_t>(vertex));
@@ -246,11 +265,17 @@ class Repair {
       const auto [first, last] = known.equal_range(std::minmax(origin_of(a), b < 0 ? b : origin_of(b)));
       for (auto t = first; t != last; ++t) tags_.push_back({a, b, t->second.sharpness, t->second.line});
     };
+    for_each_edge_and_vertex(copy);
+  }
+
+  /// Calls what(v, -1) for the vertex at each corner, and what(v, w) for the edge to the next.
+  template <class What>
+  void for_each_edge_and_vertex(What&& what) const {
     for (const Polygon& p : polygons_)
       for (std::size_t k = 0; k < p.size(); ++k) {
         const auto v = static_cast<std::int64_t>(p[k]);
-        copy(v, -1);
-        copy(v, static_cast<std::int64_t>(p[(k + 1) % p.size()]));
+        what(v, std::int64_t{-1});
+        what(v, static_cast<std::int64_t>(p[(k + 1) % p.size()]));
       }
   }
 
@@ -299,6 +324,7 @@ Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options)
   for (std::size_t before = 0; before != work.faces();) {
     before = work.faces();
     if (options.weld) work.weld();
+    if (work.is_valid()) break;
     work.drop_duplicates();
     work.orient();
     work.drop_unused();

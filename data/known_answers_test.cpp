@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "data/known_answers.h"
+#include "data/test_support/known_answers.h"
 
 #include <gtest/gtest.h>
 

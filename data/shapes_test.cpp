@@ -14,9 +14,9 @@
 #include "data/error.h"
 #include "data/generators/awkward_meshes.h"
 #include "data/generators/polygon_meshes.h"
-#include "data/known_answers.h"
 #include "data/summary.h"
 #include "data/test_meshes.h"
+#include "data/test_support/known_answers.h"
 
 namespace limitcheck::data {
 namespace {

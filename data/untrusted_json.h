@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -56,6 +59,19 @@ inline nlohmann::json parse_untrusted(std::string_view text, std::size_t deepest
     return true;
   };
   return Json::parse(text, look, /*allow_exceptions=*/false);
+}
+
+/// Hands each of the "cases" of a file to `read`. Throws InputError: FILE_CANNOT_OPEN; FILE_SYNTAX, also if `read` throws.
+template <class Read>
+void for_each_case(const std::filesystem::path& file, Read&& read) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, "cannot be opened for reading");
+  try {
+    const auto json = parse_untrusted(std::string(std::istreambuf_iterator<char>(stream), {}));
+    for (const auto& one : json.at("cases")) read(one);
+  } catch (const std::exception& error) {
+    throw InputError("FILE_SYNTAX", file.string(), 0, error.what());
+  }
 }
 
 }  // namespace limitcheck::data

@@ -196,11 +196,8 @@ class PlyReader {
                                                        [](auto& p) { return p.name == "sharpness"; })) {
         read_edges(element, body);
       } else if (!element.properties.empty()) {
-        for (std::int64_t i = 0; i < element.count; ++i) {
-          body.begin(element, i);
-          for (const Property& property : element.properties) body.skip(property);
-          body.end();
-        }
+        read_all(
+            element, body, [](std::size_t, const Property&) { return false; }, [] {});
       }
     }
     body.finish();
@@ -288,6 +285,18 @@ class PlyReader {
     elements_.back().properties.push_back(std::move(property));
   }
 
+  // Hands every property of every element to `take`, which says whether it has read it, or passes it; then calls `done`.
+  template <class Take, class Done>
+  void read_all(const Element& element, Body& body, Take take, Done done) {
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      body.begin(element, i);
+      for (std::size_t k = 0; k < element.properties.size(); ++k)
+        if (!take(k, element.properties[k])) body.skip(element.properties[k]);
+      body.end();
+      done();
+    }
+  }
+
   void read_vertices(const Element& element, Body& body) {
     std::array<std::size_t, 3> place{}, normal_place{};
     bool has_normals = true;
@@ -300,27 +309,21 @@ class PlyReader {
       has_normals = has_normals && it != all.end();
       normal_place[axis] = static_cast<std::size_t>(it - all.begin());
     }
-    for (std::int64_t i = 0; i < element.count; ++i) {
-      body.begin(element, i);
-      std::array<double, 3> position{}, normal{};
-      for (std::size_t k = 0; k < element.properties.size(); ++k) {
-        const Property& property = element.properties[k];
-        const auto axis = std::find(place.begin(), place.end(), k) - place.begin();
-        const auto normal_axis =
-            std::find(normal_place.begin(), normal_place.end(), k) - normal_place.begin();
-        if (axis < 3) {
-          position[axis] = body.real(property, property.type);
-        } else if (has_normals && normal_axis < 3) {
-          normal[normal_axis] = body.real(property, property.type);
-        } else {
-          body.skip(property);
-        }
-      }
-      body.end();
+    std::array<double, 3> position{}, normal{};
+    const auto take = [&](std::size_t k, const Property& property) {
+      const auto axis = std::find(place.begin(), place.end(), k) - place.begin();
+      const auto normal_axis = std::find(normal_place.begin(), normal_place.end(), k) - normal_place.begin();
+      if (axis < 3)
+        position[axis] = body.real(property, property.type);
+      else if (has_normals && normal_axis < 3)
+        normal[normal_axis] = body.real(property, property.type);
+      return axis < 3 || (has_normals && normal_axis < 3);
+    };
+    read_all(element, body, take, [&] {
       soup_.positions.push_back(position);
       if (has_normals) soup_.normals.push_back(normal);
       if (body.line() > 0) soup_.position_lines.push_back(body.line());
-    }
+    });
   }
 
   void read_faces(const Element& element, Body& body) {
@@ -328,44 +331,34 @@ class PlyReader {
     if (element.properties[place].type.kind == Type::Kind::kFloat) {
       throw InputError("FILE_SYNTAX", name_, 0, "vertex indices are integers");
     }
-    for (std::int64_t i = 0; i < element.count; ++i) {
-      body.begin(element, i);
-      for (std::size_t k = 0; k < element.properties.size(); ++k) {
-        const Property& property = element.properties[k];
-        if (k != place) {
-          body.skip(property);
-          continue;
-        }
-        const std::int64_t corners = body.list_size(property);
-        for (std::int64_t c = 0; c < corners; ++c)
-          soup_.corners.push_back(body.integer(property, property.type));
-      }
-      body.end();
-      soup_.close_polygon(body.line());
-    }
+    const auto take = [&](std::size_t k, const Property& property) {
+      if (k != place) return false;
+      for (std::int64_t left = body.list_size(property); left > 0; --left)
+        soup_.corners.push_back(body.integer(property, property.type));
+      return true;
+    };
+    read_all(element, body, take, [&] { soup_.close_polygon(body.line()); });
   }
 
   void read_edges(const Element& element, Body& body) {
     const std::size_t first = property_named(element, {"vertex1"}, false),
                       second = property_named(element, {"vertex2"}, false),
                       sharpness = property_named(element, {"sharpness"}, false);
-    for (std::int64_t i = 0; i < element.count; ++i) {
-      body.begin(element, i);
-      PolygonSoup::SharpTag tag{};
-      for (std::size_t k = 0; k < element.properties.size(); ++k) {
-        const Property& property = element.properties[k];
-        if (k == sharpness)
-          tag.sharpness = body.real(property, property.type);
-        else if ((k == first || k == second) && property.type.kind != Type::Kind::kFloat)
-          (k == first ? tag.a : tag.b) = body.integer(property, property.type);
-        else
-          body.skip(property);
+    PolygonSoup::SharpTag tag{};
+    const auto take = [&](std::size_t k, const Property& property) {
+      if (k == sharpness) {
+        tag.sharpness = body.real(property, property.type);
+        return true;
       }
-      body.end();
+      if ((k != first && k != second) || property.type.kind == Type::Kind::kFloat) return false;
+      (k == first ? tag.a : tag.b) = body.integer(property, property.type);
+      return true;
+    };
+    read_all(element, body, take, [&] {
       if (tag.a < 0 || tag.b < 0) body.fail("FILE_SYNTAX", "a vertex below 0");
       tag.line = body.line();
       soup_.sharp.push_back(tag);
-    }
+    });
   }
 
   std::size_t property_named(const Element& element, const std::vector<std::string>& names,

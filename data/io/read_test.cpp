@@ -6,15 +6,15 @@
 #include <bit>
 #include <clocale>
 #include <cmath>
-#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "data/error.h"
 #include "data/shapes.h"
 
 namespace limitcheck::data {
 namespace {
-
-using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
 std::string wellformed(const std::string& name) {
   return LIMITCHECK_SOURCE_DIR "/data/wellformed/" + name;
@@ -65,52 +65,25 @@ TEST(Read, MoreThanOneFaultIsCounted) {
             "cage.obj:1: MESH_NOT_FINITE: vertex 1 lies at (nan, 0, 0) (numbers from 1); 2 more faults");
 }
 
+// STL has its vertices in the order in which they appear.
 TEST(Read, EveryFormOfATetrahedronIsTheSameTetrahedron) {
-  const ControlMesh expected = tetrahedron();
-  for (const char* name : {"tetrahedron.v4.f4.obj", "tetrahedron.v4.f4.crlf.obj",
-                           "tetrahedron.v4.f4.cr_only.obj", "tetrahedron.v4.f4.no_last_newline.obj",
-                           "tetrahedron.v4.f4.negative_indices.obj", "tetrahedron.v4.f4.faces_first.obj",
-                           "tetrahedron.v4.f4.continued.obj", "tetrahedron.v4.f4.everything.obj"}) {
-    const ControlMesh mesh = read_mesh(wellformed(name));
-    EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
-  }
-}
-
-TEST(Read, EveryFormOfAnOffOrPlyIsTheSameMesh) {
-  ControlMesh expected{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+  const auto corner = [](double z) {
+    return ControlMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, z}},
                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-  for (const char* name : {"tetrahedron.v4.f4.off", "tetrahedron.v4.f4.counts_beside.off",
-                           "tetrahedron.v4.f4.comments_and_colours.off", "tetrahedron.v4.f4.coff.off",
-                           "tetrahedron.v4.f4.stcnoff.off"}) {
-    const ControlMesh mesh = read_mesh(wellformed(name));
-    EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
-  }
-  expected.positions[3][2] = 0.1;
-  for (const char* name :
-       {"tetrahedron.v4.f4.ascii.ply", "tetrahedron.v4.f4.little.ply", "tetrahedron.v4.f4.big.ply",
-        "tetrahedron.v4.f4.crlf.ply", "tetrahedron.v4.f4.faces_first.ply"}) {
-    const ControlMesh mesh = read_mesh(wellformed(name));
-    EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
-  }
-  expected.positions[3][2] = 0.1F;
-  const ControlMesh mesh = read_mesh(wellformed("tetrahedron.v4.f4.float_and_more.ply"));
-  EXPECT_EQ(mesh.positions, expected.positions);
-  EXPECT_EQ(triangles_of(mesh), triangles_of(expected));
-}
-
-TEST(Read, EveryFormOfAnStlIsTheSameMeshWithVerticesInOrderOfAppearance) {
-  const ControlMesh expected{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
-                             {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {1, 0, 3}}};
-  for (const char* name :
-       {"tetrahedron.v4.f4.stl", "tetrahedron.v4.f4.begins_with_solid.stl", "tetrahedron.v4.f4.ascii.stl",
-        "tetrahedron.v4.f4.upper_case.stl", "tetrahedron.v4.f4.minus_zero.stl"}) {
-    const ControlMesh mesh = read_mesh(wellformed(name));
-    EXPECT_EQ(mesh.positions, expected.positions) << name;
-    EXPECT_EQ(triangles_of(mesh), triangles_of(expected)) << name;
-  }
+  };
+  const ControlMesh of_stl{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+                           {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {1, 0, 3}}};
+  const std::vector<std::pair<ControlMesh, std::vector<std::string>>> forms{
+      {tetrahedron(),
+       {"obj", "crlf.obj", "cr_only.obj", "no_last_newline.obj", "negative_indices.obj", "faces_first.obj",
+        "continued.obj", "everything.obj"}},
+      {corner(1), {"off", "counts_beside.off", "comments_and_colours.off", "coff.off", "stcnoff.off"}},
+      {corner(0.1), {"ascii.ply", "little.ply", "big.ply", "crlf.ply", "faces_first.ply"}},
+      {corner(0.1F), {"float_and_more.ply"}},
+      {of_stl, {"stl", "begins_with_solid.stl", "ascii.stl", "upper_case.stl", "minus_zero.stl"}}};
+  for (const auto& [expected, names] : forms)
+    for (const std::string& name : names)
+      EXPECT_EQ(read_mesh(wellformed("tetrahedron.v4.f4." + name)), expected) << name;
 }
 
 // Expected values: hexadecimal floating point, which no decimal reader is involved in.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "data/known_answers.h"
+#include "data/test_support/known_answers.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/mesh/test_tags.h"

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "data/known_answers.h"
+#include "data/test_support/known_answers.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/subdivision_evaluator.h"
 #include "reference/mesh/test_tags.h"

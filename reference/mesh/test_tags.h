@@ -2,7 +2,7 @@
 // The tags of a known answer.
 #pragma once
 
-#include "data/known_answers.h"
+#include "data/test_support/known_answers.h"
 #include "reference/mesh/sharp_tags.h"
 
 namespace limitcheck::reference {

@@ -2,7 +2,7 @@
 // Every known answer, to 39 digits with 50-digit arithmetic, by both evaluators where both apply.
 #include <gtest/gtest.h>
 
-#include "data/known_answers.h"
+#include "data/test_support/known_answers.h"
 #include "reference/loop/basis.h"
 #include "reference/loop/masks.h"
 #include "reference/loop/refine.h"

@@ -9,7 +9,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/generators/star_meshes.h"
-#include "data/known_answers.h"
+#include "data/worst_cases.h"
 #include "verify/host/host.h"
 
 namespace limitcheck::verify {

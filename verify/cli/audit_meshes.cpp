@@ -16,7 +16,7 @@
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
-#include "data/known_answers.h"
+#include "data/worst_cases.h"
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/mesh_options.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "data/known_answers.h"
+#include "data/test_support/known_answers.h"
 #include "verify/cli/command_test.h"
 
 namespace limitcheck::cli {

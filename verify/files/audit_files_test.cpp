@@ -74,24 +74,11 @@ TEST(AuditFiles, EveryCheckSeesTheFaultItIsThereFor) {
               t.positions[700] = t.positions[700] + 1e-5 * surface.diagonal() * foot.normal;
             }),
             "file-distance");
-  EXPECT_EQ(with([](auto& t) {  // turned by 0.3 degrees
-              auto& n = t.normals[321].direction;
-              const Vector aside = cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
-              n = n + (5e-3 / norm(aside)) * aside;
-            }),
-            "file-normals");
-  EXPECT_EQ(with([](auto& t) { std::swap(t.triangles[99][0], t.triangles[99][1]); }),
-            "file-orientation file-watertight");
-  EXPECT_EQ(with([](auto& t) { t.triangles.erase(t.triangles.begin() + 40); }),
-            "file-coverage file-watertight");
-  EXPECT_EQ(with([](auto& t) { t.triangles.push_back(t.triangles[40]); }), "file-coverage file-watertight");
-  EXPECT_EQ(with([](auto& t) {  // a crack of one ulp: a corner of one triangle only
-              t.positions.push_back(t.positions[t.triangles[40][0]]);
-              t.used.push_back(true);
-              t.positions.back()[0] = std::nextafterf(float(t.positions.back()[0]), 9);
-              t.triangles[40][0] = static_cast<std::int32_t>(t.positions.size()) - 1;
-            }),
-            "file-watertight");
+  EXPECT_EQ(with(turn_a_normal), "file-normals");
+  EXPECT_EQ(with(turn_a_triangle), "file-orientation file-watertight");
+  EXPECT_EQ(with(leave_out_a_triangle), "file-coverage file-watertight");
+  EXPECT_EQ(with(repeat_a_triangle), "file-coverage file-watertight");
+  EXPECT_EQ(with([](auto& t) { crack<float>(t, 40, 0); }), "file-watertight");
   const std::string across =
       with([](auto& t) { t.triangles[40][0] = t.triangles[2000][0]; });  // to another place
   EXPECT_NE(across.find("file-hausdorff"), std::string::npos) << across;

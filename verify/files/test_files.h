@@ -2,7 +2,11 @@
 // Tessellations as files would have them. For tests of this folder.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <stdexcept>
@@ -12,6 +16,7 @@
 #include "data/splitmix64.h"
 #include "reference/loop/refine.h"
 #include "verify/files/audit_files.h"
+#include "verify/files/checks/hausdorff.h"
 
 namespace limitcheck::verify::test {
 
@@ -80,6 +85,59 @@ inline std::string findings(const FilesAudit& a) {
   for (const Result& r : a.results)
     if (is_bad(r)) list += (list.empty() ? "" : " ") + r.check;
   return list;
+}
+
+// Faults of one place each.
+inline void turn_a_normal(FileTessellation& t) {  // by 0.3 degrees
+  auto& n = t.normals[321].direction;
+  const Vector aside = cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
+  n = n + (5e-3 / norm(aside)) * aside;
+}
+inline void turn_a_triangle(FileTessellation& t) {
+  std::swap(t.triangles[99][0], t.triangles[99][1]);
+}
+inline void repeat_a_triangle(FileTessellation& t) {
+  t.triangles.push_back(t.triangles[40]);
+}
+inline void leave_out_a_triangle(FileTessellation& t) {
+  t.triangles.erase(t.triangles.begin() + 40);
+}
+// A corner of one triangle only, one ulp of float or of double beside.
+template <class Real>
+void crack(FileTessellation& t, std::size_t triangle, std::size_t corner) {
+  std::int32_t& vertex = t.triangles[triangle][corner];
+  t.positions.push_back(t.positions[vertex]);
+  t.positions.back()[0] = std::nextafter(static_cast<Real>(t.positions.back()[0]), Real{9});
+  t.used.push_back(true);
+  vertex = static_cast<std::int32_t>(t.positions.size()) - 1;
+}
+
+// The brackets hold dense samples of both sides: of the triangles, and of the surface, which are given; and are not
+// much too wide. The points of the evidence are placed.
+inline void expect_brackets(const FileEvidence& e, const std::vector<Vector>& samples) {
+  const Hausdorff h = hausdorff(e);
+  const FileTessellation& t = e.tessellation;
+  double there = 0, back = 0;
+  for (const auto& c : t.triangles)
+    for (int i = 0; i <= 6; ++i)
+      for (int j = 0; i + j <= 6; ++j) {
+        const Vector& o = t.positions[c[0]];
+        const Vector p = o + (i / 6.) * (t.positions[c[1]] - o) + (j / 6.) * (t.positions[c[2]] - o);
+        there = std::max(there, e.surface.closest(p).distance);
+      }
+  for (const Vector& s : samples) {
+    double least = 1e300;
+    for (const auto& c : t.triangles)
+      least = std::min(
+          least, closest_on_triangle(s, {t.positions[c[0]], t.positions[c[1]], t.positions[c[2]]}).distance);
+    back = std::max(back, least);
+  }
+  EXPECT_LE(there, h.from_triangles.at_most) << e.control_name;
+  EXPECT_LE(back, h.from_surface.at_most) << e.control_name;
+  EXPECT_GE(h.from_triangles.at_least, .9 * there) << e.control_name;
+  EXPECT_GE(h.from_surface.at_least, .9 * back) << e.control_name;
+  EXPECT_LE(h.from_triangles.at_most, 6 * h.from_triangles.at_least) << e.control_name;
+  EXPECT_EQ(h.loose, 0) << e.control_name;
 }
 
 }  // namespace limitcheck::verify::test

@@ -12,8 +12,8 @@
 
 #include "data/error.h"
 #include "data/untrusted_json.h"
-#include "verify/shard/shard.h"
 #include "verify/shard/seal.h"
+#include "verify/shard/shard.h"
 
 using namespace limitcheck;
 using namespace limitcheck::verify;

@@ -77,15 +77,6 @@ AtTheBoundary at_the_boundary(const FileTessellation& t) {
   throw std::logic_error("no such place");
 }
 
-// The corner of a triangle becomes a vertex of its own, one ulp beside.
-void tear(FileTessellation& t, const AtTheBoundary& at) {
-  std::int32_t& corner = t.triangles[at.triangle][at.corner];
-  t.positions.push_back(t.positions[corner]);
-  t.positions.back()[0] = std::nextafterf(static_cast<float>(t.positions.back()[0]), 9);
-  t.used.push_back(true);
-  corner = static_cast<std::int32_t>(t.positions.size()) - 1;
-}
-
 // The row file-watertight alone.
 class Judge {
  public:
@@ -171,7 +162,8 @@ TEST(Boundary, CracksAndHolesAreFoundInLimitAndInRefinedFiles) {
       EXPECT_EQ(with([](auto&) {}), Status::kHeld) << where;
       EXPECT_EQ(with([&](auto& t) { t.triangles.erase(t.triangles.begin() + triangle); }), Status::kFinding)
           << where << ": a triangle less at the boundary";
-      EXPECT_EQ(with([&](auto& t) { tear(t, at); }), Status::kFinding)
+      EXPECT_EQ(with([&](auto& t) { crack<float>(t, at.triangle, static_cast<std::size_t>(at.corner)); }),
+                Status::kFinding)
           << where << ": a crack at the boundary";
       // The last vertex that refinement makes lies inside.
       const auto inside = static_cast<std::int32_t>(good.positions.size()) - 1;

@@ -205,22 +205,11 @@ class Reader {
     }
     if (node.rotation.size() == 4) {
       const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
-      m = {1 - 2 * (y * y + z * z),
-           2 * (x * y + z * w),
-           2 * (x * z - y * w),
-           0,
-           2 * (x * y - z * w),
-           1 - 2 * (x * x + z * z),
-           2 * (y * z + x * w),
-           0,
-           2 * (x * z + y * w),
-           2 * (y * z - x * w),
-           1 - 2 * (x * x + y * y),
-           0,
-           0,
-           0,
-           0,
-           1};
+      const std::array<double, 9> turn{
+          1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),
+          2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
+          2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y)};
+      for (std::size_t k = 0; k < 9; ++k) m[4 * (k / 3) + k % 3] = turn[k];
     }
     for (int column = 0; column < 3 && node.scale.size() == 3; ++column)
       for (int row = 0; row < 3; ++row) m[4 * column + row] *= node.scale[column];
@@ -264,25 +253,24 @@ class Reader {
       refuse("FILE_SYNTAX", fmt::format("accessor {} reaches beyond its buffer", index));
     return {buffer.data.data() + begin, static_cast<std::size_t>(stride), a.count, a.componentType};
   }
-  std::array<double, 3> vector(const Bytes& b, std::size_t k) const {
-    std::array<float, 3> v{};
-    std::memcpy(v.data(), b[k], sizeof v);
+  template <class Number>
+  static Number number(const unsigned char* bytes) {
+    Number value{};
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  }
+  static std::array<double, 3> vector(const Bytes& b, std::size_t k) {
+    const auto v = number<std::array<float, 3>>(b[k]);
     return {v[0], v[1], v[2]};
   }
   std::int64_t index(const Bytes& b, std::size_t k) const {
     switch (b.component) {
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return *b[k];
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: {
-        std::uint16_t v = 0;
-        std::memcpy(&v, b[k], sizeof v);
-        return v;
-      }
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: {
-        std::uint32_t v = 0;
-        std::memcpy(&v, b[k], sizeof v);
-        return v;
-      }
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return number<std::uint16_t>(b[k]);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return number<std::uint32_t>(b[k]);
       default:
         refuse("FILE_SYNTAX", "indices that are no unsigned integers");
     }

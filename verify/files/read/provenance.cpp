@@ -43,14 +43,12 @@ Column column(std::string_view word) {
                              std::begin(kColumns));
 }
 
-// What a row may name. `quads`: the control mesh, if the scheme is Catmull-Clark's.
-struct Named {
-  std::int64_t vertices, faces;
-  const data::ControlMesh* quads = nullptr;
-};
+}  // namespace
 
-std::vector<ProvenanceRow> parse(std::string_view content, const std::string& name, const Named& named_by) {
-  const std::int64_t vertices = named_by.vertices, faces = named_by.faces;
+std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
+                                            std::int64_t vertices, const data::ControlMesh& control,
+                                            data::Scheme scheme) {
+  const auto faces = static_cast<std::int64_t>(control.faces.size());
   std::vector<ProvenanceRow> rows;
   std::vector<bool> named(vertices, false);
   std::array<int, kCount> place{};
@@ -114,9 +112,8 @@ std::vector<ProvenanceRow> parse(std::string_view content, const std::string& na
       fail("FILE_SYNTAX", error.what());
     }
     const double a = l1.as_double(), b = l2.as_double();
-    if (named_by.quads != nullptr) {
-      const auto corners =
-          static_cast<std::int64_t>(named_by.quads->faces[static_cast<std::size_t>(face)].size());
+    if (scheme == data::Scheme::kCatmullClark) {
+      const auto corners = static_cast<std::int64_t>(control.faces[static_cast<std::size_t>(face)].size());
       const bool told = place[kCorner] >= 0 && !words[place[kCorner]].empty();
       const std::int64_t corner = told ? integer(kCorner) : -1;
       if (corners == 4 ? told && corner != 0 : corner < 0 || corner >= corners)
@@ -140,20 +137,6 @@ std::vector<ProvenanceRow> parse(std::string_view content, const std::string& na
   }
   if (rows.empty()) throw InputError("FILE_TRUNCATED", name, 0, "no rows");
   return rows;
-}
-
-}  // namespace
-
-std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
-                                            std::int64_t vertices, std::int64_t faces) {
-  return parse(content, name, {vertices, faces});
-}
-
-std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
-                                            std::int64_t vertices, const data::ControlMesh& control,
-                                            data::Scheme scheme) {
-  const auto faces = static_cast<std::int64_t>(control.faces.size());
-  return parse(content, name, {vertices, faces, scheme == data::Scheme::kLoop ? nullptr : &control});
 }
 
 std::vector<ProvenanceRow> read_provenance(const std::filesystem::path& file, std::int64_t vertices,

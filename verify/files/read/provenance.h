@@ -26,11 +26,8 @@ struct ProvenanceRow {
 /// "0.09375"). A first row of words is a heading and names the order of the columns; empty lines and lines
 /// that begin with # are read over. Throws data::InputError with the line: FILE_SYNTAX, or FILE_PROVENANCE
 /// for a vertex or face that is not there, a parameter outside the triangle, or a vertex named twice.
-/// Of Loop's scheme.
-std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
-                                            std::int64_t vertices, std::int64_t faces);
-/// Of either scheme. Catmull-Clark's parameters u and v may be headed so, or l1 and l2; on a face that is no
-/// quad they are of the quad at a corner, which a column `corner` names.
+/// Catmull-Clark's parameters u and v may be headed so, or l1 and l2; on a face that is no quad they are of the quad
+/// at a corner, which a column `corner` names.
 std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std::string& name,
                                             std::int64_t vertices, const data::ControlMesh& control,
                                             data::Scheme scheme);

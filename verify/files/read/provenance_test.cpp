@@ -4,6 +4,7 @@
 
 #include "data/error.h"
 #include "data/generators/polygon_meshes.h"
+#include "data/shapes.h"
 #include "verify/files/read/provenance.h"
 
 namespace limitcheck::verify {
@@ -11,15 +12,19 @@ namespace {
 
 using Coordinates = std::array<double, 3>;
 
+// For a tessellation of four vertices, and a control mesh of eight triangles.
+auto parse(const std::string& text, const std::string& name) {
+  return parse_provenance(text, name, 4, data::octahedron(), data::Scheme::kLoop);
+}
+
 TEST(Provenance, ReadsParametersAndLatticePointsWithAndWithoutAHeading) {
-  const auto real = parse_provenance("0,7,0.25,1/2\n3, 2, 0, 1\n", "t", 4, 8);
+  const auto real = parse("0,7,0.25,1/2\n3, 2, 0, 1\n", "t");
   ASSERT_EQ(real.size(), 2U);
   EXPECT_EQ(real[0].at.face, 7);
   EXPECT_EQ(real[0].at.l, (Coordinates{.25, .25, .5}));
   EXPECT_EQ(real[1].vertex, 3);
   EXPECT_EQ(real[1].at.l, (Coordinates{0, 0, 1}));
-  const auto lattice =
-      parse_provenance("# made by hand\nface,i,j,denominator,vertex\n7,1,2,4,0\n\n", "t", 4, 8);
+  const auto lattice = parse("# made by hand\nface,i,j,denominator,vertex\n7,1,2,4,0\n\n", "t");
   ASSERT_EQ(lattice.size(), 1U);
   EXPECT_EQ(lattice[0].at.l, (Coordinates{.25, .25, .5}));
 }
@@ -47,7 +52,7 @@ TEST(Provenance, OfCatmullClarksSchemeNamesTheCornerOfAFaceThatIsNoQuad) {
 
 std::string error_of(const std::string& text) {
   try {
-    parse_provenance(text, "map.csv", 4, 8);
+    parse(text, "map.csv");
   } catch (const data::InputError& error) {
     return std::string(error.what()).substr(0, std::string(error.what()).find(": ", 12));
   }

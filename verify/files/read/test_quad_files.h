@@ -11,6 +11,7 @@
 #include <string>
 
 #include "reference/catmull_clark/refined_mesh.h"
+#include "reference/loop/refine.h"
 #include "verify/files/read/tessellation_file.h"
 
 namespace limitcheck::verify::test {

@@ -49,25 +49,29 @@ inline FileTessellation sharp_file(const data::ControlMesh& mesh, data::Scheme s
         surface.evaluate(static_cast<int>(f), static_cast<int>(corner), u, v, reference::Order::kFirst)
             .normal);
   };
+  // A triangle of the lattice at a corner of a face, which has so many steps along a side.
+  const auto put = [&](SharpFile& file, const auto& vertex, std::size_t f, std::size_t corner, int steps,
+                       std::array<std::array<int, 2>, 3> at) {
+    std::array<std::int32_t, 3> corners{};
+    std::array<Vector, 3> normals{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      corners[c] = vertex(at[c][0], at[c][1]);
+      normals[c] =
+          normal(f, corner, at[c][0] / static_cast<double>(steps), at[c][1] / static_cast<double>(steps));
+    }
+    file.add(corners, normals);
+  };
   const int n = 1 << depth;
   if (scheme == data::Scheme::kLoop) {
     reference::RefinedMesh<double> refined(mesh);
     for (int step = 0; step < depth; ++step) refined.refine();
     SharpFile file = begin_file(refined.limits().positions);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-      const auto put = [&](std::array<std::array<int, 2>, 3> at) {
-        std::array<std::int32_t, 3> corners{};
-        std::array<Vector, 3> normals{};
-        for (std::size_t c = 0; c < 3; ++c) {
-          corners[c] = refined.vertex(f, at[c][0], at[c][1]);
-          normals[c] = normal(f, 0, at[c][0] / static_cast<double>(n), at[c][1] / static_cast<double>(n));
-        }
-        file.add(corners, normals);
-      };
+      const auto vertex = [&](int i, int j) { return refined.vertex(f, i, j); };
       for (int j = 0; j < n && !hole[f]; ++j)
         for (int i = 0; i + j < n; ++i) {
-          put({{{i, j}, {i + 1, j}, {i, j + 1}}});
-          if (i + j + 1 < n) put({{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}});
+          put(file, vertex, f, 0, n, {{{i, j}, {i + 1, j}, {i, j + 1}}});
+          if (i + j + 1 < n) put(file, vertex, f, 0, n, {{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}});
         }
     }
     return file.t;
@@ -77,24 +81,14 @@ inline FileTessellation sharp_file(const data::ControlMesh& mesh, data::Scheme s
   for (int step = 0; step < depth; ++step) refined.refine();
   SharpFile file = begin_file(refined.limits().positions);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (hole[f]) continue;
     const bool quad = mesh.faces[f].size() == 4;
     const int steps = quad ? n : n / 2;
-    for (std::size_t k = 0; k < (quad ? 1 : mesh.faces[f].size()); ++k) {
-      const auto put = [&](std::array<std::array<int, 2>, 3> at) {
-        std::array<std::int32_t, 3> corners{};
-        std::array<Vector, 3> normals{};
-        for (std::size_t c = 0; c < 3; ++c) {
-          corners[c] = refined.vertex(f, k, at[c][0], at[c][1]);
-          normals[c] =
-              normal(f, k, at[c][0] / static_cast<double>(steps), at[c][1] / static_cast<double>(steps));
-        }
-        file.add(corners, normals);
-      };
+    for (std::size_t k = 0; k < (quad ? 1 : mesh.faces[f].size()) && !hole[f]; ++k) {
+      const auto vertex = [&](int i, int j) { return refined.vertex(f, k, i, j); };
       for (int j = 0; j < steps; ++j)
         for (int i = 0; i < steps; ++i) {
-          put({{{i, j}, {i + 1, j}, {i + 1, j + 1}}});
-          put({{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
+          put(file, vertex, f, k, steps, {{{i, j}, {i + 1, j}, {i + 1, j + 1}}});
+          put(file, vertex, f, k, steps, {{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
         }
     }
   }

@@ -12,6 +12,7 @@
 
 #include "data/control_mesh.h"
 #include "data/numeral.h"
+#include "data/worst_cases.h"
 
 namespace limitcheck::data {
 
@@ -124,17 +125,11 @@ struct QuadAnswer {
   bool has_sharp() const { return !sharp_edges.empty() || !sharp_vertices.empty(); }
 };
 
-/// data/known_answers.json in the source tree, or where it was installed; the other files stand beside it.
-std::filesystem::path known_answers_path();
+// Both throw InputError (FILE_CANNOT_OPEN, FILE_SYNTAX) if the file is absent or not of its form.
 
-// All throw InputError (FILE_CANNOT_OPEN, FILE_SYNTAX) if the file is absent or not of its form.
-
-KnownAnswers load_known_answers(const std::filesystem::path& file = known_answers_path());
+KnownAnswers load_known_answers(const std::filesystem::path& file = data_file("known_answers.json"));
 /// Catmull-Clark's, and Loop's with sharp edges: the cases of known_answers_catmull_clark.json.
 std::vector<QuadAnswer> load_quad_answers();
-/// The meshes on which tessellators have come nearest to their bounds, or failed, so far: the names
-/// (generators/named_mesh.h) in worst_cases.json, each once, in the order of the file.
-std::vector<std::string> worst_case_meshes();
 
 /// The vertices rounded to double, with the faces: what an evaluator takes.
 ControlMesh control_mesh(const std::vector<Numeral3>& vertices,

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "data/known_answers.h"
+#include "data/test_support/known_answers.h"
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -20,19 +17,6 @@ template <class To, class... More>
 void take(const Json& json, const char* key, To& to, More&&... more) {
   json.at(key).get_to(to);
   if constexpr (sizeof...(more) > 0) take(json, more...);
-}
-
-// Hands every case of a file of answers to `read`.
-template <class Read>
-void for_each_case(const std::filesystem::path& file, Read&& read) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError("FILE_CANNOT_OPEN", file.string(), 0, "cannot be opened for reading");
-  try {
-    const Json json = parse_untrusted(std::string(std::istreambuf_iterator<char>(stream), {}));
-    for (const Json& one : json.at("cases")) read(one);
-  } catch (const std::exception& error) {
-    throw InputError("FILE_SYNTAX", file.string(), 0, error.what());
-  }
 }
 
 InteriorRingAnswer interior_ring(const Json& json) {
@@ -130,13 +114,6 @@ QuadAnswer quad_answer(const Json& json) {
 
 }  // namespace
 
-std::filesystem::path known_answers_path() {
-  std::filesystem::path in_source = LIMITCHECK_KNOWN_ANSWERS_IN_SOURCE;
-  std::error_code ignored;
-  if (std::filesystem::exists(in_source, ignored)) return in_source;
-  return LIMITCHECK_KNOWN_ANSWERS_INSTALLED;
-}
-
 KnownAnswers load_known_answers(const std::filesystem::path& file) {
   KnownAnswers answers;
   for_each_case(file, [&](const Json& one) {
@@ -160,18 +137,9 @@ KnownAnswers load_known_answers(const std::filesystem::path& file) {
 
 std::vector<QuadAnswer> load_quad_answers() {
   std::vector<QuadAnswer> answers;
-  for_each_case(known_answers_path().replace_filename("known_answers_catmull_clark.json"),
+  for_each_case(data_file("known_answers_catmull_clark.json"),
                 [&](const Json& one) { answers.push_back(quad_answer(one)); });
   return answers;
-}
-
-std::vector<std::string> worst_case_meshes() {
-  std::vector<std::string> names;
-  for_each_case(known_answers_path().replace_filename("worst_cases.json"), [&](const Json& one) {
-    std::string name = one.at("mesh");
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
-  });
-  return names;
 }
 
 ControlMesh control_mesh(const std::vector<Numeral3>& vertices,

@@ -222,7 +222,7 @@ TEST(CatmullClark_Tessellations, AreTheEvaluatorsPoints) {
             for (const auto& p : leaf) {
               ++looked_at;
               const auto want = stam.evaluate(face, corner, static_cast<double>(p.i) / side,
-                                              static_cast<double>(p.j) / side, Order::kFirst);
+                                              static_cast<double>(p.j) / side, Derivatives::kFirst);
               const auto v = static_cast<std::size_t>(refined.vertex(f, k, p.i, p.j));
               const double unit = largest * 0x1p-52;
               worst = std::max({worst, magnitude(p.position - want.position) / unit,

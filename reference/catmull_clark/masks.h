@@ -46,14 +46,15 @@ Vec3<N> edge_point(const Vec3<N>& a, const Vec3<N>& b, const Vec3<N>& f1, const 
 }
 
 /// Interior vertex of valence n: (n - 2) / n c + (sum e_i + sum F_i) / n^2, F_i the face points of this step.
+///   valence   n, if there are no more than points with the same means
 template <class N>
 Vec3<N> interior_vertex_point(const Vec3<N>& c, std::span<const Vec3<N>> edges,
-                              std::span<const Vec3<N>> face_points) {
+                              std::span<const Vec3<N>> face_points, int valence = 0) {
   const auto n = static_cast<int>(edges.size());
   Vec3<N> sum{};
   for (const Vec3<N>& e : edges) sum += e - c;
   for (const Vec3<N>& f : face_points) sum += f - c;
-  return c + sum * (N(1) / (N(n) * N(n)));
+  return c + sum * (N(1) / (N(n) * N(valence > 0 ? valence : n)));
 }
 
 /// Limit of an interior vertex: n / (n + 5) c + 4 / (n (n + 5)) sum e_i + 1 / (n (n + 5)) sum f_i.

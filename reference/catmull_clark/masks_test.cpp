@@ -82,7 +82,7 @@ TEST(CatmullClark_RegularVertex, IsTheBicubicSpline) {
   p[5] = c.point;
   p[6] = c.edges[0], p[9] = c.edges[1], p[4] = c.edges[2], p[1] = c.edges[3];
   p[10] = c.faces[0], p[8] = c.faces[1], p[0] = c.faces[2], p[2] = c.faces[3];
-  const auto s = evaluate_patch<Rational>(p, Rational(0), Rational(0), Order::kSecond);
+  const auto s = evaluate_patch<Rational>(p, Rational(0), Rational(0), Derivatives::kSecond);
   EXPECT_EQ(s.position, limit_position(c));
   // d/du is (4 (e_0 - e_2) + f_0 - f_1 - f_2 + f_3) / 12.
   EXPECT_EQ(s.u,

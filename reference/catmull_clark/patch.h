@@ -52,7 +52,8 @@ struct PatchPoint {
 /// Everything up to `order`, from differences to point 5: exact zeros where points coincide.
 ///   size   the largest coordinate that the points were computed from, if not their own
 template <class N>
-PatchPoint<N> evaluate_patch(const Patch<N>& points, const N& u, const N& v, Order order, N size = N(0)) {
+PatchPoint<N> evaluate_patch(const Patch<N>& points, const N& u, const N& v, Derivatives order,
+                             N size = N(0)) {
   const CubicBasis<N> a(u), b(v);
   const Vec3<N> origin = points[5];
   // Along u first: rows of positions, first and second derivatives.
@@ -61,13 +62,13 @@ PatchPoint<N> evaluate_patch(const Patch<N>& points, const N& u, const N& v, Ord
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3<N> d = points[4 * j + i] - origin;
       value[j] += d * a.value[i];
-      if (order >= Order::kFirst) first[j] += d * a.first[i];
-      if (order >= Order::kSecond) second[j] += d * a.second[i];
+      if (order >= Derivatives::kFirst) first[j] += d * a.first[i];
+      if (order >= Derivatives::kSecond) second[j] += d * a.second[i];
     }
   PatchPoint<N> p{};
   for (std::size_t j = 0; j < 4; ++j) p.position += value[j] * b.value[j];
   p.position += origin;
-  if (order == Order::kPosition) return p;
+  if (order == Derivatives::kPosition) return p;
   for (std::size_t j = 0; j < 4; ++j) {
     p.u += first[j] * b.value[j];
     p.v += value[j] * b.first[j];
@@ -81,7 +82,7 @@ PatchPoint<N> evaluate_patch(const Patch<N>& points, const N& u, const N& v, Ord
     p.u_terms *= N(2) * size;  // both ends of each difference; the other direction's weights sum to 1
     p.v_terms *= N(2) * size;
   }
-  if (order == Order::kFirst) return p;
+  if (order == Derivatives::kFirst) return p;
   for (std::size_t j = 0; j < 4; ++j) {
     p.uu += second[j] * b.value[j];
     p.uv += first[j] * b.first[j];
@@ -107,8 +108,8 @@ constexpr Turn turn_of(std::size_t corner) {
 /// positive factors.
 template <class N>
 void set_derivatives(SurfacePoint<N>& result, const PatchPoint<N>& p, const Turn& turn, const N& first,
-                     const N& second, Order order) {
-  if (order == Order::kPosition) return;
+                     const N& second, Derivatives order) {
+  if (order == Derivatives::kPosition) return;
   const N a(turn.uu), b(turn.uv), c(turn.vu), d(turn.vv);
   result.d1 = (p.u * a + p.v * c) * first;
   result.d2 = (p.u * b + p.v * d) * first;
@@ -120,7 +121,7 @@ void set_derivatives(SurfacePoint<N>& result, const PatchPoint<N>& p, const Turn
     result.t2_terms = (swapped ? p.u_terms : p.v_terms) * first;
   }
   result.first_exist = true;
-  if (order == Order::kFirst) return;
+  if (order == Derivatives::kFirst) return;
   result.d11 = (p.uu * (a * a) + p.vv * (c * c)) * second;
   result.d12 = p.uv * (a * d + b * c) * second;
   result.d22 = (p.uu * (b * b) + p.vv * (d * d)) * second;
@@ -155,7 +156,7 @@ struct CornerPlace {
 ///   halved     whether the face's parameters go over two quads on each side
 template <class N>
 SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPlace& corner, std::size_t k,
-                                     bool halved, Order order) {
+                                     bool halved, Derivatives order) {
   SurfacePoint<N> result;
   result.at_corner = true;
   result.position = limit.position;
@@ -167,7 +168,7 @@ SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPl
     result.normal = normal.direction;
     result.normal_kind = normal.kind;
     result.normal_condition = normal.condition;
-    if (order == Order::kPosition) return result;
+    if (order == Derivatives::kPosition) return result;
     const int count = corner.faces;
     const auto around = [&](int i, const N& first, const N& second) {
       const CircleTable<N>& circle = circle_table<N>(count);
@@ -198,10 +199,10 @@ SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPl
       tangent.u = around(corner.sector, N(1), N(1)) * share;
       tangent.v = around(corner.sector + 1, N(1), N(1)) * share;
       tangent.u_terms = tangent.v_terms = (tangents.first_terms + tangents.second_terms) * share;
-      set_derivatives(result, tangent, turn_of(k), N(1), N(1), Order::kFirst);
+      set_derivatives(result, tangent, turn_of(k), N(1), N(1), Derivatives::kFirst);
     }
     SurfacePoint<N> derivatives;
-    set_derivatives(derivatives, linear, turn_of(k), N(halved ? 2 : 1), N(1), Order::kFirst);
+    set_derivatives(derivatives, linear, turn_of(k), N(halved ? 2 : 1), N(1), Derivatives::kFirst);
     result.first_exist = result.limits.first.exists();
     result.d1 = result.first_exist ? derivatives.d1 : result.t1;
     result.d2 = result.first_exist ? derivatives.d2 : result.t2;

@@ -241,7 +241,7 @@ int SubdivisionEvaluator<N>::face_count() const {
 
 template <class N>
 SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Parameter& u,
-                                                  const Parameter& v, Order order) const {
+                                                  const Parameter& v, Derivatives order) const {
   QuadParameter<Rational> at = locate(*mesh_, face, corner, exact_value(u), exact_value(v));
   long level = 0;
   RingedQuad<Vec3<N>> quad =
@@ -274,7 +274,7 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Pa
   result.position = p.position;
   set_derivatives(result, p, turn_of(0), NumberTraits<N>::scale(N(1), level),
                   NumberTraits<N>::scale(N(1), 2 * level), order);
-  if (order != Order::kPosition) set_normal(result, tangents_of(result), fallback);
+  if (order != Derivatives::kPosition) set_normal(result, tangents_of(result), fallback);
   return result;
 }
 

@@ -23,7 +23,8 @@ namespace limitcheck::reference::catmull_clark {
 ///   states   of the vertices of a mesh that is cut along its sharp edges
 template <class N>
 std::vector<Vec3<N>> points_after_step(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                       std::span<const VertexState> states = {}) {
+                                       std::span<const VertexState> states = {},
+                                       const Valences& valences = {}) {
   const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
   const std::size_t vertices = positions.size(), edges = topology.edges().size(),
                     faces = topology.faces().size();
@@ -56,7 +57,8 @@ std::vector<Vec3<N>> points_after_step(const Topology& topology, const std::vect
       // A dart has its sharp edge at either end.
       for (const std::int32_t e : sector.neighbours.first(sector.faces.size())) around.push_back(at(e));
       for (const std::int32_t f : sector.faces) near.push_back(face(f));
-      refined[v] = interior_vertex_point<N>(positions[v], around, near);
+      refined[v] = interior_vertex_point<N>(positions[v], around, near,
+                                            valence_of(valences, static_cast<std::int32_t>(v), 0));
     }
   }
   return refined;
@@ -120,7 +122,9 @@ struct QuadMesh : CutMesh<N> {
   using CutMesh<N>::topology, CutMesh<N>::positions;
   data::Faces given;  ///< the faces before that step, empty if there was none
 
-  QuadMesh(data::Faces faces, std::vector<Vec3<N>> points, const SharpTags& tags = {})
+  /// Of a mesh without tags the valences may be given.
+  QuadMesh(data::Faces faces, std::vector<Vec3<N>> points, const SharpTags& tags = {},
+           const Valences& valences = {})
       : CutMesh<N>(std::move(points), faces) {
     bool only_quads = true;
     for (std::size_t f = 0; f < faces.size(); ++f) only_quads = only_quads && faces[f].size() == 4;
@@ -130,7 +134,7 @@ struct QuadMesh : CutMesh<N> {
       if (!only_quads) mesh = refine_once(mesh, tags.triangles);
       this->settle(std::move(mesh));
     } else if (!only_quads) {
-      positions = points_after_step(topology, positions);
+      positions = points_after_step(topology, positions, {}, valences);
       Topology refined(positions.size(), refined_faces(topology));
       topology = std::move(refined);
     }

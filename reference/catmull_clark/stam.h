@@ -7,6 +7,7 @@
 
 #include "data/faces.h"
 #include "reference/mesh/sharp_tags.h"
+#include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 #include "reference/point/parameter.h"
 #include "reference/point/surface_point.h"
@@ -29,14 +30,19 @@ template <class N>
 class StamEvaluator {
  public:
   /// Throws data::ArgumentError if the mesh is not manifold (Topology) or the tags do not fit (Sharpness).
-  StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {});
+  ///   valences   of vertices that have more faces, in a mesh without tags, and, from the number of vertices on, of
+  ///              faces that have more corners: the points in their middle. Of points at such a vertex itself
+  ///              nothing can be said
+  StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags = {},
+                const Valences& valences = {});
 
   int face_count() const;
   /// As SubdivisionEvaluator::evaluate.
   SurfacePoint<N> evaluate(int face, int corner, const Parameter& u, const Parameter& v,
-                           Order order = Order::kSecond) const;
+                           Derivatives order = Derivatives::kSecond) const;
   /// The same with parameters that are doubles, for speed.
-  SurfacePoint<N> evaluate(int face, int corner, double u, double v, Order order = Order::kSecond) const;
+  SurfacePoint<N> evaluate(int face, int corner, double u, double v,
+                           Derivatives order = Derivatives::kSecond) const;
 
  private:
   std::shared_ptr<const detail::StamData<N>> data_;

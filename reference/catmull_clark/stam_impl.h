@@ -100,31 +100,31 @@ class FinerSector {
 template <class N>
 class StamData {
  public:
-  StamData(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags)
-      : StamData(QuadMesh<N>(std::move(faces), std::move(positions), tags)) {}
+  StamData(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags, const Valences& valences)
+      : StamData(QuadMesh<N>(std::move(faces), std::move(positions), tags, valences), {}, valences) {}
   /// `wanted` quads are those of which anybody will ask, all if it is empty.
   explicit StamData(TaggedMesh<N> mesh, const std::vector<bool>& wanted)
       : StamData(QuadMesh<N>(std::move(mesh)), wanted) {}
-  explicit StamData(QuadMesh<N> mesh, const std::vector<bool>& wanted = {})
+  explicit StamData(QuadMesh<N> mesh, const std::vector<bool>& wanted = {}, const Valences& valences = {})
       : mesh_(std::move(mesh)),
         next_(mesh_.needs_a_step, wanted),
-        points_(points_after_step(mesh_.topology, mesh_.positions, mesh_.states)) {
+        points_(points_after_step(mesh_.topology, mesh_.positions, mesh_.states, valences)) {
     const Topology finer(points_.size(), refined_faces(mesh_.topology));
-    make_two_rings(finer);
+    make_two_rings(finer, valences);
     make_patches(finer);
   }
 
   std::size_t face_count() const { return mesh_.face_count(); }
 
   template <class P>
-  SurfacePoint<N> evaluate(int face, int corner, const P& u, const P& v, Order order) const {
+  SurfacePoint<N> evaluate(int face, int corner, const P& u, const P& v, Derivatives order) const {
     const QuadParameter<P> at = locate(mesh_, face, corner, u, v);
     return mesh_.is_settled(at.quad) ? evaluate(at, order) : evaluate_after_steps(at, order);
   }
 
  private:
   template <class P>
-  SurfacePoint<N> evaluate(const QuadParameter<P>& at, Order order) const {
+  SurfacePoint<N> evaluate(const QuadParameter<P>& at, Derivatives order) const {
     const P half = P(1) / P(2);
     const bool right = at.u > half, up = at.v > half;
     const std::size_t k = up ? (right ? 2 : 3) : (right ? 1 : 0);
@@ -149,13 +149,13 @@ class StamData {
       near_corner(rings_[static_cast<std::size_t>(ring)], mesh_.topology.ring_index(at.quad, k), x, y,
                   turn_of(k), halved, order, result);
     }
-    if (order != Order::kPosition) set_normal(result, tangents_of(result), fallback(at.quad));
+    if (order != Derivatives::kPosition) set_normal(result, tangents_of(result), fallback(at.quad));
     return result;
   }
 
   /// Near semi-sharp tags: on the piece of the quad that has none.
   template <class P>
-  SurfacePoint<N> evaluate_after_steps(QuadParameter<P> at, Order order) const {
+  SurfacePoint<N> evaluate_after_steps(QuadParameter<P> at, Derivatives order) const {
     long steps = 0;
     SurfacePoint<N> result;
     if constexpr (std::is_same_v<N, double>) {
@@ -180,7 +180,7 @@ class StamData {
     return result;
   }
 
-  SurfacePoint<N> evaluate_corner(std::size_t quad, std::size_t k, bool halved, Order order) const {
+  SurfacePoint<N> evaluate_corner(std::size_t quad, std::size_t k, bool halved, Derivatives order) const {
     const std::int32_t v = mesh_.topology.faces()[quad][k];
     const auto known = limit_of_.find(v);
     const Sector sector = mesh_.topology.sector(v);
@@ -204,7 +204,7 @@ class StamData {
 
   template <class P>
   void near_corner(const TwoRing<N>& ring, int sector, const P& x, const P& y, const Turn& turn,
-                   const N& halved, Order order, SurfacePoint<N>& result) const {
+                   const N& halved, Derivatives order, SurfacePoint<N>& result) const {
     const long steps = steps_to_corner(std::max(x, y));
     const P a = times_power_of_two(x, steps + 1),
             b = times_power_of_two(y, steps + 1);  // the larger in (1, 2]
@@ -219,7 +219,7 @@ class StamData {
                     N(16) * halved * halved * power(N(4) * growth, steps), order);
   }
 
-  void make_two_rings(const Topology& finer) {
+  void make_two_rings(const Topology& finer, const Valences& valences) {
     two_ring_of_.assign(mesh_.topology.vertex_count(), -1);
     const auto at = [&](std::int32_t v) -> const Vec3<N>& { return points_[static_cast<std::size_t>(v)]; };
     const auto index = [](std::int32_t v) { return v; };
@@ -227,7 +227,7 @@ class StamData {
       const auto v = static_cast<std::int32_t>(id);
       const Sector sector = finer.sector(v);
       const VertexState state = state_of(mesh_.states, v);
-      const auto faces = static_cast<int>(sector.faces.size());
+      const int faces = valence_of(valences, v, sector.faces.size());
       if (faces == 0 || is_regular_vertex(faces, !sector.closed, state)) continue;
       TwoRingPoints<N> points;
       points.c = at(v);
@@ -279,7 +279,7 @@ class StamData {
   std::vector<std::array<std::int32_t, 16>> patches_;  ///< of the quads of that step
   std::vector<std::int32_t> two_ring_of_;              ///< of each vertex of mesh_, -1 where it is regular
   std::map<std::pair<int, VertexState>, InteriorKind<N>> interior_;
-  std::map<std::tuple<int, bool, VertexState>, SteppedKind<N>> stepped_;
+  std::map<std::tuple<int, bool, VertexState>, SteppedRingKind<N>> stepped_;
   std::vector<TwoRing<N>> rings_;
   std::map<std::int32_t, CornerLimit<N>> limit_of_;  ///< of vertices of many faces, each of which may ask
 };
@@ -287,8 +287,10 @@ class StamData {
 }  // namespace detail
 
 template <class N>
-StamEvaluator<N>::StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags)
-    : data_(std::make_shared<const detail::StamData<N>>(std::move(faces), std::move(positions), tags)) {}
+StamEvaluator<N>::StamEvaluator(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags,
+                                const Valences& valences)
+    : data_(std::make_shared<const detail::StamData<N>>(std::move(faces), std::move(positions), tags,
+                                                        valences)) {}
 
 template <class N>
 int StamEvaluator<N>::face_count() const {
@@ -296,7 +298,8 @@ int StamEvaluator<N>::face_count() const {
 }
 
 template <class N>
-SurfacePoint<N> StamEvaluator<N>::evaluate(int face, int corner, double u, double v, Order order) const {
+SurfacePoint<N> StamEvaluator<N>::evaluate(int face, int corner, double u, double v,
+                                           Derivatives order) const {
   if constexpr (std::is_same_v<N, double>) {
     return data_->evaluate(face, corner, u, v, order);
   } else {
@@ -306,7 +309,7 @@ SurfacePoint<N> StamEvaluator<N>::evaluate(int face, int corner, double u, doubl
 
 template <class N>
 SurfacePoint<N> StamEvaluator<N>::evaluate(int face, int corner, const Parameter& u, const Parameter& v,
-                                           Order order) const {
+                                           Derivatives order) const {
   if constexpr (std::is_same_v<N, double>)
     if (u.is_double() && v.is_double())
       return data_->evaluate(face, corner, u.as_double(), v.as_double(), order);

@@ -11,7 +11,7 @@
 namespace limitcheck::reference::catmull_clark {
 
 template <class N>
-SteppedKind<N>::SteppedKind(int faces, bool closed, VertexState state)
+SteppedRingKind<N>::SteppedRingKind(int faces, bool closed, VertexState state)
     : faces_(faces), closed_(closed), state_(state) {
   N largest = N(1) / N(2);  // eigenvalue; of a dart near enough
   if (state == VertexState::kDart)
@@ -24,20 +24,20 @@ SteppedKind<N>::SteppedKind(int faces, bool closed, VertexState state)
 }
 
 template <class N>
-typename SteppedKind<N>::Heard SteppedKind<N>::heard(std::span<const Vec3<N>> e,
-                                                     std::span<const Vec3<N>> f) const {
+typename SteppedRingKind<N>::Heard SteppedRingKind<N>::heard(std::span<const Vec3<N>> e,
+                                                             std::span<const Vec3<N>> f) const {
   if (state_ == VertexState::kHeld) return {};
   if (hears_ends()) return {e.front() + e.back(), {}};
   Heard sum;
-  const auto count = static_cast<std::size_t>(faces_);
+  const std::size_t count = e.size() - (closed_ ? 0 : 1);
   for (const Vec3<N>& x : e.first(count)) sum.e += x;  // a dart's e_n is its e_0
   for (const Vec3<N>& x : f.first(count)) sum.f += x;
-  const N share = N(1) / N(faces_);
+  const N share = N(1) / N(static_cast<int>(count));
   return {sum.e * share, sum.f * share};
 }
 
 template <class N>
-typename SteppedKind<N>::Heard SteppedKind<N>::next(const Heard& heard) const {
+typename SteppedRingKind<N>::Heard SteppedRingKind<N>::next(const Heard& heard) const {
   const N share = N(1) / growth();
   if (hears_ends()) return {heard.e * (share / N(4)), {}};
   const Vec3<N> move = after(heard);
@@ -46,21 +46,21 @@ typename SteppedKind<N>::Heard SteppedKind<N>::next(const Heard& heard) const {
 }
 
 template <class N>
-Vec3<N> SteppedKind<N>::after(const Heard& heard) const {
+Vec3<N> SteppedRingKind<N>::after(const Heard& heard) const {
   if (hears_ends()) return heard.e * (N(1) / N(8));
   return (heard.e * N(6) + heard.f) * (N(1) / N(4 * faces_));
 }
 
 template <class N>
-Vec3<N> SteppedKind<N>::to_limit(const Heard& heard, std::span<const Vec3<N>> e,
-                                 std::span<const Vec3<N>> f) const {
+Vec3<N> SteppedRingKind<N>::to_limit(const Heard& heard, std::span<const Vec3<N>> e,
+                                     std::span<const Vec3<N>> f) const {
   if (hears_ends()) return heard.e * (N(1) / N(6));
   if (state_ == VertexState::kDart) return weighted(dart_limit_weights<N>(faces_), Vec3<N>{}, e, f);
   return (heard.e * N(4) + heard.f) * (N(1) / N(faces_ + 5));
 }
 
 template <class N>
-TwoRing<N>::TwoRing(const SteppedKind<N>& kind, const TwoRingPoints<N>& points)
+TwoRing<N>::TwoRing(const SteppedRingKind<N>& kind, const TwoRingPoints<N>& points)
     : stepped_(&kind), points_(points) {
   if constexpr (kRounds<N>) size_ = detail::largest(points);
   for (auto* list : {&points_.e, &points_.p, &points_.f, &points_.g, &points_.h, &points_.r})
@@ -77,14 +77,18 @@ namespace detail {
 template <class N>
 class SteppedWindow {
  public:
-  SteppedWindow(const SteppedKind<N>& kind, const TwoRingPoints<N>& points, long low, long high, long steps)
-      : closed_(kind.closed()), count_(kind.faces()), low_(low - steps), high_(high + steps) {
+  SteppedWindow(const SteppedRingKind<N>& kind, const TwoRingPoints<N>& points, long low, long high,
+                long steps)
+      : closed_(kind.closed()),
+        count_(static_cast<long>(points.f.size())),
+        low_(low - steps),
+        high_(high + steps) {
     const bool dart = kind.state() == VertexState::kDart;
     whole_ = dart || (closed_ && high_ - low_ + 1 >= count_);
-    if (whole_) low_ = 0, high_ = kind.entries() - 1;
+    const long entries = static_cast<long>(points.e.size());
+    if (whole_) low_ = 0, high_ = entries - 1;
     if (!closed_) low_ = std::max(low_, 0L), high_ = std::min(high_, count_);
     start_ = low_;
-    const long entries = kind.entries();
     for (long i = low_; i <= high_; ++i) {
       e_.push_back(points.e[static_cast<std::size_t>(wrapped(i, entries))]);
       f_.push_back(has_face(i) ? points.f[static_cast<std::size_t>(wrapped(i, count_))] : Vec3<N>{});
@@ -134,13 +138,13 @@ template <class N>
 void TwoRing<N>::stepped_sector(int i, long steps, TwoRingSector<N>& s) const {
   using Side = typename TwoRingSector<N>::Side;
   s = {};
-  const int count = stepped_->faces();
+  const int count = static_cast<int>(points_.f.size());
   const bool closed = stepped_->closed(), dart = stepped_->state() == VertexState::kDart;
   detail::SteppedWindow<N> near(*stepped_, points_, i - 2, i + 3, steps);
   const auto face = [&](int at) { return static_cast<std::size_t>((at % count + count) % count); };
   const bool before = near.has_face(i - 1), after = near.has_face(i + 1);
   s.p = {points_.p[static_cast<std::size_t>(i)],
-         points_.p[static_cast<std::size_t>((i + 1) % stepped_->entries())]};
+         points_.p[static_cast<std::size_t>((i + 1) % static_cast<int>(points_.p.size()))]};
   s.g = points_.g[face(i)], s.h = points_.h[face(i)], s.r = points_.r[face(i)];
   if (before) s.h_before = points_.h[face(i - 1)];
   if (after) s.g_after = points_.g[face(i + 1)];

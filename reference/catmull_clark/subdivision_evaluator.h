@@ -36,7 +36,7 @@ class SubdivisionEvaluator {
   /// Parameters are followed exactly.
   ///   throws   data::ArgumentError: no such face or corner, u or v outside 0 .. 1
   SurfacePoint<N> evaluate(int face, int corner, const Parameter& u, const Parameter& v,
-                           Order order = Order::kSecond) const;
+                           Derivatives order = Derivatives::kSecond) const;
 
  private:
   std::shared_ptr<const QuadMesh<N>> mesh_;

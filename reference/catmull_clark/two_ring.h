@@ -89,14 +89,12 @@ inline constexpr int kManyFaces = 65;
 /// The same of a vertex that takes the steps: on the boundary an ordinary one of K faces, K other than 2, or
 /// a held one, K other than 1; a dart, which has an open sector; inside one of many faces.
 template <class N>
-class SteppedKind {
+class SteppedRingKind {
  public:
-  SteppedKind(int faces, bool closed, VertexState state);
+  SteppedRingKind(int faces, bool closed, VertexState state);
   int faces() const { return faces_; }
   bool closed() const { return closed_; }
   VertexState state() const { return state_; }
-  /// Of e and of p: K + 1, inside K.
-  int entries() const { return faces_ + (closed_ ? 0 : 1); }
   /// What the points are divided by in a step, exactly, and how they grow then.
   static N growth() { return N(1) / N(2); }
   const N& grown() const { return grown_; }
@@ -125,7 +123,7 @@ template <class N>
 class TwoRing {
  public:
   TwoRing(const InteriorKind<N>& kind, const TwoRingPoints<N>& points);
-  TwoRing(const SteppedKind<N>& kind, const TwoRingPoints<N>& points);
+  TwoRing(const SteppedRingKind<N>& kind, const TwoRingPoints<N>& points);
 
   N growth() const { return interior_ != nullptr ? interior_->growth() : stepped_->growth(); }
   const Vec3<N>& limit() const { return limit_; }
@@ -141,12 +139,12 @@ class TwoRing {
   void stepped_sector(int i, long steps, TwoRingSector<N>& s) const;
 
   const InteriorKind<N>* interior_ = nullptr;
-  const SteppedKind<N>* stepped_ = nullptr;
+  const SteppedRingKind<N>* stepped_ = nullptr;
   Vec3<N> limit_;
   N size_{};
   std::vector<std::array<Amplitude, 6>> amplitudes_;  ///< interior: of each frequency
   TwoRingPoints<N> points_;                           ///< stepped: differences from c
-  typename SteppedKind<N>::Heard heard_;
+  typename SteppedRingKind<N>::Heard heard_;
 };
 
 }  // namespace limitcheck::reference::catmull_clark

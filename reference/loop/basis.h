@@ -111,7 +111,7 @@ struct BasisCoefficients {
 
 /// Values, and derivatives up to `order`, at (alpha, beta); the rest is left as it was.
 template <class N>
-void evaluate_basis(Basis<N>& result, const N& alpha, const N& beta, Order order) {
+void evaluate_basis(Basis<N>& result, const N& alpha, const N& beta, Derivatives order) {
   static const detail::BasisCoefficients<N> table;
   std::array<N, 5> a, b, g;
   a[0] = b[0] = g[0] = N(1);
@@ -122,11 +122,11 @@ void evaluate_basis(Basis<N>& result, const N& alpha, const N& beta, Order order
     g[i] = g[i - 1] * gamma;
   }
   detail::combine(result.value, detail::monomials<4>(a, b, g), table.value);
-  if (order == Order::kPosition) return;
+  if (order == Derivatives::kPosition) return;
   const auto cubic = detail::monomials<3>(a, b, g);
   detail::combine(result.da, cubic, table.da);
   detail::combine(result.db, cubic, table.db);
-  if (order == Order::kFirst) return;
+  if (order == Derivatives::kFirst) return;
   const auto quadratic = detail::monomials<2>(a, b, g);
   detail::combine(result.daa, quadratic, table.daa);
   detail::combine(result.dab, quadratic, table.dab);

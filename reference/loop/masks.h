@@ -52,13 +52,14 @@ N ring_weight(int n, Weights weights) {
 ///       /  | \       .
 ///    a/n   |  a/n
 ///         a/n
+///   valence   n, if the ring is no more than points with the same mean
 template <class N>
 Vec3<N> interior_vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring,
-                              Weights weights = Weights::kLoop) {
+                              Weights weights = Weights::kLoop, int valence = 0) {
   const auto n = static_cast<int>(ring.size());
   Vec3<N> sum = ring[0] - v;
   for (std::size_t i = 1; i < ring.size(); ++i) sum += ring[i] - v;
-  return v + sum * (ring_weight<N>(n, weights) / N(n));
+  return v + sum * (ring_weight<N>(valence > 0 ? valence : n, weights) / N(n));
 }
 
 /// Interior edge a-b with opposite vertices c, d: 3/8 (a + b) + 1/8 (c + d).   [equation 2; C12]

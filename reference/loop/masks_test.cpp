@@ -163,7 +163,7 @@ void compare(const RingedFace<Vec3<Rational>>& face, int depth,
   if (depth == 0) {
     for (std::size_t k = 0; k < 3; ++k) {
       Basis<Rational> basis;
-      evaluate_basis(basis, at[k][0], at[k][1], Order::kPosition);
+      evaluate_basis(basis, at[k][0], at[k][1], Derivatives::kPosition);
       EXPECT_EQ(interior_limit<Rational>(face.corner[k].point, face.corner[k].span()).x,
                 basis.value[which - 1])
           << "b" << which << " at " << at[k][0] << ", " << at[k][1];
@@ -190,11 +190,11 @@ TEST(AppendixA, DerivativesAreThoseOfTheValuesExactly) {
   const Rational a(2, 7), b(3, 11), h(1, 10);
   const auto value = [&](const Rational& x, const Rational& y) {
     Basis<Rational> basis;
-    evaluate_basis(basis, x, y, Order::kPosition);
+    evaluate_basis(basis, x, y, Derivatives::kPosition);
     return basis.value;
   };
   Basis<Rational> basis;
-  evaluate_basis(basis, a, b, Order::kSecond);
+  evaluate_basis(basis, a, b, Derivatives::kSecond);
   const auto first = [&](auto at, std::size_t i) {
     return Rational((8 * (at(h)[i] - at(-h)[i]) - (at(2 * h)[i] - at(-2 * h)[i])) / (12 * h));
   };
@@ -216,7 +216,7 @@ TEST(AppendixA, DerivativesAreThoseOfTheValuesExactly) {
 
 TEST(Sec5_CentreWeights, AreTheBasisAtOneThird) {
   Basis<Rational> basis;
-  evaluate_basis(basis, Rational(1, 3), Rational(1, 3), Order::kPosition);
+  evaluate_basis(basis, Rational(1, 3), Rational(1, 3), Derivatives::kPosition);
   const Rational quarter(1, 4), seven_halves(7, 2);
   const std::array<Rational, 12> paper{quarter, quarter, seven_halves, 23,      seven_halves, quarter,
                                        23,      23,      quarter,      quarter, seven_halves, quarter};

@@ -33,14 +33,14 @@ struct LocalPoint {
 /// they coincide.
 ///   size   the largest coordinate that the points were computed from, if not their own
 template <class N, class Points>
-LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order order, N size = N(0)) {
+LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Derivatives order, N size = N(0)) {
   const Vec3<N>& origin = points[3];
   std::array<Vec3<N>, 12> d;
   for (std::size_t i = 0; i < 12; ++i) d[i] = points[i] - origin;
   LocalPoint<N> s{};
   for (std::size_t i = 0; i < 12; ++i) s.position += d[i] * basis.value[i];
   s.position += origin;
-  if (order == Order::kPosition) return s;
+  if (order == Derivatives::kPosition) return s;
   for (std::size_t i = 0; i < 12; ++i) {
     s.a += d[i] * basis.da[i];
     s.b += d[i] * basis.db[i];
@@ -54,7 +54,7 @@ LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order 
     s.a_terms *= N(2) * size;  // both ends of each difference
     s.b_terms *= N(2) * size;
   }
-  if (order == Order::kFirst) return s;
+  if (order == Derivatives::kFirst) return s;
   for (std::size_t i = 0; i < 12; ++i) {
     s.aa += d[i] * basis.daa[i];
     s.ab += d[i] * basis.dab[i];
@@ -67,8 +67,8 @@ LocalPoint<N> evaluate_patch(const Points& points, const Basis<N>& basis, Order 
 /// and second derivatives, in place of powers of 2^level.
 template <class N>
 void set_derivatives(SurfacePoint<N>& result, const LocalPoint<N>& s, const ParameterGradients& at,
-                     const N& first, const N& second, Order order) {
-  if (order == Order::kPosition) return;
+                     const N& first, const N& second, Derivatives order) {
+  if (order == Derivatives::kPosition) return;
   const N a1(at.a1), a2(at.a2), b1(at.b1), b2(at.b2);
   result.d1 = (s.a * a1 + s.b * b1) * first;
   result.d2 = (s.a * a2 + s.b * b2) * first;
@@ -79,7 +79,7 @@ void set_derivatives(SurfacePoint<N>& result, const LocalPoint<N>& s, const Para
     result.t2_terms = (s.a_terms * magnitude(a2) + s.b_terms * magnitude(b2)) * first;
   }
   result.first_exist = true;
-  if (order == Order::kFirst) return;
+  if (order == Derivatives::kFirst) return;
   result.d11 = (s.aa * (a1 * a1) + s.ab * (N(2) * a1 * b1) + s.bb * (b1 * b1)) * second;
   result.d12 = (s.aa * (a1 * a2) + s.ab * (a1 * b2 + a2 * b1) + s.bb * (b1 * b2)) * second;
   result.d22 = (s.aa * (a2 * a2) + s.ab * (N(2) * a2 * b2) + s.bb * (b2 * b2)) * second;
@@ -102,7 +102,7 @@ void set_derivatives(SurfacePoint<N>& result, const LocalPoint<N>& s, const Para
 template <class N>
 SurfacePoint<N> extraordinary_corner(const VertexLimit<N>& limit, std::size_t n, bool on_boundary,
                                      int ring_index, const ParameterGradients& at, Weights weights,
-                                     Order order, VertexState state = VertexState::kOrdinary) {
+                                     Derivatives order, VertexState state = VertexState::kOrdinary) {
   SurfacePoint<N> result;
   result.at_corner = true;
   result.position = limit.position;
@@ -151,7 +151,8 @@ SurfacePoint<N> extraordinary_corner(const VertexLimit<N>& limit, std::size_t n,
   result.d1 = t1;
   result.d2 = t2;
   if (first.exists())
-    set_derivatives(result, local, at, N(1), N(1), second.exists() ? order : std::min(order, Order::kFirst));
+    set_derivatives(result, local, at, N(1), N(1),
+                    second.exists() ? order : std::min(order, Derivatives::kFirst));
   result.t1 = t1;
   result.t2 = t2;
   result.t1_terms = on_boundary ? c_terms : c_terms + s_terms;
@@ -163,7 +164,7 @@ SurfacePoint<N> extraordinary_corner(const VertexLimit<N>& limit, std::size_t n,
 template <class N>
 SurfacePoint<N> extraordinary_corner(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary,
                                      int ring_index, const ParameterGradients& at, Weights weights,
-                                     Order order, VertexState state = VertexState::kOrdinary) {
+                                     Derivatives order, VertexState state = VertexState::kOrdinary) {
   return extraordinary_corner<N>(vertex_limit(v, ring, on_boundary, weights, state), ring.size(), on_boundary,
                                  ring_index, at, weights, order, state);
 }

@@ -130,7 +130,7 @@ int SubdivisionEvaluator<N>::face_count() const {
 
 template <class N>
 SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2,
-                                                  Order order) const {
+                                                  Derivatives order) const {
   if (face < 0 || face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
   const auto [first, second] = exact_parameters(l1, l2);
   if (first < 0 || second < 0 || first + second > 1)
@@ -166,7 +166,7 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, const Parameter& l1,
   result.position = s.position;
   set_derivatives(result, s, path.gradients(), NumberTraits<N>::scale(N(1), path.level),
                   NumberTraits<N>::scale(N(1), 2 * path.level), order);
-  if (order == Order::kPosition) return result;
+  if (order == Derivatives::kPosition) return result;
   const auto corner = [&](std::size_t k) { return mesh_->positions[mesh_->topology.faces()[at][k]]; };
   set_normal(result, tangents_of(result), cross(corner(1) - corner(0), corner(2) - corner(0)));
   return result;

@@ -23,7 +23,8 @@ class Sharpness;
 ///   states   of the vertices of a mesh that is cut along its sharp edges
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                 Weights weights = Weights::kLoop, std::span<const VertexState> states = {});
+                                 Weights weights = Weights::kLoop, std::span<const VertexState> states = {},
+                                 const Valences& valences = {});
 
 /// The control points as they are, in the number type: exact in every one but narrower ones.
 template <class N>

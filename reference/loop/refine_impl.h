@@ -17,7 +17,8 @@ namespace limitcheck::reference {
 
 template <class N>
 std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                 Weights weights, std::span<const VertexState> states) {
+                                 Weights weights, std::span<const VertexState> states,
+                                 const Valences& valences) {
   std::vector<Vec3<N>> result;
   result.reserve(topology.vertex_count() + topology.edges().size());
   std::vector<Vec3<N>> ring;
@@ -30,7 +31,8 @@ std::vector<Vec3<N>> refine_once(const Topology& topology, const std::vector<Vec
     ring.clear();
     for (const std::int32_t r : sector.neighbours) ring.push_back(positions[r]);
     result.push_back(vertex_point<N>(positions[v], ring, !sector.closed,
-                                     state_of(states, static_cast<std::int32_t>(v)), weights));
+                                     state_of(states, static_cast<std::int32_t>(v)), weights,
+                                     valence_of(valences, static_cast<std::int32_t>(v), 0)));
   }
   for (const Edge& e : topology.edges()) {
     const auto across = [&](std::int32_t face) -> const Vec3<N>& {

@@ -52,14 +52,15 @@ class StamEvaluator {
   /// The mesh must be valid (data/validate.h). Throws data::ArgumentError if it is not manifold (Topology).
   explicit StamEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
   /// Control points in the number type itself.
+  ///   valences   of vertices that have more faces; of points at such a vertex itself nothing can be said
   StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
-                Weights weights = Weights::kLoop, const SharpTags& tags = {});
+                Weights weights = Weights::kLoop, const SharpTags& tags = {}, Valences valences = {});
 
   int face_count() const;
   /// Throws data::ArgumentError for a face that is not there and for parameters outside the triangle.
-  SurfacePoint<N> evaluate(int face, double l1, double l2, Order order = Order::kSecond) const;
+  SurfacePoint<N> evaluate(int face, double l1, double l2, Derivatives order = Derivatives::kSecond) const;
   SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
-                           Order order = Order::kSecond) const;
+                           Derivatives order = Derivatives::kSecond) const;
 
  private:
   std::shared_ptr<const detail::StamData<N>> data_;

@@ -24,13 +24,14 @@ class StamData {
   /// `wanted` faces are those of which anybody will ask, all if it is empty.
   StamData(TaggedMesh<N> mesh, const std::vector<bool>& wanted, Weights weights)
       : StamData(CutMesh<N>(std::move(mesh)), weights, wanted) {}
-  StamData(CutMesh<N> mesh, Weights weights, const std::vector<bool>& wanted = {})
+  StamData(CutMesh<N> mesh, Weights weights, const std::vector<bool>& wanted = {}, Valences valences = {})
       : weights_(weights),
+        valences_(std::move(valences)),
         mesh_(std::move(mesh)),
         next_(mesh_.needs_a_step, wanted),
         topology_(mesh_.topology),
         control_(mesh_.positions),
-        points_(refine_once(topology_, control_, weights, mesh_.states)) {
+        points_(refine_once(topology_, control_, weights, mesh_.states, valences_)) {
     make_two_rings();
     make_patches();
   }
@@ -40,7 +41,7 @@ class StamData {
   int face_count() const { return static_cast<int>(topology_.faces().size()); }
 
   template <class P>
-  SurfacePoint<N> evaluate(int face, const P& l1, const P& l2, Order order) const {
+  SurfacePoint<N> evaluate(int face, const P& l1, const P& l2, Derivatives order) const {
     if (face < 0 || face >= face_count()) throw data::ArgumentError("no face " + std::to_string(face));
     const std::size_t f = face;
     const SubFaceLocation<P> location = locate<P>(l1, l2);
@@ -59,7 +60,7 @@ class StamData {
       evaluate_near_corner(f, location, *stepped, order, result);
     else
       evaluate_near_corner(f, location, *two_ring, order, result);
-    if (order == Order::kPosition) return result;
+    if (order == Derivatives::kPosition) return result;
     Tangents<N> tangents = tangents_of(result);
     const bool near_vertex = two_ring != nullptr || stepped != nullptr;
     if (near_vertex && is_ordinary_end(v) && nearly_parallel(result.t1, result.t2)) {
@@ -85,7 +86,9 @@ class StamData {
       const auto v = static_cast<std::int32_t>(id);
       const Sector sector = topology_.sector(v);
       const VertexState state = state_of(mesh_.states, v);
-      if (sector.faces.empty() || is_regular_vertex(sector.faces.size(), !sector.closed, state)) continue;
+      const int valence = valence_of(valences_, v, sector.faces.size());
+      if (valence == 0 || is_regular_vertex(static_cast<std::size_t>(valence), !sector.closed, state))
+        continue;
       r.clear(), q.clear(), p.clear();
       for (const std::int32_t edge : sector.edges) r.push_back(points_[edge_point(edge)]);
       for (const std::int32_t neighbour : sector.neighbours) p.push_back(points_[neighbour]);
@@ -94,13 +97,13 @@ class StamData {
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
         q.push_back(points_[edge_point(topology_.edge(f, (k + 1) % 3))]);
       }
-      if (state != VertexState::kOrdinary || sector.faces.size() >= kManyFaces) {
-        const std::tuple kind(static_cast<int>(q.size()), sector.closed, state);
+      if (state != VertexState::kOrdinary || valence >= kManyFaces) {
+        const std::tuple kind(valence, sector.closed, state);
         const auto [faces, closed, what] = kind;
         const auto& found = stepped_kinds_.try_emplace(kind, faces, closed, what, weights_).first->second;
         stepped_ring_of_[id] = static_cast<std::int32_t>(stepped_rings_.size());
         stepped_rings_.emplace_back(found, points_[v], r, q, p);
-        if (kRounds<N> && sector.faces.size() >= kManyFaces)  // who asks for balls asks for few points
+        if (kRounds<N> && valence >= kManyFaces)  // who asks for balls asks for few points
           limit_of_.emplace(v, limit_at(v));
         continue;
       }
@@ -128,7 +131,7 @@ class StamData {
   }
 
   template <class P>
-  void evaluate_regular(std::size_t f, const SubFaceLocation<P>& location, Order order,
+  void evaluate_regular(std::size_t f, const SubFaceLocation<P>& location, Derivatives order,
                         SurfacePoint<N>& result) const {
     Basis<N> basis;
     evaluate_basis(basis, number_from<N>(location.u), number_from<N>(location.v), order);
@@ -140,7 +143,7 @@ class StamData {
   }
 
   SurfacePoint<N> evaluate_corner(std::size_t f, int k, const ParameterGradients& gradients,
-                                  Order order) const {
+                                  Derivatives order) const {
     const std::int32_t v = topology_.faces()[f][k];
     const Sector sector = topology_.sector(v);
     const auto known = limit_of_.find(v);
@@ -162,7 +165,7 @@ class StamData {
 
   /// Near semi-sharp tags: on the piece of the face that has none.
   template <class P>
-  SurfacePoint<N> evaluate_after_steps(std::size_t f, const P& l1, const P& l2, Order order) const {
+  SurfacePoint<N> evaluate_after_steps(std::size_t f, const P& l1, const P& l2, Derivatives order) const {
     // Two doubles may be more than 1 by a last bit; from the larger one 1 - l is exact.
     const P largest = P(1) - std::max(l1, l2);
     SubFacePath<P> path(l1 < l2 ? std::min(l1, largest) : l1, l1 < l2 ? l2 : std::min(l2, largest));
@@ -192,7 +195,7 @@ class StamData {
     result.second_exist = p.second_exist;
     local.a = p.t1, local.b = p.t2;
     SurfacePoint<N> tangents;
-    set_derivatives(tangents, local, path.gradients(), first, second, std::min(order, Order::kFirst));
+    set_derivatives(tangents, local, path.gradients(), first, second, std::min(order, Derivatives::kFirst));
     result.t1 = tangents.d1, result.t2 = tangents.d2;
     return result;
   }
@@ -215,8 +218,8 @@ class StamData {
 
   ///   Ring   TwoRing or SteppedRing
   template <class P, class Ring>
-  void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const Ring& ring, Order order,
-                            SurfacePoint<N>& result) const {
+  void evaluate_near_corner(std::size_t f, const SubFaceLocation<P>& location, const Ring& ring,
+                            Derivatives order, SurfacePoint<N>& result) const {
     const int face = topology_.ring_index(f, location.subface);
     const long steps = steps_to_corner(P(location.u + location.v));
     const SubTriangle<P> outer(location, steps);
@@ -233,7 +236,7 @@ class StamData {
     result.position = ring.limit() +
                       (to_first * number_from<N>(location.u) + to_second * number_from<N>(location.v)) +
                       (local.position - s.c_to_limit) * power(growth, steps);
-    if (order == Order::kPosition) return;
+    if (order == Derivatives::kPosition) return;
     set_derivatives(result, local, outer.which == 2 ? g.turned() : g, N(4) * power(N(2) * growth, steps),
                     N(16) * power(N(4) * growth, steps), order);
     result.t1 = result.d1 += (to_first * N(g.a1) + to_second * N(g.b1)) * N(2);
@@ -290,8 +293,8 @@ class StamData {
   void separate_tangents(std::size_t f, const SubFaceLocation<P>& location, const Ring& ring,
                          Tangents<N>& t) const {
     SurfacePoint<N> rest, factor;
-    evaluate_near_corner(f, location, ring.without_dominant(), Order::kFirst, rest);
-    evaluate_near_corner(f, location, ring.only_dominant(), Order::kFirst, factor);
+    evaluate_near_corner(f, location, ring.without_dominant(), Derivatives::kFirst, rest);
+    evaluate_near_corner(f, location, ring.only_dominant(), Derivatives::kFirst, factor);
     const N f1 = factor.d1.x, f2 = factor.d2.x;
     if (f1 * f1 > f2 * f2) {
       t.second = rest.d2 - rest.d1 * (f2 / f1);
@@ -309,6 +312,7 @@ class StamData {
   }
 
   Weights weights_;
+  Valences valences_;
   CutMesh<N> mesh_;
   NextStep<N, StamData> next_;
   const Topology& topology_;
@@ -332,9 +336,10 @@ StamEvaluator<N>::StamEvaluator(const data::ControlMesh& mesh, Weights weights)
     : StamEvaluator(positions_of<N>(mesh), triangles_of(mesh).to_vector(), weights, mesh.sharpness) {}
 template <class N>
 StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
-                                Weights weights, const SharpTags& tags)
+                                Weights weights, const SharpTags& tags, Valences valences)
     : data_(std::make_shared<const detail::StamData<N>>(
-          CutMesh<N>(std::move(positions), data::Faces(triangles), tags), weights)) {}
+          CutMesh<N>(std::move(positions), data::Faces(triangles), tags), weights, std::vector<bool>{},
+          std::move(valences))) {}
 
 template <class N>
 int StamEvaluator<N>::face_count() const {
@@ -342,7 +347,7 @@ int StamEvaluator<N>::face_count() const {
 }
 
 template <class N>
-SurfacePoint<N> StamEvaluator<N>::evaluate(int face, double l1, double l2, Order order) const {
+SurfacePoint<N> StamEvaluator<N>::evaluate(int face, double l1, double l2, Derivatives order) const {
   if constexpr (std::is_same_v<N, double>) {
     return data_->evaluate(face, l1, l2, order);
   } else {
@@ -352,7 +357,7 @@ SurfacePoint<N> StamEvaluator<N>::evaluate(int face, double l1, double l2, Order
 
 template <class N>
 SurfacePoint<N> StamEvaluator<N>::evaluate(int face, const Parameter& l1, const Parameter& l2,
-                                           Order order) const {
+                                           Derivatives order) const {
   if constexpr (std::is_same_v<N, double>)
     if (l1.is_double() && l2.is_double()) return data_->evaluate(face, l1.as_double(), l2.as_double(), order);
   const auto [first, second] = exact_parameters(l1, l2);

@@ -38,8 +38,6 @@ class SteppedRingKind {
   /// What the points are divided by in a step, and how they grow then.
   static N growth() { return N(1) / N(2); }
   const N& grown() const { return grown_; }
-  /// Of r and of p: K + 1, inside K.
-  int entries() const { return faces_ + (closed_ ? 0 : 1); }
 
   /// What c hears of a ring: inside the mean of all r_i, on the boundary r_0 + r_K, and how that changes in a
   /// step, over the growth. A dart needs the ring itself.
@@ -120,9 +118,10 @@ template <class N>
 Vec3<N> SteppedRingKind<N>::heard(std::span<const Vec3<N>> r) const {
   if (state_ == VertexState::kHeld) return {};
   if (!closed_ && state_ == VertexState::kOrdinary) return r.front() + r.back();
+  const std::size_t count = r.size() - (closed_ ? 0 : 1);  // a dart's r_n is its r_0
   Vec3<N> sum{};
-  for (const Vec3<N>& x : r.first(static_cast<std::size_t>(faces_))) sum += x;  // a dart's r_n is its r_0
-  return sum * (N(1) / N(faces_));
+  for (const Vec3<N>& x : r.first(count)) sum += x;
+  return sum * (N(1) / N(static_cast<int>(count)));
 }
 
 template <class N>
@@ -165,7 +164,7 @@ SteppedRing<N> SteppedRing<N>::only_dominant() const {
 template <class N>
 RingPoints<N> SteppedRing<N>::face_points(int face, long steps) const {
   const bool closed = kind_->closed(), dart = kind_->state() == VertexState::kDart;
-  const long count = kind_->faces(), entries = kind_->entries();
+  const long count = static_cast<long>(q_.size()), entries = static_cast<long>(r_.size());
   const auto wrap = [](long i, long n) { return static_cast<std::size_t>((i % n + n) % n); };
 
   // The r_i from `low` to `high`. Those beyond what a step still reaches are left behind; but where all are

@@ -34,7 +34,7 @@ class SubdivisionEvaluator {
   int face_count() const;
   /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
   SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
-                           Order order = Order::kSecond) const;
+                           Derivatives order = Derivatives::kSecond) const;
 
  private:
   std::shared_ptr<const CutMesh<N>> mesh_;

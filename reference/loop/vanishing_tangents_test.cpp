@@ -134,7 +134,7 @@ TEST(D12_VanishingTangents, AtThePolesOfASphereBlameNobody) {
         naive.tessellate(f, depth, [&](const LeafTriangle<double>& leaf) {
           for (const auto& c : leaf) {
             const auto s = stam.evaluate(static_cast<int>(f), std::ldexp(c.i, -depth),
-                                         std::ldexp(c.j, -depth), Order::kFirst);
+                                         std::ldexp(c.j, -depth), Derivatives::kFirst);
             ++points;
             if (s.normal_kind != NormalKind::kRegular) continue;
             ++regular;
@@ -178,9 +178,9 @@ double worst_turn(const data::ControlMesh& mesh, const std::vector<std::array<do
     }
     const StamEvaluator<double> off(moved);
     for (const auto& [f, l1, l2] : places) {
-      const auto s = exact.evaluate(static_cast<int>(f), l1, l2, Order::kFirst);
+      const auto s = exact.evaluate(static_cast<int>(f), l1, l2, Derivatives::kFirst);
       EXPECT_EQ(s.normal_kind, NormalKind::kRegular);
-      const auto t = off.evaluate(static_cast<int>(f), l1, l2, Order::kFirst);
+      const auto t = off.evaluate(static_cast<int>(f), l1, l2, Derivatives::kFirst);
       worst = std::max(worst, angle(s.normal, t.normal) / (u * s.normal_condition));
     }
   }

@@ -20,11 +20,11 @@ namespace limitcheck::reference {
 /// Where a vertex goes in a step.
 template <class N>
 Vec3<N> vertex_point(const Vec3<N>& v, std::span<const Vec3<N>> ring, bool on_boundary, VertexState state,
-                     Weights weights) {
+                     Weights weights, int valence = 0) {
   if (state == VertexState::kHeld) return v;
   if (state == VertexState::kDart) return interior_vertex_point<N>(v, ring.first(ring.size() - 1), weights);
   return on_boundary ? boundary_vertex_point(v, ring.front(), ring.back())
-                     : interior_vertex_point<N>(v, ring, weights);
+                     : interior_vertex_point<N>(v, ring, weights, valence);
 }
 
 /// One subdivision step of a vertex and its ring, in place. [C29]

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -84,6 +85,14 @@ class Topology {
   std::vector<std::size_t> ring_start_;          ///< of each vertex, and where the last one's ends
   std::vector<std::int32_t> ring_, ring_edges_, ring_faces_;  ///< an open sector has a face -1 at its end
 };
+
+/// How many faces vertices have of whose faces only some are there, with the means of all (surface/near_part.h). None
+/// in ordinary meshes.
+using Valences = std::map<std::int32_t, int>;
+inline int valence_of(const Valences& valences, std::int32_t v, std::size_t faces) {
+  const auto found = valences.find(v);
+  return found != valences.end() ? found->second : static_cast<int>(faces);
+}
 
 /// A face that is a triangle.
 inline Triangle triangle_of(const Topology& topology, std::size_t face) {

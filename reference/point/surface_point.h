@@ -87,7 +87,8 @@ enum class NormalKind : std::uint8_t {
 };
 
 /// How much to compute.
-enum class Order : std::uint8_t { kPosition, kFirst, kSecond };
+enum class Derivatives : std::uint8_t { kPosition, kFirst, kSecond };
+using Order = Derivatives;  ///< its name in 0.1
 
 /// A point of the limit surface at (face, l1, l2), l0 = 1 - l1 - l2 being the weight of corner 0.
 ///   position       the limit point

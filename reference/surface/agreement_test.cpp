@@ -34,7 +34,7 @@ void compare(const std::string& name, int depth) {
       ++leaves;
       for (const auto& c : leaf) {
         const std::size_t at = refined.vertex(f, c.i, c.j);
-        const auto s = stam.evaluate(static_cast<int>(f), c.i / size, c.j / size, Order::kFirst);
+        const auto s = stam.evaluate(static_cast<int>(f), c.i / size, c.j / size, Derivatives::kFirst);
         position = std::max(
             {position, distance(c.position, limits.positions[at]), distance(c.position, s.position)});
         // A boundary corner of many faces has a normal that tangents near it need not share (D5).

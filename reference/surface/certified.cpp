@@ -20,6 +20,7 @@
 #include "reference/mesh/support.h"
 #include "reference/number/ball.h"
 #include "reference/point/parameter_exact.h"
+#include "reference/surface/near_part.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -66,7 +67,8 @@ std::string Radius::to_string(int digits) const {
 struct CertifiedEvaluator::Data {
   using Position = std::array<Rational, 3>;
   Topology topology;
-  std::function<Position(std::int32_t)> position;  // of a vertex
+  std::function<Position(std::int32_t)> position;                   // of a vertex
+  std::function<std::array<double, 3>(std::int32_t)> in_doubles{};  // none if they were given as text
   data::Scheme scheme;
   Weights weights;
   std::optional<Sharpness> sharpness{};
@@ -93,12 +95,17 @@ struct CertifiedEvaluator::Data {
       for (const double x : p)
         if (!std::isfinite(x)) throw data::ArgumentError("control mesh: a coordinate is not finite");
     if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
-    const auto position = [positions = mesh.positions](std::int32_t v) {
-      const auto& p = positions[v];
+    const auto in_doubles = [positions =
+                                 std::make_shared<const std::vector<std::array<double, 3>>>(mesh.positions)](
+                                std::int32_t v) { return (*positions)[static_cast<std::size_t>(v)]; };
+    const auto position = [in_doubles](std::int32_t v) {
+      const auto p = in_doubles(v);
       return Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
     };
-    return std::make_unique<const Data>(Topology(mesh.positions.size(), mesh.faces), position, scheme,
-                                        weights, mesh.sharpness);
+    auto data = std::make_unique<Data>(Topology(mesh.positions.size(), mesh.faces), position, scheme, weights,
+                                       mesh.sharpness);
+    data->in_doubles = in_doubles;
+    return data;
   }
   static std::unique_ptr<const Data> of(const std::vector<std::array<std::string, 3>>& positions,
                                         data::Faces faces, data::Scheme scheme, Weights weights,
@@ -117,12 +124,15 @@ namespace {
 
 /// The point of a mesh of few faces.
 SurfacePoint<Ball> evaluate_in_balls(const data::Faces& faces, std::vector<Vec3<Ball>> positions,
-                                     data::Scheme scheme, Weights weights, const SharpTags& tags, int corner,
-                                     const Parameter& a, const Parameter& b) {
+                                     data::Scheme scheme, Weights weights, const SharpTags& tags,
+                                     const Valences& valences, int corner, const Parameter& a,
+                                     const Parameter& b) {
   if (scheme == data::Scheme::kCatmullClark)
-    return catmull_clark::StamEvaluator<Ball>(faces, std::move(positions), tags).evaluate(0, corner, a, b);
+    return catmull_clark::StamEvaluator<Ball>(faces, std::move(positions), tags, valences)
+        .evaluate(0, corner, a, b);
   if (corner != 0) throw data::ArgumentError("a triangle has one domain, with corner 0");
-  return StamEvaluator<Ball>(std::move(positions), data::Triangles(faces).to_vector(), weights, tags)
+  return StamEvaluator<Ball>(std::move(positions), data::Triangles(faces).to_vector(), weights, tags,
+                             valences)
       .evaluate(0, a, b);
 }
 
@@ -264,6 +274,11 @@ CertifiedEvaluator::CertifiedEvaluator(const std::vector<std::array<std::string,
 
 CertifiedEvaluator::~CertifiedEvaluator() = default;
 
+int& CertifiedEvaluator::whole_up_to() {
+  static int faces = 1000;
+  return faces;
+}
+
 CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const Parameter& l2,
                                             int digits) const {
   return evaluate(face, 0, l1, l2, digits);
@@ -274,12 +289,18 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
   if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.faces().size())
     throw data::ArgumentError("no face " + std::to_string(face));
-  const std::vector<std::int32_t> near = support_of(
-      {face}, data_->topology, data_->sharpness ? data_->sharpness->creasing() : data::Creasing::kUniform);
-  const data::CutOut local = data::cut_out(data_->topology.faces(), near);
-  const SharpTags tags = data_->tags_of(local, near);
-  std::vector<Data::Position> exact;
-  for (const std::int32_t v : local.vertices) exact.push_back(data_->position(v));
+  std::optional<NearPart> part;
+  if (data_->in_doubles && !data_->sharpness)
+    part = near_part(data_->topology, data_->in_doubles, data_->scheme, face, corner, l1, l2, whole_up_to());
+  SharpTags tags;
+  if (!part) {
+    const std::vector<std::int32_t> near = support_of(
+        {face}, data_->topology, data_->sharpness ? data_->sharpness->creasing() : data::Creasing::kUniform);
+    const data::CutOut local = data::cut_out(data_->topology.faces(), near);
+    tags = data_->tags_of(local, near);
+    part = NearPart{local.faces, {}, {}, corner};
+    for (const std::int32_t v : local.vertices) part->positions.push_back(data_->position(v));
+  }
 
   const long first = static_cast<long>(digits * 3.33) + 64;
   // Next to a corner quantities fall and rise with powers of the distance, which costs that many bits: the
@@ -293,11 +314,12 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
     Ball::precision() = bits;
     const bool last_chance = bits >= 8 * first + nearness;
     std::vector<Vec3<Ball>> positions;
-    for (const auto& p : exact)
+    for (const auto& p : part->positions)
       positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
                            NumberTraits<Ball>::from_rational(p[2])});
-    const SurfacePoint<Ball> s = evaluate_in_balls(local.faces, std::move(positions), data_->scheme,
-                                                   data_->weights, tags, corner, l1, l2);
+    const SurfacePoint<Ball> s =
+        evaluate_in_balls(part->faces, std::move(positions), data_->scheme, data_->weights, tags,
+                          part->valences, part->corner, l1, l2);
     const bool has_normal =
         s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
     if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
@@ -330,6 +352,7 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
     }
     result.radius = print.largest();
     result.precision = bits;
+    result.faces = part->faces.size();
     if ((print.enough() && print_curvature.enough()) || last_chance) return result;
   }
 }

@@ -61,6 +61,8 @@ struct CertifiedPoint {
   DerivativeLimits limits;
   Radius radius;   ///< the largest radius of all but the curvatures, whose own may be huge
   long precision;  ///< bits that were needed
+  std::size_t
+      faces;  ///< of the mesh that was made to evaluate it: those near, at vertices of many faces a few
 };
 
 /// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are,
@@ -91,6 +93,10 @@ class CertifiedEvaluator {
   /// another face, see catmull_clark::SubdivisionEvaluator; d1 and d2 are by u and v. Loop's have the corner
   /// 0.
   CertifiedPoint evaluate(int face, int corner, const Parameter& u, const Parameter& v, int digits) const;
+
+  /// Of vertices of more faces, and faces of more corners, only those are built that are near the point, where that is
+  /// exact (near_part.h): 1000. Not to be changed while another thread evaluates.
+  static int& whole_up_to();
 
  private:
   struct Data;

@@ -301,7 +301,7 @@ class Evaluators {
   }
   SurfacePoint<Big> operator()(const Place& at, const std::array<Parameter, 2>& p) const {
     return loop_.empty() ? quads_[0].evaluate(at.face, at.corner, p[0], p[1])
-                         : loop_[0].evaluate(at.face, p[0], p[1], Order::kSecond);
+                         : loop_[0].evaluate(at.face, p[0], p[1], Derivatives::kSecond);
   }
   SurfacePoint<Big> by_steps(const Place& at, const std::array<Parameter, 2>& p) const {
     return loop_.empty() ? quad_steps_[0].evaluate(at.face, at.corner, p[0], p[1])

@@ -267,11 +267,12 @@ TEST(Evaluators, StamEqualsSubdivisionAndRefinementUnderWarrensWeights) {
             name + " face " + std::to_string(face) + " (" + l1.to_string() + ", " + l2.to_string() + ")";
         const auto p = stam.evaluate(face, l1, l2);
         expect_same(p, subdivision.evaluate(face, l1, l2), 1e-80, worst, where);
-        most = std::max(most, length(p.position - loop.evaluate(face, l1, l2, Order::kPosition).position));
+        most =
+            std::max(most, length(p.position - loop.evaluate(face, l1, l2, Derivatives::kPosition).position));
       }
       for (const auto& [i1, i2] : {std::pair{0, 0}, {4, 0}, {0, 4}, {1, 0}, {1, 2}, {1, 1}}) {
         const auto v = refined.vertex(face, i1, i2);
-        const auto p = stam.evaluate(face, i1 / 4., i2 / 4., Order::kFirst);
+        const auto p = stam.evaluate(face, i1 / 4., i2 / 4., Derivatives::kFirst);
         EXPECT_LE(length(p.position - limits.positions[v]), Big("1e-90")) << name;
         EXPECT_LE(length(p.normal - limits.normals[v]), Big("1e-90")) << name;
       }

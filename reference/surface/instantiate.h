@@ -12,7 +12,7 @@
 /// All of loop/refine.h but `limits`, which needs square roots.
 #define LIMITCHECK_INSTANTIATE_REFINE(N)                                                           \
   template std::vector<Vec3<N>> refine_once(const Topology&, const std::vector<Vec3<N>>&, Weights, \
-                                            std::span<const VertexState>);                         \
+                                            std::span<const VertexState>, const Valences&);        \
   template std::vector<Vec3<N>> positions_of(const data::ControlMesh&);                            \
   template RefinedMesh<N>::RefinedMesh(const data::ControlMesh&, Weights);                         \
   template RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>>, std::vector<Triangle>, Weights,       \

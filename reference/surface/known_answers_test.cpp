@@ -86,7 +86,7 @@ void check_surfaces() {
     const Evaluator evaluator(vecs(a.vertices), a.faces);
     for (const auto& s : a.samples) {
       const auto p = evaluator.evaluate(a.face, Parameter::parse(s.barycentric[1]),
-                                        Parameter::parse(s.barycentric[2]), Order::kFirst);
+                                        Parameter::parse(s.barycentric[2]), Derivatives::kFirst);
       const std::string id =
           a.id + " (" + s.barycentric[0] + ", " + s.barycentric[1] + ", " + s.barycentric[2] + ")";
       EXPECT_DIGITS(p.position, vec(s.position), id);
@@ -201,7 +201,8 @@ TEST(KnownAnswers_Basis, ValuesAndDerivativesAreExactInRationals) {
   ASSERT_EQ(answers().basis.size(), 6U);
   for (const auto& a : answers().basis) {
     Basis<Rational> basis;
-    evaluate_basis(basis, data::parse<Rational>(a.alpha), data::parse<Rational>(a.beta), Order::kSecond);
+    evaluate_basis(basis, data::parse<Rational>(a.alpha), data::parse<Rational>(a.beta),
+                   Derivatives::kSecond);
     for (std::size_t i = 0; i < 12; ++i) {
       EXPECT_EQ(basis.value[i], data::parse<Rational>(a.b[i])) << a.id << " b" << i + 1;
       EXPECT_EQ(basis.da[i], data::parse<Rational>(a.db_dalpha[i])) << a.id << " db" << i + 1 << "/dalpha";

@@ -241,7 +241,7 @@ TEST(SharpEdges, TheNaiveRecursionHasTheSurfacesPoints) {
           for (const auto& c : leaf)
             expect_same(c,
                         surface.evaluate(static_cast<int>(f), Parameter::fraction(c.i, 1 << depth),
-                                         Parameter::fraction(c.j, 1 << depth), Order::kFirst),
+                                         Parameter::fraction(c.j, 1 << depth), Derivatives::kFirst),
                         what + std::to_string(f));
         });
       const ControlMesh mixed = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 40}), seed);
@@ -255,7 +255,7 @@ TEST(SharpEdges, TheNaiveRecursionHasTheSurfacesPoints) {
           for (const auto& c : leaf)
             expect_same(c,
                         quad_surface.evaluate(static_cast<int>(f), corner, Parameter::fraction(c.i, side),
-                                              Parameter::fraction(c.j, side), Order::kFirst),
+                                              Parameter::fraction(c.j, side), Derivatives::kFirst),
                         what + std::to_string(f));
         });
       }
@@ -280,7 +280,7 @@ TEST(SharpEdges, RefinedVerticesGoToTheSurface) {
       for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const int side = 1 << depth, i = static_cast<int>(f) % (side + 1), j = side - i / 2;
         const auto p = surface.evaluate(static_cast<int>(f), 0, Parameter::fraction(i, side),
-                                        Parameter::fraction(j, side), Order::kPosition);
+                                        Parameter::fraction(j, side), Derivatives::kPosition);
         expect_near(limits.positions[static_cast<std::size_t>(refined.vertex(f, 0, i, j))], p.position,
                     "quad " + std::to_string(f));
       }
@@ -295,7 +295,7 @@ TEST(SharpEdges, RefinedVerticesGoToTheSurface) {
       for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const int side = 1 << depth, i = static_cast<int>(f) % (side + 1), j = (side - i) / 2;
         const auto p = surface.evaluate(static_cast<int>(f), Parameter::fraction(i, side),
-                                        Parameter::fraction(j, side), Order::kPosition);
+                                        Parameter::fraction(j, side), Derivatives::kPosition);
         expect_near(limits.positions[static_cast<std::size_t>(refined.vertex(f, i, j))], p.position,
                     "triangle " + std::to_string(f));
       }

@@ -26,7 +26,7 @@ class Surface {
   ///   Coordinate  double or Parameter
   template <class Coordinate>
   SurfacePoint<double> evaluate(int face, int corner, const Coordinate& first, const Coordinate& second,
-                                Order order = Order::kSecond) const {
+                                Derivatives order = Derivatives::kSecond) const {
     if (const auto* loop = std::get_if<StamEvaluator<double>>(&evaluator_))
       return loop->evaluate(face, first, second, order);
     return std::get<catmull_clark::StamEvaluator<double>>(evaluator_)

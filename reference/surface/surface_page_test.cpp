@@ -239,7 +239,7 @@ void check_weights(const Line& line) {
     if (line.is_loop()) continue;
     const auto exact = catmull_clark::SubdivisionEvaluator<Rational>(mesh.faces, positions_in<Rational>(mesh),
                                                                      mesh.sharpness)
-                           .evaluate(at.face, at.corner, at.u, at.v, Order::kFirst);
+                           .evaluate(at.face, at.corner, at.u, at.v, Derivatives::kFirst);
     // At special vertices derivatives need roots, which rationals lack.
     if (question == "limit" || exact.first_exist) {
       EXPECT_EQ(question == "limit" ? exact.position : question == "d1" ? exact.d1 : exact.d2, all);

@@ -1,117 +1,110 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/proof_report.h"
-
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "verify/proof/proof_report.h"
 
 namespace limitcheck::verify {
 namespace {
 
 using Json = nlohmann::json;
 
-// JSON has no infinity and no NaN.
-Json number(double x) {
-  if (std::isfinite(x)) return x;
-  return std::isnan(x) ? "nan" : x > 0 ? "inf" : "-inf";
+/// The fields of a result, in the order in which they are written: visit(field, ..). The structured bindings name all
+/// members: with a new one this does not compile until it is written, too.
+template <class T, class Of>
+concept Maybe = std::same_as<std::remove_const_t<T>, Of>;
+void fields(Maybe<MapWitness> auto& w, auto&& visit) {
+  auto& [point, quantity, control_point, found, expected] = w;
+  visit(point, quantity, control_point, found, expected);
 }
-double number_of(const Json& json) {
-  if (json.is_number()) return json.get<double>();
-  if (json == "nan") return std::numeric_limits<double>::quiet_NaN();
-  return json == "inf" ? HUGE_VAL : -HUGE_VAL;
+void fields(Maybe<MapProof> auto& m, auto&& visit) {
+  auto& [equal, arithmetic, digits, witness] = m;
+  visit(equal, arithmetic, digits, witness);
+}
+void fields(Maybe<BoundProof> auto& b, auto&& visit) {
+  auto& [first, last, position, position_worst, tangent, tangent_worst, normal, product, share, alike,
+         shipped] = b;
+  auto& [position_share, normal_share, targets, unlike] = shipped;
+  visit(first, last, position, position_worst, tangent, tangent_worst, normal, product, share, alike,
+        position_share, normal_share, targets, unlike);
+}
+void fields(Maybe<CostProof> auto& c, auto&& visit) {
+  auto& [flops, vectors] = c;
+  visit(flops, vectors);
+}
+void fields(Maybe<ProofRow> auto& r, auto&& visit) {
+  auto& [topology, kernel, first, last, points, seconds, map, bound, cost] = r;
+  visit(topology, kernel, first, last, points, seconds, map, bound, cost);
+}
+void fields(Maybe<CertifiedLine> auto& l, auto&& visit) {
+  auto& [mesh, kernel, depth, errors] = l;
+  auto& [points, position, normal, radius, face, l1, l2, corner, unit, condition, placing] = errors;
+  visit(mesh, kernel, depth, points, position, normal, radius, face, l1, l2, corner, unit, condition,
+        placing);
 }
 
-// The structured bindings name all members: with a new one this does not compile until it is written, too.
-Json to_json(const MapProof& map) {
-  const auto& [equal, arithmetic, digits, witness] = map;
-  Json at;
-  if (witness) {
-    const auto& [point, quantity, control_point, found, expected] = *witness;
-    at = Json::array({point, quantity, control_point, number(found), number(expected)});
+/// A value as JSON and back: a result as the array of its fields, nothing as null; JSON has no infinity and no NaN.
+template <class T>
+Json written(const T& value) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (std::isfinite(value)) return value;
+    return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+  } else if constexpr (requires { value.has_value(); }) {
+    return value ? written(*value) : Json();
+  } else if constexpr (requires { fields(value, [](const auto&...) {}); }) {
+    Json list = Json::array();
+    fields(value, [&](const auto&... field) { (list.push_back(written(field)), ...); });
+    return list;
+  } else {
+    return value;
   }
-  return Json::array({equal, arithmetic, number(digits), at});
 }
-MapProof map_of(const Json& j) {
-  MapProof map{j.at(0), j.at(1), number_of(j.at(2)), {}};
-  if (const Json& w = j.at(3); !w.is_null())
-    map.witness = MapWitness{w.at(0), w.at(1), w.at(2), number_of(w.at(3)), number_of(w.at(4))};
-  return map;
-}
-
-Json to_json(const std::optional<BoundProof>& bound) {
-  if (!bound) return nullptr;
-  const auto& [first, last, position, position_worst, tangent, tangent_worst, normal, product, share, alike,
-               shipped] = *bound;
-  const auto& [position_share, normal_share, targets, unlike] = shipped;
-  return Json::array({first, last, number(position), number(position_worst), number(tangent),
-                      number(tangent_worst), number(normal), number(product), number(share), alike,
-                      number(position_share), number(normal_share), targets, unlike});
-}
-std::optional<BoundProof> bound_of(const Json& j) {
-  if (j.is_null()) return std::nullopt;
-  return BoundProof{j.at(0),
-                    j.at(1),
-                    number_of(j.at(2)),
-                    number_of(j.at(3)),
-                    number_of(j.at(4)),
-                    number_of(j.at(5)),
-                    number_of(j.at(6)),
-                    number_of(j.at(7)),
-                    number_of(j.at(8)),
-                    j.at(9),
-                    {number_of(j.at(10)), number_of(j.at(11)), j.at(12), j.at(13)}};
+template <class T>
+void read(const Json& json, T& value) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (json.is_number())
+      value = json.get<double>();
+    else
+      value = json == "nan" ? std::numeric_limits<double>::quiet_NaN() : json == "inf" ? HUGE_VAL : -HUGE_VAL;
+  } else if constexpr (requires { value.has_value(); }) {
+    if (!json.is_null()) read(json, value.emplace());
+  } else if constexpr (requires { fields(value, [](auto&...) {}); }) {
+    std::size_t at = 0;
+    fields(value, [&](auto&... field) { (read(json.at(at++), field), ...); });
+  } else {
+    value = json.get<T>();
+  }
 }
 
-Json to_json(const std::optional<CostProof>& cost) {
-  if (!cost) return nullptr;
-  const auto& [flops, vectors] = *cost;
-  return Json::array({number(flops), number(vectors)});
+template <class T>
+Json list_json(const std::vector<T>& values) {
+  Json list = Json::array();
+  for (const T& value : values) list.push_back(written(value));
+  return list;
 }
-std::optional<CostProof> cost_of(const Json& j) {
-  if (j.is_null()) return std::nullopt;
-  return CostProof{number_of(j.at(0)), number_of(j.at(1))};
+template <class T>
+std::vector<T> list_of(const Json& json) {
+  std::vector<T> list;
+  for (const Json& j : json) read(j, list.emplace_back());
+  return list;
 }
 
 }  // namespace
 
 Json proof_rows_json(const std::vector<ProofRow>& rows) {
-  Json list = Json::array();
-  for (const ProofRow& row : rows) {
-    const auto& [topology, kernel, first, last, points, seconds, map, bound, cost] = row;
-    list.push_back(Json::array(
-        {topology, kernel, first, last, points, seconds, to_json(map), to_json(bound), to_json(cost)}));
-  }
-  return list;
+  return list_json(rows);
 }
-
 std::vector<ProofRow> proof_rows_of(const Json& json) {
-  std::vector<ProofRow> rows;
-  for (const Json& j : json)
-    rows.push_back({j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), j.at(5), map_of(j.at(6)), bound_of(j.at(7)),
-                    cost_of(j.at(8))});
-  return rows;
+  return list_of<ProofRow>(json);
 }
-
 Json certified_json(const std::vector<CertifiedLine>& lines) {
-  Json list = Json::array();
-  for (const CertifiedLine& line : lines) {
-    const auto& [mesh, kernel, depth, errors] = line;
-    const auto& [points, position, normal, radius, face, l1, l2, corner, unit, condition, placing] = errors;
-    list.push_back(Json::array({mesh, kernel, depth, points, number(position), number(normal), number(radius),
-                                face, l1, l2, corner, number(unit), number(condition), number(placing)}));
-  }
-  return list;
+  return list_json(lines);
 }
-
 std::vector<CertifiedLine> certified_of(const Json& json) {
-  std::vector<CertifiedLine> lines;
-  for (const Json& j : json)
-    lines.push_back({j.at(0),
-                     j.at(1),
-                     j.at(2),
-                     {j.at(3), number_of(j.at(4)), number_of(j.at(5)), number_of(j.at(6)), j.at(7), j.at(8),
-                      j.at(9), j.at(10), number_of(j.at(11)), number_of(j.at(12)), number_of(j.at(13))}});
-  return lines;
+  return list_of<CertifiedLine>(json);
 }
 
 }  // namespace limitcheck::verify

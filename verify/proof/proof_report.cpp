@@ -31,17 +31,10 @@ struct Line {
     last_depth = std::max(last_depth, row.last_depth);
     digits = std::min(digits, row.map.digits);
     if (row.cost && (!cost || row.cost->flops > cost->flops)) cost = row.cost;
-    if (!row.bound) return;
-    if (!bound) bound.emplace().first_depth = row.bound->first_depth;
-    bound->first_depth = std::min(bound->first_depth, row.bound->first_depth);
-    bound->position_bound = std::max(bound->position_bound, row.bound->position_bound);
-    bound->position_worst = std::max(bound->position_worst, row.bound->position_worst);
-    bound->tangent_bound = std::max(bound->tangent_bound, row.bound->tangent_bound);
-    bound->tangent_worst = std::max(bound->tangent_worst, row.bound->tangent_worst);
-    bound->normal_bound = std::max(bound->normal_bound, row.bound->normal_bound);
-    bound->shipped.add(row.bound->shipped);
-    bound->share = std::max(bound->share, row.bound->share);
-    bound->last_depth = std::max(bound->last_depth, row.bound->last_depth);
+    if (row.bound && bound)
+      bound->add(*row.bound);
+    else if (row.bound)
+      bound = row.bound;
   }
 
   std::string map() const {

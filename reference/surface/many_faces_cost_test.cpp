@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "reference/catmull_clark/stam_impl.h"
 #include "reference/loop/refine_impl.h"
 #include "reference/loop/stam_impl.h"
 #include "reference/surface/test_many_faces.h"
@@ -11,10 +12,19 @@
 namespace limitcheck::reference {
 namespace {
 
-TEST(Loop_ManyFaces, CostNoMoreEachThanFewer) {
+TEST(ManyFacesOfLoop, CostNoMoreEachThanFewer) {
   test::expect_linear(test::triangles(250), test::triangles(1000), [](const data::ControlMesh& mesh) {
     return [e = std::make_shared<StamEvaluator<Counted>>(mesh)](int f, double a, double b) {
       (void)e->evaluate(f, a, b);
+    };
+  });
+}
+
+TEST(ManyFacesOfCatmullClark, CostNoMoreEachThanFewer) {
+  test::expect_linear(test::quads(250), test::quads(1000), [](const data::ControlMesh& mesh) {
+    return [e = std::make_shared<catmull_clark::StamEvaluator<Counted>>(
+                mesh.faces, test::positions<Counted>(mesh), mesh.sharpness)](int f, double a, double b) {
+      (void)e->evaluate(f, 0, a, b);
     };
   });
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-// data/known_masks.json: limit and tangent masks of either scheme, computed outside this project.
-#pragma once
-
+// The masks of both schemes against data/known_masks.json: limits and tangents computed outside this project.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,10 +9,15 @@
 #include <vector>
 
 #include "data/numeral.h"
+#include "reference/catmull_clark/vertex_limit.h"
+#include "reference/loop/vertex_limit.h"
 #include "reference/number/number_exact.h"
 #include "reference/number/vec3.h"
 
 namespace limitcheck::reference {
+namespace {
+
+using N = Decimal100;
 
 struct KnownMask {
   enum class Kind { kSmooth, kBoundary, kDart } kind;
@@ -22,7 +25,7 @@ struct KnownMask {
   std::vector<Decimal100> limit, first, second;  ///< of the centre, the ring from e_0 on, the far corners
 };
 
-inline std::vector<KnownMask> known_masks(const std::string& scheme) {
+std::vector<KnownMask> known_masks(const std::string& scheme) {
   std::ifstream stream(LIMITCHECK_SOURCE_DIR "/data/known_masks.json");
   std::vector<KnownMask> result;
   const nlohmann::json all = nlohmann::json::parse(stream);
@@ -56,7 +59,6 @@ inline std::vector<KnownMask> known_masks(const std::string& scheme) {
 ///   evaluate   takes points (of the centre, the ring, the far corners) to limit, first and second tangent
 template <class Evaluate>
 void expect_masks(const KnownMask& known, Evaluate&& evaluate) {
-  using N = Decimal100;
   const std::string what = std::to_string(static_cast<int>(known.kind)) + ", " + std::to_string(known.faces);
   std::array<std::vector<N>, 3> ours;
   for (std::size_t i = 0; i < known.limit.size(); ++i) {
@@ -80,4 +82,38 @@ void expect_masks(const KnownMask& known, Evaluate&& evaluate) {
   }
 }
 
+TEST(Loop_Masks, AreTheKnownOnes) {
+  const auto all = known_masks("loop");
+  EXPECT_EQ(all.size(), 20U);
+  for (const KnownMask& known : all)
+    expect_masks(known, [&](const std::vector<Vec3<N>>& points) -> std::array<Vec3<N>, 3> {
+      std::vector<Vec3<N>> ring(points.begin() + 1, points.end());
+      const bool dart = known.kind == KnownMask::Kind::kDart;
+      if (dart) ring.push_back(points[1]);
+      const auto limit = vertex_limit<N>(points[0], ring, known.kind != KnownMask::Kind::kSmooth,
+                                         Weights::kLoop, dart ? VertexState::kDart : VertexState::kOrdinary);
+      return {limit.position, limit.tangents.first, limit.tangents.second};
+    });
+}
+
+TEST(CatmullClark_Masks, AreTheKnownOnes) {
+  const auto all = known_masks("cc");
+  EXPECT_EQ(all.size(), 26U);
+  for (const KnownMask& known : all)
+    expect_masks(known, [&](const std::vector<Vec3<N>>& points) -> std::array<Vec3<N>, 3> {
+      catmull_clark::RingedCorner<Vec3<N>> c;
+      c.on_boundary = known.kind != KnownMask::Kind::kSmooth;
+      if (known.kind == KnownMask::Kind::kDart) c.state = VertexState::kDart;
+      const auto faces = static_cast<std::size_t>(known.faces);
+      const std::size_t edges = faces + (known.kind == KnownMask::Kind::kBoundary ? 1 : 0);
+      c.point = points[0];
+      c.edges.assign(points.begin() + 1, points.begin() + 1 + static_cast<std::ptrdiff_t>(edges));
+      c.faces.assign(points.begin() + 1 + static_cast<std::ptrdiff_t>(edges), points.end());
+      if (known.kind == KnownMask::Kind::kDart) c.edges.push_back(points[1]);
+      const Tangents<N> t = catmull_clark::limit_tangents(c);
+      return {catmull_clark::limit_position(c), t.first, t.second};
+    });
+}
+
+}  // namespace
 }  // namespace limitcheck::reference

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The part of a large mesh that the surface at one point depends on, small even at a vertex of a million faces.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "data/faces.h"
+#include "data/scheme.h"
+#include "reference/mesh/topology.h"
+#include "reference/number/number_exact.h"
+#include "reference/point/parameter.h"
+
+namespace limitcheck::reference {
+
+/// Face 0 is the face with the point; its surface there is that of the whole mesh, exactly.
+struct NearPart {
+  data::Faces faces;
+  std::vector<std::array<Rational, 3>> positions;
+  Valences valences;
+  int corner = 0;  ///< of face 0, as it was asked for
+};
+
+/// Around a vertex of n faces, and in the middle of a face of n corners, a point hears of those that are near, as many
+/// on either side as there are steps before it is away from the vertex; of all others it hears through the means of
+/// the ring alone: of the neighbours, and by Catmull-Clark's scheme of the faces' centroids (masks.h). So these stay
+/// what they are if all that is far is left out and few points take its place that make up the means.
+///   position   of a vertex, in doubles
+///   most       faces at a vertex, or corners of a face, of which nothing is left out
+///   returns    nothing where the mesh has no such vertex near the face; where the point lies at it, which hears of all;
+///              where it is on the boundary, or the face touches others
+std::optional<NearPart> near_part(const Topology& topology,
+                                  const std::function<std::array<double, 3>(std::int32_t)>& position,
+                                  data::Scheme scheme, int face, int corner, const Parameter& u,
+                                  const Parameter& v, int most);
+
+}  // namespace limitcheck::reference

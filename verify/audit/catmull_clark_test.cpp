@@ -16,7 +16,8 @@
 #include "verify/audit/default_plan.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
-#include "verify/mutants/quad_models/quad_model_rules.h"
+#include "verify/mutants/faulty_subjects.h"
+#include "verify/mutants/mutant_rules.h"
 #include "verify/relations/relations.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
@@ -99,7 +100,7 @@ TEST(CatmullClarkAudit, EachMutantIsFoundByTheCheckMeantForIt) {
     cases.push_back(unequal);
   }
   const auto& relations = relation_rows();
-  for (const Mutation& mutation : quad_mutations().subspan(1)) {
+  for (const Mutation& mutation : mutations(data::Scheme::kCatmullClark).subspan(1)) {
     if (mutation.sharp) continue;  // `limitcheck mutants` has meshes with sharp edges
     bool found = false;
     const bool relation = std::find(relations.begin(), relations.end(), mutation.check) != relations.end();
@@ -202,7 +203,7 @@ TEST(SharpAudit, ASubjectThatDoesNoDartsIsAskedForOtherCreases) {
 TEST(SharpAudit, WhoDeclaresSemiSharpEdgesAndKeepsThemForEverIsFoundAndOnlyThere) {
   const auto positions = [](const char* mesh) {
     return row(Auditor(2, 1, {}, Level::kQuick)
-                   .run({lc_subject_quad_model(), "mutation=semi_as_infinite"}, named(mesh)),
+                   .run({lc_subject_faulty(), faulty_options("semi_as_infinite", "quad-model")}, named(mesh)),
                "positions")
         .status;
   };

@@ -4,12 +4,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <span>
-#include <vector>
+#include <exception>
+#include <initializer_list>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <new>
+#include <thread>
+#include <utility>
 
-#include "verify/host/host.h"
-#include "verify/mutants/planted_faults.h"
+#include "verify/mutants/change_rows.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/registry.h"
@@ -17,114 +21,311 @@
 namespace limitcheck::verify {
 namespace {
 
-class FaultySubject {
+using Depths = std::vector<std::int32_t>;
+
+// What all instances share, as what is kept in a static variable would be. The last instance empties it, as the
+// end of a process would.
+struct Memory {
+  Memory() { ++instances; }
+  ~Memory() {
+    if (--instances > 0) return;
+    seen.clear();
+    last = {};
+    first_most = 0;
+  }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  inline static int instances = 0, calls = 0, first_most = 0;
+  inline static std::vector<std::pair<data::ControlMesh, data::ControlMesh>> seen;  // what was not forgotten
+  inline static data::ControlMesh last;
+};
+
+// The first mesh that is the same but for what is forgotten.
+data::ControlMesh first_like(const data::ControlMesh& mesh, const Change& change) {
+  data::ControlMesh key = mesh;
+  change.forget(key);
+  for (const auto& [other, first] : Memory::seen)
+    if (other == key) return first;
+  Memory::seen.emplace_back(std::move(key), mesh);
+  return mesh;
+}
+
+// In a thread of its own; exceptions pass on.
+void run_apart(const std::function<void()>& work) {
+  std::exception_ptr error;
+  std::thread([&] {
+    try {
+      work();
+    } catch (...) {
+      error = std::current_exception();
+    }
+  }).join();
+  if (error) std::rethrow_exception(error);
+}
+
+template <class Real>
+void fill(const Output<Real>& output, const Delivered& from) {
+  const auto put = [](const std::vector<Delivered::Vector>& list, Real* to) {
+    for (const auto& p : list)
+      for (const double x : p) *to++ = static_cast<Real>(x);
+  };
+  put(from.positions, output.positions);
+  if (output.normals != nullptr) put(from.normals, output.normals);
+  std::copy(from.provenance.begin(), from.provenance.end(), output.provenance);
+  if (output.corner != nullptr) std::copy(from.corner.begin(), from.corner.end(), output.corner);
+  std::uint32_t* to = output.triangles;
+  for (const auto& t : from.triangles) to = std::copy(t.begin(), t.end(), to);
+  std::copy(from.triangle_face.begin(), from.triangle_face.end(), output.triangle_face);
+}
+
+// The arrays from last to first, as parts of one block that begins and ends with something else.
+template <class Real>
+Output<Real> in_one_block(const lc_request& request, lc_tessellation& out, const Delivered& from) {
+  constexpr std::size_t kRoom = 64;
+  const auto places = [](std::size_t bytes) { return (bytes + 2 * kRoom) / kRoom * kRoom; };
+  const std::size_t vertices = from.positions.size(), points = places(vertices * 3 * sizeof(Real)),
+                    indices = places(from.triangles.size() * 3 * sizeof(std::uint32_t)),
+                    named = places(vertices * sizeof(lc_provenance));
+  (void)request.allocate(request.host, 0);
+  auto* block =
+      static_cast<char*>(request.allocate(request.host, 2 * points + 2 * indices + 2 * named + 2 * kRoom));
+  if (block == nullptr) throw std::bad_alloc();
+  char* at = block + kRoom;
+  const auto take = [&](std::size_t bytes) { return static_cast<void*>(std::exchange(at, at + bytes)); };
+  out.vertex_count = static_cast<std::int64_t>(vertices);
+  out.triangle_count = static_cast<std::int64_t>(from.triangles.size());
+  out.corner = from.corner.empty() ? nullptr : static_cast<std::int32_t*>(take(named));
+  out.triangle_face = static_cast<std::int32_t*>(take(indices));
+  out.triangles = static_cast<std::uint32_t*>(take(indices));
+  out.provenance = static_cast<lc_provenance*>(take(named));
+  out.normals = from.normals.empty() ? nullptr : take(points);
+  out.positions = take(points);
+  return {static_cast<Real*>(out.positions),
+          static_cast<Real*>(out.normals),
+          out.provenance,
+          out.triangles,
+          out.triangle_face,
+          out.corner};
+}
+
+struct Faults {
+  static constexpr const char* kKey = "fault";
+  static std::vector<const Change*> all() {
+    std::vector<const Change*> list;
+    for (const FaultTable& table : fault_tables())
+      for (const Change& c : table.faults) list.push_back(&c);
+    return list;
+  }
+};
+struct Habits {
+  static constexpr const char* kKey = "habit";
+  static std::vector<const Change*> all() {
+    std::vector<const Change*> list;
+    for (const Change& c : habits()) list.push_back(&c);
+    return list;
+  }
+};
+
+template <class Table>
+class ChangedSubject {
  public:
-  static lc_capabilities capabilities(Options& options) {
-    const Inner inner(options);
-    return verify::capabilities(inner.subject, inner.options);
+  static constexpr bool kLeavesRefusals = true;  // to the subject that is changed
+
+  static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
+    return Choice(options).declared(scheme_of(scheme));
   }
 
-  FaultySubject(const lc_mesh& mesh, Options& options) : FaultySubject(mesh, Inner(options)) {}
+  ChangedSubject(const lc_mesh& mesh, Options& options)
+      : choice_(options),
+        lent_(mesh),
+        lent_at_(&mesh),
+        scheme_(scheme_of(mesh.scheme)),
+        mesh_(control_mesh(mesh)) {
+    behave();
+    declared_ = choice_.declared(scheme_);
+    if (change().take) change().take(mesh_);
+    try {
+      session_ = session(mesh_);  // refuses what it refuses
+    } catch (const SubjectError& error) {
+      if (!change().deaf || error.status() != LC_INVALID_INPUT) throw;
+      return;
+    }
+    if (change().refuse) change().refuse(Asked(mesh_, scheme_, 0));
+    known_ = mesh_;
+    if (change().forget) {
+      known_ = first_like(mesh_, change());
+      if (!change().remake && !(known_ == mesh_)) {
+        mesh_ = known_;
+        session_ = session(mesh_);
+      }
+    }
+    Memory::last = mesh_;
+    if (Memory::first_most == 0) Memory::first_most = Asked(mesh_, scheme_, 0).most_faces();
+  }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
-    if (session_.capabilities().precision == LC_FLOAT32) {
-      run<float>(request, out);
-    } else {
-      run<double>(request, out);
-    }
-  }
-
-  static std::vector<std::string_view> names() {
-    std::vector<std::string_view> names;
-    for (const auto& entry : planted_faults<double>()) names.push_back(entry.fault.name);
-    return names;
+    behave();
+    Delivered copy;
+    if (session_ && change().in_a_thread)
+      run_apart([&] { copy = changed(request); });
+    else if (session_)
+      copy = changed(request);
+    if (declared_.precision == LC_FLOAT32)
+      hand_over<float>(copy, request, out);
+    else
+      hand_over<double>(copy, request, out);
   }
 
  private:
-  // What the options say: the fault, the subject it is planted in, and the options for that one.
-  struct Inner {
-    explicit Inner(Options& given)
-        : fault(static_cast<std::size_t>(given.choice("fault", names()))),
-          subject(find(given.value("of", "null"))),
-          options(given.rest()) {}
-
-    static const lc_subject& find(const std::string& name) {
-      const lc_subject* subject = find_subject(name);
-      if (subject == nullptr || subject == lc_subject_faulty()) {
+  // What the options say: the row of the table, the subject that is changed, and the options for that one.
+  struct Choice {
+    explicit Choice(Options& given) {
+      const auto all = Table::all();
+      std::vector<std::string_view> names;
+      for (const Change* c : all) names.push_back(c->name);
+      change = all[static_cast<std::size_t>(given.choice(Table::kKey, names))];
+      const std::string name = given.value("of", "null");
+      subject = find_subject(name);
+      if (subject == nullptr || subject == lc_subject_faulty() || subject == lc_subject_unusual())
         throw SubjectError(LC_INVALID_INPUT, fmt::format("option of={}: there is no such subject", name));
-      }
-      return *subject;
+      options = given.rest();
     }
-
-    std::size_t fault;
-    const lc_subject& subject;
+    lc_capabilities declared(data::Scheme scheme) const {
+      lc_capabilities c = verify::capabilities(*subject, options, scheme);
+      if (change->declare) change->declare(c);
+      if (change->on == Change::On::kLoop) c.schemes = LC_DOES_LOOP;
+      if (change->on == Change::On::kQuads) c.schemes = LC_DOES_CATMULL_CLARK;
+      return c;
+    }
+    const Change* change;
+    const lc_subject* subject;
     std::string options;
   };
 
-  FaultySubject(const lc_mesh& mesh, const Inner& inner)
-      : lent_(mesh), fault_(inner.fault), session_(inner.subject, taken(mesh, inner.fault), inner.options) {}
+  const Change& change() const { return *choice_.change; }
+  void behave() const {
+    if (change().behave) change().behave();
+  }
+  std::unique_ptr<Session> session(const data::ControlMesh& mesh) const {
+    const bool validates = declared_.does_not_validate == 0;
+    return std::make_unique<Session>(*choice_.subject, mesh, choice_.options,
+                                     validates ? Session::Input::kAsItIs : Session::Input::kValid, scheme_);
+  }
 
-  static data::ControlMesh taken(const lc_mesh& mesh, std::size_t fault) {
-    data::ControlMesh result = control_mesh(mesh);
-    if (const auto take = planted_faults<double>()[fault].take) take(result);
-    return result;
+  // What the sound subject delivers for this request, changed.
+  Delivered changed(const lc_request& request) {
+    Depths depth(request.face_depth, request.face_depth + mesh_.faces.size());
+    Asked asked(mesh_, scheme_, std::max(0, *std::max_element(depth.begin(), depth.end())));
+    asked.threads = request.threads;
+    asked.call = ++calls_, asked.call_of_all = ++Memory::calls;
+    asked.lent = lent_at_;
+    asked.known = &known_, asked.last = &Memory::last;
+    asked.first_most = Memory::first_most;
+    asked.first_as_deep = first_as_deep_.try_emplace(asked.deepest, depth).first->second;
+    if (calls_ == 1) first_depths_ = depth;
+    asked.first_depths = first_depths_;
+    asked.again = [&](const data::ControlMesh& mesh, const Depths& depths) {
+      return Delivered(session(mesh)->tessellate(depths, request.threads));
+    };
+    if (change().ask) change().ask(asked, depth);
+    asked.depth = depth;
+    Delivered copy;
+    if (change().remake) {
+      data::ControlMesh other = mesh_;
+      change().remake(asked, other);
+      copy = asked.again(other, depth);
+    } else {
+      copy = Delivered(session_->tessellate(depth, request.threads));
+    }
+    copy.single = declared_.precision == LC_FLOAT32;
+    if (declared_.normals == 0) copy.normals.clear();
+    if (change().deliver) change().deliver(asked, copy);
+    return copy;
   }
 
   template <class Real>
-  void run(const lc_request& request, lc_tessellation& out) {
-    const std::span depth(request.face_depth, static_cast<std::size_t>(lent_.triangle_count));
-    const Tessellation good = session_.tessellate(depth, request.threads);
-    Copy<Real> copy{copy_of<Real>(good)};
-    copy.face_depth.assign(depth.begin(), depth.end());
-    planted_faults<Real>()[fault_].plant(session_.mesh(), copy);
-    deliver(copy, request, out);
-  }
-
-  template <class Real>
-  void deliver(const Copy<Real>& copy, const lc_request& request, lc_tessellation& out) {
+  void hand_over(const Delivered& copy, const lc_request& request, lc_tessellation& out) {
+    const std::size_t vertices = copy.positions.size();
     const auto output =
-        allocate_output<Real>(request, out, static_cast<std::int64_t>(copy.positions.size()),
-                              static_cast<std::int64_t>(copy.triangles.size()), !copy.normals.empty());
+        copy.in_one_block
+            ? in_one_block<Real>(request, out, copy)
+            : allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices),
+                                    static_cast<std::int64_t>(copy.triangles.size()),
+                                    !copy.normals.empty() || (vertices == 0 && declared_.normals != 0),
+                                    !copy.corner.empty());
     fill(output, copy);
-
-    if (copy.overrun) output.positions[3 * copy.positions.size()] = Real(1);
+    if (copy.overrun) output.positions[3 * vertices] = Real(1);
     if (copy.underrun) output.positions[-1] = Real(1);
     if (copy.modify_mesh) const_cast<double*>(lent_.positions)[0] += 1;
     out.vertex_count = copy.announced_vertices.value_or(out.vertex_count);
     if (copy.overlap) out.normals = out.positions;
     if (copy.foreign_normals) {
-      elsewhere_.assign(3 * sizeof(Real) * copy.positions.size() + sizeof(Real), 0);
+      elsewhere_.assign(3 * sizeof(Real) * vertices + sizeof(Real), 0);
       out.normals = elsewhere_.data();
     }
   }
 
+  const Choice choice_;
   const lc_mesh lent_;
-  const std::size_t fault_;
-  Session session_;
+  const lc_mesh* const lent_at_;
+  const data::Scheme scheme_;
+  data::ControlMesh mesh_, known_;
+  lc_capabilities declared_{};
+  const Memory memory_;
+  std::unique_ptr<Session> session_;
+  int calls_ = 0;
+  Depths first_depths_;
+  std::map<int, Depths> first_as_deep_;
   std::vector<unsigned char> elsewhere_;
 };
 
+std::string options_of(const char* key, std::string_view name, std::string_view subject,
+                       std::string_view options) {
+  return fmt::format("{}={},of={}{}{}", key, name, subject, options.empty() ? "" : ",", options);
+}
+
+std::vector<Change> together(std::initializer_list<std::vector<Change>> lists) {
+  std::vector<Change> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 }  // namespace
 
-std::span<const Fault> faults() {
-  static const std::vector<Fault> list = [] {
-    std::vector<Fault> result;
-    for (const auto& entry : planted_faults<double>()) result.push_back(entry.fault);
-    return result;
-  }();
-  return list;
+const std::vector<FaultTable>& fault_tables() {
+  static const std::vector<Change> any = together({faults_of_frames(), faults_of_numbers(),
+                                                   faults_of_refusals(), faults_of_memory(),
+                                                   faults_of_polygons(), faults_of_tags()}),
+                                   rare = together({faults_of_rare_tags(), faults_of_rare_places()});
+  static const std::vector<FaultTable> tables{{faults(), "model", "quad-model", ""},
+                                              {any, "model", "quad-model", ""},
+                                              {rare, "naive", "naive", "loop_"}};
+  return tables;
 }
 
 std::string faulty_options(std::string_view fault, std::string_view subject, std::string_view options) {
-  return fmt::format("fault={},of={}{}{}", fault, subject, options.empty() ? "" : ",", options);
+  return options_of(Faults::kKey, fault, subject, options);
+}
+
+std::string unusual_options(std::string_view habit, std::string_view subject, std::string_view options) {
+  return options_of(Habits::kKey, habit, subject, options);
 }
 
 }  // namespace limitcheck::verify
 
 extern "C" const lc_subject* lc_subject_faulty() {
-  using limitcheck::verify::FaultySubject;
-  static const lc_subject subject = limitcheck::verify::make_subject<FaultySubject>(
+  using namespace limitcheck::verify;
+  static const lc_subject subject = make_subject<ChangedSubject<Faults>>(
       "faulty", "another subject with a fault planted: what a check must fail on",
       "of=SUBJECT, fault=NAME (default none), and the options of that subject");
+  return &subject;
+}
+
+extern "C" const lc_subject* lc_subject_unusual() {
+  using namespace limitcheck::verify;
+  static const lc_subject subject = make_subject<ChangedSubject<Habits>>(
+      "unusual", "another subject with a habit that is rare and right: what no check may blame",
+      "of=SUBJECT, habit=NAME (default none), and the options of that subject");
   return &subject;
 }

@@ -13,10 +13,8 @@
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
 #include "verify/checks/checks.h"
-#include "verify/mutants/distortions.h"
 #include "verify/mutants/faulty_subjects.h"
-#include "verify/mutants/models/model_rules.h"
-#include "verify/mutants/quad_models/quad_model_rules.h"
+#include "verify/mutants/mutant_rules.h"
 #include "verify/relations/relations.h"
 #include "verify/subject/registry.h"
 
@@ -25,64 +23,6 @@ namespace {
 
 constexpr const char* kBase = "model";
 constexpr const char* kQuadBase = "quad-model";
-
-// The row that each planted fault is meant for, and the subject it is planted in.
-struct Meant {
-  const char* check;
-  const char* subject = kBase;
-};
-const std::map<std::string, Meant>& meant() {
-  static const std::map<std::string, Meant> table{
-      {"nan_position", {"finite"}},
-      {"infinite_position", {"finite"}},
-      {"nan_normal", {"finite"}},
-      {"unwritten_position", {"written"}},
-      {"unwritten_normal", {"written"}},
-      {"unwritten_triangle", {"written"}},
-      {"wrong_limit_mask", {"positions"}},
-      {"wrong_edge_mask", {"positions"}},
-      {"flipped_normals", {"normals"}},
-      {"one_flipped_normal", {"normals"}},
-      {"long_normals", {"normal-length"}},
-      {"shifted_provenance", {"positions"}},
-      {"mirrored_provenance", {"orientation"}},
-      {"swapped_points", {"positions"}},
-      {"provenance_out_of_range", {"written"}},
-      {"flipped_orientation", {"orientation"}},
-      {"one_flipped_triangle", {"orientation"}},
-      {"missing_triangle", {"coverage"}},
-      {"duplicated_triangle", {"coverage"}},
-      {"wrong_triangle_face", {"coverage"}},
-      {"index_out_of_range", {"written"}},
-      {"t_vertex", {"t-vertices"}},
-      {"one_ulp_crack", {"shared-positions"}},
-      {"one_ulp_normal", {"shared-normals"}},
-      {"negative_count", {"written"}},
-      {"count_too_large", {"written"}},
-      {"foreign_memory", {"written"}},
-      {"write_behind", {"written"}},
-      {"write_before", {"written"}},
-      {"modified_mesh", {"written"}},
-      {"overlapping_arrays", {"written"}},
-      {"unwritten_provenance", {"written"}},
-      {"unwritten_triangle_face", {"written"}},
-      {"snapped_positions", {"positions"}},
-      {"face_twice", {"coverage"}},
-      {"edges_of_genus_0", {"positions"}},
-      {"edges_of_genus_1", {"positions"}},
-      {"second_component", {"normals"}},
-      {"third_component", {"positions"}},
-      {"welded_components", {"positions"}},
-      {"flat_box", {"finite"}},
-      {"edge_without_length", {"finite"}},
-      {"adjacent_extraordinary", {"positions"}},
-      {"depth_difference_3", {"positions"}},
-      {"valence_above_40", {"positions"}},
-      {"unmoved_vertices", {"refined-positions", "cgal"}},
-      {"indices_of_16_bits", {"positions", "row-stream"}},  // the model refines the whole of a large mesh
-  };
-  return table;
-}
 
 bool is_relation(const std::string& check) {
   const auto& rows = relation_rows();
@@ -119,35 +59,25 @@ std::string label(const AuditMesh& m) {
 const std::vector<Mutant>& mutants() {
   static const std::vector<Mutant> list = [] {
     std::vector<Mutant> all;
-    for (const Fault& f : faults()) {
-      if (f.name == "none") continue;
-      const auto found = meant().find(std::string(f.name));
-      const Meant to = found == meant().end() ? Meant{""} : found->second;
-      all.push_back({std::string(f.name), std::string(f.description), "faulty",
-                     faulty_options(f.name, to.subject), to.check, "", false});
-    }
-    for (const Mutation& m : mutations())
-      if (m.name != "none")
-        all.push_back({std::string(m.name), std::string(m.description), kBase,
-                       fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
-                       std::string(m.check), std::string(m.claim), m.sharp});
-    for (const Mutation& m : quad_mutations())
-      if (m.name != "none")
-        all.push_back({fmt::format("quad_{}", m.name), std::string(m.description), kQuadBase,
-                       fmt::format("mutation={}", m.name), std::string(m.check), "", m.sharp,
-                       data::Scheme::kCatmullClark});
     for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
-      for (const Distortion& d : distortions())
-        if (d.name != "none" && (d.loop || scheme == data::Scheme::kCatmullClark))
-          all.push_back({fmt::format("{}_{}", scheme == data::Scheme::kLoop ? "loop" : "quad", d.name),
-                         d.description, "distorted", fmt::format("fault={}", d.name), d.check, "", d.sharp,
-                         scheme, [&d, scheme](const data::ControlMesh& mesh, int depth) {
-                           return shows(d, mesh, scheme, depth);
+      for (const Mutation& m : mutations(scheme))
+        if (m.name != "none")
+          all.push_back({fmt::format("{}{}", scheme == data::Scheme::kLoop ? "" : "quad_", m.name),
+                         std::string(m.description), scheme == data::Scheme::kLoop ? kBase : kQuadBase,
+                         fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
+                         std::string(m.check), std::string(m.claim), m.sharp, scheme});
+    for (const FaultTable& table : fault_tables())
+      for (const Fault& f : table.faults)
+        for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+          const bool loop = scheme == data::Scheme::kLoop;
+          if (f.name == "none" || f.on == (loop ? Change::On::kQuads : Change::On::kLoop)) continue;
+          const std::string of = !f.of.empty() ? f.of : loop ? table.of_loop : table.of_quads;
+          all.push_back({(loop ? table.loop_prefix : "quad_") + f.name, f.description, "faulty",
+                         faulty_options(f.name, of, f.options), f.check, f.claim, f.sharp, scheme,
+                         !f.shows ? Mutant().shows : [&f, scheme](const data::ControlMesh& mesh, int depth) {
+                           return f.shows(Asked(mesh, scheme, depth));
                          }});
-    for (const FrameFault& f : frame_faults())
-      if (f.name != "none")
-        all.push_back({std::string(f.name), std::string(f.description), "faulty-frames",
-                       fmt::format("fault={}", f.name), std::string(f.check), "", false});
+        }
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
                    faulty_options("wrong_edge_mask", "cgal"), "refined-positions", "", false});
     all.push_back({"no_limit_and_swapped_points", "refined points for limit points, two of them exchanged",
@@ -192,7 +122,6 @@ void run_mutants(Journal& journal,
   // Right subjects are audited in all cases of the plan.
   const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
                                           {find_subject(kQuadBase), ""},
-                                          {find_subject(kQuadBase), "route=kernel"},
                                           {find_subject("row-stream"), "repair=stitch"},
                                           {find_subject("row-stream"), "frames=4"},
                                           {find_subject("sliding-window"), "precision=double,repair=stitch"}};

@@ -136,7 +136,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
   lc_capabilities result{};
   if constexpr (requires { T::capabilities(options, scheme); }) {
     result = T::capabilities(options, scheme);
-    result.schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
+    if (result.schemes == 0) result.schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
     if constexpr (requires { T::kSchemes; }) result.schemes = T::kSchemes;
   } else {
     result = T::capabilities(options);
@@ -154,6 +154,7 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
 ///   static lc_capabilities capabilities(Options&)              if it does Loop's scheme alone
 ///   static lc_capabilities capabilities(Options&, lc_scheme)   if it does both, or those of T::kSchemes
 ///   static constexpr std::int32_t kSharp                       if it does sharp edges: LC_SHARP_...
+///   static constexpr bool kLeavesRefusals                      if it refuses unusable meshes itself
 ///   T(const lc_mesh&, Options&)
 ///   void tessellate(const lc_request&, lc_tessellation&)    all memory from the request
 /// Options that T does not read are refused.
@@ -178,9 +179,11 @@ lc_subject make_subject(const char* name, const char* description, const char* o
       options.finish();
       if (!does(has, scheme_of(mesh->scheme)))
         throw SubjectError(LC_NOT_SUPPORTED, "does not do this scheme");
-      refuse_unusable(*mesh);
-      refuse_unusable_tags(
-          *mesh, requires { T::kTakesAnyEdge; });
+      if constexpr (!requires { T::kLeavesRefusals; }) {
+        refuse_unusable(*mesh);
+        refuse_unusable_tags(
+            *mesh, requires { T::kTakesAnyEdge; });
+      }
       *instance = new T(*mesh, options);
     });
   };

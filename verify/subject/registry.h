@@ -20,12 +20,10 @@ const lc_subject* lc_subject_openmesh();
 const lc_subject* lc_subject_embree();
 const lc_subject* lc_subject_vtk();  // nullptr: this build has none
 const lc_subject* lc_subject_null();
-const lc_subject* lc_subject_model();          // right, or wrong in one stated way: model_rules.h
-const lc_subject* lc_subject_quad_model();     // the same of Catmull-Clark's surfaces: quad_model_rules.h
-const lc_subject* lc_subject_faulty();         // options: verify/mutants/faulty_subjects.h
-const lc_subject* lc_subject_faulty_frames();  // options: the same
-const lc_subject* lc_subject_distorted();      // options: verify/mutants/distortions.h
-const lc_subject* lc_subject_unusual();        // options: verify/mutants/unusual_subjects.h
+const lc_subject* lc_subject_model();       // right, or wrong in one stated way: verify/mutants/mutant_rules.h
+const lc_subject* lc_subject_quad_model();  // the same of Catmull-Clark's surfaces
+const lc_subject* lc_subject_faulty();      // options: verify/mutants/faulty_subjects.h
+const lc_subject* lc_subject_unusual();     // options: the same
 }
 
 namespace limitcheck::verify {
@@ -39,7 +37,7 @@ struct MissingSubject {
 };
 std::vector<MissingSubject> missing_subjects();
 
-/// By name, `null`, `faulty`, `faulty-frames`, `distorted`, `unusual`, `model` and `quad-model` included; nullptr if there is none.
+/// By name, `null`, `faulty`, `unusual`, `model` and `quad-model` included; nullptr if there is none.
 const lc_subject* find_subject(std::string_view name);
 
 }  // namespace limitcheck::verify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/mutants/models/model_tags.h"
+#include "verify/mutants/mutant_tags.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,81 +11,52 @@ namespace limitcheck::verify {
 using reference::Edge;
 using reference::Sector;
 using reference::Topology;
-using V = ModelTags::V;
+using V = MutantTags::V;
 
 namespace {
 
 bool is_semi_sharp(double sharpness) {
-  return sharpness > 0 && sharpness < ModelTags::kForEver;
+  return sharpness > 0 && sharpness < MutantTags::kForEver;
 }
 
 }  // namespace
 
-ModelTags::ModelTags(const data::Sharpness& sharpness, const Topology& topology, std::string_view mutation)
+MutantTags::MutantTags(const data::Sharpness& sharpness, const Topology& topology, std::string_view mutation)
     : edge_(topology.edges().size(), 0.),
       vertex_(topology.vertex_count(), 0.),
-      chaikin_((sharpness.creasing == data::Creasing::kChaikin && mutation != "chaikin_as_uniform") ||
-               mutation == "uniform_as_chaikin"),
+      chaikin_(sharpness.creasing == data::Creasing::kChaikin),
       smooth_triangles_(sharpness.triangles == data::TriangleRule::kSmooth),
       mutation_(mutation) {
-  const auto value = [&](float given) -> double {
-    if (is("semi_as_infinite")) return kForEver;
-    if (is("infinite_is_4")) return std::min(given, 4.F);
-    if (is("infinite_is_9")) return std::min(given, 9.F);
-    if (is("sharpness_rounded_down")) return given >= data::kInfiniteSharpness ? kForEver : std::floor(given);
-    if (is("sharpness_rounded_up")) return given >= data::kInfiniteSharpness ? kForEver : std::ceil(given);
-    if (is("infinite_from_3") && given >= 3) return kForEver;
-    if (is("infinite_ends_after_10")) return std::min(given, data::kInfiniteSharpness);
-    if (is("ten_is_finite") && given == data::kInfiniteSharpness) return given;
-    if (given >= data::kInfiniteSharpness) return kForEver;
-    return is("sharpness_in_halves") ? std::round(2 * given) / 2 : given;
+  const auto value = [](float given) -> double {
+    return given >= data::kInfiniteSharpness ? kForEver : given;
   };
-
-  if (is("corners_always_held") ||
-      (sharpness.boundary == data::Boundary::kEdgeAndCorner && !is("corners_not_held"))) {
+  if (sharpness.boundary == data::Boundary::kEdgeAndCorner)
     for (std::size_t v = 0; v < vertex_.size(); ++v) {
       const Sector sector = topology.sector(static_cast<std::int32_t>(v));
       if (!sector.closed && sector.faces.size() == 1) vertex_[v] = kForEver;
     }
-  }
-  using Ends = std::pair<std::int32_t, std::int32_t>;
-  const auto ends = [&](const auto& e) {
-    return is("tags_by_direction") ? Ends(e.a, e.b) : Ends(std::min(e.a, e.b), std::max(e.a, e.b));
-  };
-  std::map<Ends, double> tags;
-  for (const data::SharpEdge& e : sharpness.edges) {
-    tags.emplace(ends(e), value(e.sharpness));
-    if (is("first_tag_only")) break;
-  }
-  for (std::size_t k = 0; k < edge_.size(); ++k) {
-    const Edge& e = topology.edges()[k];
-    const auto found = tags.find(ends(e));
-    if (found != tags.end()) edge_[k] = found->second;
-    if (found != tags.end() && e.on_boundary() && is("boundary_tags_hold"))
-      vertex_[e.a] = vertex_[e.b] = kForEver;
-    const auto left = topology.faces()[e.left_face];
-    // An edge from the last corner of the first of its faces to corner 0.
-    if (is("tags_lost_at_corner_0") && left.front() == e.b && left.back() == e.a) edge_[k] = 0;
-  }
+  std::map<std::pair<std::int32_t, std::int32_t>, double> tags;
+  for (const data::SharpEdge& e : sharpness.edges) tags.emplace(std::minmax(e.a, e.b), value(e.sharpness));
+  for (std::size_t k = 0; k < edge_.size(); ++k)
+    if (const auto found = tags.find(std::minmax(topology.edges()[k].a, topology.edges()[k].b));
+        found != tags.end())
+      edge_[k] = found->second;
   for (const data::SharpVertex& v : sharpness.vertices)
-    if (!is("vertices_not_sharp") && v.vertex >= 0 &&
-        topology.vertex_count() > static_cast<std::size_t>(v.vertex))
-      vertex_[v.vertex] =
-          std::max(vertex_[v.vertex], is("vertices_never_fall") ? kForEver : value(v.sharpness));
+    vertex_[v.vertex] = std::max(vertex_[v.vertex], value(v.sharpness));
 }
 
-double ModelTags::edge(const Topology& topology, std::int32_t e) const {
+double MutantTags::edge(const Topology& topology, std::int32_t e) const {
   return topology.edges()[e].on_boundary() ? kForEver : edge_[e];
 }
 
-bool ModelTags::plain(const Topology& topology, std::int32_t v) const {
+bool MutantTags::plain(const Topology& topology, std::int32_t v) const {
   const Sector sector = topology.sector(v);
   return vertex_[v] == 0 && std::all_of(sector.edges.begin(), sector.edges.end(), [&](std::int32_t e) {
            return topology.edges()[e].on_boundary() || edge_[e] == 0;
          });
 }
 
-bool ModelTags::settled(const Topology& topology, std::int32_t v) const {
+bool MutantTags::settled(const Topology& topology, std::int32_t v) const {
   const auto open = [&](double sharpness) {
     return is("last_sharp_step_missing") ? is_semi_sharp(sharpness) && sharpness > 1
                                          : is_semi_sharp(sharpness);
@@ -95,11 +66,7 @@ bool ModelTags::settled(const Topology& topology, std::int32_t v) const {
                                            [&](std::int32_t e) { return open(edge_[e]); });
 }
 
-ModelTags::Rule ModelTags::rule(const Topology& topology, std::int32_t v) const {
-  return step(topology, v, false).rule;
-}
-
-ModelTags::Step ModelTags::step(const Topology& topology, std::int32_t v, bool next) const {
+MutantTags::Step MutantTags::step(const Topology& topology, std::int32_t v, bool next) const {
   const Sector sector = topology.sector(v);
   Step step{Rule::kCorner, {v, v}};
   if ((next ? fallen(vertex_[v]) : vertex_[v]) > 0) return step;
@@ -121,12 +88,12 @@ ModelTags::Step ModelTags::step(const Topology& topology, std::int32_t v, bool n
   return step;
 }
 
-double ModelTags::fallen(double sharpness) const {
+double MutantTags::fallen(double sharpness) const {
   if (sharpness == kForEver) return kForEver;
   return std::max(0., sharpness - (is("falls_by_2") ? 2 : 1));
 }
 
-double ModelTags::fallen(const Topology& topology, std::int32_t e, std::int32_t v) const {
+double MutantTags::fallen(const Topology& topology, std::int32_t e, std::int32_t v) const {
   const double own = edge(topology, e);
   if (topology.edges()[e].on_boundary()) return kForEver;
   if (!is_semi_sharp(own) || !chaikin_) return fallen(own);
@@ -149,7 +116,7 @@ double ModelTags::fallen(const Topology& topology, std::int32_t e, std::int32_t 
   return fallen(share * own + (1 - share) * mean);
 }
 
-double ModelTags::edge_share(const Topology& topology, std::int32_t e) const {
+double MutantTags::edge_share(const Topology& topology, std::int32_t e) const {
   const double s = edge(topology, e);
   if (s <= 0 || (is("below_1_is_smooth") && s < 1)) return 0;
   if (chaikin_ && is_semi_sharp(s)) {
@@ -161,7 +128,7 @@ double ModelTags::edge_share(const Topology& topology, std::int32_t e) const {
   return std::min(s, 1.);
 }
 
-double ModelTags::old_share(const Topology& topology, std::int32_t v) const {
+double MutantTags::old_share(const Topology& topology, std::int32_t v) const {
   double sum = 0, most = 0;
   int count = 0;
   const auto add = [&](double s) {
@@ -178,15 +145,15 @@ double ModelTags::old_share(const Topology& topology, std::int32_t v) const {
   return is("blend_reversed") ? 1 - share : share;
 }
 
-V ModelTags::point(const Step& step, const std::vector<V>& points, std::int32_t v, const V& smooth) const {
+V MutantTags::point(const Step& step, const std::vector<V>& points, std::int32_t v, const V& smooth) const {
   const V& c = points[v];
   if (step.rule == Rule::kCorner) return c;
   if (step.rule != Rule::kCrease) return smooth;
   return c + ((points[step.ends[0]] - c) + (points[step.ends[1]] - c)) * (1. / 8);
 }
 
-void ModelTags::sharpen(const Topology& topology, const std::vector<V>& points,
-                        std::vector<V>& refined) const {
+void MutantTags::sharpen(const Topology& topology, const std::vector<V>& points,
+                         std::vector<V>& refined) const {
   for (std::size_t k = 0; k < topology.edges().size(); ++k) {
     const Edge& e = topology.edges()[k];
     if (e.on_boundary()) continue;
@@ -209,9 +176,9 @@ void ModelTags::sharpen(const Topology& topology, const std::vector<V>& points,
   }
 }
 
-ModelTags ModelTags::refined(const Topology& topology, const Topology& finer) const {
+MutantTags MutantTags::refined(const Topology& topology, const Topology& finer) const {
   if (none()) return {};
-  ModelTags next = *this;
+  MutantTags next = *this;
   next.control_ = false;
   next.edge_.assign(finer.edges().size(), 0.);
   next.vertex_.assign(finer.vertex_count(), 0.);
@@ -233,9 +200,9 @@ ModelTags ModelTags::refined(const Topology& topology, const Topology& finer) co
   return next;
 }
 
-ModelTags ModelTags::of_part(const Topology& topology, const Topology& part,
-                             const std::vector<std::int32_t>& vertices) const {
-  ModelTags result = *this;
+MutantTags MutantTags::of_part(const Topology& topology, const Topology& part,
+                               const std::vector<std::int32_t>& vertices) const {
+  MutantTags result = *this;
   result.edge_.clear();
   result.vertex_.clear();
   for (const Edge& e : part.edges()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Subjects that are right and unlike others: the default audit blames none of them.
-#include "verify/mutants/unusual_subjects.h"
+#include "verify/mutants/faulty_subjects.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

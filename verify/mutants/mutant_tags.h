@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How sharp the edges and vertices of a mesh are at one level, for the models: what DeRose, Kass and Truong
+// How sharp the edges and vertices of a mesh are at one level, for the model: what DeRose, Kass and Truong
 // 1998 say of a step, as OpenSubdiv has it, with Chaikin's way of falling. The same in both schemes.
 #pragma once
 
@@ -9,27 +9,23 @@
 #include <string_view>
 #include <vector>
 
-#include "data/cut_out.h"
 #include "data/sharpness.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
-#include "verify/mutants/models/model_rules.h"
 
 namespace limitcheck::verify {
 
-/// Faults of sharp edges and vertices, for every model that has them.
-std::span<const Mutation> sharp_mutations();
-
-class ModelTags {
+class MutantTags {
  public:
   using V = reference::Vec3<double>;
   static constexpr double kForEver = std::numeric_limits<double>::infinity();
   enum class Rule : std::uint8_t { kSmooth, kDart, kCrease, kCorner };
 
   /// None. Nothing may be asked of it but that.
-  ModelTags() = default;
+  MutantTags() = default;
   /// Tags of edges that do not exist are left out.
-  ModelTags(const data::Sharpness& sharpness, const reference::Topology& topology, std::string_view mutation);
+  MutantTags(const data::Sharpness& sharpness, const reference::Topology& topology,
+             std::string_view mutation);
 
   bool is(std::string_view name) const { return mutation_ == name; }
   bool none() const { return vertex_.empty(); }
@@ -46,16 +42,15 @@ class ModelTags {
   bool plain(const reference::Topology& topology, std::int32_t v) const;
   /// Whether the rule of a vertex is for ever the one that it has.
   bool settled(const reference::Topology& topology, std::int32_t v) const;
-  Rule rule(const reference::Topology& topology, std::int32_t v) const;
 
   /// Turns the points of a step by the rules of smooth meshes (vertices, edge points, ..) into those of a
   /// step with tags.
   void sharpen(const reference::Topology& topology, const std::vector<V>& points,
                std::vector<V>& refined) const;
   /// After that step.
-  ModelTags refined(const reference::Topology& topology, const reference::Topology& finer) const;
-  ModelTags of_part(const reference::Topology& topology, const reference::Topology& part,
-                    const std::vector<std::int32_t>& vertices) const;
+  MutantTags refined(const reference::Topology& topology, const reference::Topology& finer) const;
+  MutantTags of_part(const reference::Topology& topology, const reference::Topology& part,
+                     const std::vector<std::int32_t>& vertices) const;
 
  private:
   // The rule of a vertex in a step and, of a crease, the two neighbours along it.
@@ -76,10 +71,5 @@ class ModelTags {
   bool control_ = true;  // of the control mesh
   std::string_view mutation_ = "none";
 };
-
-/// What a model declares of sharp edges; it does not do the smooth rule for triangles by itself.
-std::int32_t declared_kinds(std::string_view mutation);
-/// Throws SubjectError: a mutant that takes no mesh with tags.
-void refuse_tags(std::string_view mutation, const data::Sharpness& sharpness);
 
 }  // namespace limitcheck::verify

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// What the tables of faults and habits are written with. Private to them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "verify/mutants/faulty_subjects.h"
+
+namespace limitcheck::verify {
+
+// The tables, by what they are about; each of faulty_subjects.h is made of some.
+std::vector<Change> faults_of_frames();
+std::vector<Change> faults_of_numbers();
+std::vector<Change> faults_of_refusals();
+std::vector<Change> faults_of_memory();
+std::vector<Change> faults_of_polygons();
+std::vector<Change> faults_of_tags();
+std::vector<Change> faults_of_rare_tags();
+std::vector<Change> faults_of_rare_places();
+
+namespace rows {
+
+using A = const Asked&;
+using D = Delivered&;
+using Depths = std::vector<std::int32_t>&;
+using Mesh = data::ControlMesh&;
+using Tags = data::Sharpness&;
+using Vector = Delivered::Vector;
+using On = Change::On;
+
+inline Change row(std::string name, std::string description, std::string check) {
+  return {.name = std::move(name), .description = std::move(description), .check = std::move(check)};
+}
+/// With one member more.
+template <class Member, class Value>
+Change with(Change c, Member Change::*member, Value value) {
+  c.*member = std::move(value);
+  return c;
+}
+inline Change on(Change::On schemes, Change c) {
+  return with(std::move(c), &Change::on, schemes);
+}
+/// Only meshes with tags bring it out.
+inline Change sharp(Change c) {
+  return with(std::move(c), &Change::sharp, true);
+}
+inline Change claimed(Change c, const char* claim) {
+  return with(std::move(c), &Change::claim, claim);
+}
+inline Change deliver(const char* name, const char* description, const char* check,
+                      std::function<void(A, D)> what) {
+  return with(row(name, description, check), &Change::deliver, std::move(what));
+}
+/// Of each vertex.
+inline Change vertex(const char* name, const char* description, const char* check,
+                     std::function<void(A, D, std::size_t)> what) {
+  return deliver(name, description, check, [what](A a, D out) {
+    for (std::size_t v = 0; v < out.positions.size(); ++v) what(a, out, v);
+  });
+}
+inline Change ask(const char* name, const char* description, const char* check,
+                  std::function<void(A, Depths)> what) {
+  return with(row(name, description, check), &Change::ask, std::move(what));
+}
+inline Change take(const char* name, const char* description, const char* check,
+                   std::function<void(Mesh)> what) {
+  return with(row(name, description, check), &Change::take, std::move(what));
+}
+inline Change remake(std::string name, std::string description, const char* check,
+                     std::function<void(A, Mesh)> what) {
+  return with(row(std::move(name), std::move(description), check), &Change::remake, std::move(what));
+}
+/// Other tags, where there are some.
+inline Change tags(std::string name, std::string description, std::function<void(A, Tags)> what,
+                   const char* check = "positions") {
+  Change c = sharp(on(On::kBoth, remake(std::move(name), std::move(description), check,
+                                        [what](A a, Mesh m) { what(a, m.sharpness); })));
+  if (c.check == "positions")
+    c.shows = [what](A a) {
+      data::Sharpness changed = a.mesh.sharpness;
+      what(a, changed);
+      return !(changed == a.mesh.sharpness);
+    };
+  return c;
+}
+/// Each sharpness becomes what `value` makes of it; 0 is no tag.
+inline Change values(std::string name, std::string description, std::function<float(A, float)> value,
+                     const char* check = "positions") {
+  return tags(
+      std::move(name), std::move(description),
+      [value](A a, Tags t) {
+        for (auto& e : t.edges) e.sharpness = value(a, e.sharpness);
+        for (auto& v : t.vertices) v.sharpness = value(a, v.sharpness);
+        std::erase_if(t.edges, [](const auto& e) { return e.sharpness == 0; });
+        std::erase_if(t.vertices, [](const auto& v) { return v.sharpness == 0; });
+      },
+      check);
+}
+
+inline bool inside_face(A a, const Place& p) {
+  return !a.side_of(p);
+}
+inline bool same_edge(const auto& e, std::int32_t a, std::int32_t b) {
+  return std::minmax(e.a, e.b) == std::minmax(a, b);
+}
+inline void add(Vector& to, const Vector& what, double times) {
+  for (std::size_t c = 0; c < 3; ++c) to[c] += times * what[c];
+}
+/// Each coordinate by `one`.
+template <class One>
+void each(Vector& p, One one) {
+  for (double& x : p) x = one(x);
+}
+
+inline Vector difference(const Vector& p, const Vector& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+/// Of unit length.
+inline Vector unit_cross(const Vector& p, const Vector& q) {
+  const Vector n{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+  const double size = std::hypot(n[0], n[1], n[2]);
+  return {n[0] / size, n[1] / size, n[2] / size};
+}
+
+/// Along the normal, by a share of the box.
+inline void outwards(A a, D out, std::size_t v, double by) {
+  if (!out.normals.empty()) add(out.positions[v], out.normals[v], by * a.diagonal);
+}
+
+/// Where the points of each face lie in what was delivered, by their parameters.
+class Finder {
+ public:
+  explicit Finder(const Delivered& out) {
+    for (std::size_t v = 0; v < out.positions.size(); ++v) at_[key(out.place(v))] = v;
+  }
+  /// Of a triangle: the vertex at l1 = i / n, l2 = j / n.
+  std::size_t operator()(std::int32_t face, std::int64_t i, std::int64_t j, std::int64_t n) const {
+    const auto found = at_.find({face, static_cast<double>(i) / static_cast<double>(n),
+                                 static_cast<double>(j) / static_cast<double>(n)});
+    if (found == at_.end()) nowhere("point of a face");
+    return found->second;
+  }
+  std::size_t corner(std::int32_t face, int k) const { return (*this)(face, k == 1, k == 2, 1); }
+
+ private:
+  using Key = std::tuple<std::int32_t, double, double>;
+  static Key key(const Place& p) {
+    return {p.face, static_cast<double>(p.i) / p.denominator, static_cast<double>(p.j) / p.denominator};
+  }
+  std::map<Key, std::size_t> at_;
+};
+
+}  // namespace rows
+}  // namespace limitcheck::verify

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// Faults of the depths, the triangles and the fans of frames, and of what is kept from one to the next.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+#include "data/cut_out.h"
+#include "reference/loop/refine.h"
+#include "verify/mutants/change_rows.h"
+
+namespace limitcheck::verify {
+
+using namespace rows;
+
+namespace {
+
+Change depth(const char* name, const char* description, const char* check,
+             std::function<void(std::int32_t&)> what) {
+  return ask(name, description, check, [what](A, Depths d) { std::for_each(d.begin(), d.end(), what); });
+}
+
+// Of each centre of a fan: visit(its vertex, its face).
+template <class Visit>
+void at_centres(const Delivered& out, Visit visit) {
+  for (std::size_t v = 0; v < out.positions.size(); ++v)
+    if (out.provenance[v].denominator == 3) visit(v, out.provenance[v].face);
+}
+Change centre(const char* name, const char* description, const char* claim,
+              std::function<Vector(A, const Delivered&, std::size_t, std::int32_t)> where) {
+  return claimed(deliver(name, description, "positions",
+                         [where](A a, D out) {
+                           at_centres(out, [&](std::size_t v, std::int32_t face) {
+                             out.positions[v] = where(a, out, v, face);
+                           });
+                         }),
+                 claim);
+}
+Vector mean(const std::array<Vector, 3>& p) {
+  Vector sum{};
+  for (const Vector& q : p) add(sum, q, 1. / 3);
+  return sum;
+}
+
+// Twice the triangles that `which` names by their numbers, in order.
+template <class Which>
+void repeat(D out, Which which) {
+  const std::size_t count = out.triangles.size();
+  for (std::size_t t = 0; t < count; ++t)
+    if (which(t, t + 1 == count || out.triangle_face[t + 1] != out.triangle_face[t]))
+      out.add_triangle(out.triangles[t], out.triangle_face[t]);
+}
+
+Change of_patches(Change c) {
+  return with(with(std::move(c), &Change::of, "row-stream"), &Change::options, "output=patches");
+}
+
+}  // namespace
+
+std::vector<Change> faults_of_frames() {
+  return {
+      claimed(depth("printed_cone_depth", "depth 0 for all faces, which the printed inequality allows",
+                    "coverage", [](std::int32_t& d) { d = std::min(d, 0); }),
+              "C27"),
+      depth("one_level_short", "faces of depth 2 and more are displayed one level short", "coverage",
+            [](std::int32_t& d) { d -= d > 1 ? 1 : 0; }),
+      depth("culled_shown", "culled faces are displayed", "coverage",
+            [](std::int32_t& d) { d = std::max(d, 0); }),
+      claimed(deliver("one_strip_more", "the last strip of each face is sent twice: 2^m + 1 strips",
+                      "coverage", [](A, D out) { repeat(out, [](std::size_t, bool last) { return last; }); }),
+              "C50"),
+      claimed(deliver("buffer_as_printed", "memory by the printed sum, 5 + 6 * 50 vectors short", "written",
+                      [](A, D out) {  // as many vectors as the true sum counts
+                        out.announced_vertices = static_cast<std::int64_t>(out.positions.size()) + 5 + 6 * 50;
+                      }),
+              "C48"),
+      deliver("fan_twice", "the last triangle of each fan is sent twice", "coverage",
+              [](A, D out) {
+                repeat(out, [&](std::size_t t, bool last) {
+                  return last && out.provenance[out.triangles[t][0]].denominator == 3;
+                });
+              }),
+      centre("printed_b1", "centre of a fan with the printed first basis function", "C69",
+             [](A a, const Delivered& out, std::size_t v, std::int32_t face) {
+               Vector p = out.positions[v];
+               for (std::size_t k = 0; k < 3; ++k)
+                 if (a.beyond(static_cast<std::size_t>(face), k) < 0) return p;
+               // b1 weighs the first of the twelve points: neighbour 4, from the next corner on, of the edge point.
+               reference::RefinedMesh<double> once(a.mesh);
+               once.refine();
+               const auto f = static_cast<std::size_t>(face);
+               const std::int32_t four = once.vertex(f, 1, 0), seven = once.vertex(f, 1, 1);
+               const auto ring = once.topology().ring(four);
+               const auto first =
+                   static_cast<std::size_t>(std::find(ring.begin(), ring.end(), seven) - ring.begin());
+               const auto& one = once.positions()[ring[(first + 4) % ring.size()]];
+               add(p, {one.x, one.y, one.z}, (11. / 108 - 1. / 4) / 81);
+               return p;
+             }),
+      centre("flat_centre", "centre of a fan: mean of the limit corners", "C62",
+             [](A, const Delivered& out, std::size_t, std::int32_t f) {
+               const Finder at(out);
+               return mean({out.positions[at.corner(f, 0)], out.positions[at.corner(f, 1)],
+                            out.positions[at.corner(f, 2)]});
+             }),
+      centre("control_centroid", "centre of a fan: mean of the control corners", "",
+             [](A a, const Delivered&, std::size_t, std::int32_t f) {
+               const auto t = a.mesh.faces[static_cast<std::size_t>(f)];
+               return mean({a.mesh.positions[t[0]], a.mesh.positions[t[1]], a.mesh.positions[t[2]]});
+             }),
+      centre("centre_without_ghosts", "centres at the boundary from the border points only", "C63",
+             [](A a, const Delivered& out, std::size_t v, std::int32_t face) {
+               const auto f = static_cast<std::size_t>(face);
+               if (a.beyond(f, 0) >= 0 && a.beyond(f, 1) >= 0 && a.beyond(f, 2) >= 0) return out.positions[v];
+               Vector sum{};
+               double count = 0;
+               for (const auto& t : out.triangles)
+                 if (t[0] == v) add(sum, out.positions[t[1]], 1), ++count;
+               each(sum, [&](double x) { return x / count; });
+               return sum;
+             }),
+      deliver("flat_centre_normal", "normal at the centre: that of the control face", "normals",
+              [](A a, D out) {
+                at_centres(out, [&](std::size_t v, std::int32_t f) {
+                  const auto t = a.mesh.faces[static_cast<std::size_t>(f)];
+                  const Vector& p = a.mesh.positions[t[0]];
+                  out.normals[v] = unit_cross(difference(a.mesh.positions[t[1]], p),
+                                              difference(a.mesh.positions[t[2]], p));
+                });
+              }),
+      deliver(
+          "inner_t_vertices", "stitches beside deeper faces leave out every other point inside", "t-vertices",
+          [](A a, D out) {
+            // Two triangles with an edge inside the face become one with twice the edge.
+            const auto cut = [&](std::size_t t) {
+              for (std::size_t s = t + 1; s < out.triangles.size(); ++s) {
+                if (out.triangle_face[s] != out.triangle_face[t]) continue;
+                for (std::size_t k = 0; k < 9; ++k) {
+                  const auto &x = out.triangles[t], &y = out.triangles[s];
+                  const std::uint32_t apex = x[k % 3], p = x[(k + 1) % 3], m = x[(k + 2) % 3];
+                  const std::uint32_t q = y[(k / 3 + 2) % 3];
+                  if (y[k / 3] != apex || y[(k / 3 + 1) % 3] != m) continue;
+                  const auto &at_p = out.provenance[p], &at_m = out.provenance[m], &at_q = out.provenance[q];
+                  if (!inside_face(a, out.place(m)) || at_p.i + at_q.i != 2 * at_m.i ||
+                      at_p.j + at_q.j != 2 * at_m.j || at_p.denominator != at_m.denominator ||
+                      at_q.denominator != at_m.denominator)
+                    continue;
+                  out.triangles[t] = {apex, p, q};
+                  out.erase_triangle(s);
+                  return;
+                }
+              }
+            };
+            for (std::size_t t = 0; t < out.triangles.size(); ++t) {
+              const auto f = static_cast<std::size_t>(out.triangle_face[t]);
+              const bool stitched = a.depth_beyond(f, 0) > a.depth[f] || a.depth_beyond(f, 1) > a.depth[f] ||
+                                    a.depth_beyond(f, 2) > a.depth[f];
+              if (stitched && (t == 0 || out.triangle_face[t - 1] != out.triangle_face[t])) cut(t);
+            }
+          }),
+      ask("depth_of_the_first", "the depth of the first face, for all", "coverage",
+          [](A, Depths d) { std::fill(d.begin(), d.end(), std::int32_t{d[0]}); }),
+      ask("first_culled_all_culled", "nothing is shown if the first face is culled", "coverage",
+          [](A, Depths d) {
+            if (d[0] < 0) std::fill(d.begin(), d.end(), -1);
+          }),
+      ask("fails_if_all_culled", "fails if there is nothing to show", "tessellates",
+          [](A, Depths d) {
+            if (*std::max_element(d.begin(), d.end()) < 0)
+              throw std::runtime_error("there is nothing to show");
+          }),
+      ask("depths_not_supported", "declares depths for each face, and supports one for all", "tessellates",
+          [](A, Depths d) {
+            if (std::any_of(d.begin(), d.end(), [&](std::int32_t x) { return x != d[0]; }))
+              throw SubjectError(LC_NOT_SUPPORTED, "all faces must have one depth");
+          }),
+      vertex("crack_at_depth_steps", "one ulp between faces of different depths", "shared-positions",
+             [](A a, D out, std::size_t v) {
+               const Place p = out.place(v);
+               const auto at = a.side_of(p);
+               if (!at || at->along == 0) return;
+               const int other = a.depth_beyond(a.face_of(p), static_cast<std::size_t>(at->side));
+               if (other >= 0 && other < a.depth[a.face_of(p)]) out.move_up(v);
+             }),
+      deliver("chords_at_depth_steps", "the deeper face's border points lie on the chords of its neighbour",
+              "positions",
+              [](A a, D out) {
+                const Delivered before = out;
+                const Finder find(before);
+                for (std::size_t v = 0; v < out.positions.size(); ++v) {
+                  const Place p = out.place(v);
+                  const auto at = a.side_of(p);
+                  if (!at) continue;
+                  const int other = a.depth_beyond(a.face_of(p), static_cast<std::size_t>(at->side));
+                  if (other < 0 || other >= a.depth[a.face_of(p)]) continue;
+                  const std::int64_t n = a.steps(p), step = n >> other, from = at->along / step * step;
+                  if (from == at->along) continue;
+                  const auto end = [&](std::int64_t along) {
+                    const auto q = a.domain(a.face_of(p)).on_side(at->side, along, n);
+                    return before.positions[find(p.face, q.i, q.j, n)];
+                  };
+                  const Vector first = end(from);
+                  out.positions[v] = first;
+                  add(out.positions[v], difference(end(from + step), first),
+                      static_cast<double>(at->along - from) / static_cast<double>(step));
+                }
+              }),
+      vertex("last_face", "points inside the last face are 1e-6 off", "positions",
+             [](A a, D out, std::size_t v) {
+               const Place p = out.place(v);
+               if (inside_face(a, p) && a.face_of(p) + 1 == a.mesh.faces.size()) outwards(a, out, v, 1e-6);
+             }),
+      vertex("faces_sorted", "faces begun at their lowest vertex, provenance as if they were not",
+             "positions",
+             [](A a, D out, std::size_t v) {
+               const Place p = out.place(v);
+               const auto c = a.mesh.faces[a.face_of(p)];
+               const auto lowest = static_cast<int>(std::min_element(c.begin(), c.end()) - c.begin());
+               const auto q = a.domain(a.face_of(p)).moved(point_of(p), a.steps(p), {(3 - lowest) % 3});
+               out.provenance[v].i = static_cast<std::uint32_t>(q.i);
+               out.provenance[v].j = static_cast<std::uint32_t>(q.j);
+             }),
+      vertex("edges_sorted", "points of an edge counted from its lower vertex, from both sides",
+             "shared-positions",
+             [](A a, D out, std::size_t v) {
+               lc_provenance& p = out.provenance[v];
+               const auto c = a.mesh.faces[a.face_of(out.place(v))];
+               if (p.j == 0 && c[0] > c[1]) p.i = p.denominator - p.i;
+             }),
+      deliver("normals_forgotten", "declares normals and delivers none", "written",
+              [](A, D out) { out.normals.clear(); }),
+      // What is kept from one frame to the next.
+      on(On::kBoth,
+         deliver("culled_are_holes", "culled faces are left out before the first step", "positions",
+                 [](A a, D out) {
+                   std::vector<std::int32_t> shown, depths;
+                   for (std::size_t f = 0; f < a.depth.size(); ++f)
+                     if (a.depth[f] >= 0)
+                       shown.push_back(static_cast<std::int32_t>(f)), depths.push_back(a.depth[f]);
+                   if (shown.empty() || shown.size() == a.depth.size()) return;
+                   const data::CutOut part = data::cut_out(a.mesh.faces, shown);
+                   out = a.again({part.of(a.mesh.positions), part.faces, part.of(a.mesh.sharpness)}, depths);
+                   for (lc_provenance& p : out.provenance) p.face = shown[static_cast<std::size_t>(p.face)];
+                   for (std::int32_t& f : out.triangle_face) f = shown[static_cast<std::size_t>(f)];
+                 })),
+      of_patches(deliver("stale_patch", "a patch is not written again after the points have moved",
+                         "positions",
+                         [](A a, D out) {
+                           data::ControlMesh other = a.mesh;
+                           for (Vector& p : other.positions) each(p, [](double x) { return x / 2; });
+                           const Delivered before = a.again(other, {a.depth.begin(), a.depth.end()});
+                           if (out.triangles.empty()) nowhere("patch that stays");
+                           for (std::size_t v = 0; v < out.positions.size(); ++v)
+                             if (out.provenance[v].face == out.triangle_face[0])
+                               out.positions[v] = before.positions[v];
+                         })),
+      of_patches(deliver("place_twice", "two patches have one place in the buffer", "coverage",
+                         [](A a, D out) {
+                           const std::int32_t first = out.triangle_face.empty() ? -1 : out.triangle_face[0];
+                           std::map<std::int32_t, std::vector<std::size_t>> of;
+                           for (std::size_t t = 0; t < out.triangles.size(); ++t)
+                             of[out.triangle_face[t]].push_back(t);
+                           for (const auto& [face, theirs] : of)
+                             if (face != first && theirs.size() == of[first].size() &&
+                                 a.depth[static_cast<std::size_t>(face)] ==
+                                     a.depth[static_cast<std::size_t>(first)]) {
+                               for (std::size_t k = 0; k < theirs.size(); ++k)
+                                 out.triangles[theirs[k]] = std::array(out.triangles[of[first][k]]);
+                               return;
+                             }
+                           nowhere("two patches of one size");
+                         })),
+      of_patches(deliver(
+          "old_edge_depth", "a face in repair keeps its border when a neighbour becomes deeper", "t-vertices",
+          [](A a, D out) {
+            std::vector<std::int32_t> depths(a.depth.begin(), a.depth.end());
+            for (std::size_t f = 0; f < depths.size(); ++f)
+              for (std::size_t k = 0; k < 3; ++k) {
+                if (a.depth[f] < 1 || a.depth_beyond(f, k) <= a.depth[f]) continue;
+                for (std::size_t side = 0; side < 3; ++side)
+                  if (const std::int32_t g = a.beyond(f, side); g >= 0 && a.depth[g] > a.depth[f])
+                    depths[g] = a.depth[f];
+                const Delivered before = a.again(a.mesh, depths);
+                const auto face = static_cast<std::int32_t>(f);
+                for (std::size_t t = out.triangles.size(); t-- > 0;)
+                  if (out.triangle_face[t] == face) out.erase_triangle(t);
+                std::map<std::uint32_t, std::uint32_t> number;
+                for (std::size_t t = 0; t < before.triangles.size(); ++t) {
+                  if (before.triangle_face[t] != face) continue;
+                  std::array<std::uint32_t, 3> triangle = before.triangles[t];
+                  for (std::uint32_t& v : triangle) {
+                    const auto [known, is_new] = number.try_emplace(v, 0);
+                    if (is_new) known->second = out.add_vertex(before, v);
+                    v = known->second;
+                  }
+                  out.add_triangle(triangle, face);
+                }
+                return;
+              }
+            nowhere("face in repair whose edges have become deeper");
+          })),
+  };
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The rules of either scheme with one of them changed: what the subjects `model` and `quad-model` compute with.
+// Where a rule is right its masks are those of reference/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "data/scheme.h"
+#include "reference/loop/weights.h"
+#include "reference/mesh/topology.h"
+#include "reference/number/vec3.h"
+#include "verify/mutants/mutant_tags.h"
+
+namespace limitcheck::verify {
+
+struct Mutation {
+  std::string_view name, description;
+  std::string_view check;       // the row of the audit meant for it
+  std::string_view claim = {};  // of the paper, where this is the paper taken literally
+  bool in_float = false;        // delivered in float: small faults hide in wider bounds
+  bool sharp = false;           // only sharp edges and vertices bring it out
+};
+
+/// All mutations of the rules of a scheme; the first is "none".
+std::span<const Mutation> mutations(data::Scheme scheme);
+
+/// A vertex c with its neighbours e_i and, in a mesh of quads, f_i, opposite c between e_i and e_{i+1}: n of
+/// each inside, K + 1 and K in a sector, which begins and ends at sharp edges or at the boundary.
+struct MutantRing {
+  using V = reference::Vec3<double>;
+  V c;
+  std::vector<V> e, f;
+  bool closed;
+
+  /// In a mesh whose faces are all triangles or all quads.
+  static MutantRing of(const reference::Topology& topology, const std::vector<V>& points, std::int32_t v);
+  /// The sector of so many faces from face `first` on.
+  MutantRing part(std::size_t first, std::size_t faces) const;
+  /// A closed ring begun at e_first; an open one as it is.
+  MutantRing turned(std::size_t first) const;
+  std::size_t faces() const { return closed ? e.size() : e.size() - 1; }
+  /// The sum of e_i x e_{i+1}, from c: of the triangles around, by their areas.
+  V facets() const;
+};
+
+/// Of unit length; (0, 0, 1) for the zero vector.
+MutantRing::V unit_or_up(const MutantRing::V& n);
+
+/// The rules under one mutation, in double. Points are those of a mesh at some level.
+class MutantRules {
+ public:
+  using V = reference::Vec3<double>;
+  using Points = std::vector<V>;
+  explicit MutantRules(std::string_view mutation) : mutation_(mutation) {}
+  virtual ~MutantRules() = default;
+
+  bool is(std::string_view name) const { return mutation_ == name; }
+  std::string_view mutation() const { return mutation_; }
+
+  /// Step number `step`, from 0, of `depth`: vertex points in the order of the vertices, then edge points,
+  /// then, of quads, face points.
+  virtual Points refine(const reference::Topology& topology, const Points& points, const MutantTags& tags,
+                        int step, int depth) const = 0;
+  /// At level `depth`, of a vertex without tags.
+  virtual V limit(const MutantRing& ring, int depth) const = 0;
+  /// Of unit length; of a vertex without tags, or on one side of a crease.
+  virtual V normal(const MutantRing& ring) const = 0;
+  /// The same of a vertex that is held.
+  virtual V corner_normal(const MutantRing& ring) const = 0;
+  /// Of a vertex at which one sharp edge ends, that to e_0; a direction.
+  virtual V dart_limit(const MutantRing& ring) const = 0;
+  virtual V dart_normal(const MutantRing& ring) const = 0;
+
+ private:
+  std::string_view mutation_;
+};
+
+///   weights   the family that the subject declares
+///   refined   limit() leaves points as they are
+std::unique_ptr<MutantRules> loop_rules(std::string_view mutation, reference::Weights weights, bool refined);
+std::unique_ptr<MutantRules> quad_rules(std::string_view mutation);
+
+}  // namespace limitcheck::verify

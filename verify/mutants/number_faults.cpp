@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Faults of the numbers: positions and normals kept in too few bits, or a little off where only a relation
+// between two tessellations tells; and faults of polygons.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "verify/mutants/change_rows.h"
+
+namespace limitcheck::verify {
+
+using namespace rows;
+
+namespace {
+
+// Delivered in float: small faults hide in wider bounds.
+Change in_float(Change c) {
+  return with(std::move(c), &Change::options, "precision=float");
+}
+bool in_odd_face(const Place& p) {
+  return p.face % 2 == 1;
+}
+
+// To so many bits after the point.
+double rounded(double x, int bits) {
+  return std::ldexp(std::nearbyint(std::ldexp(x, bits)), -bits);
+}
+// To so many bits in all.
+double shortened(double x, int bits) {
+  return x == 0 ? x : rounded(x, bits - 1 - std::ilogb(x));
+}
+
+}  // namespace
+
+std::vector<Change> faults_of_numbers() {
+  const auto positions = [](const char* name, const char* description, const char* check,
+                            std::function<double(A, double)> one) {
+    return vertex(name, description, check, [one](A a, D out, std::size_t v) {
+      each(out.positions[v], [&](double x) { return one(a, x); });
+    });
+  };
+  return {
+      positions("float_positions", "positions computed in float, and declared double", "positions",
+                [](A, double x) { return shortened(x, 24); }),
+      in_float(positions("half_positions", "positions kept in 16 bits", "positions",
+                         [](A, double x) { return shortened(x, 11); })),
+      in_float(vertex("bias_3e-6", "all points are 3e-6 of the box too far out", "positions",
+                      [](A a, D out, std::size_t v) { outwards(a, out, v, 3e-6); })),
+      positions("fixed_point", "positions are multiples of 2^-40 units", "scaling",
+                [](A, double x) { return rounded(x, 40); }),
+      positions("grid_of_largest", "positions are multiples of 2^-32 of the largest coordinate",
+                "translation",
+                [](A a, double x) { return a.largest > 0 ? rounded(x / a.largest, 32) * a.largest : x; }),
+      // Normals.
+      vertex(
+          "float_normals", "normals computed in float, and declared double", "normals",
+          [](A, D out, std::size_t v) { each(out.normals[v], [](double x) { return shortened(x, 24); }); }),
+      vertex("two_components", "normals kept as two floats: the third by a square root", "rotation",
+             [](A, D out, std::size_t v) {
+               Vector& n = out.normals[v];
+               each(n, [](double x) { return static_cast<double>(static_cast<float>(x)); });
+               n[2] = std::copysign(std::sqrt(std::max(0., 1 - n[0] * n[0] - n[1] * n[1])), n[2]);
+             }),
+      vertex("tilted_normals", "normals tilted by 1e-3 rad", "normals-against-positions",
+             [](A, D out, std::size_t v) {
+               Vector& n = out.normals[v];
+               const Vector aside = unit_cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
+               add(n, aside, 1e-3);
+               const double size = std::hypot(n[0], n[1], n[2]);
+               each(n, [&](double x) { return x / size; });
+             }),
+      vertex("boundary_normals_inside", "normals point inside at boundary vertices of four faces or more",
+             "normals",
+             [](A a, D out, std::size_t v) {
+               const std::int32_t at = a.control_vertex(out.place(v));
+               if (at >= 0 && !a.inside(at) && a.faces(at) >= 4) each(out.normals[v], std::negate<>());
+             }),
+      deliver("hard_edges",
+              "normals on the borders of odd faces are those of the flat triangle between its corners",
+              "continuity",
+              [](A a, D out) {
+                const Finder find(out);
+                for (std::size_t v = 0; v < out.normals.size(); ++v) {
+                  const Place p = out.place(v);
+                  if (inside_face(a, p) || !in_odd_face(p)) continue;
+                  const auto corner = [&](int k) { return out.positions[find.corner(p.face, k)]; };
+                  out.normals[v] =
+                      unit_cross(difference(corner(1), corner(0)), difference(corner(2), corner(0)));
+                }
+              }),
+      deliver("phong_normals", "normals within a face interpolated between its corners", "normals",
+              [](A, D out) {
+                const Delivered before = out;
+                const Finder find(before);
+                for (std::size_t v = 0; v < out.normals.size(); ++v) {
+                  const lc_provenance& p = out.provenance[v];
+                  const std::array<std::uint32_t, 3> l{p.denominator - p.i - p.j, p.i, p.j};
+                  Vector sum{};
+                  for (int k = 0; k < 3; ++k) add(sum, before.normals[find.corner(p.face, k)], l[k]);
+                  const double size = std::hypot(sum[0], sum[1], sum[2]);
+                  each(sum, [&](double x) { return x / size; });
+                  out.normals[v] = sum;
+                }
+              }),
+      // Relations.
+      vertex("gap_1e-9", "odd faces keep their border points 1e-9 of the box away", "continuity",
+             [](A a, D out, std::size_t v) {
+               const Place p = out.place(v);
+               if (!inside_face(a, p) && in_odd_face(p)) outwards(a, out, v, 1e-9);
+             }),
+      vertex("by_face_number", "points inside odd faces are 1e-9 of the box off", "face-order",
+             [](A a, D out, std::size_t v) {
+               const Place p = out.place(v);
+               if (inside_face(a, p) && in_odd_face(p)) outwards(a, out, v, 1e-9);
+             }),
+      remake("by_vertex_number", "odd control vertices are 1e-9 of the box off", "vertex-order",
+             [](A a, Mesh m) {
+               for (std::size_t v = 1; v < m.positions.size(); v += 2) m.positions[v][0] += 1e-9 * a.diagonal;
+             }),
+      vertex("by_first_corner", "points inside faces lean towards the first corner", "corner-rotation",
+             [](A a, D out, std::size_t v) {
+               const Place p = out.place(v);
+               const double n = p.denominator;
+               if (inside_face(a, p)) outwards(a, out, v, 1e-9 * (n - p.i - p.j) / n);
+             }),
+      vertex("right_half", "points with positive x are 1e-9 of the box off", "mirror",
+             [](A a, D out, std::size_t v) {
+               if (out.positions[v][0] > 0) out.positions[v][1] += 1e-9 * a.diagonal;
+             }),
+      vertex("along_z", "z is stretched by 1e-9", "rotation",
+             [](A, D out, std::size_t v) { out.positions[v][2] *= 1 + 1e-9; }),
+      positions("about_origin", "everything is stretched by 1e-9 from the origin", "translation",
+                [](A, double x) { return x * (1 + 1e-9); }),
+      positions("absolute_offset", "everything is moved by 1e-9 of the unit of length", "scaling",
+                [](A, double x) { return x + 1e-9; }),
+  };
+}
+// Only polygons, or meshes of quads, bring these out.
+std::vector<Change> faults_of_polygons() {
+  const auto of_polygons = [](const char* name, const char* description, const char* check,
+                              std::function<void(A, D, std::size_t)> what) {
+    return vertex(name, description, check, [what](A a, D out, std::size_t v) {
+      if (a.is_polygon(a.face_of(out.place(v)))) what(a, out, v);
+    });
+  };
+  std::vector<Change> all{
+      of_polygons("flipped_on_polygons", "normals inside faces that are no quads point inward", "normals",
+                  [](A a, D out, std::size_t v) {
+                    if (inside_face(a, out.place(v))) each(out.normals[v], std::negate<>());
+                  }),
+      of_polygons("next_corner", "points of the quad at a corner are said to be of the next corner's",
+                  "positions",
+                  [](A a, D out, std::size_t v) {
+                    out.corner[v] = a.domain(a.face_of(out.place(v))).next(out.corner[v]);
+                  }),
+      vertex("u_for_v", "u and v are exchanged", "orientation",
+             [](A, D out, std::size_t v) { std::swap(out.provenance[v].i, out.provenance[v].j); }),
+      ask("one_level_more_in_polygons", "faces that are no quads are one level finer than asked for",
+          "coverage",
+          [](A a, Depths d) {
+            for (std::size_t f = 0; f < d.size(); ++f)
+              d[f] += a.is_polygon(f) && d[f] >= 0 && a.deepest < 6 ? 1 : 0;
+          }),
+      deliver("middle_left_out", "faces that are no quads have a hole in the middle", "coverage",
+              [](A a, D out) {
+                for (std::size_t t = out.triangles.size(); t-- > 0;) {
+                  const auto& corners = out.triangles[t];
+                  const bool middle = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+                    const Place p = out.place(v);
+                    return a.is_polygon(a.face_of(p)) &&
+                           a.domain(a.face_of(p)).is_centre(point_of(p), a.steps(p));
+                  });
+                  if (middle) out.erase_triangle(t);
+                }
+              }),
+      deliver("corner_is_null", "the corner of no point is delivered", "positions",
+              [](A, D out) { out.corner.clear(); }),
+      deliver("clockwise_polygons", "triangles of faces that are no quads run clockwise", "orientation",
+              [](A a, D out) {
+                for (std::size_t t = 0; t < out.triangles.size(); ++t)
+                  if (a.is_polygon(static_cast<std::size_t>(out.triangle_face[t])))
+                    std::swap(out.triangles[t][1], out.triangles[t][2]);
+              }),
+      of_polygons("ulp_on_polygons", "points of faces that are no quads are one ulp off", "shared-positions",
+                  [](A, D out, std::size_t v) { out.move_up(v); }),
+  };
+  for (Change& c : all) c.on = On::kQuads;
+  return all;
+}
+
+}  // namespace limitcheck::verify

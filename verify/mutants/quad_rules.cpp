@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Catmull and Clark's rules with one of them changed.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/catmull_clark/dart.h"
+#include "reference/catmull_clark/masks.h"
+#include "verify/mutants/mutant_rules.h"
+
+namespace limitcheck::verify {
+namespace {
+
+namespace masks = reference::catmull_clark;
+using reference::Topology;
+using V = MutantRules::V;
+
+V mean(const std::vector<V>& points, std::span<const std::int32_t> which, std::size_t most) {
+  V sum{};
+  const std::size_t count = std::min(which.size(), most);
+  for (std::size_t k = 0; k < count; ++k) sum += points[which[k]];
+  return sum * (1 / static_cast<double>(count));
+}
+
+double length(const V& a) {
+  return std::hypot(a.x, a.y, a.z);
+}
+
+V centroid_by_area(const std::vector<V>& points, std::span<const std::int32_t> corners) {
+  const V middle = mean(points, corners, corners.size());
+  V sum{};
+  double whole = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const V &a = points[corners[k]], &b = points[corners[(k + 1) % corners.size()]];
+    const double area = length(cross(a - middle, b - middle));
+    sum += (a + b + middle) * (area / 3);
+    whole += area;
+  }
+  return whole > 0 ? sum * (1 / whole) : middle;
+}
+
+class QuadRules : public MutantRules {
+ public:
+  using MutantRules::MutantRules;
+
+  Points refine(const Topology& topology, const Points& points, const MutantTags& tags, int step,
+                int) const override {
+    const std::size_t vertices = points.size(), edges = topology.edges().size();
+    Points refined(vertices + edges + topology.faces().size());
+    for (std::size_t f = 0; f < topology.faces().size(); ++f)
+      refined[vertices + edges + f] = face_point(topology.faces()[f], points, step);
+    for (std::size_t e = 0; e < edges; ++e) {
+      const reference::Edge& edge = topology.edges()[e];
+      const V ends = points[edge.a] + points[edge.b];
+      const V& left = refined[vertices + edges + edge.left_face];
+      V& p = refined[vertices + e];
+      if (edge.on_boundary()) {
+        p = is("boundary_edge_flap") ? ends * (7. / 16) + left * (1. / 8) : ends * 0.5;
+      } else {
+        const double w = face_weight(topology, edge, tags.smooth_triangles(), step);
+        p = ends * ((1 - 2 * w) / 2) + (left + refined[vertices + edges + edge.right_face]) * w;
+      }
+    }
+    for (std::size_t v = 0; v < vertices; ++v)
+      refined[v] = vertex_point(topology, points, refined, static_cast<std::int32_t>(v));
+    if (!tags.none()) tags.sharpen(topology, points, refined);
+    return refined;
+  }
+  V limit(const MutantRing& ring, int depth) const override;
+  V normal(const MutantRing& ring) const override;
+  V corner_normal(const MutantRing& ring) const override { return unit_or_up(ring.facets()); }
+  V dart_limit(const MutantRing& ring) const override {
+    const auto& weights = masks::dart_limit_weights<double>(static_cast<int>(ring.f.size()));
+    return ring.c + masks::weighted<double>(weights, ring.c, ring.e, ring.f);
+  }
+  V dart_normal(const MutantRing& ring) const override {
+    std::vector<V> cut = ring.e;
+    cut.push_back(V(cut.front()));
+    const auto t = masks::dart_tangents<double>(ring.c, cut, ring.f);
+    return unit_or_up(cross(t.first, t.second));
+  }
+
+ private:
+  V face_point(std::span<const std::int32_t> corners, const Points& points, int step) const;
+  // Of each of the two face points in the point of an edge inside.
+  double face_weight(const Topology& topology, const reference::Edge& edge, bool smooth_triangles,
+                     int step) const;
+  V vertex_point(const Topology& topology, const Points& points, const Points& refined, std::int32_t v) const;
+};
+
+V QuadRules::face_point(std::span<const std::int32_t> corners, const Points& points, int step) const {
+  if (is("polygons_as_quads")) return mean(points, corners, 4);
+  if (is("six_corners_at_most")) return mean(points, corners, 6);
+  if (is("centroid_by_area")) return centroid_by_area(points, corners);
+  V p = mean(points, corners, corners.size());
+  if (is("face_weight_1e-6")) p += (points[corners[0]] - p) * 1e-6;
+  if (is("quarter_turn") && step == 0) p += (points[corners[0]] - p) * 1e-9;
+  if (is("lower_corner") && step == 0)
+    p += (points[*std::min_element(corners.begin(), corners.end())] - p) * 1e-9;
+  return p;
+}
+
+double QuadRules::face_weight(const Topology& topology, const reference::Edge& edge, bool smooth_triangles,
+                              int step) const {
+  if (is("edge_points_without_ends")) return 0.5;
+  if (is("midpoints")) return 0;
+  const bool in_all_steps = smooth_triangles && is("smooth_rule_in_every_step");
+  const bool in_all_faces = smooth_triangles && (is("smooth_rule_for_all") || (in_all_steps && step > 0));
+  if (!(step == 0 ? smooth_triangles || is("smooth_triangles") : in_all_steps)) return 0.25;
+  const auto of = [&](std::int32_t f) {
+    return topology.faces()[f].size() == 3 || in_all_faces ? 0.47 : 0.25;
+  };
+  return (of(edge.left_face) + of(edge.right_face)) / 2;
+}
+
+V QuadRules::vertex_point(const Topology& topology, const Points& points, const Points& refined,
+                          std::int32_t v) const {
+  const reference::Sector sector = topology.sector(v);
+  const V& c = points[v];
+  const auto edges = points.size(), faces = edges + topology.edges().size();
+  if (sector.faces.empty() || is("vertices_stay")) return c;
+  if (!sector.closed && !is("boundary_as_inside")) {
+    const V ends = points[sector.neighbours.front()] + points[sector.neighbours.back()];
+    if (is("boundary_vertices_stay") || (is("corners_stay") && sector.faces.size() == 1)) return c;
+    if (is("boundary_two_thirds")) return c * (2. / 3) + ends * (1. / 6);
+    return c * (3. / 4) + ends * (1. / 8);
+  }
+  V sum{};
+  for (std::size_t i = 0; i < sector.neighbours.size(); ++i)
+    sum += is("ends_for_midpoints") ? refined[edges + sector.edges[i]] : points[sector.neighbours[i]];
+  for (const std::int32_t f : sector.faces) sum += refined[faces + f];
+  auto n = static_cast<double>(sector.faces.size());
+  const double members = static_cast<double>(sector.neighbours.size()) + n;
+  if (is("weights_of_valence_4")) n = 4;
+  if (is("weights_of_valence_8")) n = std::min(n, 8.);
+  const double inner = 2 / n;  // of all members together
+  V p = c * (1 - inner) + sum * (inner / members);
+  if (is("weight_1e-6_at_valence_5") && n == 5) p += (p - c) * 1e-6;
+  return p;
+}
+
+V QuadRules::limit(const MutantRing& ring, int) const {
+  const V& c = ring.c;
+  if (is("no_limit")) return c;
+  if (!ring.closed) {
+    const V ends = ring.e.front() + ring.e.back();
+    return is("boundary_limit_3_5") ? c * (3. / 5) + ends * (1. / 5) : c * (2. / 3) + ends * (1. / 6);
+  }
+  V near{}, far{};
+  for (const V& e : ring.e) near += e;
+  for (const V& f : ring.f) far += f;
+  const auto count = static_cast<double>(ring.f.size());
+  double n = is("limit_of_valence_4") ? 4 : count;
+  if (is("limit_weights_1e-5")) n *= 1 + 1e-5;
+  if (is("limit_at_valence_3") && count == 3) return (c * 3 + near * 2 + far) * (1. / 12);
+  return (c * n + near * (4 / count) + far * (1 / count)) * (1 / (n + 5));
+}
+
+V QuadRules::normal(const MutantRing& ring) const {
+  const V& c = ring.c;
+  const std::vector<V>& e = ring.e;
+  std::vector<V> f = ring.f;
+  if (is("mean_of_facets")) return unit_or_up(ring.facets());
+  if (is("tangents_without_faces") && ring.closed) f.assign(f.size(), c);
+  if (is("tangents_of_valence_4") && ring.closed)  // f_i as the mask of valence 4 has it, in proportion
+    for (V& p : f) p = c + (p - c) * masks::four_lambda_minus_one<double>(static_cast<long>(f.size()));
+  auto t =
+      ring.closed ? masks::interior_tangents<double>(c, e, f) : masks::boundary_tangents<double>(c, e, f);
+  if (!ring.closed && is("boundary_tangent_mean")) {
+    t.second = {};
+    for (const V& p : e) t.second += p - c;
+    for (const V& p : f) t.second += p - c;
+  }
+  if (!ring.closed && is("boundary_tangent_trap") &&
+      f.size() >= 3) {  // that of another rule: without the faces
+    t.second = {};
+    for (std::size_t i = 1; i + 1 < e.size(); ++i)
+      t.second +=
+          (e[i] - c) * std::sin(std::numbers::pi * static_cast<double>(i) / static_cast<double>(f.size()));
+  }
+  return unit_or_up(cross(t.first, t.second));
+}
+
+}  // namespace
+
+std::unique_ptr<MutantRules> quad_rules(std::string_view mutation) {
+  return std::make_unique<QuadRules>(mutation);
+}
+
+}  // namespace limitcheck::verify

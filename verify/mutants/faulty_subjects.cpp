@@ -151,6 +151,7 @@ class ChangedSubject {
       if (!change().deaf || error.status() != LC_INVALID_INPUT) throw;
       return;
     }
+    if (mesh_.faces.empty()) throw SubjectError(LC_INVALID_INPUT, "the mesh has no faces");
     if (change().refuse) change().refuse(Asked(mesh_, scheme_, 0));
     known_ = mesh_;
     if (change().forget) {

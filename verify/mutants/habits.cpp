@@ -266,7 +266,8 @@ std::vector<Change> all_habits() {
                     throw std::runtime_error("the mesh is not what it was");
                 }),
       with(delivered("flags_and_rounding", "uses another rounding mode, and leaves exception flags raised",
-                [](A, D) { round_and_raise(); }), &Change::of_the_process, true),
+                     [](A, D) { round_and_raise(); }),
+           &Change::of_the_process, true),
       on(On::kBoth, ask("deeper_where_allowed",
                         "faces are deeper than asked for where all their neighbours are", "", deepen)),
       declared("rounded_double", "computes in double and delivers float",

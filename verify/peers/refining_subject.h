@@ -8,8 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "verify/peers/lattice_tracker.h"
-#include "verify/peers/quad_tracker.h"
+#include "verify/peers/refinement_tracker.h"
 #include "verify/subject/adapter.h"
 
 namespace limitcheck::verify {
@@ -46,53 +45,36 @@ class RefiningSubject {
   void tessellate(const lc_request& request, lc_tessellation& out) {
     refuse_too_many_triangles(control_, uniform_depth(request, control_));
     if constexpr (kQuads)
-      if (control_.scheme == LC_SCHEME_CATMULL_CLARK) {
-        QuadTracker tracker(control_);
-        const QuadMesh mesh = refined<QuadMesh>(tracker, request);
-        const auto triangles = tracker.triangles();
-        const auto output = deliver(request, out, mesh, triangles, tracker.triangle_face(), /*corners=*/true);
-        std::int64_t v = 0;
-        for (const Place& p : tracker.places()) {
-          output.corner[v] = p.corner;
-          output.provenance[v++] = {p.face, p.i, p.j, p.denominator};
-        }
-        return;
-      }
-    LatticeTracker tracker(control_);
-    const LoopMesh mesh = refined<LoopMesh>(tracker, request);
-    const auto output =
-        deliver(request, out, mesh, tracker.triangles(), tracker.triangle_face(), /*corners=*/false);
-    const auto provenance = tracker.provenance();
-    std::copy(provenance.begin(), provenance.end(), output.provenance);
+      if (control_.scheme == LC_SCHEME_CATMULL_CLARK) return run<QuadMesh>(request, out);
+    run<LoopMesh>(request, out);
   }
 
  private:
   template <class Mesh>
-  Mesh refined(auto& tracker, const lc_request& request) const {
+  void run(const lc_request& request, lc_tessellation& out) const {
     Mesh mesh(control_);
+    RefinementTracker tracker(control_);
     for (int level = 0; level < uniform_depth(request, control_); ++level) {
       mesh.refine();
       tracker.step(mesh.vertex_count(), mesh.faces());
     }
-    return mesh;
-  }
-
-  // All but where the vertices lie.
-  static Output<Real> deliver(const lc_request& request, lc_tessellation& out, const auto& mesh,
-                              const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                              const std::vector<std::int32_t>& triangle_face, bool corners) {
-    const auto output = allocate_output<Real>(request, out, mesh.vertex_count(),
-                                              static_cast<std::int64_t>(triangles.size()), false, corners);
-    for (std::int64_t v = 0; v < mesh.vertex_count(); ++v) {
-      const auto p = mesh.position(v);
-      for (std::size_t c = 0; c < 3; ++c)
-        output.positions[3 * static_cast<std::size_t>(v) + c] = static_cast<Real>(p[c]);
+    const auto triangles = tracker.triangles();
+    const auto triangle_face = tracker.triangle_face();
+    const auto output =
+        allocate_output<Real>(request, out, mesh.vertex_count(), static_cast<std::int64_t>(triangles.size()),
+                              /*normals=*/false, control_.scheme == LC_SCHEME_CATMULL_CLARK);
+    std::int64_t v = 0;
+    for (const Place& p : tracker.places()) {
+      const std::array<double, 3> position = mesh.position(v);
+      for (std::int64_t c = 0; c < 3; ++c)
+        output.positions[3 * v + c] = static_cast<Real>(position[static_cast<std::size_t>(c)]);
+      if (output.corner != nullptr) output.corner[v] = p.corner;
+      output.provenance[v++] = {p.face, p.i, p.j, p.denominator};
     }
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       std::copy(triangles[t].begin(), triangles[t].end(), output.triangles + 3 * t);
       output.triangle_face[t] = triangle_face[t];
     }
-    return output;
   }
 
   const lc_mesh control_;

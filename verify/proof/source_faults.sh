@@ -25,6 +25,9 @@ declare -A sources=(
   [shipped]="verify/proof/bounds/shipped_kernels_test.cpp verify/proof/bounds/shipped_kernels.cpp fast/stream/kernel/targets.cpp
     fast/stream/kernel/quad_targets.cpp fast/stream/gather/rings.cpp fast/rules/quad_limit.cpp"
   [bits]="fast/stream/host/row_stream_test.cpp fast/stream/gather/rings.cpp"
+  [quadbits]="fast/stream/host/quad_row_stream_test.cpp fast/stream/host/quad_row_stream.cpp fast/stream/gather/rings.cpp
+    fast/stream/kernel/quad_targets.cpp"
+  [parts]="fast/window/quad_tessellator_test.cpp fast/window/tessellator.cpp fast/plan/crack.cpp"
   [darts]="fast/rules/dart_test.cpp fast/rules/quad_limit.cpp")
 
 # compile FINDER FOLDER FILE: its objects, into the folder those alone that depend on the file.

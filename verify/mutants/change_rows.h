@@ -25,6 +25,17 @@ std::vector<Change> faults_of_tags();
 std::vector<Change> faults_of_rare_tags();
 std::vector<Change> faults_of_rare_places();
 
+/// The three triangles of one control face round a lattice point inside one of its edges, in order: together
+/// they have the corners a, x, y, b and m lies between a and b.
+struct HalfFan {
+  std::array<std::size_t, 3> triangles;
+  std::uint32_t m, a, x, y, b;
+};
+/// The first that is wanted, of which is told how many triangles of the face there are at m.
+HalfFan half_fan(const Delivered& out, const std::function<bool(const HalfFan&, std::size_t)>& wanted);
+/// Two triangles in place of its three, which leave out m.
+void leave_out(Delivered& out, const HalfFan& fan);
+
 namespace rows {
 
 using A = const Asked&;

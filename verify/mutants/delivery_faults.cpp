@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-#include "verify/mutants/faulty_subjects.h"
+#include "verify/mutants/change_rows.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -41,47 +41,14 @@ Vector& some_normal(D out) {
   return out.normals[some_vertex(out)];
 }
 
-// The three triangles of one control face round a lattice point inside one of its edges, in order: together
-// they have the corners a, x, y, b and m lies between a and b.
-struct HalfFan {
-  std::array<std::size_t, 3> triangles;
-  std::uint32_t m, a, x, y, b;
-};
-
-HalfFan half_fan(const Delivered& out) {
-  for (std::size_t begin = 0; begin < out.triangles.size();) {
-    std::size_t end = begin;
-    while (end < out.triangles.size() && out.triangle_face[end] == out.triangle_face[begin]) ++end;
-    for (std::size_t t = begin; t < end; ++t) {
-      for (int k = 0; k < 3; ++k) {
-        // (m, a, x), (m, x, y), (m, y, b): each begins where the one before ends.
-        const std::uint32_t m = out.triangles[t][k], a = out.triangles[t][(k + 1) % 3];
-        HalfFan fan{{t, t, t}, m, a, out.triangles[t][(k + 2) % 3], 0, 0};
-        std::uint32_t last = fan.x;
-        std::size_t incident = 0, found = 1;
-        for (std::size_t round = 0; round < 2; ++round) {
-          for (std::size_t s = begin; s < end; ++s) {
-            for (int c = 0; c < 3; ++c) {
-              if (out.triangles[s][c] != m) continue;
-              incident += round == 0;
-              if (out.triangles[s][(c + 1) % 3] != last || found == 3) continue;
-              last = out.triangles[s][(c + 2) % 3];
-              fan.triangles[found++] = s;
-              (found == 2 ? fan.y : fan.b) = last;
-            }
-          }
-        }
-        if (incident == 3 && found == 3) return fan;
-      }
-    }
-    begin = end;
-  }
-  nowhere("point inside an edge");
+// Round a point inside an edge: there are no other triangles of the face.
+HalfFan on_an_edge(const Delivered& out) {
+  return half_fan(out, [](const HalfFan&, std::size_t incident) { return incident == 3; });
 }
 
 // Gives the half fan a vertex of its own in place of m, a copy. Returns it.
 std::size_t split_off(D out) {
-  const HalfFan fan = half_fan(out);
+  const HalfFan fan = on_an_edge(out);
   const std::uint32_t v = out.add_vertex(Delivered(out), fan.m);
   for (const auto t : fan.triangles) std::replace(out.triangles[t].begin(), out.triangles[t].end(), fan.m, v);
   return v;
@@ -256,12 +223,7 @@ std::vector<Change> of_all_meshes() {
             out.triangles[some_triangle(out)][2] = static_cast<std::uint32_t>(out.positions.size());
           }),
       row("t_vertex", "a point inside a control edge is left out on one side of it", "t-vertices",
-          [](A, D out) {
-            const HalfFan fan = half_fan(out);
-            out.triangles[fan.triangles[0]] = {fan.b, fan.a, fan.x};
-            out.triangles[fan.triangles[1]] = {fan.b, fan.x, fan.y};
-            out.erase_triangle(fan.triangles[2]);
-          }),
+          [](A, D out) { leave_out(out, on_an_edge(out)); }),
       row("one_ulp_crack", "a point inside a control edge is one ulp off on one side of it",
           "shared-positions", [](A, D out) { out.move_up(split_off(out)); }),
       row("one_ulp_normal", "a normal inside a control edge is one ulp off on one side of it",
@@ -380,6 +342,43 @@ std::vector<Change> of_some_meshes() {
 }
 
 }  // namespace
+
+HalfFan half_fan(const Delivered& out, const std::function<bool(const HalfFan&, std::size_t)>& wanted) {
+  for (std::size_t begin = 0; begin < out.triangles.size();) {
+    std::size_t end = begin;
+    while (end < out.triangles.size() && out.triangle_face[end] == out.triangle_face[begin]) ++end;
+    for (std::size_t t = begin; t < end; ++t) {
+      for (int k = 0; k < 3; ++k) {
+        // (m, a, x), (m, x, y), (m, y, b): each begins where the one before ends.
+        const std::uint32_t m = out.triangles[t][k], a = out.triangles[t][(k + 1) % 3];
+        HalfFan fan{{t, t, t}, m, a, out.triangles[t][(k + 2) % 3], 0, 0};
+        std::uint32_t last = fan.x;
+        std::size_t incident = 0, found = 1;
+        for (std::size_t round = 0; round < 2; ++round) {
+          for (std::size_t s = begin; s < end; ++s) {
+            for (int c = 0; c < 3; ++c) {
+              if (out.triangles[s][c] != m) continue;
+              incident += round == 0;
+              if (out.triangles[s][(c + 1) % 3] != last || found == 3) continue;
+              last = out.triangles[s][(c + 2) % 3];
+              fan.triangles[found++] = s;
+              (found == 2 ? fan.y : fan.b) = last;
+            }
+          }
+        }
+        if (found == 3 && wanted(fan, incident)) return fan;
+      }
+    }
+    begin = end;
+  }
+  nowhere("point to leave out");
+}
+
+void leave_out(D out, const HalfFan& fan) {
+  out.triangles[fan.triangles[0]] = {fan.b, fan.a, fan.x};
+  out.triangles[fan.triangles[1]] = {fan.b, fan.x, fan.y};
+  out.erase_triangle(fan.triangles[2]);
+}
 
 std::span<const Fault> faults() {
   static const std::vector<Fault> list = [] {

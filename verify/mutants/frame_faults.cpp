@@ -130,36 +130,21 @@ std::vector<Change> faults_of_frames() {
                                               difference(a.mesh.positions[t[2]], p));
                 });
               }),
-      deliver(
-          "inner_t_vertices", "stitches beside deeper faces leave out every other point inside", "t-vertices",
-          [](A a, D out) {
-            // Two triangles with an edge inside the face become one with twice the edge.
-            const auto cut = [&](std::size_t t) {
-              for (std::size_t s = t + 1; s < out.triangles.size(); ++s) {
-                if (out.triangle_face[s] != out.triangle_face[t]) continue;
-                for (std::size_t k = 0; k < 9; ++k) {
-                  const auto &x = out.triangles[t], &y = out.triangles[s];
-                  const std::uint32_t apex = x[k % 3], p = x[(k + 1) % 3], m = x[(k + 2) % 3];
-                  const std::uint32_t q = y[(k / 3 + 2) % 3];
-                  if (y[k / 3] != apex || y[(k / 3 + 1) % 3] != m) continue;
-                  const auto &at_p = out.provenance[p], &at_m = out.provenance[m], &at_q = out.provenance[q];
-                  if (!inside_face(a, out.place(m)) || at_p.i + at_q.i != 2 * at_m.i ||
-                      at_p.j + at_q.j != 2 * at_m.j || at_p.denominator != at_m.denominator ||
-                      at_q.denominator != at_m.denominator)
-                    continue;
-                  out.triangles[t] = {apex, p, q};
-                  out.erase_triangle(s);
-                  return;
-                }
-              }
-            };
-            for (std::size_t t = 0; t < out.triangles.size(); ++t) {
-              const auto f = static_cast<std::size_t>(out.triangle_face[t]);
-              const bool stitched = a.depth_beyond(f, 0) > a.depth[f] || a.depth_beyond(f, 1) > a.depth[f] ||
-                                    a.depth_beyond(f, 2) > a.depth[f];
-              if (stitched && (t == 0 || out.triangle_face[t - 1] != out.triangle_face[t])) cut(t);
-            }
-          }),
+      deliver("inner_t_vertices", "stitches beside deeper faces leave out every other point inside",
+              "t-vertices",
+              [](A a, D out) {
+                leave_out(out, half_fan(out, [&](const HalfFan& fan, std::size_t) {
+                            const auto f = static_cast<std::size_t>(out.triangle_face[fan.triangles[0]]);
+                            const bool stitched = a.depth_beyond(f, 0) > a.depth[f] ||
+                                                  a.depth_beyond(f, 1) > a.depth[f] ||
+                                                  a.depth_beyond(f, 2) > a.depth[f];
+                            const auto &m = out.provenance[fan.m], &p = out.provenance[fan.a],
+                                       &q = out.provenance[fan.b];
+                            return stitched && inside_face(a, out.place(fan.m)) &&
+                                   m.denominator == p.denominator && m.denominator == q.denominator &&
+                                   p.i + q.i == 2 * m.i && p.j + q.j == 2 * m.j;
+                          }));
+              }),
       ask("depth_of_the_first", "the depth of the first face, for all", "coverage",
           [](A, Depths d) { std::fill(d.begin(), d.end(), std::int32_t{d[0]}); }),
       ask("first_culled_all_culled", "nothing is shown if the first face is culled", "coverage",

@@ -45,8 +45,8 @@ void expect_no_finding(const std::vector<AuditSubject>& subjects, const std::vec
                                                m.depths, r.check, r.message);
 }
 
-TEST(UnusualSubjects, AreFifteenAtLeast) {
-  EXPECT_GE(habits().size(), 1 + 15U);
+TEST(UnusualSubjects, AreTwentyAtLeast) {
+  EXPECT_GE(habits().size(), 1 + 20U);
 }
 
 TEST(UnusualSubjects, AreNotBlamed) {

@@ -7,7 +7,7 @@
 
 #include "reference/loop/dart.h"
 #include "reference/loop/masks.h"
-#include "reference/loop/triangles.h"
+#include "reference/mesh/topology.h"
 #include "reference/point/normal.h"
 #include "verify/mutants/mutant_rules.h"
 

@@ -101,12 +101,13 @@ std::vector<Change> faults_of_refusals() {
               [](lc_capabilities& c) { c.normals = -1; }),
       sharp(on(On::kBoth, declare("kinds_of_64", "declares a kind of sharp edge that there is not",
                                   [](lc_capabilities& c) { c.sharp = 64; }))),
-      take("accepts_wild_indices", "takes an index out of range for vertex 0", "rejected-inputs",
-           [](Mesh m) {
-             const auto count = static_cast<std::int32_t>(m.positions.size());
-             for (std::size_t f = 0; f < m.faces.size(); ++f)
-               for (std::int32_t& v : m.faces[f]) v = v < 0 || v >= count ? 0 : v;
-           }),
+      with(take("accepts_wild_indices", "takes an index out of range for vertex 0", "rejected-inputs",
+                [](Mesh m) {
+                  const auto count = static_cast<std::int32_t>(m.positions.size());
+                  for (std::size_t f = 0; f < m.faces.size(); ++f)
+                    for (std::int32_t& v : m.faces[f]) v = v < 0 || v >= count ? 0 : v;
+                }),
+           &Change::deaf, true),
       take("accepts_bad_tags", "leaves out sharpness that is no number or of no edge", "rejected-inputs",
            drop_bad_tags),
       take("accepts_nan", "takes control points that are no numbers", "rejected-inputs",

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "data/scheme.h"
-#include "reference/loop/weights.h"
+#include "reference/loop/masks.h"
 #include "reference/mesh/topology.h"
 #include "reference/number/vec3.h"
 #include "verify/mutants/mutant_tags.h"

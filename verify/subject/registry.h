@@ -20,7 +20,7 @@ const lc_subject* lc_subject_openmesh();
 const lc_subject* lc_subject_embree();
 const lc_subject* lc_subject_vtk();  // nullptr: this build has none
 const lc_subject* lc_subject_null();
-const lc_subject* lc_subject_model();       // right, or wrong in one stated way: verify/mutants/mutant_rules.h
+const lc_subject* lc_subject_model();  // right, or wrong in one stated way: verify/mutants/mutant_rules.h
 const lc_subject* lc_subject_quad_model();  // the same of Catmull-Clark's surfaces
 const lc_subject* lc_subject_faulty();      // options: verify/mutants/faulty_subjects.h
 const lc_subject* lc_subject_unusual();     // options: the same

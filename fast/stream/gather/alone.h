@@ -105,6 +105,7 @@ class AloneEvaluator {
   template <class Target, class ByKernel>
   void grid(const typename Mesh::Item& item, Order order, const Target& target, ByKernel&& by_kernel) {
     const GridEdges on = mesh_.edges(item, order);
+    edges_.resize(GridEdges::kCount * line_.size());
     for (std::size_t k = 0; k < GridEdges::kCount; ++k)
       if (shared(on, k)) by_kernel(on.of[k], edges_.data() + k * line_.size());
     evaluate(item, order, on, first_lane(target));

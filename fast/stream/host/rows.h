@@ -52,13 +52,12 @@ struct Runs {
     Runs& runs = *static_cast<Runs*>(context);
     const auto n = static_cast<std::size_t>(side(view.depth)), j = static_cast<std::size_t>(view.j);
     for (std::size_t lane = 0; lane < view.size(); ++lane) {
-      Vertex* const to = runs.at(view.number(lane));
       if (runs.stores == Stores::kOrdinary) {
-        std::copy_n(view.vertices(lane), n, to + j * n);
+        std::copy_n(view.vertices(lane), n, runs.at(view.number(lane)) + j * n);
         continue;
       }
       LineStream& lines = runs.lines[lane];
-      if (j == 0) lines.start(reinterpret_cast<std::byte*>(to));
+      if (j == 0) lines.start(reinterpret_cast<std::byte*>(runs.at(view.number(lane))));
       lines.append(reinterpret_cast<const std::byte*>(view.vertices(lane)), n * sizeof(Vertex));
       if (j + 1 == n) lines.finish();
     }

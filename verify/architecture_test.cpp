@@ -98,6 +98,25 @@ TEST(Architecture, ArrowsPointDownOnly) {
     EXPECT_GT(looked_at[folder], 1) << folder;
 }
 
+// A recursive parser ends the process at some depth, and keeps one of two keys: what is read goes through one function.
+TEST(Architecture, JsonIsParsedInOnePlace) {
+  static const std::regex parse("[jJ]son *:: *(?:parse|accept|sax_parse)\\b");
+  const Names allowed{
+      "data/untrusted_json.h",
+      // What was built in, what our test programs have just said, and what the report's parts are.
+      "verify/claims/register.cpp", "verify/claims/run_claims.cpp", "bench/reproduction/main.cpp"};
+  const fs::path root = LIMITCHECK_SOURCE_DIR;
+  Names found;
+  for (const auto& [folder, rules] : may_include())
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string path = entry.path().lexically_relative(root);
+      if ((!path.ends_with(".h") && !path.ends_with(".cpp")) || path.find("test") != std::string::npos)
+        continue;
+      if (std::regex_search(read(entry.path()), parse)) found.insert(path);
+    }
+  EXPECT_EQ(found, allowed);
+}
+
 TEST(Architecture, TheScannerSeesWhatItIsThereFor) {
   EXPECT_EQ(violations("reference/a.h", "#include \"fast/rules/masks.h\"\n").size(), 1U);
   EXPECT_EQ(violations("reference/a.h", "  #  include <fast/rules/masks.h>\n").size(), 1U);

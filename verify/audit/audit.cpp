@@ -202,20 +202,25 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   return results;
 }
 
+std::vector<std::string> Auditor::row_names(const AuditSubject& audited, const AuditMesh& mesh) const {
+  if (is_oracle(audited)) return {"oracle-faces", "oracle-double", "oracle-parts"};
+  std::vector<std::string> rows{"tessellates"};
+  for (const Check& check : checks()) rows.insert(rows.end(), check.rows.begin(), check.rows.end());
+  for (const std::string_view row : rows_of_relations(mesh, mesh.sample ? mesh.sample->part() : mesh.mesh))
+    rows.emplace_back(row);
+  return rows;
+}
+
 void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool begun, bool no_memory,
                           std::vector<Result>& results) {
-  std::vector<std::string_view> missing{"tessellates"};
-  if (begun && !is_oracle(audited))
-    for (const Check& check : checks()) missing.insert(missing.end(), check.rows.begin(), check.rows.end());
-  const auto& judged = mesh.sample ? mesh.sample->part() : mesh.mesh;
-  if (begun && !is_oracle(audited))
-    for (const std::string_view row : rows_of_relations(mesh, judged)) missing.push_back(row);
-  std::erase_if(missing, [&](std::string_view check) {
+  std::vector<std::string> missing{"tessellates"};
+  if (begun && !is_oracle(audited)) missing = row_names(audited, mesh);
+  std::erase_if(missing, [&](const std::string& check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
   });
   if (!no_memory && !missing.empty()) gave_up_ = true;
   const Rows rows{audited.label(), mesh.name, results};
-  for (const std::string_view check : missing)
+  for (const std::string& check : missing)
     rows.add(check, Status::kNotRun, no_memory ? "this program ran out of memory" : "interrupted");
 }
 

@@ -64,6 +64,9 @@ class Auditor {
   std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes,
                           Journal* journal = nullptr);
 
+  /// The rows of a subject on a mesh, one for each check whatever becomes of it.
+  std::vector<std::string> row_names(const AuditSubject& subject, const AuditMesh& mesh) const;
+
  private:
   struct Rows;
 

@@ -7,11 +7,13 @@
 #include <charconv>
 #include <chrono>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "data/bounding_box.h"
 #include "data/error.h"
+#include "data/untrusted_json.h"
 #include "verify/audit/audit.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
@@ -26,6 +28,7 @@
 #include "verify/report/junit.h"
 #include "verify/report/overview.h"
 #include "verify/report/table.h"
+#include "verify/row/visible_text.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::cli {
@@ -53,7 +56,7 @@ std::vector<verify::AuditSubject> subjects(const AuditArguments& a, SubjectLoade
         with(fmt::format("level={}", std::clamp(a.depth, 1, 10)));
     }
     for (const verify::MissingSubject& m : verify::missing_subjects())
-      fmt::print(stderr, "limitcheck: left out: {}\n", m.why);
+      say(stderr, "limitcheck: left out: {}\n", m.why);
     return list;
   }
   return {loader.open(a.subject, a.options)};
@@ -167,21 +170,25 @@ std::string where_the_rest_is(const Job& job) {
   return "--details prints all tables. --explain CHECK says what a check means.\n";
 }
 
-void print(const Job& job, const verify::Report& report, const std::string& scheme_line) {
+void print(const Job& job, const verify::Report& report, const std::string& json,
+           const std::string& scheme_line) {
   const AuditArguments& a = job.arguments;
   if (a.shard.json == "-")
-    fmt::print("{}", verify::to_json(report, a.output.level));
-  else if (a.details || a.each_mesh)
-    fmt::print("{}\n{}", scheme_line, verify::to_table(report, in_colour(), a.each_mesh));
+    say_text(stdout, json);
   else
-    fmt::print("{}", verify::to_overview(report, verify::causes(report), in_colour(), scheme_line,
-                                         a.output.level, where_the_rest_is(job)));
+    say_report(report, [&](const verify::Report& shown, bool in_colour) {
+      const std::string schemes = verify::visible_text(scheme_line);
+      return a.details || a.each_mesh ? schemes + "\n" + verify::to_table(shown, in_colour, a.each_mesh)
+                                      : verify::to_overview(shown, verify::causes(shown), in_colour, schemes,
+                                                            a.output.level, where_the_rest_is(job));
+    });
 }
 
 // Everything that goes into files; if all is `done`, the report makes the journal superfluous. They are
 // written before the table, because a reader of the table may close the pipe. The table is printed even if a
 // file cannot be written: the error is returned.
-std::exception_ptr write_files(const Job& job, const Audited& audited, verify::Journal* journal, bool done) {
+std::exception_ptr write_files(const Job& job, const Audited& audited, const std::string& json,
+                               verify::Journal* journal, bool done) {
   const AuditArguments& a = job.arguments;
   const verify::Report& report = audited.report;
   const bool shard = !a.shard.of().is_whole();
@@ -191,9 +198,9 @@ std::exception_ptr write_files(const Job& job, const Audited& audited, verify::J
       write_part(a.shard, *journal,
                  {{}, {}, report.seconds, report.containment, report.printed, report.incomplete});
     else if (!a.shard.json.empty() && a.shard.json != "-")
-      verify::write_text(a.shard.json, verify::to_json(report, a.output.level));
+      verify::write_text(a.shard.json, json);
     if (job.whole && !shard) {
-      verify::write_text(kReportFile, verify::to_json(report, a.output.level));
+      verify::write_text(kReportFile, json);
       verify::write_text(kTextFile,
                          "Root causes\n\n" +
                              verify::causes_in_full(report, verify::causes(report), a.output.level) +
@@ -236,16 +243,19 @@ int audit(const Job& job) {
   ShardArguments kept = a.shard;
   if (kept.json.empty() && job.whole) kept.json = kReportFile;
   kept.check();
-  const bool keeps = !a.must_refuse && !kept.json.empty() && kept.json != "-";
-  const auto journal =
-      keeps ? open_journal(kept, audit_plan(audited, meshes, report, coverage, a.output.level), false)
-            : nullptr;
+  const bool reports = !kept.json.empty(), keeps = reports && !a.must_refuse && kept.json != "-";
+  verify::Plan plan{"limitcheck audit", nlohmann::json::object()};
+  if (reports && !a.must_refuse)
+    plan = audit_plan(auditor, audited, meshes, report, coverage, a.output.level);
+  const auto journal = keeps ? open_journal(kept, plan, false) : nullptr;
+  if (journal != nullptr && kept.resume)  // as it is written: other bytes than those of UTF-8 are not
+    require_units(data::parse_untrusted(dumped(plan.what, -1)), journal->results());
   try {
     report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
                                    : auditor.run(audited, meshes, journal.get());
   } catch (const verify::Interrupted&) {  // there is no half of an answer whether broken meshes are refused
     (void)output.take();
-    fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
+    say(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
     return kSignalled + verify::interrupted();
   }
   const auto finish = [&] {
@@ -258,13 +268,16 @@ int audit(const Job& job) {
     if (whole) verify::add_coverage(report, coverage);
     const bool judged = settle(a.output, report);
     const bool done = signal == 0 && !auditor.out_of_memory();
-    const auto not_written = write_files(job, {audited, meshes, report, a.threads}, journal.get(), done);
-    print(job, report, asked.scheme_line);
+    const std::string json =
+        reports && whole ? attested(verify::to_json(report, a.output.level), plan.what) : "";
+    const auto not_written =
+        write_files(job, {audited, meshes, report, a.threads}, json, journal.get(), done);
+    print(job, report, json, asked.scheme_line);
     if (not_written) std::rethrow_exception(not_written);
     const int later = a.output.shrink_seconds > 0 ? verify::interrupted() : signal;
     if (later != signal)
-      fmt::print(stderr, "limitcheck: interrupted by {}: not all witnesses are written\n",
-                 verify::signal_name(later));
+      say(stderr, "limitcheck: interrupted by {}: not all witnesses are written\n",
+          verify::signal_name(later));
     if (later != 0) return kSignalled + later;
     if (auditor.out_of_memory()) return int{kBadInput};
     if (!whole && !report.looked()) return int{kHeld};
@@ -275,7 +288,7 @@ int audit(const Job& job) {
   try {
     code = finish();
   } catch (const std::exception& error) {
-    fmt::print(stderr, "limitcheck: {}\n", error.what());
+    say(stderr, "limitcheck: {}\n", error.what());
   }
   verify::leave(code, kBadInput);
 }

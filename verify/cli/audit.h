@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,8 +39,9 @@ bool settle(const ReportOptions& options, verify::Report& report);
 int exit_code_of(const verify::Report& report, bool judged);
 /// Why a report in which nothing was looked at is incomplete.
 std::string nothing_looked_at(bool polygons);
-/// Standard output is a terminal, and NO_COLOR is not set.
-bool in_colour();
+/// Prints a report: in colour if standard output is a terminal and NO_COLOR is not set.
+void say_report(const verify::Report& report,
+                const std::function<std::string(const verify::Report&, bool in_colour)>& text);
 /// Outputs as pairs of option and file name, "-" or "" for none. Throws data::ArgumentError: two of them are one and
 /// the same file.
 void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs);
@@ -95,10 +97,19 @@ AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>&
 void refuse_too_many_points(const verify::AuditMesh& mesh);
 
 /// The plan of an audit: Auditor::run says which unit is what. Its text differs for other subjects, meshes, options
-/// and versions; the header of the report is in it. The subjects of a mesh go together.
-verify::Plan audit_plan(const std::vector<verify::AuditSubject>& subjects,
+/// and versions; the header of the report is in it, and which rows each unit has. The subjects of a mesh go together.
+verify::Plan audit_plan(const verify::Auditor& auditor, const std::vector<verify::AuditSubject>& subjects,
                         const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
                         const verify::CoverageQuestion& coverage, const std::string& level);
+
+/// Throws data::ArgumentError unless each of these units has the rows that the plan names, each once, of its subject and
+/// mesh and depth, and each says what its numbers say.
+void require_units(const nlohmann::json& plan, const std::map<std::size_t, nlohmann::json>& results);
+/// SHA-256 of the bytes; empty: there is no such file.
+std::string file_digest(const std::string& file);
+/// Of the library or the program that a subject is; of a command the first word is the program. If that is no file, the
+/// subject's description.
+std::string subject_digest(const lc_subject& subject);
 
 /// Prints what --explain asks for; false if it does not. Throws data::ArgumentError: there is no such check.
 bool explained(const OutputArguments& arguments);

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <exception>
+#include <nlohmann/json.hpp>
 
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
@@ -18,6 +19,17 @@
 #include "verify/report/table.h"
 
 namespace limitcheck::cli {
+namespace {
+
+// For the attestation: which files were read.
+nlohmann::json plan_of(const FilesArguments& files) {
+  return {{"stamps", nlohmann::json::array({{files.tessellation, file_digest(files.tessellation)}})},
+          {"meshes", nlohmann::json::array({{files.control, file_digest(files.control)}})},
+          {"provenance", file_digest(files.provenance)},
+          {"tolerance", files.options.tolerance}};
+}
+
+}  // namespace
 
 void add_files_options(CLI::App& audit, FilesArguments& files) {
   const char* group = "A finished tessellation (instead of SUBJECT)";
@@ -105,21 +117,25 @@ int audit_files(const FilesArguments& files, const data::ReadOptions& mesh, cons
   report.results = audit.results;
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string text = json.empty() ? "" : attested(verify::to_json(report), plan_of(files));
   // Files are written first, because a reader of the table may close the pipe; and the table is printed even
   // if a file cannot be written.
   std::exception_ptr not_written;
   try {
     if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, audit.per_vertex);
-    if (!json.empty() && json != "-") verify::write_text(json, verify::to_json(report));
+    if (!json.empty() && json != "-") verify::write_text(json, text);
   } catch (const std::exception&) {
     not_written = std::current_exception();
   }
   if (json == "-") {
-    fmt::print("{}", verify::to_json(report));
+    say_text(stdout, text);
   } else {
-    fmt::print("{}\n", scheme_line({opened.chosen}, mesh));
-    for (const std::string& note : audit.notes) fmt::print("{}\n", note);
-    fmt::print("{}{}", audit.notes.empty() ? "" : "\n", verify::to_table(report, in_colour(), false));
+    say("{}\n", scheme_line({opened.chosen}, mesh));
+    for (const std::string& note : audit.notes) say("{}\n", note);
+    say("{}", audit.notes.empty() ? "" : "\n");
+    say_report(report, [](const verify::Report& shown, bool in_colour) {
+      return verify::to_table(shown, in_colour, false);
+    });
   }
   if (not_written) std::rethrow_exception(not_written);
   if (signal != 0) return kSignalled + signal;

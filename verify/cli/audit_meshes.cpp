@@ -16,6 +16,7 @@
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
+#include "data/io/whole_content.h"
 #include "data/worst_cases.h"
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
@@ -23,6 +24,8 @@
 #include "verify/host/host.h"
 #include "verify/relations/refusal.h"
 #include "verify/report/json.h"
+#include "verify/row/rows.h"
+#include "verify/shard/seal.h"
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::cli {
@@ -125,33 +128,17 @@ AuditedMeshes open_meshes(const Job& job, const std::vector<verify::AuditSubject
   return {std::move(meshes), scheme_line(chosen, a.mesh)};
 }
 
-std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash) {
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return hash;
-}
-
 template <class List>
 std::string_view bytes(const List& list) {
   return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(*list.data())};
 }
 
-// A hash, which differs for another mesh of the same name.
-std::string content(const verify::AuditMesh& m) {
-  std::uint64_t hash = fnv1a(bytes(m.mesh.positions), 0xcbf29ce484222325ULL);
-  hash = fnv1a(bytes(m.face_depth), fnv1a(bytes(m.mesh.faces.corners()), hash));
-  for (std::size_t f = 0; f < m.mesh.faces.size(); ++f) {
-    const std::size_t end = m.mesh.faces.first_corner(f + 1);
-    hash = fnv1a({reinterpret_cast<const char*>(&end), sizeof end}, hash);
-  }
-  return fmt::format("{:016x}", hash);
-}
-
-// A library that was built again is another subject.
-std::string stamp(const lc_subject& subject) {
-  std::error_code error;
-  const auto time = fs::last_write_time(subject.name, error);
-  return error ? std::string(subject.description != nullptr ? subject.description : "")
-               : fmt::format("{} {}", fs::file_size(subject.name, error), time.time_since_epoch().count());
+// Differs for another mesh of the same name.
+std::string content(const data::ControlMesh& mesh) {
+  std::vector<std::size_t> ends;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) ends.push_back(mesh.faces.first_corner(f + 1));
+  return verify::digest(verify::digest(bytes(mesh.positions)) + verify::digest(bytes(mesh.faces.corners())) +
+                        verify::digest(bytes(ends)));
 }
 
 }  // namespace
@@ -184,20 +171,71 @@ void refuse_too_many_points(const verify::AuditMesh& mesh) {
                     mesh.name, points, needed / 1e9, there / 1e9));
 }
 
-verify::Plan audit_plan(const std::vector<verify::AuditSubject>& subjects,
+std::string file_digest(const std::string& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? verify::digest(data::io::whole_content(file)) : "";
+}
+
+std::string subject_digest(const lc_subject& subject) {
+  std::string file = subject.name;
+  if (file.starts_with("program:")) file = file.substr(8, file.find(' ', 8) - 8);
+  const std::string found = file_digest(file);
+  return !found.empty() ? found : subject.description != nullptr ? subject.description : "";
+}
+
+verify::Plan audit_plan(const verify::Auditor& auditor, const std::vector<verify::AuditSubject>& subjects,
                         const std::vector<verify::AuditMesh>& meshes, const verify::Report& report,
                         const verify::CoverageQuestion& coverage, const std::string& level) {
   nlohmann::json what{{"report", verify::header_json(report)},
                       {"coverage", verify::coverage_json(coverage)},
-                      {"level", level}};
-  for (const auto& s : subjects) what["stamps"].push_back(stamp(*s.subject));
+                      {"level", level},
+                      {"stamps", nlohmann::json::array()},
+                      {"rows", nlohmann::json::array()}};
+  for (const auto& s : subjects) what["stamps"].push_back({s.label(), subject_digest(*s.subject)});
   bool polygons = false;
+  std::map<std::vector<std::string>, std::size_t> lists;
   for (const auto& m : meshes) {
-    what["meshes"].push_back({m.name, content(m), m.depth, m.depths, name_of(m.scheme())});
+    what["meshes"].push_back({m.name, content(m.mesh), m.depth, m.depths, name_of(m.scheme()),
+                              verify::digest(bytes(m.face_depth))});
     polygons = polygons || !m.mesh.faces.are_triangles();
+    for (const auto& s : subjects) {
+      const auto [list, is_new] = lists.try_emplace(auditor.row_names(s, m), lists.size());
+      if (is_new) what["rows"].push_back(list->first);
+      what["rows_of_units"].push_back(list->second);
+    }
   }
   what["polygons"] = polygons;
   return {"limitcheck audit", std::move(what), subjects.size() * meshes.size(), subjects.size()};
+}
+
+void require_units(const nlohmann::json& plan, const std::map<std::size_t, nlohmann::json>& results) try {
+  const nlohmann::json &subjects = plan.at("report").at("subjects"), &meshes = plan.at("meshes");
+  for (const auto& [unit, result] : results) {
+    const std::string subject = subjects.at(unit % subjects.size());
+    const nlohmann::json& mesh = meshes.at(unit / subjects.size());
+    const auto refuse = [&, unit = unit](const std::string& why) {
+      throw data::ArgumentError(
+          fmt::format("unit {}, {} on {}: {}", unit, subject, mesh.at(0).get<std::string>(), why));
+    };
+    std::set<std::string> there,
+        missing = plan.at("rows").at(plan.at("rows_of_units").at(unit).get<std::size_t>());
+    for (const verify::Result& row : verify::rows_of(result)) {
+      if (row.subject != subject || row.mesh != mesh.at(0) || (mesh.at(2) >= 0 && row.depth != mesh.at(2)) ||
+          row.depths != mesh.at(3) || name_of(row.scheme) != mesh.at(4).get<std::string>())
+        refuse(fmt::format("the row {} is of {} on {}, depth {} {}", row.check, row.subject, row.mesh,
+                           row.depth, row.depths));
+      if (verify::verdict_of(row) != row.status)
+        refuse(fmt::format("{} says {}, and its numbers say {}", row.check, word(row.status),
+                           word(verify::verdict_of(row))));
+      // Rows that only some subjects have are in no plan.
+      const bool known = missing.erase(row.check) > 0 || verify::row_kind(row.check) != nullptr;
+      if (!known || !there.insert(row.check).second)
+        refuse(fmt::format("{} is no row of it, or is there twice", row.check));
+    }
+    if (!missing.empty()) refuse(fmt::format("there is no row {}", *missing.begin()));
+  }
+} catch (const nlohmann::json::exception& error) {
+  throw data::ArgumentError(fmt::format("these are no results of an audit: {}", error.what()));
 }
 
 }  // namespace limitcheck::cli

@@ -23,6 +23,7 @@
 #include "verify/report/overview.h"
 #include "verify/report/witness_files.h"
 #include "verify/row/rows.h"
+#include "verify/row/visible_text.h"
 
 namespace limitcheck::cli {
 
@@ -89,8 +90,18 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->type_name("CHECK");
 }
 
-bool in_colour() {
-  return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+void say_report(const verify::Report& report,
+                const std::function<std::string(const verify::Report&, bool)>& text_in_colour) {
+  if (isatty(STDOUT_FILENO) == 0 || std::getenv("NO_COLOR") != nullptr)
+    return say_text(stdout, text_in_colour(report, false));
+  verify::Report shown = report;  // with no escape sequences but ours
+  const auto show = [](std::string& text) { text = verify::visible_text(text); };
+  for (std::string* text : {&shown.printed, &shown.incomplete, &shown.containment}) show(*text);
+  for (std::string& subject : shown.subjects) show(subject);
+  for (auto& mesh : shown.meshes) show(mesh.name);
+  for (verify::Result& r : shown.results)
+    for (std::string* text : {&r.subject, &r.mesh, &r.depths, &r.message}) show(*text);
+  std::fputs(text_in_colour(shown, true).c_str(), stdout);
 }
 
 bool explained(const OutputArguments& a) {
@@ -100,11 +111,11 @@ bool explained(const OutputArguments& a) {
   for (const auto& e : verify::row_kinds()) {
     known += fmt::format(", {}", e.check);
     if (a.explain != "all" && verify::current_name(a.explain) != e.check) continue;
-    fmt::print("{}{}\n  meaning  {}\n  bound    {}\n  from     {}\n", found ? "\n" : "", e.check, e.meaning,
-               e.bound, e.source);
+    say("{}{}\n  meaning  {}\n  bound    {}\n  from     {}\n", found ? "\n" : "", e.check, e.meaning, e.bound,
+        e.source);
     found = true;
   }
-  if (found) fmt::print("\n{}\n{}", "In tables", verify::words_of_tables());
+  if (found) say("\n{}\n{}", "In tables", verify::words_of_tables());
   if (!found)
     throw data::ArgumentError(fmt::format("there is no check '{}'; there are: {}", a.explain, known));
   return true;
@@ -197,12 +208,12 @@ void write_witnesses(const OutputArguments& a, const Audited& audited) {
     if (!row) continue;
     const auto place =
         verify::write_witness(folder, report, *row, small.mesh, relation ? "thorough" : "quick");
-    fmt::print(stderr, "{} / {}: {} faces at depth {} shrunk to {} at depth {} ({} attempts): {}\n",
-               row->subject, row->check, mesh->mesh.faces.size(), finding->depth,
-               small.mesh.mesh.faces.size(), small.depth, small.attempts, place.string());
+    say(stderr, "{} / {}: {} faces at depth {} shrunk to {} at depth {} ({} attempts): {}\n", row->subject,
+        row->check, mesh->mesh.faces.size(), finding->depth, small.mesh.mesh.faces.size(), small.depth,
+        small.attempts, place.string());
   }
   if (a.shrink_seconds <= 0 && !findings.empty())
-    fmt::print(stderr, "{} witnesses in {}\n", findings.size(), folder);
+    say(stderr, "{} witnesses in {}\n", findings.size(), folder);
 }
 
 void write_html(const std::string& file, const Audited& audited, const std::string& level) {

@@ -119,7 +119,7 @@ TEST_F(AuditOutput, LevelsLookAtMoreAndMore) {
   EXPECT_LT(standard, thorough);
 }
 
-class AuditCauses : public CommandTest {};
+using AuditCauses = AuditOutput;
 
 TEST_F(AuditCauses, EachHasACommandThatShowsTheDifference) {
   const Outcome o =
@@ -153,6 +153,19 @@ TEST_F(AuditCauses, ThePageHasEverythingInside) {
   EXPECT_FALSE(says(page, "%DATA%"));
   EXPECT_FALSE(says(page, "src=\"http")) << "opens without a network";
   EXPECT_LT(page.size(), 2000000U);
+  // Its policy lets in its own style and script, by their digests, and nothing from elsewhere.
+  EXPECT_EQ(
+      python(
+          "import re, hashlib, base64\n"
+          "page = open('out/page.html').read()\n"
+          "policy = re.search('http-equiv=\"Content-Security-Policy\" content=\"(.*?)\"', page).group(1)\n"
+          "digest = lambda tag: \"'sha256-\" + base64.b64encode(hashlib.sha256(re.search(\n"
+          "  '<' + tag + '>(.*?)</' + tag + '>', page, re.S).group(1).encode()).digest()).decode() + \"'\"\n"
+          "assert policy == \"default-src 'none'; style-src \" + digest('style') + '; script-src ' + "
+          "digest('script'), policy\n"
+          "assert not re.search(' style=| on[a-z]+=', page)\n"),
+      0)
+      << read(".stderr");
   EXPECT_EQ(run("audit naive tetrahedron --html same --junit same").code, 2);
 }
 

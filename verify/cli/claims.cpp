@@ -106,7 +106,7 @@ std::string to_json(const std::vector<ClaimResult>& results) {
                              {"message", text(r.message)},
                              {"measured", std::move(figures)}});
   }
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dumped(out, 1);
 }
 
 std::string to_table(const std::vector<ClaimResult>& results) {
@@ -131,7 +131,7 @@ std::string to_table(const std::vector<ClaimResult>& results) {
 
 int claims(const Arguments& a) {
   if (a.errata) {
-    fmt::print("{}", verify::errata());
+    say("{}", verify::errata());
     return kHeld;
   }
   const auto list = chosen(a.ids);
@@ -139,17 +139,19 @@ int claims(const Arguments& a) {
   const verify::InterruptGuard guard;
   std::vector<ClaimResult> results;
   try {
-    results = verify::run_claims(list, verify::claim_programs(a.programs),
-                                 [&](const std::string& program, std::size_t done, std::size_t total) {
-                                   progress.show(done, total, program);
-                                 });
+    results = verify::run_claims(
+        list,
+        verify::claim_programs(a.programs.empty() ? program_folder() : std::filesystem::path(a.programs)),
+        [&](const std::string& program, std::size_t done, std::size_t total) {
+          progress.show(done, total, program);
+        });
   } catch (const verify::Interrupted&) {
     progress.clear();
-    fmt::print(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
+    say(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));
     return kSignalled + verify::interrupted();
   }
   progress.clear();
-  fmt::print("{}", a.json ? to_json(results) : to_table(results));
+  say("{}", a.json ? to_json(results) : to_table(results));
   const bool held = std::all_of(results.begin(), results.end(), [](const ClaimResult& r) {
     return r.outcome == ClaimOutcome::kHeld || r.outcome == ClaimOutcome::kNotCheckable;
   });

@@ -2,7 +2,12 @@
 // The commands of the program, and kinds of options that several have.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +18,9 @@ namespace limitcheck::cli {
 enum ExitCode : int {
   kHeld = 0,
   kFindings = 1,
-  kBadInput = 2,    // and anything else that stops the program: no memory, no room on the disk
-  kSignalled = 128  // plus the signal's number: an audit ended early, with a partial report
+  kBadInput = 2,  // and anything else that stops the program: no memory, no room on the disk
+  kSignalled =
+      128  // plus the signal's number: an audit ended early, with a partial report; SIGPIPE: nobody reads
 };
 
 /// Each adds its commands to the parser; they store what they returned in `exit_code`.
@@ -31,8 +37,26 @@ void add_prove(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes the manual page of
 
+/// Writes to standard output or error, as visible text (verify/row/visible_text.h): all that the program prints goes this
+/// way, because names and messages are somebody else's.
+void say_text(std::FILE* stream, const std::string& text);
+template <class... Values>
+void say(std::FILE* stream, fmt::format_string<Values...> format, Values&&... values) {
+  say_text(stream, fmt::format(format, std::forward<Values>(values)...));
+}
+template <class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  say_text(stdout, fmt::format(format, std::forward<Values>(values)...));
+}
+/// Where this program lies. Throws data::ArgumentError: there is no /proc to tell.
+std::filesystem::path program_folder();
+/// A JSON document, whatever bytes its strings have.
+std::string dumped(const nlohmann::ordered_json& json, int indent);
+
 /// For options that are real numbers: "nan" is a number to the parser, and within every range.
 extern const CLI::Validator kFinite;
+/// For seeds: the parser takes the largest number for a larger one.
+extern const CLI::Validator kSeed;
 
 /// An option that is a number from `least` to `most`; --help shows its default.
 template <class Number>

@@ -132,11 +132,11 @@ std::string off(double amount, double bound, const char* unit, const char* other
 }
 
 void print_expected(const verify::VertexAtPoint& p, bool refined) {
-  fmt::print("expected  position  {}{}\n", vector(p.expected, false),
-             refined ? "  (of the refined control mesh)" : "");
+  say("expected  position  {}{}\n", vector(p.expected, false),
+      refined ? "  (of the refined control mesh)" : "");
   if (p.normal)
-    fmt::print("          normal    {}\n", p.expected_normal ? vector(*p.expected_normal, false)
-                                                             : "any of length 1: the surface has none");
+    say("          normal    {}\n",
+        p.expected_normal ? vector(*p.expected_normal, false) : "any of length 1: the surface has none");
 }
 
 // What the subject delivers at the point and what it should, and how far they are apart. Returns the exit code: 1 if a
@@ -155,26 +155,26 @@ int show_difference(const Request& request, const FaceAndCorner& at, const Opene
   const verify::AtPoint found =
       verify::look_at(subject, mesh, place(at, u, v), static_cast<int>(tbb::info::default_concurrency()));
 
-  fmt::print("{}\n{} at depth {}{}, face {}{} at ({}, {})\n", scheme_line({opened.chosen}, request.options),
-             request.mesh, request.depth, request.depths == "uniform" ? "" : " (" + request.depths + ")",
-             at.face, at.corner ? fmt::format(" corner {}", *at.corner) : "", u.to_string(), v.to_string());
-  if (found.vertices.empty()) fmt::print("{} delivers no vertex there\n", subject.label());
+  say("{}\n{} at depth {}{}, face {}{} at ({}, {})\n", scheme_line({opened.chosen}, request.options),
+      request.mesh, request.depth, request.depths == "uniform" ? "" : " (" + request.depths + ")", at.face,
+      at.corner ? fmt::format(" corner {}", *at.corner) : "", u.to_string(), v.to_string());
+  if (found.vertices.empty()) say("{} delivers no vertex there\n", subject.label());
   const verify::VertexAtPoint* before = nullptr;
   for (const verify::VertexAtPoint& p : found.vertices) {
     const bool told =
         before != nullptr && before->expected == p.expected && before->expected_normal == p.expected_normal;
     before = &p;
     if (!told) print_expected(p, found.refined);
-    fmt::print("{} vertex {}\n", subject.label(), p.vertex);
-    fmt::print("          position  {}\n                    {}\n", vector(p.position, found.in_float),
-               off(p.distance, found.bound, "diagonals", "not finite  <-- wrong"));
+    say("{} vertex {}\n", subject.label(), p.vertex);
+    say("          position  {}\n                    {}\n", vector(p.position, found.in_float),
+        off(p.distance, found.bound, "diagonals", "not finite  <-- wrong"));
     if (p.normal)
-      fmt::print("          normal    {}\n                    {}\n", vector(*p.normal, found.in_float),
-                 off(p.angle, p.angle_bound, "degrees", "not finite, or not of length 1  <-- wrong"));
+      say("          normal    {}\n                    {}\n", vector(*p.normal, found.in_float),
+          off(p.angle, p.angle_bound, "degrees", "not finite, or not of length 1  <-- wrong"));
   }
   if (found.vertices.size() > 1)
-    fmt::print("{} vertices at this point; {}\n", found.vertices.size(),
-               found.same_bits ? "the same bits" : "they differ in bits  <-- wrong");
+    say("{} vertices at this point; {}\n", found.vertices.size(),
+        found.same_bits ? "the same bits" : "they differ in bits  <-- wrong");
   return found.held() ? kHeld : kFindings;
 }
 

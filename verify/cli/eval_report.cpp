@@ -111,7 +111,7 @@ void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
   add_maybe("mean_curvature", p.mean_curvature);
   json["radius"] = number(p.radius);
   json["radii"] = radii;
-  fmt::print("{}\n", json.dump(2));
+  say("{}", dumped(json, 2));
 }
 
 void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
@@ -126,13 +126,11 @@ void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
     return r.is_zero() ? "  exact" : "  +-" + r.to_string();
   };
   const auto line = [&](const std::string& what, const Enclosure3& v, const std::string& note = "") {
-    fmt::print("{:<12}{}  {}  {}{}{}\n", what, v[0].value, v[1].value, v[2].value, within(v), note);
+    say("{:<12}{}  {}  {}{}{}\n", what, v[0].value, v[1].value, v[2].value, within(v), note);
   };
-  const auto absent = [](const std::string& what, const std::string& why) {
-    fmt::print("{:<12}{}\n", what, why);
-  };
-  fmt::print("{}\n{} face {}{} at ({})\n", at.scheme_line, at.mesh, at.face,
-             at.corner ? fmt::format(" corner {}", *at.corner) : "", fmt::join(at.parameters, ", "));
+  const auto absent = [](const std::string& what, const std::string& why) { say("{:<12}{}\n", what, why); };
+  say("{}\n{} face {}{} at ({})\n", at.scheme_line, at.mesh, at.face,
+      at.corner ? fmt::format(" corner {}", *at.corner) : "", fmt::join(at.parameters, ", "));
   line("position", p.position);
   const bool degenerate = p.normal_kind == NormalKind::kFallback || p.normal_kind == NormalKind::kArbitrary;
   const std::string first = reason(p.limits.first, p.limits.along_boundary, degenerate),
@@ -161,11 +159,11 @@ void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
     for (const std::string& what : {by_aa, by_ab, by_bb}) absent(what, second);
   }
   if (p.gaussian_curvature) {
-    fmt::print("{:<12}{}{}\n", "Gaussian K", p.gaussian_curvature->value, within(*p.gaussian_curvature));
-    fmt::print("{:<12}{}{}\n", "mean H", p.mean_curvature->value, within(*p.mean_curvature));
+    say("{:<12}{}{}\n", "Gaussian K", p.gaussian_curvature->value, within(*p.gaussian_curvature));
+    say("{:<12}{}{}\n", "mean H", p.mean_curvature->value, within(*p.mean_curvature));
   }
-  fmt::print("certified: every number is that near the truth; the largest radius of a vector is {}\n",
-             p.radius.to_string(3));
+  say("certified: every number is that near the truth; the largest radius of a vector is {}\n",
+      p.radius.to_string(3));
 }
 
 }  // namespace limitcheck::cli

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "data/error.h"
@@ -23,6 +24,7 @@
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
+#include "verify/shard/seal.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -220,14 +222,17 @@ int hunt(Arguments a) {
   const verify::HuntReport* const before = earlier ? &*earlier : nullptr;
   if (a.jobs <= 0) a.jobs = tbb::info::default_concurrency();
   a.from.isolate = !a.in_process;
-  const verify::HuntReport header =
-      [&] {  // that all is well with the arguments is found out here, and said once
-        Arguments asked = a;
-        asked.from.isolate = false;
-        const Hunted hunted(asked);
-        (void)hunted.plan(a.seed);
-        return hunted.report(a);
-      }();
+  const verify::HuntReport header = [&] {
+    Arguments asked = a;  // that all is well with them is found out here, and said once
+    asked.from.isolate = false;
+    const Hunted hunted(asked);
+    (void)hunted.plan(a.seed);
+    verify::HuntReport report = hunted.report(a);
+    report.attested = {{"program", file_digest("/proc/self/exe")},
+                       {"plan", verify::digest(dumped(plan_of(report, {}).what, -1))},
+                       {"subject", subject_digest(*hunted.subject.subject)}};
+    return report;
+  }();
 
   const verify::InterruptGuard guard;
   const auto start = Clock::now();
@@ -269,7 +274,7 @@ int hunt(Arguments a) {
   if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report));
   if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report, before));
   if (report.incomplete.empty()) files.remove();
-  fmt::print("{}", a.json == "-" ? verify::to_json(report) : verify::to_text(report, before));
+  say("{}", a.json == "-" ? verify::to_json(report) : verify::to_text(report, before));
   if (signal != 0) return kSignalled + signal;
   if (!report.incomplete.empty() || report.judged == 0) return kBadInput;
   return verify::new_findings(report, before).empty() ? kHeld : kFindings;
@@ -287,6 +292,7 @@ void add_hunt(CLI::App& app, int& exit_code) {
       add_number<std::uint64_t>(*command, "--cases", a->cases, 1, kMostCases, "How many cases");
   command->add_option("--time", a->time, "How long, in place of --cases: 90s, 15m, 1h")->excludes(cases);
   command->add_option("--seed", a->seed, "Another seed makes other cases; the same one the same")
+      ->check(kSeed)
       ->capture_default_str();
   add_scheme(*command, a->scheme, "Only meshes of this scheme (default: both, if the subject does both)");
   command

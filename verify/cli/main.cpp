@@ -7,19 +7,24 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "data/error.h"
 #include "verify/cli/commands.h"
 #include "verify/host/in_turns.h"
 #include "verify/host/isolation/worker.h"
+#include "verify/row/visible_text.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/subject_error.h"
 
@@ -33,7 +38,17 @@ const CLI::Validator kFinite(
     },
     "");
 
+const CLI::Validator kSeed(
+    [](std::string& text) {
+      errno = 0;
+      (void)std::strtoull(text.c_str(), nullptr, 0);
+      return errno == ERANGE ? text + " is no whole number from 0 to 18446744073709551615" : std::string();
+    },
+    "");
+
 namespace {
+
+int output_error = 0;  // errno of the first time that standard output could not be written
 
 namespace fs = std::filesystem;
 
@@ -46,17 +61,29 @@ void occupy_standard_streams() {
 
 // If there is no standard error either, nothing can be reported.
 void complain(const std::string& text) {
-  std::fputs(fmt::format("limitcheck: {}\n", text).c_str(), stderr);
+  say(stderr, "limitcheck: {}\n", text);
 }
 
-// What the buffer of standard output still holds may fail to be written: then nothing was held or found.
+// What the buffer of standard output still holds may fail to be written: then nothing was held or found. A reader that
+// went away is no error; where SIGPIPE is not ignored it has ended the program with this exit code already.
 int after_output(int exit_code) {
   if (exit_code == kBadInput) return exit_code;  // it has been said
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
-  complain(fmt::format("standard output cannot be written{}{}", errno != 0 ? ": " : "",
-                       errno != 0 ? std::strerror(errno) : ""));
+  const int error = output_error != 0 ? output_error : errno;
+  if (error == EPIPE) return kSignalled + SIGPIPE;
+  complain(fmt::format("standard output cannot be written{}{}", error != 0 ? ": " : "",
+                       error != 0 ? std::strerror(error) : ""));
   return kBadInput;
+}
+
+// Help, or what is wrong with the arguments.
+int exit_with(const CLI::App& app, const CLI::Error& error) {
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  say_text(stdout, out.str());
+  say_text(stderr, err.str());
+  return code;
 }
 
 // What to do next, for a word that is no command.
@@ -74,8 +101,7 @@ std::string what_was_meant(const std::string& word) {
 
 // limitcheck-NAME beside this program, in bench/ of a build tree, or where it is installed. Empty: not built.
 fs::path find_program(const std::string& name) {
-  std::error_code ignored;
-  const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path here = program_folder();
   for (const char* folder : {".", "bench", "../libexec/limitcheck"}) {
     fs::path path = here / folder / ("limitcheck-" + name);
     if (access(path.c_str(), X_OK) == 0) return path;
@@ -91,7 +117,7 @@ void become(const fs::path& path, const std::vector<std::string>& arguments) {
   for (std::string& argument : copies) list.push_back(argument.data());
   list.push_back(nullptr);
   execv(program.c_str(), list.data());
-  fmt::print(stderr, "limitcheck: {}: {}\n", program, std::strerror(errno));
+  say(stderr, "limitcheck: {}: {}\n", program, std::strerror(errno));
 }
 
 // A command that is a separate program: it needs libraries that limitcheck does without, or runs limitcheck itself.
@@ -103,7 +129,7 @@ void add_external(CLI::App& app, int& exit_code, const std::string& name, const 
     exit_code = kBadInput;
     const fs::path path = find_program(name);
     if (path.empty()) {
-      fmt::print(stderr, "limitcheck: '{}' is not built; configure with -DLIMITCHECK_BENCH=ON\n", name);
+      say(stderr, "limitcheck: '{}' is not built; configure with -DLIMITCHECK_BENCH=ON\n", name);
     } else {
       become(path, command->remaining());
     }
@@ -144,7 +170,8 @@ int run(int argc, char** argv) {
   app.footer(
       "First steps: limitcheck check mesh.obj; limitcheck audit mesh.obj; limitcheck COMMAND --help. "
       "Documentation: README.md, verify/subject/README.md, or share/doc/limitcheck where it is installed.\n"
-      "Exit codes: 0 all held, 1 findings, 2 bad usage or input.");
+      "Exit codes: 0 all held, 1 findings, 2 bad usage or input, 141 where nobody reads standard output any "
+      "more.");
 
   int exit_code = kHeld;
   add_audit(app, exit_code);
@@ -174,15 +201,15 @@ int run(int argc, char** argv) {
   try {
     app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::RequiredError& error) {
-    if (argc < 2) return app.exit(CLI::CallForHelp()), kBadInput;
+    if (argc < 2) return exit_with(app, CLI::CallForHelp()), kBadInput;
     if (app.get_subcommands().empty() && argv[1][0] != '-') {
-      fmt::print(stderr, "limitcheck: there is no command '{}'\n{}", argv[1], what_was_meant(argv[1]));
+      say(stderr, "limitcheck: there is no command '{}'\n{}", argv[1], what_was_meant(argv[1]));
       return kBadInput;
     }
-    app.exit(error);
+    exit_with(app, error);
     return kBadInput;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kHeld : kBadInput;
+    return exit_with(app, error) == 0 ? kHeld : kBadInput;
   } catch (const std::bad_alloc&) {
     std::fputs("limitcheck: out of memory\n", stderr);
     return kBadInput;
@@ -194,6 +221,27 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+
+void say_text(std::FILE* stream, const std::string& text) {
+  const std::string shown = verify::visible_text(text);
+  errno = 0;
+  if (std::fwrite(shown.data(), 1, shown.size(), stream) != shown.size() && stream == stdout &&
+      output_error == 0)
+    output_error = errno;
+}
+
+fs::path program_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error)
+    throw data::ArgumentError("where this program lies cannot be found out: there is no /proc/self/exe");
+  return program.parent_path();
+}
+
+std::string dumped(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace limitcheck::cli
 
 int main(int argc, char** argv) {

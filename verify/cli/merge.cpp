@@ -2,6 +2,7 @@
 // limitcheck merge: the parts that --shard has made, as one process would have reported them.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,13 +20,14 @@
 #include "verify/report/json.h"
 #include "verify/report/junit.h"
 #include "verify/report/overview.h"
+#include "verify/shard/seal.h"
 
 namespace limitcheck::cli {
 namespace {
 
 struct MergeArguments {
   std::vector<std::string> parts;
-  std::string output;
+  std::string output, verify;
   ReportOptions options;  // --junit, --baseline, and of an audit --require and --waivers
 };
 
@@ -55,6 +57,7 @@ void refuse(const MergeArguments& a, const std::string& program, bool of_hunt) {
 
 int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
   const nlohmann::json& plan = whole.plan.what;
+  require_units(plan, whole.results);
   const auto level = plan.at("level").get<std::string>();
   verify::Report report = verify::header_of(plan.at("report"));
   const std::size_t subjects = whole.plan.together;
@@ -70,8 +73,10 @@ int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
 
   const bool judged = settle(a.options, report);
   if (!a.options.junit.empty()) verify::write_text(a.options.junit, verify::to_junit(report));
-  verify::write_text(a.output, verify::to_json(report, level));
-  fmt::print("{}", verify::to_overview(report, verify::causes(report), in_colour(), "", level, ""));
+  verify::write_text(a.output, attested(verify::to_json(report, level), plan));
+  say_report(report, [&](const verify::Report& shown, bool in_colour) {
+    return verify::to_overview(shown, verify::causes(shown), in_colour, "", level, "");
+  });
   return exit_code_of(report, judged);
 }
 
@@ -84,11 +89,88 @@ int merge_hunt(const MergeArguments& a) {
   const verify::HuntReport whole = verify::merged(parts);
   verify::write_text(a.output, verify::to_json(whole));
   if (!a.options.junit.empty()) verify::write_text(a.options.junit, verify::to_junit(whole, before));
-  fmt::print("{}", verify::to_text(whole, before));
+  say("{}", verify::to_text(whole, before));
   return verify::new_findings(whole, before).empty() ? kHeld : kFindings;
 }
 
+verify::Status status_of(const std::string& text) {
+  using enum verify::Status;
+  for (const auto status : {kHeld, kFinding, kQualityWarning, kNotSupported, kNotRun, kCrash, kTimeout,
+                            kError, kWaived, kUnexpectedPass})
+    if (verify::word(status) == text) return status;
+  throw data::ArgumentError(fmt::format("there is no status {}", text));
+}
+
+// Why a report is not whole or not as it was written; empty: it is both.
+std::string why_not(const nlohmann::json& report) try {
+  if (report.contains("together")) {
+    const verify::PartReport part = verify::read_part(verify::sealed(report));
+    if (!part.is_complete() || !part.incomplete.empty()) return "it is a part that is incomplete";
+    if (part.plan.program == "limitcheck audit") require_units(part.plan.what, part.results);
+    return "";
+  }
+  const nlohmann::json incomplete = report.value("incomplete", nlohmann::json());
+  if (incomplete.is_string() && incomplete != "") return "it is incomplete: " + incomplete.get<std::string>();
+  if (report.contains("complete") && report.at("complete") != true) return "it is incomplete";
+  if (report.at("program") != "limitcheck audit") return "";
+  for (const nlohmann::json& subject : report.at("subjects"))
+    if (std::none_of(report.at("results").begin(), report.at("results").end(),
+                     [&](const auto& row) { return row.at("subject") == subject; }))
+      return fmt::format("it has no row of {}", subject.get<std::string>());
+  for (const nlohmann::json& row : report.at("results")) {
+    verify::Result r;
+    r.status = status_of(row.at("status").get<std::string>());
+    r.bad = row.at("count"), r.of = row.at("of");
+    if (row.at("worst").is_number()) r.worst = row.at("worst").get<double>();
+    if (row.at("bound").is_number()) r.bound = row.at("bound").get<double>();
+    if (verify::verdict_of(r) != r.status)
+      return fmt::format("{} of {} on {} says {}, and its numbers say {}", row.at("check").get<std::string>(),
+                         row.at("subject").get<std::string>(), row.at("mesh").get<std::string>(),
+                         verify::word(r.status), word(verify::verdict_of(r)));
+  }
+  return "";
+} catch (const nlohmann::json::exception& error) {
+  return fmt::format("it is no report: {}", error.what());
+} catch (const data::ArgumentError& error) {
+  return error.what();
+}
+
+// limitcheck merge --verify REPORT
+int verify_report(const std::string& file) {
+  const std::string text = data::io::whole_content(file);
+  const std::string program = read_file(file, program_of);
+  nlohmann::json report = data::parse_untrusted(text);
+  if (!report.contains("digest"))
+    throw data::ArgumentError(file +
+                              ": it carries no digest, as reports do since 0.2: nothing can be said of it");
+  std::string why;
+  try {
+    report = verify::unsealed_object(std::move(report));
+    why = why_not(report);
+  } catch (const data::ArgumentError& error) {
+    why = error.what();
+  }
+  if (!why.empty()) {
+    say("{}: {}\n", file, why);
+    return kFindings;
+  }
+  const nlohmann::json by = report.value("attested", nlohmann::json());
+  const std::string by_program = by.is_object() ? by.value("program", "") : "";
+  say("{}: whole and as it was written, by {}{}\n", file, program,
+      by_program.empty()                            ? ""
+      : by_program == file_digest("/proc/self/exe") ? " of this program"
+                                                    : fmt::format(" of another program ({})", by_program));
+  return kHeld;
+}
+
 int merge(const MergeArguments& a) {
+  if (!a.verify.empty()) {
+    if (!a.parts.empty() || !a.output.empty())
+      throw data::ArgumentError("--verify takes a report, and no parts");
+    return verify_report(a.verify);
+  }
+  if (a.parts.empty()) throw CLI::RequiredError("PART");
+  if (a.output.empty()) throw CLI::RequiredError("--output");
   refuse_one_file_for_two(
       {{"-o", a.output}, {"--junit", a.options.junit}, {"--baseline", a.options.baseline}});
   const std::string program = read_file(a.parts.at(0), program_of);
@@ -113,10 +195,13 @@ void add_merge(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "merge",
       "Join what --shard has made: the parts of an audit, a hunt, a table of mutants, a set of proofs");
-  command->add_option("PART", a->parts, "The files that --shard K/N --json FILE has written, in any order")
-      ->required();
-  command->add_option("-o,--output", a->output, "The report of the whole, as one process writes it")
-      ->required();
+  command->add_option("PART", a->parts, "The files that --shard K/N --json FILE has written, in any order");
+  command->add_option("-o,--output", a->output, "The report of the whole, as one process writes it");
+  command
+      ->add_option(
+          "--verify", a->verify,
+          "Say whether this report, or part of one, is whole and as it was written; nothing else is done")
+      ->type_name("REPORT");
   add_report_options(*command, a->options);
   command->footer(
       "Exit codes: as of the command whose parts they are; 2 if a part is missing, there twice, incomplete "

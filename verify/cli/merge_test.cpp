@@ -26,7 +26,7 @@ class Merge : public CommandTest {
     std::istringstream in(read(file));
     std::string text;
     for (std::string line; std::getline(in, line);) {
-      for (const char* key : {"\"seconds\": ", "\"containment\": ", "\"printed\": "})
+      for (const char* key : {"\"digest\":", "\"seconds\": ", "\"containment\": ", "\"printed\": "})
         line = line.substr(0, line.find(key));
       text += line + "\n";
     }
@@ -122,6 +122,117 @@ TEST_F(Merge, WrongPartsAreRefused) {
   }
   expect_refused("audit naive tetrahedron", {"--shard 1/2", "--shard 1/2 --json", "--shard 3/2 --json x.json",
                                              "--shard x --json x.json"});
+}
+
+// A unit's result in a part: its rows, each a list of subject, mesh, check, depth, ...
+constexpr std::size_t kCheck = 2, kDepth = 3, kWorst = 13;
+json::iterator find_row(json& rows, const std::string& check) {
+  return std::find_if(rows.begin(), rows.end(), [&](const json& row) { return row[kCheck] == check; });
+}
+json& row_of(json& rows, const std::string& check) {
+  return *find_row(rows, check);
+}
+
+// Written again by one who knows how to seal it.
+TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
+  const std::string all = "audit naive octahedron tetrahedron cube --depth 1 --level quick ";
+  EXPECT_EQ(in_parts(all, 2).code, 0);
+  struct {
+    const char* sentence;
+    std::function<void(json&)> edit;  // of the rows of its first unit
+    int code = 2;
+  } const wrong[]{
+      {"", [](json&) {}, 0},
+      {"positions says held, and its numbers say finding",
+       [](json& rows) { row_of(rows, "positions")[kWorst] = .5; }},
+      {"ginite is no row of it", [](json& rows) { row_of(rows, "finite")[kCheck] = "ginite"; }},
+      {"there is no row positions", [](json& rows) { rows.erase(find_row(rows, "positions")); }},
+      {"finite is no row of it, or is there twice",
+       [](json& rows) { rows.push_back(row_of(rows, "finite")); }},
+      {"the row finite is of naive on octahedron, depth 3",
+       [](json& rows) { row_of(rows, "finite")[kDepth] = 3; }},
+      {"there is no row", [](json& rows) { rows = json::array(); }},
+  };
+  for (const auto& [sentence, edit, code] : wrong) {
+    json part = json_in("part1.json");
+    edit(part["results"][0][1]);
+    part.erase("digest");
+    write("edited.json", verify::sealed(part));
+    const Outcome o = run("merge edited.json part2.json -o merged.json");
+    EXPECT_EQ(o.code, code) << sentence << o.out;
+    EXPECT_TRUE(says(o.err, sentence));
+    EXPECT_EQ(run("merge --verify edited.json").code, code == 0 ? 0 : 1);
+  }
+  json part = json_in("part1.json");  // units 0 and 2
+  part["results"][1][1] = part["results"][0][1];
+  part.erase("digest");
+  write("edited.json", verify::sealed(part));
+  EXPECT_TRUE(says(run("merge edited.json part2.json -o x.json").err,
+                   "unit 2, naive on cube: the row tessellates is of naive on octahedron"));
+}
+
+TEST_F(Merge, AJournalInWhichAllUnitsAreTheFirstIsRefused) {
+  const std::string all =
+      "audit naive octahedron tetrahedron bumpy:4000 --depth 5 --level quick --json r.json ";
+  (void)signalled(all, "[ \"$(wc -l < r.jsonl)\" = 3 ]", "KILL");
+  std::istringstream lines(read("r.jsonl"));
+  std::string journal, line;
+  json first;
+  for (std::size_t k = 0; k < 3 && std::getline(lines, line); ++k) {
+    json record = json::parse(line);
+    record.erase("digest");
+    if (k == 1) first = record["result"];
+    if (k == 2) record["result"] = first;
+    journal += k == 0 ? line + "\n" : verify::sealed(record);
+  }
+  write("r.jsonl", journal);
+  const Outcome o = run(all + "--resume");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(says(o.err, "unit 1, naive on tetrahedron: the row tessellates is of naive on octahedron"));
+}
+
+TEST_F(Merge, VerifySaysWhetherAReportIsWholeAndUnaltered) {
+  for (const char* command :
+       {"audit naive octahedron --depth 1 --level quick", "prove --valences 3 --depth 0 --kernel row-stream",
+        "hunt naive --cases 2 --attempts 0 --in-process --jobs 1"}) {
+    EXPECT_EQ(run(std::string(command) + " --json r.json").code, 0) << command;
+    const Outcome whole = run("merge --verify r.json");
+    EXPECT_EQ(whole.code, 0) << command << whole.out;
+    EXPECT_TRUE(says(whole.out, "r.json: whole and as it was written, by limitcheck"));
+    EXPECT_TRUE(says(whole.out, " of this program"));
+    const json report = json_in("r.json");
+    for (const char* key : {"program", "plan"})
+      EXPECT_EQ(report["attested"][key].get<std::string>().size(), 64U) << command;
+    std::string text = read("r.json");
+    text[text.find("\"version\": \"") + 13] = '9';
+    write("altered.json", text);
+    const Outcome altered = run("merge --verify altered.json");
+    EXPECT_EQ(altered.code, 1) << command;
+    EXPECT_TRUE(says(altered.out, "altered.json: it was altered or damaged"));
+    EXPECT_EQ(altered.err, "");
+  }
+  EXPECT_EQ(run("audit naive octahedron tetrahedron --depth 1 --level quick --json r.json").code, 0);
+  json report = json_in("r.json");
+  EXPECT_EQ(report["attested"]["meshes"].size(), 2U);
+  EXPECT_NE(report["attested"]["meshes"][0][1], report["attested"]["meshes"][1][1]);
+  report.erase("digest");
+  const auto sealed_again = [&](const json& edited) {
+    write("edited.json", verify::sealed(edited));
+    return run("merge --verify edited.json").out;
+  };
+  json edited = report;
+  edited["incomplete"] = "interrupted by SIGINT";
+  EXPECT_TRUE(says(sealed_again(edited), "edited.json: it is incomplete: interrupted by SIGINT"));
+  edited = report;
+  for (json& row : edited["results"])
+    if (row["check"] == "positions") row["worst"] = .5;
+  EXPECT_TRUE(
+      says(sealed_again(edited), "positions of naive on octahedron says held, and its numbers say finding"));
+  write("edited.json", report.dump());
+  const Outcome none = run("merge --verify edited.json");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_TRUE(says(none.err, "it carries no digest"));
+  expect_refused("merge", {"--verify gone.json", "--verify r.json r.json", "-o x.json", "r.json"});
 }
 
 TEST_F(Merge, AShardThatWasKilledGoesOnWhereItWas) {

@@ -29,13 +29,13 @@ struct GenerateArguments {
 
 int print_list(const GenerateArguments& a) {
   if (a.stock) {
-    for (const std::string& name : data::stock_shapes()) fmt::print("{}\n", name);
+    for (const std::string& name : data::stock_shapes()) say("{}\n", name);
     return kHeld;
   }
   const auto meshes = data::named_meshes();
   std::size_t width = 0;
   for (const auto& mesh : meshes) width = std::max(width, mesh.name.size());
-  for (const auto& mesh : meshes) fmt::print("{:<{}}  {}\n", mesh.name, width, mesh.description);
+  for (const auto& mesh : meshes) say("{:<{}}  {}\n", mesh.name, width, mesh.description);
   return kHeld;
 }
 
@@ -47,8 +47,8 @@ int generate(const GenerateArguments& a) {
   const std::string specification = a.seed.empty() ? a.name : a.name + ":" + a.seed;
   const auto [mesh, chosen] = open_generated_mesh(specification, a.mesh);
   data::write_mesh(a.file, mesh, {.ascii_ply = a.ascii});
-  fmt::print(stderr, "{}\n", scheme_line({chosen}, a.mesh));
-  fmt::print(stderr, "{}: {} vertices, {} faces\n", a.file, mesh.positions.size(), mesh.faces.size());
+  say(stderr, "{}\n", scheme_line({chosen}, a.mesh));
+  say(stderr, "{}: {} vertices, {} faces\n", a.file, mesh.positions.size(), mesh.faces.size());
   return kHeld;
 }
 
@@ -79,7 +79,7 @@ std::map<int, std::int64_t> face_sizes(const data::io::PolygonSoup& soup) {
 }
 
 void line(const std::string& what, const std::string& text) {
-  fmt::print("{:<20}{}\n", what, text);
+  say("{:<20}{}\n", what, text);
 }
 
 void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s) {
@@ -182,7 +182,7 @@ void print_faults(const std::string& file, const data::io::PolygonSoup& soup,
     line(what, fmt::format("{}{}, vertices and faces counted from {}, as the file does:", some.size(), why,
                            soup.first));
     for (const auto& f : some)
-      fmt::print("  {}{}: {}: {}\n", file, f.line > 0 ? fmt::format(":{}", f.line) : "", f.code, f.message);
+      say("  {}{}: {}: {}\n", file, f.line > 0 ? fmt::format(":{}", f.line) : "", f.code, f.message);
   };
   if (!found.unused.empty()) print("unused vertices", ", which an audit leaves out", found.unused);
   if (found.faults.empty())
@@ -203,9 +203,9 @@ int check(const CheckArguments& a) {
   const data::MeshSummary summary = data::summarise(found.mesh);
   const MeshScheme chosen{found.scheme, found.cut};
   if (a.json) {
-    fmt::print("{}\n", to_json(a.file, chosen, soup, found, summary).dump(2));
+    say("{}", dumped(to_json(a.file, chosen, soup, found, summary), 2));
   } else {
-    fmt::print("{}\n", scheme_line({chosen}, a.mesh));
+    say("{}\n", scheme_line({chosen}, a.mesh));
     print_summary(soup, summary);
     for (const std::string& note : found.notes) line("note", note);
     print_faults(a.file, soup, found.faults);
@@ -223,10 +223,10 @@ int repair(const RepairArguments& a) {
   const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
   const data::io::Examination mesh = data::io::examine(repaired.soup, a.mesh);
   data::write_mesh(a.output, mesh.mesh);
-  fmt::print("{}\n", scheme_line({{mesh.scheme, mesh.cut}}, a.mesh));
-  for (const std::string& change : repaired.changes) fmt::print("{}\n", change);
-  if (repaired.changes.empty()) fmt::print("nothing had to be changed\n");
-  fmt::print("{}: {} vertices, {} faces\n", a.output, mesh.mesh.positions.size(), mesh.mesh.faces.size());
+  say("{}\n", scheme_line({{mesh.scheme, mesh.cut}}, a.mesh));
+  for (const std::string& change : repaired.changes) say("{}\n", change);
+  if (repaired.changes.empty()) say("nothing had to be changed\n");
+  say("{}: {} vertices, {} faces\n", a.output, mesh.mesh.positions.size(), mesh.mesh.faces.size());
   // As the file that was written has them.
   const data::io::PolygonSoup written = data::io::read_soup(a.output);
   const auto left = data::io::examine(written, {.scheme = a.mesh.scheme}).faults;

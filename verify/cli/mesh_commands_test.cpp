@@ -161,7 +161,9 @@ TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
       cut.out.starts_with("scheme: loop (--triangulate shortest-diagonal cut 7 faces into triangles)\n"))
       << cut.out;
 
-  const auto checked = [&](const std::string& options) { return json_of("check prism.obj --json" + options); };
+  const auto checked = [&](const std::string& options) {
+    return json_of("check prism.obj --json" + options);
+  };
   const auto own = checked(""), of_triangles = checked(" --triangulate fan");
   EXPECT_EQ(own["scheme"], "catmull-clark");
   EXPECT_EQ(own["faces_cut"], 0);

@@ -66,11 +66,10 @@ OpenedMesh open_control_mesh(const std::string& file_or_name, const data::ReadOp
   how.leave_out_unused = true;
   data::OpenedMesh opened = data::open_mesh(file_or_name, how);
   if (opened.left_out > 0)
-    fmt::print(stderr, "limitcheck: warning: {}: {} no face names {} left out\n", file_or_name,
-               opened.left_out == 1 ? "a vertex that" : fmt::format("{} vertices that", opened.left_out),
-               opened.left_out == 1 ? "is" : "are");
-  for (const std::string& note : opened.notes)
-    fmt::print(stderr, "limitcheck: note: {}: {}\n", file_or_name, note);
+    say(stderr, "limitcheck: warning: {}: {} no face names {} left out\n", file_or_name,
+        opened.left_out == 1 ? "a vertex that" : fmt::format("{} vertices that", opened.left_out),
+        opened.left_out == 1 ? "is" : "are");
+  for (const std::string& note : opened.notes) say(stderr, "limitcheck: note: {}: {}\n", file_or_name, note);
   return taken(file_or_name, std::move(opened), options);
 }
 

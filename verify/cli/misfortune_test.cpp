@@ -71,6 +71,64 @@ TEST_F(Misfortune, AReaderThatGoesAwayCostsNoReport) {
   EXPECT_TRUE(says(read("report.xml"), "</testsuites>"));
 }
 
+// In a pipe as in a script that ignores the signal.
+TEST_F(Misfortune, AReaderThatGoesAwayEndsTheProgramInSilence) {
+  for (const char* before : {"", "trap '' PIPE; "})
+    for (const char* command : {"audit naive tetrahedron --depth 1 --level quick", "generate --list",
+                                "eval cube 0 0 0 --digits 9000"}) {
+      const Outcome o =
+          shell(std::string(before) + "limitcheck " + command + " | true; exit ${PIPESTATUS[0]}");
+      EXPECT_TRUE(o.code == 141 || o.code == 0)
+          << before << command << ": " << o.code;  // 0: it was quicker than the reader
+      EXPECT_EQ(o.err, "") << before << command;
+    }
+  const Outcome o =
+      shell("trap '' PIPE; { sleep 0.5; limitcheck eval cube 0 0 0; } | true; exit ${PIPESTATUS[0]}");
+  EXPECT_EQ(o.code, 141);
+  EXPECT_EQ(o.err, "");
+}
+
+TEST_F(Misfortune, ForeignTextIsMadeVisibleAtEveryOutput) {
+  const std::string name = "caf\xe9 \x1b[31m\xef\xbf\xbe.obj";  // Latin-1, an escape sequence, U+FFFE
+  ASSERT_EQ(run("generate cube -o cube.obj").code, 0);
+  write(name, read("cube.obj"));
+  const auto clean = [](const std::string& what, const std::string& text) {
+    EXPECT_FALSE(says(text, "\x1b")) << what;
+    EXPECT_NO_THROW((void)nlohmann::json(text).dump()) << what;  // is UTF-8
+  };
+  for (const std::string command :
+       {"check", "check --json", "audit naive --details --depth 1",
+        "audit opensubdiv-bfr --depth 1 --junit j.xml --json r.json --html p.html", "tessellate --json",
+        "audit --depth", "generate", "eval --subject naive 0 0 0"}) {
+    const Outcome o = run(command + " '" + name + "'");
+    EXPECT_GE(o.code, 0) << command;
+    EXPECT_FALSE(o.out.empty() && o.err.empty()) << command;
+    clean(command, o.out), clean(command, o.err);
+    if (command.ends_with("--json")) {
+      EXPECT_TRUE(nlohmann::json::accept(o.out)) << command << o.out << o.err;
+    }
+  }
+  for (const char* file : {"j.xml", "r.json", "p.html"}) {
+    EXPECT_FALSE(read(file).empty()) << file;
+    clean(file, read(file));
+  }
+  EXPECT_EQ(command("/usr/bin/python3 -c \"import xml.dom.minidom as x; x.parse('j.xml')\"").code, 0)
+      << read(".stderr");
+  EXPECT_TRUE(nlohmann::json::accept(read("r.json")));
+}
+
+TEST_F(Misfortune, NumbersBeyondTheirRangeAreRefusedAndNotCut) {
+  const std::string beyond = "18446744073709551616";  // 2^64
+  for (const std::string option :
+       {"hunt naive --seed ", "hunt naive --cases ", "hunt naive --attempts ", "tessellate cube --seed ",
+        "tessellate cube --depth ", "tessellate cube --threads ", "audit naive cube --memory ",
+        "audit naive cube --depths random:", "audit naive cube --sample ",
+        "audit naive cube --sample 3:", "generate bumpy:20 -o x.obj --seed ", "eval cube 0 0 0 --digits ",
+        "prove --depth ", "hunt naive --shard 1/"})
+    expect_refused(option + beyond, {""});
+  EXPECT_EQ(run("tessellate cube --seed 18446744073709551615").code, 0);
+}
+
 TEST_F(Misfortune, AReportThroughAPipeOrALinkLeavesThePipeAndTheLink) {
   Outcome o = shell("mkfifo pipe; cat pipe > got & " + std::string(kQuickAudit) +
                     "--junit pipe > table; code=$?; wait; test -p pipe || exit 9; exit $code");

@@ -35,7 +35,7 @@ std::string to_json(const KillTable& table) {
                               {"case", k.on.empty() ? Json(nullptr) : Json(k.on)}});
   out["idle_checks"] = table.idle;
   out["red_on_correct_subjects"] = table.red_on_correct;
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dumped(out, 1);
 }
 
 std::string to_table(const KillTable& table) {
@@ -64,16 +64,17 @@ std::string to_table(const KillTable& table) {
 
 int report_mutants(const verify::PartReport& done, const std::string& json) {
   if (!done.incomplete.empty()) {
-    fmt::print(stderr, "limitcheck: {}\n", done.incomplete);
+    say(stderr, "limitcheck: {}\n", done.incomplete);
     return kHeld;
   }
   if (!done.plan.shard.is_whole()) {
-    fmt::print("shard {}: {} of {} units\n", done.plan.shard.text(), done.results.size(), done.plan.units);
+    say("shard {}: {} of {} units\n", done.plan.shard.text(), done.results.size(), done.plan.units);
     return kHeld;
   }
   const KillTable table = verify::kill_table(done.results);
-  if (!json.empty() && json != "-") verify::write_text(json, to_json(table));
-  fmt::print("{}", json == "-" ? to_json(table) : to_table(table));
+  const std::string text = json.empty() ? to_table(table) : attested(to_json(table), done.plan.what);
+  if (!json.empty() && json != "-") verify::write_text(json, text);
+  say_text(stdout, json.empty() || json == "-" ? text : to_table(table));
   return table.held() ? kHeld : kFindings;
 }
 

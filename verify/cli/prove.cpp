@@ -134,19 +134,27 @@ int report_proofs(const verify::PartReport& done, const std::string& json, bool 
   std::vector<std::vector<verify::ProofRow>> rows(set.tasks.size());
   std::vector<verify::CertifiedLine> certified;
   for (const auto& [unit, result] : done.results) {
-    if (unit < rows.size())
-      rows[unit] = verify::proof_rows_of(result);
-    else
+    if (unit == rows.size()) {
       certified = verify::certified_of(result);
+      continue;
+    }
+    rows[unit] = verify::proof_rows_of(result);
+    for (const verify::ProofRow& row : rows[unit])
+      if (row.topology != set.tasks[unit].neighbourhood.name)
+        throw data::ArgumentError(fmt::format("unit {} is of {}, and has the proof of {}", unit,
+                                              set.tasks[unit].neighbourhood.name, row.topology));
   }
   const verify::ProofReport report(set, rows, std::move(certified));
   if (!done.plan.shard.is_whole()) {
-    fmt::print("shard {}: {} of {} units, {}\n", done.plan.shard.text(), done.results.size(), done.plan.units,
-               report.held() ? "every map is the reference's" : "some proofs FAILED");
+    say("shard {}: {} of {} units, {}\n", done.plan.shard.text(), done.results.size(), done.plan.units,
+        report.held() ? "every map is the reference's" : "some proofs FAILED");
     return report.held() ? kHeld : kFindings;
   }
-  if (!json.empty() && json != "-") verify::write_text(json, report.json() + "\n");
-  fmt::print("{}", json == "-" ? report.json() + "\n" : report.table(each));
+  const std::string text =
+      json.empty() ? report.table(each)
+                   : attested("{\n  \"program\": \"limitcheck prove\"," + report.json().substr(1), plan);
+  if (!json.empty() && json != "-") verify::write_text(json, text);
+  say_text(stdout, json.empty() || json == "-" ? text : report.table(each));
   return report.held() && (report.complete() || !done.incomplete.empty()) ? kHeld : kFindings;
 }
 

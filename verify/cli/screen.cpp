@@ -33,6 +33,8 @@ void show_the_end(int signal) {
   char text[kShown];
   const off_t size = lseek(kept_file, 0, SEEK_END);
   const ssize_t count = pread(kept_file, text, kShown, size > kShown ? size - kShown : 0);
+  for (ssize_t k = 0; k < count; ++k)  // no escape sequence of the subject's
+    if (static_cast<unsigned char>(text[k]) < 0x20 && text[k] != '\n') text[k] = ' ';
   if (count > 0) (void)!write(real_error, text, static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < kFatals; ++k)
     if (kFatal[k] == signal) sigaction(signal, &before[k], nullptr);

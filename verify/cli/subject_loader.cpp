@@ -128,7 +128,7 @@ void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std:
         fmt::format("there is no file {}. `limitcheck audit MESH` audits all subjects on a mesh, `limitcheck "
                     "audit SUBJECT MESH` one; `limitcheck generate pawn -o {}` writes a mesh",
                     subject, subject));
-  fmt::print(stderr, "limitcheck: {} is a mesh: all built-in subjects are audited on it\n", subject);
+  say(stderr, "limitcheck: {} is a mesh: all built-in subjects are audited on it\n", subject);
   meshes.insert(meshes.begin(), subject);
   subject = "all";
 }

@@ -223,14 +223,13 @@ int tessellate(const Arguments& a) {
   progress.clear();
 
   if (stats.culled == stats.faces) {
-    fmt::print(stderr,
-               "limitcheck: nothing to show: all {} faces are seen from behind (is the camera inside?)\n",
-               stats.faces);
+    say(stderr, "limitcheck: nothing to show: all {} faces are seen from behind (is the camera inside?)\n",
+        stats.faces);
   }
   if (a.json) {
-    fmt::print("{}\n", report(a, opened.chosen, stats, options, timings).dump(2));
+    say("{}", dumped(report(a, opened.chosen, stats, options, timings), 2));
   } else {
-    fmt::print("{}\n{}", scheme_line({opened.chosen}, a.scheme), summary(a, stats, timings));
+    say("{}\n{}", scheme_line({opened.chosen}, a.scheme), summary(a, stats, timings));
   }
   return kHeld;
 }
@@ -283,7 +282,9 @@ void add_tessellate(CLI::App& app, int& exit_code) {
             "Where depths differ: the paper's fan, or stitch the outer ring only");
   add_number(*command, "--threads", a->engine.threads, 0, 4096,
              "At most so many, 0: all; the result is the same");
-  command->add_option("--seed", a->depths.seed, "Seed of the random strategy")->capture_default_str();
+  command->add_option("--seed", a->depths.seed, "Seed of the random strategy")
+      ->check(kSeed)
+      ->capture_default_str();
   command
       ->add_option("--colour,--color", a->colour,
                    "Colour the triangles by depth or by kind (pair or quad, singleton, fan)")

@@ -16,14 +16,18 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "data/error.h"
+#include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
+#include "verify/shard/seal.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -55,7 +59,7 @@ std::unique_ptr<JobCounters, Unmap> shared_counters() {
   try {
     code = work(job, counters);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "limitcheck: {}\n", error.what());
+    say(stderr, "limitcheck: {}\n", error.what());
   }
   std::fflush(nullptr);
   _exit(code);
@@ -106,6 +110,20 @@ void write_part(const ShardArguments& a, const verify::Journal& journal, verify:
   verify::write_text(a.json, verify::to_json(part));
 }
 
+std::string attested(std::string report, const nlohmann::json& plan) {
+  nlohmann::ordered_json by{{"program", file_digest("/proc/self/exe")},
+                            {"plan", verify::digest(dumped(plan, -1))},
+                            {"subjects", plan.value("stamps", nlohmann::json::array())},
+                            {"meshes", nlohmann::json::array()},
+                            {"level", plan.value("level", nlohmann::json())}};
+  std::set<std::pair<std::string, std::string>> meshes;  // each is there at several depths
+  if (plan.contains("meshes"))
+    for (const nlohmann::json& mesh : plan.at("meshes")) meshes.emplace(mesh.at(0), mesh.at(1));
+  for (const auto& [name, digest] : meshes) by["meshes"].push_back({name, digest});
+  while (report.ends_with('\n')) report.pop_back();
+  return verify::sealed("{\n \"attested\": " + dumped(by, -1) + "," + report.substr(1));
+}
+
 int run_units(const ShardArguments& a, verify::Plan plan,
               const std::function<void(verify::Journal&, Progress&)>& work,
               const std::function<int(const verify::PartReport&)>& report) {
@@ -136,7 +154,7 @@ int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
     const pid_t pid = fork();
     if (pid == 0) run_job(job, *counters, work);
     if (pid < 0) {
-      fmt::print(stderr, "limitcheck: a process cannot be started: {}\n", std::strerror(errno));
+      say(stderr, "limitcheck: a process cannot be started: {}\n", std::strerror(errno));
       code = kBadInput;
       break;
     }

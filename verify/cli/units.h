@@ -59,6 +59,10 @@ struct JobCounters {
 int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
              const std::function<void(const JobCounters&)>& show);
 
+/// The report, a JSON object, with what it is of in front ("attested": the digests of this program, of the plan and, as
+/// far as the plan has them, of subjects and meshes) and a digest of all of it (verify/shard/seal.h).
+std::string attested(std::string report, const nlohmann::json& plan);
+
 /// The reports of these commands; to `json` they go as with --json. Return the exit code.
 int report_mutants(const verify::PartReport& done, const std::string& json);
 int report_proofs(const verify::PartReport& done, const std::string& json, bool each);

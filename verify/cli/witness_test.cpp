@@ -13,7 +13,7 @@ namespace limitcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using nlohmann::json;
 
 class WitnessFiles : public CommandTest {
  protected:
@@ -22,49 +22,43 @@ class WitnessFiles : public CommandTest {
     int count = 0;
     for (const auto& entry : fs::directory_iterator(folder_ / folder)) {
       ++count;
-      const Json json = Json::parse(read(entry.path() / "witness.json"));
-      const std::string check = json.at("check");
-      const std::string again = json.at("audit");
+      const json witness = json_in(entry.path() / "witness.json");
+      const std::string check = witness.at("check");
+      const std::string again = witness.at("audit");
       EXPECT_TRUE(again.starts_with("limitcheck ")) << again;
       const Outcome audit = run(again.substr(11) + " --json again.json");
       EXPECT_EQ(audit.code, 1) << again << audit.err;
       bool found = false;
-      const Json repeated = json_in("again.json");
+      const json repeated = json_in("again.json");
       for (const auto& row : repeated["results"])
-        found = found || (row["check"] == check && row["status"] == json.at("status"));
+        found = found || (row["check"] == check && row["status"] == witness.at("status"));
       EXPECT_TRUE(found) << check << ": " << again;
-      if (!json.contains("eval")) continue;
-      const std::string eval = json.at("eval");
+      if (!witness.contains("eval")) continue;
+      const std::string eval = witness.at("eval");
       const Outcome point = run(eval.substr(11) + " --json");
       EXPECT_EQ(point.code, 0) << eval << point.err;
-      EXPECT_EQ(Json::parse(point.out)["position"], json.at("limit_position")) << eval;
-      EXPECT_EQ(Json::parse(point.out)["normal"], json.at("limit_normal")) << eval;
+      EXPECT_EQ(json::parse(point.out)["position"], witness.at("limit_position")) << eval;
+      EXPECT_EQ(json::parse(point.out)["normal"], witness.at("limit_normal")) << eval;
     }
     return count;
+  }
+  // Audits, and shows each finding again. Returns how many there are.
+  int findings_shown_again(const std::string& arguments) {
+    int findings = 0;
+    const json report =
+        json_of("audit " + arguments + " --depth 2 --level quick --witnesses found --json -", 1);
+    for (const auto& row : report["results"]) findings += row["status"] == "finding";
+    EXPECT_EQ(expect_reproducible("found"), findings) << arguments;
+    return findings;
   }
 };
 
 TEST_F(WitnessFiles, OfEveryFindingShowItAgain) {
-  const Outcome o =
-      run("audit opensubdiv-bfr bumpy:20 fan:1 --depth 2 --level quick --witnesses found --json -");
-  EXPECT_EQ(o.code, 1) << o.err;
-  int findings = 0;
-  const Json report = Json::parse(o.out);
-  for (const auto& row : report["results"]) findings += row["status"] == "finding";
-  EXPECT_EQ(expect_reproducible("found"), findings);
-  EXPECT_GT(findings, 4);
+  EXPECT_GT(findings_shown_again("opensubdiv-bfr bumpy:20 fan:1"), 4);
 }
 
 TEST_F(WitnessFiles, AreWrittenWhereTheSurroundingsOfAFaceTouchThemselves) {
-  const Outcome o =
-      run("audit model:mutation=mean_facet_normals torus:3:3 random:360:60 --depth 2 --level quick "
-          "--witnesses found --json -");
-  EXPECT_EQ(o.code, 1) << o.err;
-  int findings = 0;
-  const Json report = Json::parse(o.out);
-  for (const auto& row : report["results"]) findings += row["status"] == "finding";
-  EXPECT_EQ(expect_reproducible("found"), findings);
-  EXPECT_GE(findings, 2);
+  EXPECT_GE(findings_shown_again("model:mutation=mean_facet_normals torus:3:3 random:360:60"), 2);
 }
 
 // Without the option the command would mean the polygons, and be about another surface.
@@ -77,7 +71,7 @@ TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
   EXPECT_EQ(o.code, 1) << o.err;
   EXPECT_GT(expect_reproducible("found"), 2);
   int commands = 0;
-  const Json report = Json::parse(o.out);
+  const json report = json::parse(o.out);
   for (const auto& row : report["results"]) {
     if (row["status"] != "finding" || row["witness"]["difference"].is_null()) continue;
     ++commands;
@@ -93,7 +87,7 @@ TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
     ASSERT_EQ(point.code, 0) << eval << point.err;
     if (row["check"] != "positions") continue;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(std::stod(Json::parse(point.out)["position"][axis].get<std::string>()),
+      EXPECT_NEAR(std::stod(json::parse(point.out)["position"][axis].get<std::string>()),
                   row["witness"]["expected"][axis].get<double>(), 1e-14)
           << eval;
   }
@@ -103,18 +97,11 @@ TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
 // Quads, polygons, and triangles that are meant for Catmull-Clark's scheme.
 TEST_F(WitnessFiles, OfCatmullClarksSurfacesShowTheFindingAgain) {
   for (const char* meshes : {"quad-cube prism:5 mixed-pawn:5", "octahedron --scheme catmull-clark"}) {
-    const Outcome o = run(std::string("audit quad-model:mutation=face_weight_1e-6 ") + meshes +
-                          " --depth 2 --level quick --witnesses found --json -");
-    EXPECT_EQ(o.code, 1) << o.err;
-    int findings = 0;
-    const Json report = Json::parse(o.out);
-    for (const auto& row : report["results"]) findings += row["status"] == "finding";
-    EXPECT_EQ(expect_reproducible("found"), findings) << meshes;
-    EXPECT_GT(findings, 0) << meshes;
+    EXPECT_GT(findings_shown_again(std::string("quad-model:mutation=face_weight_1e-6 ") + meshes), 0);
     for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
-      const Json json = Json::parse(read(entry.path() / "witness.json"));
-      EXPECT_EQ(json.at("scheme"), "catmull-clark");
-      EXPECT_TRUE(says(json.at("audit").get<std::string>(), " --scheme catmull-clark"));
+      const json witness = json_in(entry.path() / "witness.json");
+      EXPECT_EQ(witness.at("scheme"), "catmull-clark");
+      EXPECT_TRUE(says(witness.at("audit").get<std::string>(), " --scheme catmull-clark"));
     }
     fs::remove_all(folder_ / "found");
   }
@@ -126,9 +113,9 @@ TEST_F(WitnessFiles, NameTheFamilyOfWeights) {
   EXPECT_EQ(o.code, 1) << o.err;
   EXPECT_GT(expect_reproducible("found"), 0);
   for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
-    const Json json = Json::parse(read(entry.path() / "witness.json"));
-    if (json.at("check") != "positions") continue;
-    EXPECT_TRUE(says(json.at("eval").get<std::string>(), "--weights warren"));
+    const json witness = json_in(entry.path() / "witness.json");
+    if (witness.at("check") != "positions") continue;
+    EXPECT_TRUE(says(witness.at("eval").get<std::string>(), "--weights warren"));
   }
 }
 
@@ -141,28 +128,21 @@ TEST_F(WitnessFiles, CarryTheDepthsOfTheFaces) {
 }
 
 TEST_F(WitnessFiles, AreSmallAfterShrinking) {
-  const Outcome o =
-      run("audit model:mutation=weight_1e-6_at_valence_5 random:5:300 --depth 2 --level quick --shrink 60");
-  EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_TRUE(says(o.err, "shrunk to"));
-  EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
-  for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
-    EXPECT_LE(data::read_mesh(entry.path() / "control.obj").faces.size(), 8U) << entry.path();
-}
-
-TEST_F(WitnessFiles, OfPolygonsAreSmallAfterShrinking) {
-  const Outcome o = run(
-      "audit quad-model:mutation=weight_1e-6_at_valence_5 mixed:4:300 --depth 2 --level quick --shrink 60");
-  EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_TRUE(says(o.err, "shrunk to"));
-  EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
-  for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
-    EXPECT_LE(data::read_mesh(entry.path() / "control.obj").faces.size(), 8U) << entry.path();
+  for (const char* audited : {"model:mutation=weight_1e-6_at_valence_5 random:5:300",
+                              "quad-model:mutation=weight_1e-6_at_valence_5 mixed:4:300"}) {
+    const Outcome o = run(std::string("audit ") + audited + " --depth 2 --level quick --shrink 60");
+    EXPECT_EQ(o.code, 1) << o.err;
+    EXPECT_TRUE(says(o.err, "shrunk to"));
+    EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
+    for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))
+      EXPECT_LE(data::read_mesh(entry.path() / "control.obj").faces.size(), 8U) << entry.path();
+    fs::remove_all(folder_ / "limitcheck-witness");
+  }
 }
 
 TEST_F(WitnessFiles, ReproductionOfAQuickAuditIsQuick) {
   const Outcome o = run("audit opensubdiv-bfr bumpy:20 --depth 2 --level quick --json -");
-  const Json report = Json::parse(o.out);
+  const json report = json::parse(o.out);
   for (const auto& row : report["results"])
     if (row["status"] == "finding") {
       EXPECT_EQ(row["witness"]["reproduce"],

@@ -199,7 +199,8 @@ std::string to_json(const HuntReport& r, bool list_of_kinds) {
                   {"edge_kinds", list_of_kinds || r.shard.count > 1 ? Json(r.kinds) : Json(r.kinds.size())},
                   {"findings", findings},
                   {"seconds", r.seconds},
-                  {"incomplete", r.incomplete}};
+                  {"incomplete", r.incomplete},
+                  {"attested", r.attested}};
   return sealed(json, 1);
 }
 
@@ -213,8 +214,10 @@ HuntReport read_hunt_report(const std::string& text) try {
   json.at("shard").at("index").get_to(r.shard.index), json.at("shard").at("count").get_to(r.shard.count);
   json.at("cases").get_to(r.cases), json.at("next").get_to(r.next), json.at("judged").get_to(r.judged);
   if (json.at("edge_kinds").is_array()) json.at("edge_kinds").get_to(r.kinds);
+  if (!json.at("findings").is_array()) throw data::ArgumentError("its findings are no list");
   for (const auto& f : json.at("findings")) take(r.findings, finding_of(f));
   json.at("seconds").get_to(r.seconds), json.at("incomplete").get_to(r.incomplete);
+  r.attested = json.value("attested", nlohmann::json());
   return r;
 } catch (const Json::exception& error) {
   throw data::ArgumentError(fmt::format("this is no report of a hunt: {}", error.what()));

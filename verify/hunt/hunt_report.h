@@ -48,7 +48,8 @@ struct HuntReport {
   std::set<std::uint64_t> kinds;                // of edges (hunt_plan.h)
   std::map<std::string, HuntFinding> findings;  // by signature
   double seconds = 0;
-  std::string incomplete;  // "interrupted by SIGINT"; empty: all that was asked for
+  std::string incomplete;             // "interrupted by SIGINT"; empty: all that was asked for
+  nlohmann::json attested = nullptr;  // digests of the program, the plan and the subject
 
   /// The gravest first, then by signature.
   std::vector<const HuntFinding*> by_severity() const;

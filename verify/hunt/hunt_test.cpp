@@ -98,6 +98,11 @@ TEST(Hunt, ReportsAreReadAsTheyWereWritten) {
   for (const char* text :
        {"", "{}", "[]", "{\"program\": \"limitcheck audit\"}", "{\"program\": \"limitcheck hunt\"}"})
     EXPECT_THROW(read_hunt_report(text), data::ArgumentError) << text;
+  std::string no_list = to_json(hunt("of=sliding-window,fault=none", 1));
+  no_list = "{" + no_list.substr(no_list.find(',') + 1);  // its digest may lack
+  EXPECT_NO_THROW((void)read_hunt_report(no_list));
+  no_list.replace(no_list.find("\"findings\": []"), 14, "\"findings\": null");
+  EXPECT_THROW(read_hunt_report(no_list), data::ArgumentError) << "is no empty baseline";
 }
 
 TEST(LikelyCause, IsWhatProgramsCanTellApart) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "verify/row/commands.h"
+#include "verify/row/visible_text.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -49,7 +50,7 @@ std::string outcome(const Result& r) {
 
 std::string xml_text(const std::string& text) {
   std::string out;
-  for (const char c : text)
+  for (const char c : visible_text(text))
     if (c == '<')
       out += "&lt;";
     else if (c == '>')
@@ -60,7 +61,7 @@ std::string xml_text(const std::string& text) {
       out += "&quot;";
     else if (c == '\n' || c == '\t')
       out += ' ';
-    else if (static_cast<unsigned char>(c) >= 0x20)
+    else
       out += c;
   return out;
 }

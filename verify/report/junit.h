@@ -11,7 +11,7 @@ namespace limitcheck::verify {
 /// breakdowns errors; what is not supported, not run or waived is skipped; warnings pass and say so.
 std::string to_junit(const Report& report);
 
-/// Text for XML 1.0, which has no control characters but three, escaped or not: those are spaces, or left out.
+/// Visible text (verify/row/visible_text.h) for XML 1.0; new lines and tabs are spaces.
 std::string xml_text(const std::string& text);
 
 }  // namespace limitcheck::verify

@@ -12,6 +12,7 @@
 #include "data/building_blocks.h"
 #include "data/generators/awkward_meshes.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/every_neighbourhood.h"
 #include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
@@ -95,6 +96,15 @@ ControlMesh planned(std::uint64_t k, bool triangles) {
   const auto& all = planned_stars(triangles);
   require(k >= 1 && k <= all.size(), "there are stars 1 to " + std::to_string(all.size()));
   return star_mesh(parse_stars(all[k - 1].stars), triangles);
+}
+
+ControlMesh neighbourhoods(P p, bool triangles) {
+  if (p.at(0) < 3 || p.at(0) > 10 || p.at(1) > 63)
+    throw InputError("NAME_BAD_PARAMETER", "", 0, "MOST is 3 to 10, and KINDS up to 63");
+  const auto& all = every_neighbourhood(triangles, p.count(0), p.count(1));
+  if (p.at(2) < 1 || p.at(2) > all.size())
+    throw InputError("NAME_BAD_PARAMETER", "", 0, "there are meshes 1 to " + std::to_string(all.size()));
+  return star_mesh(all[p.at(2) - 1], triangles);
 }
 
 const std::vector<Entry>& entries() {
@@ -182,6 +192,13 @@ const std::vector<Entry>& entries() {
       {"stars:K", "vertices of many kinds amid their triangles, which an audit without meshes takes",
        [](P p) { return planned(p.at(0), true); }},
       {"quad-stars:K", "the same amid quads and other faces", [](P p) { return planned(p.at(0), false); }},
+      {"neighbourhoods:MOST:KINDS:K",
+       "mesh K of those with every tagged neighbourhood up to valence MOST, of sharp edges of these KINDS, "
+       "as "
+       "limitcheck audit --exhaustive takes them",
+       [](P p) { return neighbourhoods(p, true); }},
+      {"quad-neighbourhoods:MOST:KINDS:K", "the same amid quads and other faces",
+       [](P p) { return neighbourhoods(p, false); }},
       {"crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number",
        [](P p) { return crowd(p.count(0)); }},
       {"quad-crowd:N", "N cubes of quads apart: beyond 8192 the same",

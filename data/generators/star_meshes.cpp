@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "data/building_blocks.h"
+#include "data/generators/awkward_meshes.h"
 #include "data/sharpness_classes.h"
 #include "data/splitmix64.h"
 
@@ -58,8 +59,9 @@ Star parse_star(std::string_view text) {
   star.open = in.take('o');
   star.bare = in.take('r');
   if (in.take('v')) star.own = in.letter();
-  if (in.take('w')) star.beyond = in.letter();
+  if (in.take('w')) star.beyond = in.take('=') ? '=' : in.letter();
   if (in.take('z')) star.aside = in.letter();
+  if (in.take('y')) star.across = in.letter();
   while (!in.empty()) {
     if (in.has_number() && !star.spokes.empty()) {
       star.spokes.append(std::max<std::uint64_t>(in.number(100'000), 1) - 1, star.spokes.back());
@@ -89,7 +91,7 @@ class Builder {
     for (double& x : bend_) x = 0.3 * varied(1);
     height_ = height;
     const std::int32_t centre = point(0, 0);
-    std::vector<std::int32_t> end(spokes), far(spokes, -1);
+    std::vector<std::int32_t> end(spokes), far(spokes, -1), before(spokes, -1), after(spokes, -1);
     for (std::size_t i = 0; i < spokes; ++i) end[i] = point(1, angle(i, 0));
     if (!star.bare)
       for (std::size_t i = 0; i < spokes; ++i) far[i] = point(2, angle(i, 0));
@@ -103,13 +105,15 @@ class Builder {
       std::vector<std::int32_t> face{centre};
       face.insert(face.end(), outline.begin(), outline.end());
       mesh_.faces.push_back(face);
+      after[i] = outline[1], before[next] = outline[outline.size() - 2];
       if (!star.bare) surround(i, outline, far[i], far[next]);
     }
-    tag(star, centre, end, far);
+    tag(star, centre, end, {far, before, after});
   }
   /// The second rings.
   void finish() {
     for (const auto& face : outer_) mesh_.faces.push_back(face);
+    outer_.clear();
     require(mesh_.faces.size() <= kMostFacesOfStars, "the stars have more than a million faces");
   }
 
@@ -160,8 +164,12 @@ class Builder {
     }
   }
 
+  // What the ends of spokes are joined to, beside the centre.
+  struct Around {
+    std::vector<std::int32_t> far, before, after;
+  };
   void tag(const Star& star, std::int32_t centre, const std::vector<std::int32_t>& end,
-           const std::vector<std::int32_t>& far) {
+           const Around& around) {
     Sharpness& sharp = mesh_.sharpness;
     const auto edge = [&](std::int32_t a, std::int32_t b, char letter) {
       if (letter != '.' && b >= 0) sharp.edges.push_back({a, b, sharpness_of(letter)});
@@ -170,9 +178,11 @@ class Builder {
     for (std::size_t i = 0; i < star.spokes.size(); ++i) {
       const bool border = star.open && (i == 0 || i + 1 == star.spokes.size());
       edge(centre, end[i], star.spokes[i]);
-      if (star.spokes[i] != '.') edge(end[i], far[i], star.beyond);
+      if (star.spokes[i] != '.')
+        edge(end[i], around.far[i], star.beyond == '=' ? star.spokes[i] : star.beyond);
       if (star.spokes[i] != '.' || border || !aside) continue;
-      edge(end[i], far[i], star.aside);
+      edge(end[i], around.far[i], star.aside);
+      edge(end[i], around.before[i], star.across), edge(end[i], around.after[i], star.across);
       aside = false;
     }
     if (star.own != '.') sharp.vertices.push_back({centre, sharpness_of(star.own)});
@@ -186,11 +196,20 @@ class Builder {
   std::vector<std::vector<std::int32_t>> outer_;
 };
 
+// Tetrahedra or cubes until there are so many vertices.
+void fill(ControlMesh& mesh, std::size_t vertices, bool triangles) {
+  if (mesh.positions.size() >= vertices) return;
+  const std::size_t first = mesh.positions.size(), each = triangles ? 4 : 8;
+  append(mesh, crowd(static_cast<int>((vertices - first + each - 1) / each), !triangles),
+         {0, 0, 64 * static_cast<double>(vertices / 0x8000)});  // above those before
+}
+
 }  // namespace
 
 std::string Star::text() const {
   std::string out = std::string(open ? "o" : "") + (bare ? "r" : "");
-  for (const auto& [word, letter] : {std::pair{'v', own}, std::pair{'w', beyond}, std::pair{'z', aside}})
+  for (const auto& [word, letter] :
+       {std::pair{'v', own}, std::pair{'w', beyond}, std::pair{'z', aside}, std::pair{'y', across}})
     if (letter != '.') out += {word, letter};
   for (std::size_t i = 0; i < spokes.size();) {
     std::size_t same = i;
@@ -203,8 +222,8 @@ std::string Star::text() const {
 }
 
 std::string Stars::text() const {
-  std::string out =
-      std::to_string(seed) + (chaikin ? "c" : "") + (corners_held ? "h" : "") + (smooth_triangles ? "s" : "");
+  std::string out = std::to_string(seed) + (chaikin ? "c" : "") + (corners_held ? "h" : "") +
+                    (smooth_triangles ? "s" : "") + (thrice ? "t" : "");
   for (std::size_t k = 0; k < stars.size(); ++k) out += (k == 0 ? ":" : "_") + stars[k].text();
   return out;
 }
@@ -218,7 +237,8 @@ Stars parse_stars(const std::string& text) {
   stars.chaikin = in.take('c');
   stars.corners_held = in.take('h');
   stars.smooth_triangles = in.take('s');
-  require(in.empty(), "behind the seed there are c, h and s at most");
+  stars.thrice = in.take('t');
+  require(in.empty(), "behind the seed there are c, h, s and t at most");
   for (std::size_t begin = colon + 1; begin <= text.size();) {
     const std::size_t stop = std::min(text.find('_', begin), text.size());
     stars.stars.push_back(parse_star(std::string_view(text).substr(begin, stop - begin)));
@@ -233,8 +253,12 @@ ControlMesh star_mesh(const Stars& stars, bool triangles) {
   mesh.sharpness.boundary = stars.corners_held ? Boundary::kEdgeAndCorner : Boundary::kEdge;
   mesh.sharpness.triangles = stars.smooth_triangles ? TriangleRule::kSmooth : TriangleRule::kCatmark;
   Builder builder(mesh, triangles, stars.seed);
-  for (std::size_t k = 0; k < stars.stars.size(); ++k) builder.add(stars.stars[k], static_cast<double>(k));
-  builder.finish();
+  for (const std::size_t from : {0U, 0x8000U, 0x10000U}) {
+    if (from > 0 && !stars.thrice) break;
+    fill(mesh, from, triangles);
+    for (std::size_t k = 0; k < stars.stars.size(); ++k) builder.add(stars.stars[k], static_cast<double>(k));
+    builder.finish();
+  }
   return mesh;
 }
 

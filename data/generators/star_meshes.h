@@ -17,18 +17,19 @@ namespace limitcheck::data {
 ///   open     the vertex lies on the boundary, and the first and the last spoke with it
 ///   bare     nothing lies beyond its faces; otherwise there is a second ring of faces
 ///   own      of the vertex itself
-///   beyond   of the edge that goes on straight from the end of each spoke that is sharp
-///   aside    of the edge that goes on from the end of the first spoke inside that is smooth
+///   beyond   of the edge that goes on straight from the end of each spoke that is sharp; '=': as the spoke
+///   aside    of the edge that goes on from the end of the first spoke inside that is smooth ..
+///   across   .. and of the two edges beside it there, which cross that spoke's way
 ///   corners  of its faces, from that between spokes 0 and 1 on; the others have 3 or 4
 struct Star {
   std::string spokes;
   bool open = false, bare = false;
-  char own = '.', beyond = '.', aside = '.';
+  char own = '.', beyond = '.', aside = '.', across = '.';
   std::vector<int> corners = {};
 
   std::size_t faces() const { return spokes.size() - (open ? 1 : 0); }
-  /// "ovBwJ.3i/5-3": o open, r bare, v own, w beyond, z aside, the spokes (a number repeats the one before
-  /// it), and behind a slash the corners.
+  /// "ovBwJ.3i/5-3": o open, r bare, v own, w beyond, z aside, y across, the spokes (a number repeats the one
+  /// before it), and behind a slash the corners.
   std::string text() const;
 };
 
@@ -36,9 +37,11 @@ struct Star {
 struct Stars {
   std::uint64_t seed = 1;  ///< of the positions
   bool chaikin = false, corners_held = false, smooth_triangles = false;
+  /// They are there three times, from vertices 0, 32768 and 65536 on; tetrahedra or cubes fill the gaps.
+  bool thrice = false;
   std::vector<Star> stars = {};
 
-  /// "SEED[c][h][s]:STAR[_STAR...]".
+  /// "SEED[c][h][s][t]:STAR[_STAR...]".
   std::string text() const;
 };
 
@@ -57,6 +60,7 @@ struct PlannedStars {
   const char* stars;   ///< as parse_stars() reads it
   int depth;           ///< at which the audit asks for it ..
   const char* depths;  ///< .. and how the depths of its faces are chosen, as --depths takes it
+  bool relations;      ///< whether the relations are looked at, too
 };
 /// Found by `limitcheck_make_plan` (verify/audit/cover.h).
 const std::vector<PlannedStars>& planned_stars(bool triangles);

@@ -14,6 +14,7 @@
 
 #include "verify/checks/check_oracle.h"
 #include "verify/checks/checks.h"
+#include "verify/evidence/cells.h"
 #include "verify/evidence/vector.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
@@ -126,9 +127,8 @@ void Auditor::step(const std::string& subject, const std::string& mesh, std::str
 }
 
 bool Auditor::related(const AuditMesh& mesh, const data::ControlMesh& judged) const {
-  const std::size_t faces = std::max(judged.faces.size(), judged.faces.corners().size() / 4);
-  return mesh.relations &&
-         (level_ == Level::kThorough || (level_ == Level::kStandard && faces <= kRelationFaces));
+  return mesh.relations && (level_ == Level::kThorough ||
+                            (level_ == Level::kStandard && size_for_relations(judged) <= kRelationFaces));
 }
 
 std::vector<std::string_view> Auditor::rows_of_relations(const AuditMesh& mesh,

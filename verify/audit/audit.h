@@ -31,7 +31,6 @@ enum class Level {
               // and on larger ones whether a deep request is answered with the same bits
   kThorough   // the relations on every mesh
 };
-inline constexpr std::size_t kRelationFaces = 200;
 
 /// Audits subjects on control meshes; keeps the reference of the last mesh for the next subject.
 class Auditor {

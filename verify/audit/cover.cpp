@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -21,7 +22,12 @@ namespace {
 
 constexpr double kCaseCost = 3000;  // of a case beside its points, in points
 constexpr double kMostCost = 30000;
-constexpr int kMeshes = 5, kStars = 30, kCandidates = 10, kPatience = 150;
+constexpr int kMeshes = 5, kStars = 30, kCandidates = 10, kPatience = 300;
+constexpr double kRelationsCost = 10;   // of all requests of the relations, in requests that are judged
+constexpr double kFarCost = 25000;      // of handing over a mesh of large indices
+constexpr std::size_t kSampled = 3000;  // faces of a mesh of large indices
+constexpr std::array<std::size_t, 2> kLongClasses{9, 10};  // "2 to 4" and "4"
+constexpr std::size_t kWeakClass = 1;                      // "1/16 to 1"
 constexpr int kNone = -1;
 
 struct Ways {
@@ -89,12 +95,15 @@ class Cover {
   void judge(Try& one) const {
     const bool loop = scheme_ == data::Scheme::kLoop;
 
-    AuditMesh m{"", data::star_mesh(one.planned.stars, loop)};
+    data::Stars stars = one.planned.stars;
+    stars.thrice = false;  // the filling is the same for all
+    AuditMesh m{"", data::star_mesh(stars, loop)};
+    m.relations = one.planned.relations;
     m.asked_scheme = scheme_;
     m.depth = one.planned.depth;
     m.depths = one.planned.depths;
     m.face_depth = face_depths(parse_depths(m.depths), m.mesh, m.depth);
-    one.looked = look_at(m);
+    one.looked = one.planned.stars.thrice ? look_thrice(m) : look_at(m);
     one.gain = one.cost = 0;
     for (const std::size_t k : missing_) one.gain += one.looked.cells[k] ? 1 : 0;
     for (std::size_t f = 0; f < m.mesh.faces.size(); ++f) {
@@ -104,9 +113,33 @@ class Cover {
         one.cost += std::ldexp(loop ? 0.5 : corners == 4 ? 1.0 : static_cast<double>(corners) / 4, 2 * depth);
     }
     one.cost += static_cast<double>(m.mesh.faces.size());
+    if (one.planned.stars.thrice) one.cost += kFarCost;
+    if (one.planned.relations) one.cost = kRelationsCost * (one.cost + kCaseCost);
+    if (one.planned.relations && size_for_relations(m.mesh) > kRelationFaces) one.gain = 0;
     if (!can(one.looked.needs)) one.gain = 0;
     // By Catmull-Clark's scheme and not by Loop's.
     if (!loop && m.mesh.faces.are_triangles()) one.gain = 0;
+  }
+
+  // What it looks at behind more vertices than 15 and 16 bits number.
+  Looked look_thrice(const AuditMesh& m) const {
+    Looked looked{sharp_kinds(m.mesh, scheme_) | kNeedsDepths, CellSet(cells(scheme_).size())};
+    for (const auto& found : neighbourhoods(m))
+      for (const std::size_t index : {0U, 2U, 3U}) {
+        std::vector<std::uint16_t> far = found;
+        for (std::uint16_t& f : far) {
+          const auto [axis, k] = on_axis(f);
+          if (axis == Axis::kIndex) f = static_cast<std::uint16_t>(f - k + std::max(k, index));
+          if (axis == Axis::kComponents) f = static_cast<std::uint16_t>(f - k + 1);
+        }
+        add_cells(looked.cells, far, scheme_);
+      }
+    return looked;
+  }
+
+  static double most_cost(const Try& one) {
+    return one.planned.relations ? kRelationsCost * kMostCost
+                                 : kMostCost + (one.planned.stars.thrice ? kFarCost : 0);
   }
 
   Try mesh() {
@@ -118,6 +151,8 @@ class Cover {
         scheme_ == data::Scheme::kCatmullClark && can(LC_SHARP_SMOOTH_TRIANGLES) && chance(0.4);
     const Ways& way = kWays[below(can(kNeedsDepths) ? kWays.size() : kUniformWays)];
     best.planned.depth = way.depth;
+    best.planned.relations = way.depth == 2 && chance(0.4);
+    best.planned.stars.thrice = can(kNeedsDepths) && !best.planned.relations && way.depth == 1 && chance(0.5);
     if (way.kind != std::string("uniform"))
       best.planned.depths =
           fmt::format("random:{}{}", below(100), way.kind == std::string("visible") ? ":visible" : "");
@@ -129,7 +164,7 @@ class Cover {
         Try one = best;
         one.planned.stars.stars.push_back(*star);
         judge(one);
-        if (one.cost <= kMostCost && one.gain > best.gain &&
+        if (one.cost <= most_cost(one) && one.gain > best.gain &&
             (!next || (one.gain - best.gain) / (200 + one.cost - best.cost) >
                           (next->gain - best.gain) / (200 + next->cost - best.cost)))
           next = std::move(one);
@@ -157,10 +192,11 @@ class Cover {
     const auto want = [&](Axis a) { return wish[static_cast<std::size_t>(a)]; };
     const auto is_not = [&](Axis a, bool second) { return want(a) != kNone && want(a) != (second ? 1 : 0); };
     const bool uniform = in.planned.depths == "uniform";
-    if (is_not(Axis::kCreasing, in.planned.stars.chaikin) ||
+    if ((want(Axis::kCreasing) != kNone && (want(Axis::kCreasing) > 0) != in.planned.stars.chaikin) ||
         is_not(Axis::kBoundary, in.planned.stars.corners_held) ||
         is_not(Axis::kTriangles, in.planned.stars.smooth_triangles) ||
-        (want(Axis::kNeighbour) > 0 && uniform) ||
+        (want(Axis::kNeighbour) > 0 && uniform) || (want(Axis::kAsked) == 0 && !in.planned.relations) ||
+        (want(Axis::kIndex) > 1 && !in.planned.stars.thrice) ||
         (want(Axis::kDepth) != kNone &&
          (uniform ? want(Axis::kDepth) != in.planned.depth : want(Axis::kDepth) > in.planned.depth)))
       return std::nullopt;
@@ -173,7 +209,8 @@ class Cover {
     const auto or_else = [&](Axis a, int value) { return want(a) != kNone ? want(a) : value; };
     constexpr int kInfiniteClass = data::kFirstInfiniteClass;
     data::Star star;
-    const int size = want(Axis::kFaces);
+    const bool alone = want(Axis::kBoundary) != kNone;  // the vertex of one face
+    const int size = alone && want(Axis::kFaces) == kNone ? 0 : want(Axis::kFaces);
     const int faces_wanted =
         size == kNone ? 0 : least_of(static_cast<std::size_t>(size)) + (size == 20 ? 28 : 0);
     star.open = want(Axis::kBoundary) != kNone || (faces_wanted > 0 && faces_wanted < 3) ||
@@ -187,7 +224,11 @@ class Cover {
     if (sharpness >= kInfiniteClass) infinite = std::max(infinite, 1);
     if ((sharpness != kNone && sharpness < kInfiniteClass) ||
         (want(Axis::kCreasing) != kNone && want(Axis::kSemi) == kNone))
-      semi = std::max(semi, 1);
+      semi = std::max(semi, want(Axis::kCreasing) < 2 ? 1 : sharpness == kNone ? 2 : 3);
+    const bool between = want(Axis::kAround) == 4, weak = want(Axis::kAround) == 5;
+    if (weak && want(Axis::kSemi) == kNone)
+      semi = std::max(semi, sharpness != kNone || want(Axis::kCreasing) == 3 ? 3 : 2);
+    if (between && want(Axis::kInfinite) == kNone) infinite = std::max(infinite, 2);
     if (want(Axis::kAround) >= 2 && infinite + semi == 0)
       (want(Axis::kSemi) == kNone && can(LC_SHARP_SEMI) ? semi : infinite) = 1;
 
@@ -203,7 +244,7 @@ class Cover {
     if (want(Axis::kSemi) == 3 && inner > infinite + 3)
       semi = 3 + static_cast<int>(
                      below(std::min<std::uint64_t>(12, static_cast<std::uint64_t>(inner - infinite - 2))));
-    const int tags = infinite + semi, aside = want(Axis::kAround) == 1 ? 1 : 0;
+    const int tags = infinite + semi, aside = want(Axis::kAround) == 1 || between ? 1 : 0;
     const int least = std::max(star.open ? 1 : 3, tags + aside + (star.open ? 1 : 0));
     const int faces = faces_wanted > 0 ? faces_wanted : least + static_cast<int>(below(4));
     if (faces < least) return std::nullopt;
@@ -217,8 +258,13 @@ class Cover {
     for (int k = 0; k < tags; ++k) {
       std::size_t c =
           k < infinite ? kInfiniteClass + below(2) : (first + static_cast<std::size_t>(k)) % finite;
+      if (weak && k == infinite + 1) c = kWeakClass;
+      if (weak && k == infinite) c = kLongClasses[0];
+      if (weak && k == infinite + 2) c = kLongClasses[1];
+      if (want(Axis::kCreasing) == 3 && k >= infinite && k < infinite + 2)
+        c = weak && k > infinite ? kWeakClass : kLongClasses[static_cast<std::size_t>(k - infinite)];
       if (sharpness >= kInfiniteClass && k == 0) c = static_cast<std::size_t>(sharpness);
-      if (sharpness != kNone && sharpness < kInfiniteClass && k == infinite)
+      if (sharpness != kNone && sharpness < kInfiniteClass && k == tags - 1)
         c = static_cast<std::size_t>(sharpness);
       star.spokes[places[static_cast<std::size_t>(k)]] = data::kSharpnessClasses[c].letter;
     }
@@ -236,13 +282,15 @@ class Cover {
     if (own > 0) star.own = any(own == 1, own == 2);
     if (want(Axis::kOwnClass) != kNone)
       star.own = data::kSharpnessClasses[static_cast<std::size_t>(want(Axis::kOwnClass))].letter;
-    if (tags > 0 && (want(Axis::kAround) >= 2 || chance(0.35)))
+    if (between) star.across = any(false, true);
+    if (tags > 0 && (want(Axis::kAround) == 2 || want(Axis::kAround) == 3 || weak || chance(0.35)))
       star.beyond = want(Axis::kAround) == 2 || (want(Axis::kAround) != 3 && chance(0.5))
                         ? star.spokes[places[below(static_cast<std::uint64_t>(tags))]]
                         : any_edge();
-    if (aside > 0) star.aside = any_edge();
-    star.bare = star.beyond == '.' && star.aside == '.' && (faces > 16 || chance(0.7));
-    if (faces > 32) star.bare = true, star.beyond = star.aside = '.';
+    if (weak) star.beyond = data::kSharpnessClasses[kLongClasses[1]].letter;
+    if (aside > 0 && !between) star.aside = any_edge();
+    star.bare = star.beyond == '.' && star.aside == '.' && star.across == '.' && (faces > 16 || chance(0.7));
+    if (faces > 32) star.bare = true, star.beyond = star.aside = star.across = '.';
     if (scheme_ == data::Scheme::kCatmullClark) {
       if (const int c = want(Axis::kCorners); c != kNone) {
         star.corners.push_back(least_of(static_cast<std::size_t>(c) + 2));
@@ -269,6 +317,8 @@ AuditMesh made(const PlannedCase& planned) {
   m.face_depth = face_depths(parse_depths(planned.depths), m.mesh, planned.depth);
   m.depths = planned.depths;
   m.relations = planned.relations;
+  if (m.mesh.positions.size() > 0x8000 && m.depth > 0)
+    m.sample = std::make_shared<MeshSample>(m.mesh, kSampled, 1);
   return m;
 }
 
@@ -288,7 +338,7 @@ const std::vector<std::int32_t>& steps_of_ability() {
 Covered covered_by(const std::vector<Looked>& known, data::Scheme scheme, std::int32_t ability) {
   Covered result{CellSet(cells(scheme).size()), CellSet(cells(scheme).size())};
   for (std::size_t k = 0; k < result.wanted.size(); ++k)
-    result.wanted[k] = (cells(scheme)[k].needs() & ~(ability | kNeedsBoundary)) == 0;
+    result.wanted[k] = (cells(scheme)[k].needs() & ~(ability | kNeedsBoundary | kNeedsRelations)) == 0;
   for (const Looked& one : known)
     if ((one.needs & ~ability) == 0) add_cells(result.looked, one.cells);
   return result;

@@ -18,6 +18,7 @@ struct PlannedCase {
   std::string depths = "uniform";
   bool relations = false;
 };
+/// Of meshes of more vertices than 15 bits number, a sample.
 AuditMesh made(const PlannedCase& planned);
 
 /// Stars (data/generators/star_meshes.h) and their depths.
@@ -25,6 +26,7 @@ struct CoveringStars {
   data::Stars stars;
   int depth = 0;
   std::string depths = "uniform";
+  bool relations = false;
 };
 /// What a case looks at, and what it asks of a subject (Feature::needs).
 struct Looked {

@@ -39,11 +39,13 @@ const std::vector<PlannedCase>& small_cases() {
       // Topology.
       {"handles:1", 2, "uniform", true},
       {"handles:2", 3},
+      {"handles:3", 1},
+      {"handled:1:quad-torus", 1},
       {"handled:2:quad-torus", 1},
       {"three-components", 3},
       {"touching-components", 3},
       {"stellated", 3, "uniform", true},
-      // Indices of more than 16 bits; as samples below, for subjects that cull.
+      // Indices of more than 16 bits, for subjects that do not cull.
       {"crowd:16500", 0},
       // More tags than a byte counts.
       {"star:1:rJ300", 1},
@@ -101,8 +103,8 @@ std::vector<AuditMesh> default_plan(Level level) {
   for (const bool triangles : {true, false}) {
     const auto& stars = data::planned_stars(triangles);
     for (std::size_t k = 0; k < stars.size(); ++k)
-      cases.push_back(
-          {fmt::format("{}:{}", triangles ? "stars" : "quad-stars", k + 1), stars[k].depth, stars[k].depths});
+      cases.push_back({fmt::format("{}:{}", triangles ? "stars" : "quad-stars", k + 1), stars[k].depth,
+                       stars[k].depths, stars[k].relations});
   }
   // The cases of a mesh together, so that its exact surface is there for all of them.
   std::vector<AuditMesh> plan;
@@ -112,11 +114,6 @@ std::vector<AuditMesh> default_plan(Level level) {
       for (std::size_t same = k; same < cases.size(); ++same)
         if (cases[same].mesh == cases[k].mesh) plan.push_back(made(cases[same]));
 
-  for (const PlannedCase& c : {PlannedCase{"crowd:18000", 2}, {"quad-crowd:10000", 1}}) {
-    AuditMesh large = made(c);
-    large.sample = std::make_shared<MeshSample>(large.mesh, 100, 1);
-    plan.push_back(std::move(large));
-  }
   return plan;
 }
 

@@ -95,19 +95,20 @@ TEST(DefaultPlan, ItsRandomFrameHasCulledFacesAndEveryDepthAndItsViewMoreThanOne
   }
 }
 
-TEST(DefaultPlan, ItsSamplesLookAtFacesWhoseIndicesNeedMoreThanSixteenBits) {
-  int samples = 0;
-  for (const AuditMesh& m : default_plan(Level::kStandard)) {
-    if (!m.sample) continue;
-    ++samples;
-    const auto faces = m.sample->faces();
-    const auto beyond = std::count_if(faces.begin(), faces.end(), [&](std::int32_t f) {
-      const auto corners = m.mesh.faces[static_cast<std::size_t>(f)];
-      return *std::max_element(corners.begin(), corners.end()) > 0xFFFF;
-    });
-    EXPECT_GE(beyond, 1) << m.name;
+TEST(DefaultPlan, ItsSamplesLookAtTaggedVerticesWhoseIndicesNeedMoreThanFifteenAndSixteenBits) {
+  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+    std::set<int> seen;
+    for (const AuditMesh& m : default_plan(Level::kStandard)) {
+      if (!m.sample || m.scheme() != scheme) continue;
+      const auto depth = m.sample->cull(std::vector<std::int32_t>(m.mesh.faces.size(), 0));
+      std::set<std::int32_t> shown;
+      for (std::size_t f = 0; f < depth.size(); ++f)
+        if (depth[f] == 0) shown.insert(m.mesh.faces[f].begin(), m.mesh.faces[f].end());
+      for (const data::SharpEdge& e : m.mesh.sharpness.edges)
+        if (shown.contains(e.a)) seen.insert(e.a >> 15);
+    }
+    EXPECT_TRUE(seen.contains(1) && seen.contains(2)) << name_of(scheme);
   }
-  EXPECT_EQ(samples, 2);
 }
 
 TEST(DefaultPlan, QuickLeavesOutTheWorstCases) {

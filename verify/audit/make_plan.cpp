@@ -20,7 +20,7 @@ int main(int count, char** arguments) {
     fmt::print("  static const std::vector<PlannedStars> {}{{\n",
                scheme == data::Scheme::kLoop ? "loop" : "quads");
     for (const CoveringStars& c : cover(scheme, known, seed))
-      fmt::print("      {{\"{}\", {}, \"{}\"}},\n", c.stars.text(), c.depth, c.depths);
+      fmt::print("      {{\"{}\", {}, \"{}\", {}}},\n", c.stars.text(), c.depth, c.depths, c.relations);
     fmt::print("  }};\n");
     for (const std::int32_t ability : steps_of_ability()) {
       const Covered now = covered_by(known, scheme, ability);

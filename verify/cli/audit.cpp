@@ -144,6 +144,8 @@ Job job_of(AuditArguments a) {
   if (a.must_refuse && (job.whole || a.meshes.empty()))
     throw data::ArgumentError("--must-refuse needs a subject and the files of broken meshes");
   if (a.threads <= 0) a.threads = tbb::info::default_concurrency();
+  if (a.exhaustive > 0 && (a.subject == "all" || !a.meshes.empty() || !a.plan))
+    throw data::ArgumentError("--exhaustive takes one subject, and chooses the meshes and depths itself");
   a.plan = a.plan && a.meshes.empty();
   job.arguments = std::move(a);
   return job;
@@ -334,6 +336,13 @@ void add_audit(CLI::App& app, int& exit_code) {
                        "Judge only about so many faces of each mesh, in patches around random vertices, and "
                        "cull the others: for meshes of millions of faces")
           ->type_name("FACES[:SEED]");
+  command
+      ->add_option(
+          "--exhaustive", a->exhaustive,
+          "Audit every tagged neighbourhood up to so many faces around a vertex, of what SUBJECT does, "
+          "at depths 0, 1 and 2; 8 takes about an hour a scheme")
+      ->type_name("VALENCE")
+      ->check(CLI::Range(3, 10));
   add_subject_settings(*command, a->options);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")
       ->check(CLI::Range(1, 4096));

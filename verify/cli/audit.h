@@ -65,7 +65,8 @@ struct AuditArguments {
   data::ReadOptions mesh;
   int depth = 4;
   std::string depths = "uniform", sample;
-  bool plan = true;  // what is to be looked at is not said: neither meshes nor depths
+  bool plan = true;    // what is to be looked at is not said: neither meshes nor depths
+  int exhaustive = 0;  // every neighbourhood of so many faces; 0: it is not asked for
   int threads = 0;
   ShardArguments shard;  // with the file of the report
   bool each_mesh = false, details = false, must_refuse = false;
@@ -87,8 +88,8 @@ struct AuditedMeshes {
   std::vector<verify::AuditMesh> list;
   std::string scheme_line;
 };
-/// Those that are named, or the default plan (verify/audit/default_plan.h): of both schemes what the subjects do or,
-/// with --scheme, of one. Throws data::ArgumentError and data::InputError.
+/// Those that are named, every neighbourhood (data/generators/every_neighbourhood.h) at depths 0, 1 and 2, or the
+/// default plan (verify/audit/default_plan.h): of both schemes what the subjects do or, with --scheme, of one. Throws data::ArgumentError and data::InputError.
 AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>& audited, Progress& progress);
 
 /// Throws data::ArgumentError if the points that the audit looks at take more memory than the machine has: hours of

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "data/error.h"
+#include "data/generators/every_neighbourhood.h"
 #include "data/generators/named_mesh.h"
 #include "data/io/whole_content.h"
 #include "data/worst_cases.h"
@@ -27,6 +28,7 @@
 #include "verify/row/rows.h"
 #include "verify/shard/seal.h"
 #include "verify/subject/face_domain.h"
+#include "verify/subject/subject.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -92,12 +94,39 @@ AuditedMeshes planned_meshes(const data::ReadOptions& options, verify::Level lev
   std::map<std::string, MeshScheme> by_name;  // the plan has a mesh at several depths
   for (verify::AuditMesh& m : result.list) {
     m.asked_scheme = asked;
+    m.relations = m.relations && level != verify::Level::kQuick;
     by_name[m.name] = {m.scheme(), 0};
   }
   std::vector<MeshScheme> chosen;
   for (const auto& [name, scheme] : by_name) chosen.push_back(scheme);
   result.scheme_line = scheme_line(chosen, options);
   if (audited.size() == 1 && !asked) result.scheme_line += left_out(plan, result.list, audited.front());
+  return result;
+}
+
+AuditedMeshes every_neighbourhood(const data::ReadOptions& options, int most,
+                                  const verify::AuditSubject& audited) {
+  static_assert(int{data::kWithSmoothTriangles} == int{LC_SHARP_SMOOTH_TRIANGLES} &&
+                int{data::kWithoutDarts} == int{LC_SHARP_NO_DARTS});
+  AuditedMeshes result;
+  std::vector<MeshScheme> chosen;
+  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+    const lc_capabilities c = verify::capabilities(*audited.subject, audited.options, scheme);
+    if (options.scheme.value_or(scheme) != scheme || !verify::does(c, scheme)) continue;
+    const bool triangles = scheme == data::Scheme::kLoop;
+    const std::int32_t kinds = c.sharp & 63;
+    chosen.push_back({scheme, 0});
+    const auto& all = data::every_neighbourhood(triangles, most, kinds);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      verify::AuditMesh m{fmt::format("{}{}", data::neighbourhoods_name(triangles, most, kinds), k + 1),
+                          data::star_mesh(all[k], triangles)};
+      m.asked_scheme = scheme;
+      m.depths = "uniform";
+      m.relations = m.asked_again = false;
+      for (m.depth = 0; m.depth <= std::min(2, c.max_depth); ++m.depth) result.list.push_back(m);
+    }
+  }
+  result.scheme_line = scheme_line(chosen, options);
   return result;
 }
 
@@ -115,6 +144,7 @@ AuditedMeshes open_meshes(const Job& job, const std::vector<verify::AuditSubject
     m.asked_scheme = opened.chosen.scheme;
     if (opened.chosen.cut > 0) m.triangulated = word(a.mesh.polygons);
     m.depth = a.depth;
+    m.relations = job.level() != verify::Level::kQuick;
     m.depths = job.depths.text();
     if (!a.must_refuse) {
       verify::require_range(name, m.mesh, true);
@@ -145,6 +175,8 @@ std::string content(const data::ControlMesh& mesh) {
 
 AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>& audited,
                         Progress& progress) {
+  if (job.arguments.exhaustive > 0)
+    return every_neighbourhood(job.arguments.mesh, job.arguments.exhaustive, audited.front());
   return job.arguments.plan ? planned_meshes(job.arguments.mesh, job.level(), audited)
                             : open_meshes(job, audited, progress);
 }

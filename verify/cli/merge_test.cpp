@@ -61,6 +61,30 @@ TEST_F(Merge, AuditsAreTheWhole) {
   EXPECT_GT(report["seconds"], 0);
 }
 
+TEST_F(Merge, OfExhaustiveAuditsNamesTheNeighbourhoodThatIsWrong) {
+  const std::string faulty =
+      "audit faulty --option fault=crease_of_valence_3,of=row-stream --scheme loop --exhaustive 3 ";
+  EXPECT_EQ(run(faulty + "--json whole.json").code, 1);
+  EXPECT_EQ(in_parts(faulty, 3).code, 1);
+  EXPECT_EQ(without_times("merged.json"), without_times("whole.json"));
+  const json wrong = json::parse(read("merged.json"))["exhaustive"].at(0);
+  EXPECT_FALSE(wrong["right"].get<bool>());
+  EXPECT_EQ(wrong["looked_at"], wrong["neighbourhoods"]);
+  for (const json& star : wrong["examples"])
+    EXPECT_NE(star.get<std::string>().find("w=.JJ"), std::string::npos) << star;
+  const Outcome right = run("audit row-stream --exhaustive 3 --json right.json");
+  EXPECT_EQ(right.code, 0);
+  for (const json& scheme : json::parse(read("right.json"))["exhaustive"]) {
+    EXPECT_TRUE(scheme["right"].get<bool>());
+    EXPECT_NE(right.out.find("right on every neighbourhood up to valence 3: " +
+                             std::to_string(scheme["neighbourhoods"].get<int>())),
+              std::string::npos);
+  }
+  EXPECT_EQ(run("audit row-stream octahedron --exhaustive 3").code, 2);
+  EXPECT_EQ(run("audit row-stream --depth 1 --exhaustive 3").code, 2);
+  EXPECT_EQ(run("audit all --exhaustive 3").code, 2);
+}
+
 TEST_F(Merge, MoreShardsThanMeshesAreTheWholeToo) {
   const std::string all = "audit sliding-window octahedron cube-quads --depth 1 --level quick ";
   EXPECT_EQ(run(all + "--json whole.json").code, 0);

@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <utility>
 
 #include "data/cut_out.h"
@@ -15,6 +17,30 @@ namespace limitcheck::verify {
 
 using data::ControlMesh;
 
+namespace {
+
+// How many faces, edges of a sharpness that ends and of one that does not, the vertex's own, and whether its
+// index has more than 15 and 16 bits.
+using Kind = std::array<float, 5>;
+using Kinds = std::map<Kind, std::vector<std::int32_t>>;
+
+Kinds kinds_of_vertices(const ControlMesh& mesh, const FacesAround& around) {
+  std::vector<Kind> kind(mesh.positions.size());
+  for (const data::SharpEdge& e : mesh.sharpness.edges)
+    for (const std::int32_t v : {e.a, e.b})
+      if (e.sharpness > 0) ++kind[v][e.sharpness < data::kInfiniteSharpness ? 1 : 2];
+  for (const data::SharpVertex& s : mesh.sharpness.vertices) kind[s.vertex][3] = s.sharpness;
+  Kinds all;
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(kind.size()); ++v) {
+    kind[v][0] = static_cast<float>(around.of(v).size());
+    kind[v][4] = static_cast<float>(std::min(v >> 15, 2));
+    all[kind[v]].push_back(v);
+  }
+  return all;
+}
+
+}  // namespace
+
 MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_t seed)
     : text_(fmt::format("{}:{}", faces, seed)),
       part_of_(whole.faces.size(), -1),
@@ -22,13 +48,17 @@ MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_
   const FacesAround around(whole.faces, whole.positions.size());
   data::SplitMix64 random(seed);
   faces = std::min(faces, whole.faces.size());
-  for (std::size_t chosen = 0; chosen < faces;) {
-    const auto v = static_cast<std::int32_t>(random.next() % whole.positions.size());
-    for (const std::int32_t f : around.of(v)) {
-      chosen += !in_patch_[f];
-      in_patch_[f] = true;
+  Kinds kinds = kinds_of_vertices(whole, around);
+  for (std::size_t chosen = 0; chosen < faces;)
+    for (auto& [kind, left] : kinds) {
+      if (left.empty() || chosen >= faces) continue;
+      std::swap(left[random.next() % left.size()], left.back());
+      for (const std::int32_t f : around.of(left.back())) {
+        chosen += !in_patch_[f];
+        in_patch_[f] = true;
+      }
+      left.pop_back();
     }
-  }
 
   for (std::size_t f = 0; f < in_patch_.size(); ++f)
     if (in_patch_[f]) faces_.push_back(static_cast<std::int32_t>(f));

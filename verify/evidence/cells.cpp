@@ -17,9 +17,14 @@ namespace limitcheck::verify {
 namespace {
 
 // Classes of numbers of faces and of corners: where tables of programs end.
-constexpr std::array kLeast{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 16, 17, 33, 34, 64, 65, 100, 101, 256};
+constexpr std::array<int, kSizeClasses> kLeast{1,  2,  3,  4,  5,  6,  7,  8,  9,   10,  11,
+                                               12, 13, 16, 17, 33, 34, 64, 65, 100, 101, 256};
 constexpr int kInfiniteEdges = 5, kSemiEdges = 3, kBoundaryEdges = 2, kDepths = 8;
 constexpr std::array<std::int64_t, 4> kIndexes{255, 32767, 65535, INT32_MAX}, kTagCounts{0, 12, 100, 255};
+constexpr std::size_t kFarIndex = 2;  // from this class on meshes are large
+constexpr std::int64_t kMostGenus = 3;
+constexpr std::size_t kBetweenCreases = 4, kWeakBetweenStrong = 5;  // on the axis kAround
+constexpr std::size_t kUnequal = 2;                                 // on the axis kCreasing, and what follows
 constexpr std::array kOwn{"no sharpness of its own", "a finite sharpness of its own", "held"};
 
 std::size_t class_of(std::int64_t count) {
@@ -87,11 +92,15 @@ struct Table {
     add("a smooth edge to another sharp vertex", LC_SHARP_CREASES);
     add("a sharp edge that goes on alike", LC_SHARP_CREASES);
     add("a sharp edge that goes on with another sharpness", LC_SHARP_CREASES | LC_SHARP_SEMI);
+    add("a smooth edge between two creases", LC_SHARP_CREASES);
+    add("an edge below 1 between semi-sharp ones above 2", LC_SHARP_SEMI);
     axis(Axis::kCreasing);
-    add("uniform creasing", LC_SHARP_SEMI), add("Chaikin's creasing", LC_SHARP_SEMI | LC_SHARP_CHAIKIN);
+    add("uniform creasing", LC_SHARP_SEMI);
+    for (const char* of : {"", " of unequal edges", " of unequal edges sharp for more than 2 steps"})
+      add(fmt::format("Chaikin's creasing{}", of), LC_SHARP_SEMI | LC_SHARP_CHAIKIN);
     axis(Axis::kBoundary);
-    add("boundary of edges", kNeedsBoundary),
-        add("boundary of edges and corners", kNeedsBoundary | LC_SHARP_CORNERS);
+    add("one face by a boundary of edges", kNeedsBoundary),
+        add("one face by a boundary of edges and corners", kNeedsBoundary | LC_SHARP_CORNERS);
     axis(Axis::kTriangles);
     add("a triangle by the ordinary rule"), add("a triangle by the smooth rule", LC_SHARP_SMOOTH_TRIANGLES);
     axis(Axis::kCorners);
@@ -120,7 +129,7 @@ struct Table {
                     (s > 0 ? LC_SHARP_SEMI : 0) | own_needs[own]);
     axis(Axis::kIndex);
     for (const std::int64_t most : kIndexes)  // large ones are looked at in a part of a mesh
-      add(fmt::format("an index up to {}", most), most > kIndexes[1] ? kNeedsDepths : 0);
+      add(fmt::format("an index up to {}", most), most >= kIndexes[kFarIndex] ? kNeedsDepths : 0);
     axis(Axis::kTags);
     add("a mesh without tags");
     for (const char* many : {"1 to 12", "13 to 100", "101 to 255", "more than 255"})
@@ -128,7 +137,9 @@ struct Table {
     axis(Axis::kComponents);
     add("a mesh of one component"), add("a mesh of several components");
     axis(Axis::kGenus);
-    for (const char* genus : {"0", "1", "2 and more"}) add(fmt::format("a mesh of genus {}", genus));
+    for (const char* genus : {"0", "1", "2", "3 and more"}) add(fmt::format("a mesh of genus {}", genus));
+    axis(Axis::kAsked);
+    add("asked for the relations, too", kNeedsRelations);
   }
 
  private:
@@ -153,19 +164,23 @@ struct Vertex {
 };
 
 // What of the whole mesh goes with each of its vertices.
-std::vector<std::uint16_t> of_mesh(const data::ControlMesh& mesh) {
+std::vector<std::uint16_t> of_mesh(const AuditMesh& audited) {
+  const data::ControlMesh& mesh = audited.mesh;
   const Table& t = table();
   std::int64_t tags = 0;
   for (const auto& e : mesh.sharpness.edges) tags += e.sharpness > 0 ? 1 : 0;
   for (const auto& v : mesh.sharpness.vertices) tags += v.sharpness > 0 ? 1 : 0;
   const data::MeshSummary s = data::summarise(mesh);
-  const auto genus = std::clamp<std::int64_t>((2 * s.components - s.boundary_loops - s.euler) / 2, 0, 2);
+  const auto genus =
+      std::clamp<std::int64_t>((2 * s.components - s.boundary_loops - s.euler) / 2, 0, kMostGenus);
   const auto many = std::lower_bound(kTagCounts.begin(), kTagCounts.end(), tags) - kTagCounts.begin();
   std::vector<std::uint16_t> list;
   for (const std::size_t f :
        {t.at(Axis::kTags, static_cast<std::size_t>(many)), t.at(Axis::kComponents, s.components > 1 ? 1 : 0),
         t.at(Axis::kGenus, static_cast<std::size_t>(genus))})
     list.push_back(static_cast<std::uint16_t>(f));
+  if (audited.relations && !audited.sample && size_for_relations(mesh) <= kRelationFaces)
+    list.push_back(static_cast<std::uint16_t>(t.at(Axis::kAsked, 0)));
   return list;
 }
 
@@ -178,11 +193,28 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
   };
   const auto is = [&](Axis x, Axis y) { return a.axis == x && b.axis == y; };
   const int faces = a.axis == Axis::kFaces ? kLeast[i] : 0;
-  if (b.axis == Axis::kVertex) return a.axis == Axis::kCreasing && VertexKind::of(j).semi > 0;
+  if (b.axis == Axis::kVertex)
+    return a.axis == Axis::kCreasing && VertexKind::of(j).semi >= (i < kUnequal ? 1 : 2);
+  // What a tessellator may keep by, and what its numbers of vertices may be too small for: large meshes take long.
+  if (b.axis == Axis::kAsked || (b.axis == Axis::kIndex && j >= kFarIndex)) {
+    if (a.axis == Axis::kFaces) return faces <= 8;
+    if (a.axis == Axis::kCorners) return kLeast[i + 2] <= 8;
+    if (b.axis == Axis::kIndex && a.axis == Axis::kSharpness) return true;
+    return a.axis < Axis::kDepth && a.axis != Axis::kSharpness && a.axis != Axis::kAround;
+  }
   // Of the whole mesh, or of what lies farther away.
   if (b.axis > Axis::kVertex || a.axis >= Axis::kOwnClass) return false;
   if (a.axis == Axis::kAround ? i == 0 : b.axis == Axis::kAround && j == 0) return false;
-  if (b.axis == Axis::kOwnClass) return is(Axis::kCreasing, b.axis) && j < data::kFirstInfiniteClass;
+  if (b.axis == Axis::kOwnClass)
+    return is(Axis::kBoundary, b.axis) || (is(Axis::kCreasing, b.axis) && j < data::kFirstInfiniteClass);
+  // A boundary vertex of one face has no edges inside.
+  if (b.axis == Axis::kBoundary) {
+    if (a.axis == Axis::kInfinite || a.axis == Axis::kSemi) return i == 0;
+    if (a.axis == Axis::kSharpness || a.axis == Axis::kAround) return false;
+    if (a.axis == Axis::kCreasing) return i < kUnequal;
+    if (a.axis == Axis::kFaces) return kLeast[i] == 1;
+  }
+  if (is(Axis::kBoundary, Axis::kNeighbour)) return j == 0;
   if (a.axis == Axis::kSide) {
     if (b.axis == Axis::kFaces) return i == 1 || kLeast[j] >= 3;
     if (b.axis == Axis::kBoundary) return i == 1;
@@ -191,13 +223,15 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
   if (is(Axis::kInfinite, Axis::kFaces) || is(Axis::kSemi, Axis::kFaces))
     return kLeast[j] >= static_cast<int>(i) + (kLeast[j] <= 2 ? 1 : 0);
   if (is(Axis::kInfinite, Axis::kSharpness)) return i > 0 || j < data::kFirstInfiniteClass;
+  if (is(Axis::kInfinite, Axis::kAround)) return i >= 2 || j != kBetweenCreases;
+  if (is(Axis::kSemi, Axis::kAround)) return i >= 2 || j != kWeakBetweenStrong;
   if (is(Axis::kSemi, Axis::kSharpness)) return i > 0 || j >= data::kFirstInfiniteClass;
-  if (is(Axis::kSemi, Axis::kCreasing)) return i > 0;
+  if (is(Axis::kSemi, Axis::kCreasing)) return i >= (j < kUnequal ? 1U : 2U);
   if (a.axis == Axis::kFaces) {
     // Many edges that stay sharp for many steps take a tessellator many seconds.
     if (b.axis == Axis::kSharpness) return faces > 1 && (faces <= 16 || !data::is_long_lasting(j));
-    if (b.axis == Axis::kAround) return faces > 1 && faces <= 16;
-    if (b.axis == Axis::kCreasing) return faces > 1;
+    if (b.axis == Axis::kAround) return faces > (j >= kBetweenCreases ? 2 : 1) && faces <= 16;
+    if (b.axis == Axis::kCreasing) return faces > (j < kUnequal ? 1 : 2);
     if (b.axis == Axis::kCorners) return faces <= 12 || j <= 6;
     if (b.axis == Axis::kDepth) return j <= deepest(i);
     if (b.axis == Axis::kNeighbour) return faces > (j == 0 ? 0 : 1) && faces <= 16;
@@ -241,7 +275,10 @@ const Universe& universe(data::Scheme scheme) {
 class Looker {
  public:
   explicit Looker(const AuditMesh& audited)
-      : mesh_(audited.mesh), lattice_(mesh_, audited.scheme(), 0), depth_(audited.face_depth) {
+      : audited_(audited),
+        mesh_(audited.mesh),
+        lattice_(mesh_, audited.scheme(), 0),
+        depth_(audited.face_depth) {
     if (depth_.empty()) depth_.assign(mesh_.faces.size(), audited.depth);
     for (const std::int32_t f : mesh_.holes) depth_[static_cast<std::size_t>(f)] = -1;
     if (audited.sample) depth_ = audited.sample->cull(std::move(depth_));
@@ -249,7 +286,7 @@ class Looker {
   }
 
   std::vector<std::vector<std::uint16_t>> all() const {
-    const std::vector<std::uint16_t> whole = of_mesh(mesh_);
+    const std::vector<std::uint16_t> whole = of_mesh(audited_);
     std::set<std::vector<std::uint16_t>> list;
     for (std::size_t v = 0; v < vertex_.size(); ++v) {
       if (std::none_of(faces_[v].begin(), faces_[v].end(), [&](std::int32_t f) { return depth_[f] >= 0; }))
@@ -298,9 +335,15 @@ class Looker {
     add(Axis::kFaces, class_of(at.faces));
     add(Axis::kVertex, VertexKind{at.boundary, at.infinite, at.semi, own}.number());
     if (at.own > 0) add(Axis::kOwnClass, data::sharpness_class(at.own));
-    if (at.semi > 0 || own == 1)
-      add(Axis::kCreasing, mesh_.sharpness.creasing == data::Creasing::kChaikin ? 1 : 0);
-    if (at.boundary) add(Axis::kBoundary, mesh_.sharpness.boundary == data::Boundary::kEdgeAndCorner ? 1 : 0);
+    if (at.semi > 0 || own == 1) {
+      const bool chaikin = mesh_.sharpness.creasing == data::Creasing::kChaikin;
+      add(Axis::kCreasing, chaikin ? 1 : 0);
+      if (chaikin && unequal_edges(at, 0)) add(Axis::kCreasing, kUnequal);
+      if (chaikin && unequal_edges(at, 2)) add(Axis::kCreasing, kUnequal + 1);
+    }
+    // No other vertex is held by the option.
+    if (at.boundary && at.faces == 1)
+      add(Axis::kBoundary, mesh_.sharpness.boundary == data::Boundary::kEdgeAndCorner ? 1 : 0);
     const auto index = std::lower_bound(kIndexes.begin(), kIndexes.end(), static_cast<std::int64_t>(v));
     add(Axis::kIndex, static_cast<std::size_t>(index - kIndexes.begin()));
     for (const std::size_t k : at.edges) add_edge(k, v, add);
@@ -323,6 +366,20 @@ class Looker {
     if (!culled || most > least) add(Axis::kNeighbour, static_cast<std::size_t>(std::min(most - least, 3)));
   }
 
+  // Whether two edges that end are sharp for longer than that, and not equally.
+  bool unequal_edges(const Vertex& at, float longer_than) const {
+    std::set<float> some;
+    for (const std::size_t k : at.edges)
+      if (sharpness_[k] > longer_than && sharpness_[k] < data::kInfiniteSharpness) some.insert(sharpness_[k]);
+    return some.size() > 1;
+  }
+
+  bool has_strong(const Vertex& at) const {
+    return std::any_of(at.edges.begin(), at.edges.end(), [&](std::size_t k) {
+      return sharpness_[k] > 2 && sharpness_[k] < data::kInfiniteSharpness;
+    });
+  }
+
   template <class Add>
   void add_edge(std::size_t k, std::size_t v, const Add& add) const {
     const Lattice::Edge& e = lattice_.edges()[k];
@@ -334,12 +391,15 @@ class Looker {
       add(Axis::kAround, 0);
     if (!(s > 0)) {
       if (at.sharp() && other.sharp()) add(Axis::kAround, 1);
+      if (at.infinite >= 2 && other.infinite >= 2) add(Axis::kAround, kBetweenCreases);
       return;
     }
+    if (s < 1 && has_strong(at) && has_strong(other)) add(Axis::kAround, kWeakBetweenStrong);
     for (const std::size_t next : other.edges)
       if (next != k && sharpness_[next] > 0) add(Axis::kAround, sharpness_[next] == s ? 2 : 3);
   }
 
+  const AuditMesh& audited_;
   const data::ControlMesh& mesh_;
   Lattice lattice_;
   std::vector<std::int32_t> depth_;
@@ -376,7 +436,7 @@ std::int32_t Cell::needs() const {
   const std::int32_t both = features()[first].needs | features()[second].needs;
   const auto [a, i] = on_axis(first);
   const auto [b, j] = on_axis(second);
-  if (b != Axis::kAround || j == 0 || j == 3) return both;
+  if (b != Axis::kAround || j == 0 || j >= 3) return both;
   // Sharp without an infinite edge; or with none at all.
   if (a == Axis::kInfinite && i == 0) return both | LC_SHARP_SEMI;
   return a == Axis::kFaces && kLeast[i] == 2 && j == 1 ? both | LC_SHARP_CORNERS : both;

@@ -2,6 +2,7 @@
 // The kinds of neighbourhood that an audit looks at, and those that there are: what "held" is said of.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -12,6 +13,12 @@
 #include "verify/evidence/audit_case.h"
 
 namespace limitcheck::verify {
+
+/// The relations are looked at on meshes of at most this size, in faces of four corners (audit/audit.h).
+inline constexpr std::size_t kRelationFaces = 200;
+inline std::size_t size_for_relations(const data::ControlMesh& mesh) {
+  return std::max(mesh.faces.size(), mesh.faces.corners().size() / 4);
+}
 
 /// What tells the neighbourhoods of a control vertex apart: the rules of subdivision see no more of it.
 enum class Axis : std::uint8_t {
@@ -33,17 +40,19 @@ enum class Axis : std::uint8_t {
   kIndex,       ///< how large its index is
   kTags,        ///< how many the mesh has
   kComponents,  ///< .. of the mesh
-  kGenus
+  kGenus,
+  kAsked  ///< whether the relations (verify/relations) are looked at, too
 };
 
 /// One value on one axis.
-///   needs   LC_SHARP_...: what a subject has to do to be asked; kNeedsBoundary, kNeedsDepths beyond
+///   needs   LC_SHARP_...: what a subject has to do to be asked; kNeedsBoundary .. beyond
 struct Feature {
   Axis axis;
   std::string name;
   std::int32_t needs = 0;
 };
 inline constexpr std::int32_t kNeedsBoundary = 1 << 20, kNeedsDepths = 1 << 21;
+inline constexpr std::int32_t kNeedsRelations = 1 << 22;  // not of the subject, but of the audit's level
 
 /// All of them, axis by axis.
 const std::vector<Feature>& features();
@@ -55,7 +64,8 @@ struct VertexTags {
   int infinite, semi, own;
 };
 VertexTags vertex_tags(std::size_t feature);
-/// The least number of faces of class k, or of corners of class k - 2.
+/// The least number of faces of class k < kSizeClasses, or of corners of class k - 2.
+inline constexpr std::size_t kSizeClasses = 22;
 int least_of(std::size_t size_class);
 
 /// The features of the control vertices that have a displayed face, each list once and ascending. On some axes a vertex has

@@ -41,10 +41,18 @@ TEST(Cells, AreThoseThatAStarSays) {
        {"2 infinite edges", "held", "uniform creasing", "3 faces", "a face of 6 corners", "depth 2"})
     EXPECT_FALSE(inside.contains(name)) << name;
   const auto boundary = names("star:1h:orvK.c.");
-  for (const char* name :
-       {"on the boundary", "held", "of sharpness above 10", "an edge of sharpness next below 1",
-        "boundary of edges and corners", "uniform creasing"})
+  for (const char* name : {"on the boundary", "held", "of sharpness above 10",
+                           "an edge of sharpness next below 1", "uniform creasing"})
     EXPECT_TRUE(boundary.contains(name)) << name;
+  EXPECT_TRUE(names("star:1h:orvb..").contains("one face by a boundary of edges and corners"));
+  EXPECT_TRUE(names("star:1c:rbe..").contains("Chaikin's creasing of unequal edges"));
+  EXPECT_TRUE(
+      names("star:1c:rhD..").contains("Chaikin's creasing of unequal edges sharp for more than 2 steps"));
+  EXPECT_FALSE(
+      names("star:1c:reh..").contains("Chaikin's creasing of unequal edges sharp for more than 2 steps"));
+  EXPECT_TRUE(names("star:1c:wDbh..").contains("an edge below 1 between semi-sharp ones above 2"));
+  EXPECT_FALSE(names("star:1c:wbbh..").contains("an edge below 1 between semi-sharp ones above 2"));
+  EXPECT_FALSE(names("star:1c:rhh..").contains("Chaikin's creasing of unequal edges"));
   EXPECT_FALSE(boundary.contains("an edge of sharpness 1"));
 }
 
@@ -53,6 +61,8 @@ TEST(Cells, KnowWhatLiesAround) {
   EXPECT_TRUE(names("star:1:wbA.J..").contains("a sharp edge that goes on with another sharpness"));
   EXPECT_TRUE(names("star:1:zBJ.J..").contains("a smooth edge to another sharp vertex"));
   EXPECT_FALSE(names("star:1:zBJ.J..").contains("a sharp edge that goes on with another sharpness"));
+  EXPECT_TRUE(names("star:1:yJJ.J..").contains("a smooth edge between two creases"));
+  EXPECT_FALSE(names("star:1:zJJ.J..").contains("a smooth edge between two creases"));
   EXPECT_TRUE(names("icosahedron").contains("beside an irregular vertex"));
   EXPECT_FALSE(names("torus").contains("beside an irregular vertex"));
 }
@@ -68,9 +78,12 @@ TEST(Cells, KnowTheDepthsOfTheFacesAround) {
 
 TEST(Cells, KnowTheWholeMesh) {
   EXPECT_TRUE(names("torus").contains("a mesh of genus 1"));
-  EXPECT_TRUE(names("handles:2").contains("a mesh of genus 2 and more"));
+  EXPECT_TRUE(names("handles:2").contains("a mesh of genus 2"));
+  EXPECT_TRUE(names("handles:3").contains("a mesh of genus 3 and more"));
   EXPECT_TRUE(names("star:1:rJ300").contains("a mesh of more than 255 tags"));
   EXPECT_TRUE(names("star:1:.5_.6").contains("a mesh of several components"));
+  EXPECT_TRUE(names("octahedron").contains("asked for the relations, too"));
+  EXPECT_FALSE(names("bumpy:800").contains("asked for the relations, too"));
   const auto crowd = names("quad-crowd:8250", 0);
   for (const char* name : {"an index up to 32767", "an index up to 65535", "an index up to 2147483647"})
     EXPECT_TRUE(crowd.contains(name)) << name;

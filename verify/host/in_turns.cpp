@@ -102,6 +102,12 @@ std::vector<LentMesh> look_alikes(const LentMesh& mesh, std::int32_t sharp) {
   // Other positions, and other normals with them; both precisions have the numbers.
   LentMesh& stretched = all.emplace_back(mesh);
   for (std::size_t k = 0; k < stretched.positions.size(); k += 3) stretched.positions[k] *= 2;
+  // The same numbers at other places: sums over all of them are alike, too.
+  LentMesh& turned = all.emplace_back(mesh);
+  for (std::size_t k = 0; k < turned.positions.size(); k += 3)
+    std::rotate(turned.positions.begin() + static_cast<std::ptrdiff_t>(k),
+                turned.positions.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                turned.positions.begin() + static_cast<std::ptrdiff_t>(k) + 3);
   // Tags. Fewer of them might leave darts.
   if (!mesh.sharp_edges.empty() || !mesh.sharp_vertices.empty()) {
     LentMesh& plain = all.emplace_back(mesh);
@@ -155,9 +161,9 @@ struct Turns {
       (void)make(*other, 2, message);
       return mine->create(message);
     }
-    for (const auto& before : alike)
-      if (const lc_status status = make(*before, 1, message); status != LC_OK) return status;
-    const lc_status status = make(*other, 1, message);
+    // A look-alike is the last one before: what remembers one mesh remembers it.
+    lc_status status = make(*other, 1, message);
+    for (std::size_t k = 0; status == LC_OK && k < alike.size(); ++k) status = make(*alike[k], 1, message);
     return status == LC_OK ? mine->create(message) : status;
   }
 
@@ -182,6 +188,17 @@ struct Turns {
   lc_status disturb_culled(std::vector<std::int32_t> depths, const char** message) {
     if (capabilities.per_face_depth == 0) return LC_OK;
     for (std::size_t f = 0; f < depths.size(); ++f) depths[f] = f % 2 == 0 ? -1 : std::max(depths[f], 0);
+    return mine->disturb(depths, message);
+  }
+
+  // With depths that differ and have the same sum, as far as the subject takes them.
+  lc_status disturb_exchanged(std::vector<std::int32_t> depths, const char** message) {
+    if (capabilities.per_face_depth == 0) return LC_OK;
+    const auto [least, most] = std::minmax_element(depths.begin(), depths.end());
+    if (*least < *most)
+      std::rotate(depths.begin(), depths.begin() + 1, depths.end());
+    else if (depths.size() > 1 && *most > 0 && *most < capabilities.max_depth)
+      --depths.front(), ++depths.back();
     return mine->disturb(depths, message);
   }
 
@@ -215,7 +232,10 @@ struct Turns {
       case 7:
         mine->destroy();
         status = other->disturb(0, message);
+        alike.front()->destroy();
+        if (status == LC_OK) status = make(*alike.front(), 1, message);
         if (status == LC_OK) status = mine->create(message);
+        if (status == LC_OK) status = disturb_exchanged(depths, message);
         if (status == LC_OK) status = mine->disturb(another, message);
         return status == LC_OK ? disturb_culled(depths, message) : status;
       default:

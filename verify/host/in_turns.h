@@ -21,7 +21,8 @@ inline constexpr std::array<const char*, 8> kTurns{
     "after the other mesh was destroyed",
     "after a greater depth, where that is not many triangles",
     "after the eighth time, another mesh made in between, and after other culling",
-    "made again after another mesh, and asked for another depth and other culling first"};
+    "made again after its first look-alike, and asked for depths of the same sum, another depth and other "
+    "culling first"};
 
 /// What else a subject may have met first. The options then begin with this text, which is not passed on, and
 /// there is one turn: after the mesh was made and tessellated.
@@ -33,7 +34,7 @@ inline constexpr std::array<First, 2> kFirst{
     First{"in-turns-first=low,", "after a mesh with vertices of three neighbours alone"},
     First{"in-turns-first=high,", "after a mesh with vertices of 60 neighbours"}};
 
-/// Another subject around `inner`: create() first makes two other meshes and tessellates them, then the one
+/// Another subject around `inner`: create() first makes another mesh and look-alikes and tessellates them, then the one
 /// that is asked for, and all live together; each tessellate() is passed on after the turn above. All other
 /// meshes are valid; those that are no look-alikes are closed. A failure in a turn is a failure of the
 /// request, unless it is of a mesh of kFirst. One at a time in a process.

@@ -14,8 +14,11 @@
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
+#include "data/generators/star_meshes.h"
+#include "data/sharpness_classes.h"
 #include "data/splitmix64.h"
 #include "data/validate.h"
+#include "verify/evidence/cells.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
 #include "verify/subject/lent_mesh.h"
@@ -36,6 +39,39 @@ std::uint64_t below(data::SplitMix64& random, std::uint64_t n) {
 std::string random_name(const char* family, data::SplitMix64& random) {
   const int faces = static_cast<int>(6 * std::exp2(5 * random.unit()));
   return fmt::format("{}:{}:{}", family, below(random, 1'000'000'000), faces);
+}
+
+// A few vertices amid their faces, of the classes of valence, sharpness and corners that an audit counts
+// (evidence/cells.h), as far as the subject does them.
+std::string classes_name(const Does& does, bool smooth, data::SplitMix64& random) {
+  const bool loop = does.scheme == data::Scheme::kLoop;
+  const auto can = [&](std::int32_t kinds) { return !smooth && (does.sharp & kinds) == kinds; };
+  const auto one_in = [&](std::uint64_t n) { return below(random, n) == 0; };
+  std::string letters;
+  for (std::size_t k = 0; k < data::kSharpnessClasses.size(); ++k)
+    if (can(k < data::kFirstInfiniteClass ? LC_SHARP_SEMI : LC_SHARP_CREASES))
+      letters += data::kSharpnessClasses[k].letter;
+  const auto letter = [&] { return letters.empty() ? '.' : letters[below(random, letters.size())]; };
+  data::Stars stars;
+  stars.seed = below(random, 1'000'000);
+  stars.chaikin = can(LC_SHARP_CHAIKIN) && one_in(2);
+  stars.corners_held = can(LC_SHARP_CORNERS) && one_in(2);
+  stars.smooth_triangles = !loop && can(LC_SHARP_SMOOTH_TRIANGLES) && one_in(2);
+  stars.stars.resize(1 + below(random, 4));
+  for (data::Star& star : stars.stars) {
+    const auto faces = static_cast<std::size_t>(least_of(below(random, kSizeClasses))) + below(random, 2);
+    star.open = faces < 3 || one_in(3);
+    star.bare = faces > 16 || one_in(2);
+    const double share = random.unit() * std::min(1., 12 / static_cast<double>(faces));
+    for (std::size_t k = 0; k < faces + (star.open ? 1 : 0); ++k)
+      star.spokes += random.unit() < share ? letter() : '.';
+    if (can(LC_SHARP_CORNERS) && one_in(3)) star.own = letter();
+    if (one_in(2)) star.beyond = one_in(2) ? '=' : letter();
+    if (!loop && faces <= 16 && one_in(2))
+      for (std::uint64_t k = 1 + below(random, 3); k > 0; --k)
+        star.corners.push_back(one_in(2) ? 3 : least_of(2 + below(random, kSizeClasses - 2)));
+  }
+  return (loop ? "star:" : "quad-star:") + stars.text();
 }
 
 // A mesh about one vertex; half of the valences are from 3 to 12, a quarter each to 40 and to 70.
@@ -73,8 +109,10 @@ const char* sharp_family(const Does& does, bool smooth_triangles) {
 std::string mesh_name(const Does& does, std::uint64_t turn, bool smooth, data::SplitMix64& random) {
   const bool sharp = !smooth && (does.sharp & LC_SHARP_CREASES) != 0;
   std::string name;
-  if (turn % 8 == 0)
-    name = star_name(does.scheme, sharp, turn / 8, random);
+  if (turn % 16 == 0)
+    name = star_name(does.scheme, sharp, turn / 16, random);
+  else if (turn % 8 == 0 || turn % 8 == 2)
+    name = classes_name(does, smooth, random);
   else if (sharp && turn % 8 < 4)
     name = random_name(sharp_family(does, turn % 8 == 1), random);
   else

@@ -10,6 +10,7 @@
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
+#include "verify/evidence/cells.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"
@@ -75,6 +76,24 @@ TEST(HuntPlan, HasEveryFamilyAndEveryWayOfChoosingDepths) {
     EXPECT_TRUE(depths.contains(way)) << way;
   EXPECT_EQ(wrappers.size(), 3U);
   EXPECT_TRUE(earlier && relations);
+}
+
+// Of valences, sharpnesses, options and corners, those that an audit counts.
+TEST(HuntPlan, DrawsEveryClassOfNeighbourhood) {
+  for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+    HuntPlan plan(1, {{scheme, kAllSharp}});
+    std::set<std::size_t> seen;
+    for (std::uint64_t n = 0; n < 1500; ++n)
+      for (const auto& found : neighbourhoods(plan.at(n).mesh)) seen.insert(found.begin(), found.end());
+    for (const Cell& cell : cells(scheme)) {
+      const Axis axis = on_axis(cell.first).first;
+      // Kinds of vertex are made of other classes; the rest is the size of a mesh.
+      if (cell.first != cell.second || axis == Axis::kVertex || axis == Axis::kIndex || axis == Axis::kTags ||
+          axis == Axis::kDepth)
+        continue;
+      EXPECT_TRUE(seen.contains(cell.first)) << name_of(scheme) << ": " << cell.name();
+    }
+  }
 }
 
 TEST(HuntPlan, AsksOnlyForWhatTheSubjectDoes) {

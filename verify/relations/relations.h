@@ -22,7 +22,8 @@ namespace limitcheck::verify {
 ///   mirror               the mirror image
 ///   rotation             axes exchanged with signs: an exact rotation
 ///   scaling              times 2^10, 2^-10, 2^40 and 2^-40
-///   translation          moved by some diagonals (positions only: the rounding of the input turns normals)
+///   translation          moved by some diagonals, and by 2^20 times as many, in float by 2^10 (positions only: the
+///                        rounding of the input turns normals)
 ///   crease-order         sharp edges and vertices in another order, their ends exchanged
 ///   infinite-sharpness   10 and 100 for a sharpness of 10 and more
 ///   boundary-crease      the boundary tagged as sharp

@@ -155,9 +155,10 @@ Variant scaling(const Evidence& e, int exponent) {
   });
 }
 
-Variant translation(const Evidence& e) {
-  return variant(e, "moved", false, [&](Variant& v) {
-    const double step = std::ldexp(1.0, std::ilogb(std::max(e.diagonal, 1e-30)));
+// By some diagonals, times 2^exponent.
+Variant translation(const Evidence& e, int exponent) {
+  return variant(e, exponent == 0 ? "moved" : "moved far away", false, [&](Variant& v) {
+    const double step = std::ldexp(1.0, std::ilogb(std::max(e.diagonal, 1e-30)) + exponent);
     const Vector by{step, -2 * step, 3 * step};
     move(v, [&](const Vector& p) { return p + by; });
     v.position = [by](const Vector& p) { return p - by; };
@@ -179,7 +180,11 @@ const std::vector<Relation>& variant_relations() {
        [](const Evidence& e) {
          return Variants{scaling(e, 10), scaling(e, -10), scaling(e, 40), scaling(e, -40)};
        }},
-      {"translation", [](const Evidence& e) { return Variants{translation(e)}; }},
+      {"translation",
+       [](const Evidence& e) {
+         const int far = e.capabilities.precision == LC_FLOAT32 ? 10 : 20;  // some bits are left
+         return Variants{translation(e, 0), translation(e, far)};
+       }},
   };
   return all;
 }

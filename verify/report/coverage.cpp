@@ -30,7 +30,9 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
                                    const std::vector<AuditMesh>& meshes) {
   CoverageQuestion question;
   std::set<data::Scheme> schemes;
+  bool relations = false;
   for (const AuditMesh& m : meshes) {
+    relations = relations || m.relations;
     schemes.insert(m.scheme());
     const Case at(m.name, m.depth, m.depths, m.sample ? m.sample->text() : "");
     question.cases.push_back({at, m.scheme(), cells_of(m)});
@@ -41,7 +43,8 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
         if (!does(c, scheme)) continue;
         question.declared.push_back({s.label(), scheme,
                                      c.sharp | (c.boundary != LC_BOUNDARY_NONE ? kNeedsBoundary : 0) |
-                                         (c.per_face_depth != 0 ? kNeedsDepths : 0),
+                                         (c.per_face_depth != 0 ? kNeedsDepths : 0) |
+                                         (relations ? kNeedsRelations : 0),
                                      c.max_depth});
       } catch (const std::exception&) {  // the rows say why
       }

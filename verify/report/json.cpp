@@ -12,6 +12,7 @@
 #include "data/error.h"
 #include "verify/causes/causes.h"
 #include "verify/mesh_output/atomic_file.h"
+#include "verify/report/exhaustive.h"
 #include "verify/report/overview.h"
 #include "verify/row/commands.h"
 #include "verify/row/fields.h"
@@ -244,6 +245,17 @@ std::string to_json(const Report& report, const std::string& level) {
                                {"not_declared", c.not_declared},
                                {"never", named}});
   }
+  out["exhaustive"] = Ordered::array();
+  for (const Exhaustive& e : exhaustive_of(report.results))
+    out["exhaustive"].push_back({{"subject", e.subject},
+                                 {"scheme", data::name_of(e.scheme)},
+                                 {"valence", e.most},
+                                 {"neighbourhoods", e.neighbourhoods},
+                                 {"looked_at", e.looked},
+                                 {"cases", e.cases},
+                                 {"wrong_cases", e.wrong},
+                                 {"right", e.all_right()},
+                                 {"examples", e.examples}});
   out["subjects"] = report.subjects;
   out["meshes"] = Ordered::array();
   for (const Report::Mesh& m : report.meshes) out["meshes"].push_back(shown(m));

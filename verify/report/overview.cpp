@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "verify/report/coverage.h"
+#include "verify/report/exhaustive.h"
 #include "verify/report/table.h"
 #include "verify/row/commands.h"
 #include "verify/row/rows.h"
@@ -142,7 +143,7 @@ std::string summary(const Report& report) {
   std::string out =
       fmt::format("{} held, {} findings, {}{} not supported or not run; {:.1f} s\n", held, bad,
                   noted > 0 ? fmt::format("{} warnings or waived, ", noted) : "", other, report.seconds);
-  out += coverage_lines(report);
+  out += coverage_lines(report) + exhaustive_lines(report);
   for (const Unjudged& none : unjudged(report)) out += none.text() + "\n";
   if (!report.incomplete.empty()) out += fmt::format("INCOMPLETE: {}\n", report.incomplete);
   return out;

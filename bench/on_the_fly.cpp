@@ -41,7 +41,7 @@ struct Thread {
 void add_row(void* context, const rs::RowView& view) {
   std::uint64_t& sum = *static_cast<std::uint64_t*>(context);
   for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
-    const float* row = view.vertices(lane)->position;
+    const float* row = &view.vertices(lane)->position.x;
     for (int k = 0; k < 6 * rs::side(view.depth); ++k) {
       std::uint32_t bits;
       std::memcpy(&bits, row + k, sizeof bits);

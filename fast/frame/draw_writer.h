@@ -162,7 +162,7 @@ class LoopDrawWriter : DrawOutput<Real> {
   /// A strip of the window, both halves at once: at(q) is vertex q of 2 (k + 1).
   template <class At>
   void whole_strip(int row, const At& at) {
-    const auto& [first, second] = patch_.half;
+    const Half &first = patch_.half[0], &second = patch_.half[1];  // clang 14 captures no structured bindings
     this->begin(DrawMode::kStrip, patch_.kind, first.face);
     this->put_strip(at, 0, 2 * k_ + 1, [&](int q) {
       const int r = row + q % 2, c = q / 2;

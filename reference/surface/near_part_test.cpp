@@ -85,7 +85,7 @@ TEST(NearPart, GivesTheDigitsOfTheWholeMesh) {
     const CertifiedEvaluator evaluator(c.mesh, c.scheme);
     for (std::size_t face = 0; face < c.mesh.faces.size(); face += 1 + c.mesh.faces.size() / 2)
       for (const auto& [u, v] : points(c.scheme)) {
-        const auto evaluate = [&](int most) {
+        const auto evaluate = [&, &u = u, &v = v](int most) {
           const WholeUpTo many(most);
           return evaluator.evaluate(static_cast<int>(face), c.corner, Parameter::parse(u),
                                     Parameter::parse(v), 25);

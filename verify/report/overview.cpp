@@ -229,7 +229,7 @@ std::vector<Unjudged> unjudged(const Report& report, const std::vector<std::stri
         if (r.subject != subject || r.check != check) continue;
         judged = judged || looked_at(r);
         if (none.reason.empty() && !r.message.empty())
-          none.reason = r.message, none.not_asked = r.status == Status::kNotSupported && r.of == 0;
+          none.reason = r.message, none.not_asked = r.status == Status::kNotSupported;
       }
       if (!judged) missing.push_back(std::move(none));
     }

@@ -149,7 +149,7 @@ TEST_F(Merge, WrongPartsAreRefused) {
 }
 
 // A unit's result in a part: its rows, each a list of subject, mesh, check, depth, ...
-constexpr std::size_t kCheck = 2, kDepth = 3, kWorst = 13;
+constexpr std::size_t kCheck = 8, kDepth = 2, kWorst = 12;
 json::iterator find_row(json& rows, const std::string& check) {
   return std::find_if(rows.begin(), rows.end(), [&](const json& row) { return row[kCheck] == check; });
 }

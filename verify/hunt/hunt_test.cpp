@@ -49,7 +49,7 @@ TEST(Hunt, FindsFaultsThatNeedARareNeighbourhoodAndShrinksThem) {
     std::uint64_t cases;
     std::int64_t faces;  // that its smallest mesh has at most; of a star about one vertex 70
   } const all[]{
-      {"adjacent_extraordinary", 32, 8}, {"depth_difference_3", 48, 3}, {"valence_above_40", 96, 70}};
+      {"adjacent_extraordinary", 32, 8}, {"depth_difference_3", 48, 3}, {"valence_above_40", 192, 70}};
   for (const auto& [fault, cases, faces] : all) {
     const auto folder = std::filesystem::path(testing::TempDir()) / fault;
     const HuntReport report =

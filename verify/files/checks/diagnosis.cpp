@@ -308,7 +308,8 @@ std::string blind_spots(const FileEvidence& e) {
     if (sides == 0) return "";
     beside_corners = beside_corners || sides == 1;
   }
-  const GuessedRule scheme = e.scheme() == data::Scheme::kLoop ? GuessedRule::kLoop : GuessedRule::kCatmullClark;
+  const GuessedRule scheme =
+      e.scheme() == data::Scheme::kLoop ? GuessedRule::kLoop : GuessedRule::kCatmullClark;
   const auto refined = scheme_points(e.control, scheme, beside_corners ? 1 : 0, false);
   const auto limits = scheme_points(e.control, scheme, beside_corners ? 1 : 0, true);
   double farthest = 0;

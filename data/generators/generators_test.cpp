@@ -218,6 +218,8 @@ TEST(OpenMesh, TakesAFileOrAName) {
   write_mesh(file, icosahedron());
   EXPECT_EQ(hash(open_mesh(file.string()).mesh), hash(icosahedron()));
   EXPECT_EQ(hash(open_mesh("icosahedron").mesh), hash(icosahedron()));
+  for (const char* star : {"star:1:J.J.3", "quad-star:1:w=J.J./5-3", "stretched:2:star:1:o..", "star:1:.3"})
+    EXPECT_EQ(hash(open_mesh(star).mesh), hash(named_mesh(star))) << star;
   try {
     open_mesh("missing.obj");
     FAIL();

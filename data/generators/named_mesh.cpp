@@ -347,10 +347,12 @@ OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& 
 
 OpenedMesh open_mesh(const std::string& file_or_name, const ReadOptions& options) {
   // What looks like a file is taken for one, so that a mistyped path is called a missing file, not
-  // an unknown name.
+  // an unknown name. Stars are written with dots and slashes.
   std::error_code ignored;
+  const std::string before = file_or_name.substr(0, file_or_name.find_first_of("./"));
   const std::filesystem::path file = file_or_name;
-  if (!std::filesystem::exists(file, ignored) && !file.has_extension() && !file.has_parent_path())
+  if (!std::filesystem::exists(file, ignored) &&
+      (before.find("star:") != std::string::npos || (!file.has_extension() && !file.has_parent_path())))
     return open_named_mesh(file_or_name, options);
   io::Examination found = io::require_valid(io::read_soup(file), file_or_name, options);
   return {std::move(found.mesh), found.cut, found.left_out, std::move(found.notes)};

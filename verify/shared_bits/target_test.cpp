@@ -119,7 +119,8 @@ TEST(Targets, OnlyTheTargetTheSubjectWasGivenIsSeenRunning) {
     const auto work = [&] {
       for (int repeat = 0; repeat < 5; ++repeat) session.tessellate(depth);
     };
-    expect_only(kernel.name, profile(work, part_of(meanings().at(kernel.name)), 40, 40));  // most of the time the system makes pages
+    // Most of the time the system makes pages.
+    expect_only(kernel.name, profile(work, part_of(meanings().at(kernel.name)), 40, 40));
   }
 }
 

@@ -89,8 +89,13 @@ std::map<std::string, int> profile(const std::function<void()>& work, const std:
   const std::clock_t start = std::clock();
   do {
     sample_count = 0;
+    // A timer that is set anew ticks first after one or two of the system's ticks of 1 to 10 ms: pieces of work
+    // that are shorter would never be seen.
+    const std::clock_t turn = std::clock();
     setitimer(ITIMER_PROF, &interval, nullptr);
-    work();
+    do {
+      work();
+    } while (static_cast<double>(std::clock() - turn) < .2 * CLOCKS_PER_SEC);
     setitimer(ITIMER_PROF, &never, nullptr);
     const std::size_t count = std::min<std::size_t>(sample_count, kMostSamples);
     for (std::size_t k = 0; k < count; ++k) {

@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: MIT
-// The project's pages link to what is there.
+// The project's pages link to what is there, and the tables and counts in them are the program's.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <string>
 
+#include "verify/claims/register.h"
+#include "verify/host/host.h"
+#include "verify/mutants/faulty_subjects.h"
+#include "verify/mutants/mutants.h"
+#include "verify/subject/registry.h"
+
+namespace limitcheck::verify {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string page(const std::string& name) {
+  std::ifstream in(fs::path(LIMITCHECK_SOURCE_DIR) / name);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A line's end in a sentence is a space.
+void expect_said(const std::string& name, const std::string& words) {
+  EXPECT_NE(std::regex_replace(page(name), std::regex("\\n *"), " ").find(words), std::string::npos)
+      << name << " should say: " << words;
+}
 
 TEST(Documents, LinkOnlyToWhatIsThere) {
   static const std::regex link("\\]\\(([^)#:\\s]+)[^):]*\\)");
@@ -32,4 +53,36 @@ TEST(Documents, LinkOnlyToWhatIsThere) {
   EXPECT_GT(links, 20);
 }
 
+// Each built-in subject has its place in the table, with the schemes that it says it does.
+TEST(Documents, TheTableOfSubjectsSaysWhichSchemesEachDoes) {
+  static const std::regex row("\\n\\| (`[^|]*`) \\| (yes|no) \\| (yes|no) \\|"), word("`([^`]+)`");
+  const std::string text = page("verify/subject/README.md");
+  std::map<std::string, std::string> said;
+  for (std::sregex_iterator m(text.begin(), text.end(), row), end; m != end; ++m) {
+    const std::string names = (*m)[1];
+    for (std::sregex_iterator n(names.begin(), names.end(), word); n != end; ++n)
+      said[(*n)[1]] = (*m)[2].str() + " " + (*m)[3].str();
+  }
+  for (const lc_subject* subject : built_in_subjects()) {
+    const std::int32_t schemes = std::max<std::int32_t>(capabilities(*subject).schemes, 0);
+    const bool loop = schemes == 0 || (schemes & LC_DOES_LOOP) != 0;
+    EXPECT_EQ(said[subject->name], fmt::format("{} {}", loop ? "yes" : "no",
+                                               (schemes & LC_DOES_CATMULL_CLARK) != 0 ? "yes" : "no"))
+        << subject->name;
+  }
+}
+
+TEST(Documents, CountTheMutantsTheHabitsAndTheClaimsThatThereAre) {
+  expect_said("verify/METHOD.md", fmt::format("on faulty subjects, {} today", mutants().size()));
+  const auto rare =
+      std::count_if(habits().begin(), habits().end(), [](const Habit& h) { return h.name != "none"; });
+  expect_said("verify/METHOD.md", fmt::format("{} subjects with rare but allowed habits", rare));
+  const auto& claims = claim_register();
+  const auto tested =
+      std::count_if(claims.begin(), claims.end(), [](const Claim& c) { return !c.check.empty(); });
+  expect_said("README.md", fmt::format("{} claims, {} of them re-derived by tests", claims.size(), tested));
+  expect_said("verify/METHOD.md", fmt::format("**{} of the paper's claims**", claims.size() - tested));
+}
+
 }  // namespace
+}  // namespace limitcheck::verify

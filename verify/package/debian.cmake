@@ -5,7 +5,7 @@ set(CPACK_GENERATOR DEB)
 set(LIMITCHECK_PACKAGE_CONTACT "whoever built this package <nobody@localhost>" CACHE STRING
   "Maintainer of the Debian package: NAME <ADDRESS>")
 set(CPACK_PACKAGE_CONTACT "${LIMITCHECK_PACKAGE_CONTACT}")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "judges tessellators of Loop subdivision surfaces")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "judges tessellators of Loop and Catmull-Clark subdivision surfaces")
 set(CPACK_PACKAGE_DESCRIPTION "It judges every point that a tessellator delivers against an exact
 reference, looks for cracks bit by bit, and hands back each fault with a
 witness. Tessellators are built in, or shared libraries and programs of the

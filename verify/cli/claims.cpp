@@ -135,16 +135,21 @@ int claims(const Arguments& a) {
     return kHeld;
   }
   const auto list = chosen(a.ids);
+  const auto programs =
+      verify::claim_programs(a.programs.empty() ? program_folder() : std::filesystem::path(a.programs));
+  if (programs.empty())
+    say(stderr,
+        "limitcheck: the tests behind the claims are not here: they are no part of an installation, but of a "
+        "build "
+        "of the sources, as `bash verify/run.sh claims` makes it. What follows is the register alone.\n");
   Progress progress;
   const verify::InterruptGuard guard;
   std::vector<ClaimResult> results;
   try {
-    results = verify::run_claims(
-        list,
-        verify::claim_programs(a.programs.empty() ? program_folder() : std::filesystem::path(a.programs)),
-        [&](const std::string& program, std::size_t done, std::size_t total) {
-          progress.show(done, total, program);
-        });
+    results = verify::run_claims(list, programs,
+                                 [&](const std::string& program, std::size_t done, std::size_t total) {
+                                   progress.show(done, total, program);
+                                 });
   } catch (const verify::Interrupted&) {
     progress.clear();
     say(stderr, "limitcheck: interrupted by {}\n", verify::signal_name(verify::interrupted()));

@@ -63,6 +63,7 @@ class ClaimsCommand : public CommandTest {};
 TEST_F(ClaimsCommand, WithoutItsTestProgramsNothingIsConfirmed) {
   const Outcome o = run("claims --json --programs .");  // as where only the program is installed
   EXPECT_EQ(o.code, 1);
+  EXPECT_TRUE(says(o.err, "What follows is the register alone."));
   const auto json = nlohmann::json::parse(o.out);
   ASSERT_EQ(json["claims"].size(), 86U);
   for (const auto& claim : json["claims"]) {
@@ -73,6 +74,14 @@ TEST_F(ClaimsCommand, WithoutItsTestProgramsNothingIsConfirmed) {
   }
   EXPECT_EQ(json["coverage"]["held"], 0);
   EXPECT_EQ(json["verdicts"]["not checkable"], 4) << "what we conclude does not depend on what is installed";
+}
+
+TEST_F(ClaimsCommand, ACommandThatAnInstallationLacksSaysWhereItIs) {
+  for (const std::string command : {"bench", "reproduce"}) {
+    const Outcome o = shell("cp '" LIMITCHECK_PROGRAM "' alone && ./alone " + command);
+    EXPECT_EQ(o.code, 2) << command;
+    EXPECT_TRUE(says(o.err, "`bash verify/run.sh " + command + "` makes it"));
+  }
 }
 
 TEST_F(ClaimsCommand, SaysWhatIsConcludedAndWhetherTheTestsAreGreenInColumnsOfTheirOwn) {

@@ -49,7 +49,7 @@ constexpr std::array<Ways, 11> kWays{{{0, "uniform"},
 constexpr std::size_t kUniformWays = 7;
 
 // What a neighbourhood is to have on each axis: the value's number, or kNone.
-using Wish = std::array<int, 20>;
+using Wish = std::array<int, kAxes>;
 
 class Cover {
  public:
@@ -184,6 +184,10 @@ class Cover {
     for (const std::size_t f : {wanted.first, wanted.second}) {
       const auto [axis, k] = on_axis(f);
       wish[static_cast<std::size_t>(axis)] = static_cast<int>(k);
+      if (axis == Axis::kFan) {
+        set(wish, Axis::kSide, fan(f).boundary ? 1 : 0);
+        set(wish, Axis::kFaces, static_cast<int>(fan(f).size_class));
+      }
       if (axis != Axis::kVertex) continue;
       const VertexTags tags = vertex_tags(f);
       set(wish, Axis::kSide, tags.boundary ? 1 : 0), set(wish, Axis::kInfinite, tags.infinite);

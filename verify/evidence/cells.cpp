@@ -61,10 +61,20 @@ struct VertexKind {
   }
 };
 
+// The values of the axis kFan: those inside, from three faces on, then those on the boundary.
+constexpr std::size_t kLeastInside = 2;
+std::size_t number_of(const Fan& fan) {
+  return fan.boundary ? kSizeClasses - kLeastInside + fan.size_class : fan.size_class - kLeastInside;
+}
+Fan fan_of(std::size_t number) {
+  const bool boundary = number >= kSizeClasses - kLeastInside;
+  return {boundary, boundary ? number + kLeastInside - kSizeClasses : number + kLeastInside};
+}
+
 // All features; where those of each axis begin.
 struct Table {
   std::vector<Feature> list;
-  std::array<std::size_t, 20> begin{};
+  std::array<std::size_t, kAxes> begin{};
 
   void axis(Axis a) { begin[static_cast<std::size_t>(a)] = list.size(), axis_ = a; }
   void add(std::string name, std::int32_t needs = 0) { list.push_back({axis_, std::move(name), needs}); }
@@ -127,6 +137,10 @@ struct Table {
                             kOwn[own]),
                 (boundary ? kNeedsBoundary : 0) | (i > 0 ? LC_SHARP_CREASES : 0) |
                     (s > 0 ? LC_SHARP_SEMI : 0) | own_needs[own]);
+    axis(Axis::kFan);
+    for (std::size_t k = kLeastInside; k < kLeast.size(); ++k) add(words(k, "face") + " inside");
+    for (std::size_t k = 0; k < kLeast.size(); ++k)
+      add(words(k, "face") + " on the boundary", kNeedsBoundary);
     axis(Axis::kIndex);
     for (const std::int64_t most : kIndexes)  // large ones are looked at in a part of a mesh
       add(fmt::format("an index up to {}", most), most >= kIndexes[kFarIndex] ? kNeedsDepths : 0);
@@ -195,6 +209,8 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
   const int faces = a.axis == Axis::kFaces ? kLeast[i] : 0;
   if (b.axis == Axis::kVertex)
     return a.axis == Axis::kCreasing && VertexKind::of(j).semi >= (i < kUnequal ? 1 : 2);
+  // The depth is that of masks and of steps, which inside and on the boundary are of different code.
+  if (b.axis == Axis::kFan) return a.axis == Axis::kDepth && i <= deepest(fan_of(j).size_class);
   // What a tessellator may keep by, and what its numbers of vertices may be too small for: large meshes take long.
   if (b.axis == Axis::kAsked || (b.axis == Axis::kIndex && j >= kFarIndex)) {
     if (a.axis == Axis::kFaces) return faces <= 8;
@@ -215,10 +231,8 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
     if (a.axis == Axis::kFaces) return kLeast[i] == 1;
   }
   if (is(Axis::kBoundary, Axis::kNeighbour)) return j == 0;
-  if (a.axis == Axis::kSide) {
-    if (b.axis == Axis::kFaces) return i == 1 || kLeast[j] >= 3;
-    if (b.axis == Axis::kBoundary) return i == 1;
-  }
+  if (is(Axis::kSide, Axis::kFaces)) return false;  // kFan
+  if (is(Axis::kSide, Axis::kBoundary)) return i == 1;
   // More edges than there are.
   if (is(Axis::kInfinite, Axis::kFaces) || is(Axis::kSemi, Axis::kFaces))
     return kLeast[j] >= static_cast<int>(i) + (kLeast[j] <= 2 ? 1 : 0);
@@ -233,7 +247,7 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
     if (b.axis == Axis::kAround) return faces > (j >= kBetweenCreases ? 2 : 1) && faces <= 16;
     if (b.axis == Axis::kCreasing) return faces > (j < kUnequal ? 1 : 2);
     if (b.axis == Axis::kCorners) return faces <= 12 || j <= 6;
-    if (b.axis == Axis::kDepth) return j <= deepest(i);
+    if (b.axis == Axis::kDepth) return false;  // kFan
     if (b.axis == Axis::kNeighbour) return faces > (j == 0 ? 0 : 1) && faces <= 16;
     return true;
   }
@@ -334,6 +348,8 @@ class Looker {
     add(Axis::kOwn, static_cast<std::size_t>(own));
     add(Axis::kFaces, class_of(at.faces));
     add(Axis::kVertex, VertexKind{at.boundary, at.infinite, at.semi, own}.number());
+    const Fan fan{at.boundary, class_of(at.faces)};
+    if (fan.boundary || fan.size_class >= kLeastInside) add(Axis::kFan, number_of(fan));
     if (at.own > 0) add(Axis::kOwnClass, data::sharpness_class(at.own));
     if (at.semi > 0 || own == 1) {
       const bool chaikin = mesh_.sharpness.creasing == data::Creasing::kChaikin;
@@ -416,6 +432,10 @@ const std::vector<Feature>& features() {
 
 std::string Cell::name() const {
   return first == second ? features()[first].name : features()[first].name + ", " + features()[second].name;
+}
+
+Fan fan(std::size_t feature) {
+  return fan_of(feature - table().at(Axis::kFan, 0));
 }
 
 VertexTags vertex_tags(std::size_t feature) {

@@ -37,12 +37,14 @@ enum class Axis : std::uint8_t {
   kNeighbour,   ///< how much the depths of its faces differ, and whether some are culled
   kOwnClass,    ///< the class of its own sharpness
   kVertex,      ///< kSide, kInfinite, kSemi and kOwn in one
+  kFan,         ///< kSide and kFaces in one
   kIndex,       ///< how large its index is
   kTags,        ///< how many the mesh has
   kComponents,  ///< .. of the mesh
   kGenus,
   kAsked  ///< whether the relations (verify/relations) are looked at, too
 };
+inline constexpr std::size_t kAxes = static_cast<std::size_t>(Axis::kAsked) + 1;
 
 /// One value on one axis.
 ///   needs   LC_SHARP_...: what a subject has to do to be asked; kNeedsBoundary .. beyond
@@ -64,6 +66,12 @@ struct VertexTags {
   int infinite, semi, own;
 };
 VertexTags vertex_tags(std::size_t feature);
+/// What a feature on the axis kFan says: the class of the number of faces, and on which side.
+struct Fan {
+  bool boundary;
+  std::size_t size_class;
+};
+Fan fan(std::size_t feature);
 /// The least number of faces of class k < kSizeClasses, or of corners of class k - 2.
 inline constexpr std::size_t kSizeClasses = 22;
 int least_of(std::size_t size_class);

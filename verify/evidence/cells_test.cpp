@@ -35,14 +35,15 @@ TEST(Cells, AreThoseThatAStarSays) {
         "a face of 5 corners", "a triangle by the ordinary rule", "depth 1",
         "inside with 1 infinite edge, 1 semi-sharp edge, a finite sharpness of its own",
         "a mesh of 1 to 12 tags", "a mesh of one component", "a mesh of genus 0", "faces of one depth",
-        "an index up to 255"})
+        "an index up to 255", "4 faces inside"})
     EXPECT_TRUE(inside.contains(name)) << name;
   for (const char* name :
        {"2 infinite edges", "held", "uniform creasing", "3 faces", "a face of 6 corners", "depth 2"})
     EXPECT_FALSE(inside.contains(name)) << name;
   const auto boundary = names("star:1h:orvK.c.");
-  for (const char* name : {"on the boundary", "held", "of sharpness above 10",
-                           "an edge of sharpness next below 1", "uniform creasing"})
+  for (const char* name :
+       {"on the boundary", "held", "of sharpness above 10", "an edge of sharpness next below 1",
+        "uniform creasing", "2 faces on the boundary"})
     EXPECT_TRUE(boundary.contains(name)) << name;
   EXPECT_TRUE(names("star:1h:orvb..").contains("one face by a boundary of edges and corners"));
   EXPECT_TRUE(names("star:1c:rbe..").contains("Chaikin's creasing of unequal edges"));

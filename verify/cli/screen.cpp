@@ -12,6 +12,8 @@
 #include <iterator>
 #include <utility>
 
+#include "verify/row/visible_text.h"
+
 namespace limitcheck::cli {
 namespace {
 
@@ -43,18 +45,31 @@ void show_the_end(int signal) {
 
 }  // namespace
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(std::chrono::milliseconds between)
+    : terminal_(isatty(STDERR_FILENO) != 0), between_(terminal_ ? std::chrono::milliseconds(100) : between) {}
 
 void Progress::show(std::size_t done, std::size_t total, const std::string& text) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || (shown_ && now - last_ < std::chrono::milliseconds(100))) return;
+  const auto now = Clock::now();
+  if (now - last_ < between_ && (shown_ || !terminal_)) return;
   last_ = now;
+  std::string left;
+  if (done > 0 && done < total) {
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    left = fmt::format(", {:.0f} s left",
+                       seconds * static_cast<double>(total - done) / static_cast<double>(done));
+  }
+  if (!terminal_) {
+    fmt::print(stream_, "{}\n",
+               verify::visible_text(fmt::format("limitcheck: {}/{}{}: {}", done, total, left, text)));
+    std::fflush(stream_);
+    return;
+  }
   shown_ = true;
   const std::size_t filled = total == 0 ? 0 : std::min(kBar, kBar * done / total);
-  std::string line = fmt::format("[{}{}] {}/{} {}", std::string(filled, '#'), std::string(kBar - filled, '.'),
-                                 done, total, text);
+  std::string line = fmt::format("[{}{}] {}/{}{} {}", std::string(filled, '#'),
+                                 std::string(kBar - filled, '.'), done, total, left, text);
   line.resize(std::min(line.size(), terminal_width(stream_) - 1));
-  fmt::print(stream_, "\r\033[K{}", line);
+  fmt::print(stream_, "\r\033[K{}", verify::visible_text(line));
   std::fflush(stream_);
 }
 

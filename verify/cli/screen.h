@@ -8,16 +8,17 @@
 
 namespace limitcheck::cli {
 
-/// One line on standard error that says what is being done now, rewritten in place; nothing at all if
-/// standard error is no terminal. Not thread-safe.
+/// Says on standard error what is being done now and how long it may still take: on a terminal in one line that is
+/// rewritten in place, elsewhere (a pipe, a log of CI) in a line every ten seconds. Not thread-safe.
 class Progress {
  public:
-  Progress();
+  /// between   two lines where standard error is no terminal
+  explicit Progress(std::chrono::milliseconds between = std::chrono::seconds(10));
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows `text` behind a bar of done / total; at most ten times a second, so call it as often as you like.
+  /// Shows `text` behind done / total; on a terminal at most ten times a second, so call it as often as you like.
   void show(std::size_t done, std::size_t total, const std::string& text);
   /// Wipes the line.
   void clear();
@@ -25,10 +26,13 @@ class Progress {
   void to(std::FILE* stream) { stream_ = stream; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   bool terminal_;
+  std::chrono::milliseconds between_;
   std::FILE* stream_ = stderr;
-  bool shown_ = false;
-  std::chrono::steady_clock::time_point last_{};
+  bool shown_ = false;  // a line that is to be wiped
+  Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
 /// While it lives, what is written to standard output and standard error goes to a file without a name. If

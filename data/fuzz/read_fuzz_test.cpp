@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "data/error.h"
@@ -26,7 +27,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   }
   if (!validate(mesh).empty()) std::abort();
   for (const FileFormat format : {FileFormat::kObj, FileFormat::kOff, FileFormat::kPly}) {
-    const ControlMesh again = read_mesh(mesh_content(mesh, format), format, "written");
+    std::string written;
+    try {
+      written = mesh_content(mesh, format);
+    } catch (const InputError&) {
+      // OBJ has a place for everything.
+      if (format == FileFormat::kObj) std::abort();
+      continue;
+    }
+    const ControlMesh again = read_mesh(written, format, "written");
     if (again != mesh) std::abort();
   }
   return 0;

@@ -55,6 +55,8 @@ class Repair {
          "which is a face like any other now");
     note("dropped", static_cast<std::int64_t>(soup.hides_boundary), "tag",
          "that hides the faces beside the boundary, which are faces like any other now");
+    const auto no_edge = std::erase_if(tags_, [](const Tag& t) { return t.a < 0; });
+    note("dropped", static_cast<std::int64_t>(no_edge), "sharpness", kNoPlace);
     note("dropped", no_vertex, "face", "that named a vertex which does not exist");
     drop("with fewer than three corners", [](const Polygon& p) { return p.size() < 3; });
     drop_repeated_corners("with a repeated corner");
@@ -192,8 +194,7 @@ class Repair {
         if (t.b >= 0) std::tie(t.a, t.b) = ends(t);
       std::sort(tags_.begin(), tags_.end(), [](const Tag& a, const Tag& b) { return ends(a) < ends(b); });
     }
-    note("dropped", static_cast<std::int64_t>(before - tags_.size()), "sharpness",
-         "of no edge or vertex, or of one that has a larger one");
+    note("dropped", static_cast<std::int64_t>(before - tags_.size()), "sharpness", kNoPlace);
   }
 
   /// The mesh, and what was done to it: nothing, if welding and cutting ended where they began.
@@ -220,6 +221,7 @@ class Repair {
 
  private:
   using Tag = data::io::PolygonSoup::SharpTag;
+  static constexpr std::string_view kNoPlace = "of no edge or vertex, or of one that has a larger one";
   static constexpr std::size_t kMostIndices = std::numeric_limits<std::int32_t>::max();
 
   static bool has_repeated_corners(Polygon p) {

@@ -193,6 +193,11 @@ PolygonSoup random_soup(std::uint32_t seed) {
 
 TEST(Repair, EndsInAMeshThatItLeavesAsItIs) {
   EXPECT_EQ(broken_property(soup(4, {{0, 1, 2, 3}, {0, 1, 2}}), {}), "");
+  // An edge without its first end is no vertex, though a vertex's tag has no second one; nor does it hide that one.
+  auto half = soup(3, {{0, 1, 2}});
+  half.sharp = {{-1, 2, 8, 1}, {2, -1, 4, 2}};
+  EXPECT_EQ(broken_property(half, {}), "");
+  EXPECT_EQ(repair(half, {}).soup.sharp.size(), 1U);
   for (std::uint32_t seed = 0; seed < 4000; ++seed)
     for (const bool weld : {false, true})
       ASSERT_EQ(broken_property(random_soup(seed), {.weld = weld}), "") << seed << (weld ? " welded" : "");

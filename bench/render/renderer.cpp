@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "data/error.h"
-#include "verify/mesh_output/atomic_file.h"
+#include "data/io/atomic_file.h"
 
 namespace limitcheck::bench {
 
@@ -239,7 +239,7 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   encode(nullptr);
   bytes.resize(size);
   encode(bytes.data());
-  verify::AtomicFile file(path);
+  data::AtomicFile file(path);
   file.stream().write(bytes.data(), static_cast<std::streamsize>(size));
   file.commit();
 }

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "bench/reproduction/reproduction.h"
-#include "verify/mesh_output/atomic_file.h"
+#include "data/io/atomic_file.h"
 
 namespace {
 
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", quick, "Fewer frames");
   CLI11_PARSE(app, argc, argv);
   const auto save = [&](const std::string& name, const Json& data) {
-    verify::AtomicFile file(folder / (name + ".json"));
+    data::AtomicFile file(folder / (name + ".json"));
     file.stream() << data.dump(name == "spheres" || name == "matched" || name == "timings" ? 1 : -1) << "\n";
     file.commit();
   };

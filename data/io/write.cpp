@@ -2,18 +2,15 @@
 #include "data/io/write.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <vector>
 
 #include "data/error.h"
+#include "data/io/atomic_file.h"
 #include "data/io/whole_content.h"
 
 namespace limitcheck::data {
@@ -116,46 +113,6 @@ void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
   }
 }
 
-// Empty, or the system's reason why the content could not be written.
-std::string write_all(const std::filesystem::path& file, const char* mode, const std::string& content) {
-  std::FILE* stream = std::fopen(file.c_str(), mode);
-  if (stream == nullptr) return std::strerror(errno);
-  const bool written = std::fwrite(content.data(), 1, content.size(), stream) == content.size();
-  int error = written ? 0 : errno;
-  if (std::fclose(stream) != 0 && error == 0) error = errno;
-  return error == 0 ? "" : std::strerror(error);
-}
-
-// The content under a temporary name, then renamed.
-void write_content(const std::filesystem::path& name, const std::string& content) {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError("FILE_CANNOT_WRITE", name.string(), 0, why);
-  };
-
-  std::error_code error;
-  // Through a link, as any program that opens it would, rather than in its place.
-  std::filesystem::path file = name;
-  if (std::filesystem::is_symlink(name, error))
-    if (auto target = std::filesystem::canonical(name, error); !error) file = std::move(target);
-  const auto type = std::filesystem::status(file, error).type();
-  if (type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::regular) {
-    const std::string why = write_all(file, "wb", content);
-    if (!why.empty()) refuse(why);
-    return;
-  }
-
-  const std::filesystem::path temporary = file.string() + fmt::format(".partial-{}", getpid());
-  std::string why = write_all(temporary, "wbx", content);
-  if (why.empty()) {
-    std::filesystem::rename(temporary, file, error);
-    if (error) why = error.message();
-  }
-  if (!why.empty()) {
-    std::filesystem::remove(temporary, error);
-    refuse(why);
-  }
-}
-
 }  // namespace
 
 std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options) {
@@ -180,7 +137,10 @@ std::string mesh_content(const ControlMesh& mesh, FileFormat format, const Write
 }
 
 void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options) {
-  write_content(file, mesh_content(mesh, io::format_of(file), options));
+  const std::string content = mesh_content(mesh, io::format_of(file), options);
+  AtomicFile out(file);
+  out.stream() << content;
+  out.commit();
 }
 
 }  // namespace limitcheck::data

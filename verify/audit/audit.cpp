@@ -82,6 +82,7 @@ void close(Session& session, Result& tessellates) {
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
     tessellates.status = status_of(error);
+    tessellates.origin = origin_of(error);
     tessellates.bad = 1;
     tessellates.message = fmt::format("at the end: {}", error.what());
   }
@@ -112,6 +113,12 @@ struct Auditor::Rows {
         contradiction.empty() ? error.what() : fmt::format("{}; {}", error.what(), contradiction));
     results.back().of = 1;
     results.back().bad = is_bad(results.back());
+    results.back().origin = origin_of(error);
+  }
+  // Not judged, for no fault of the subject.
+  void add_lack(std::string_view check, const std::string& why) const {
+    add(check, Status::kNotRun, why);
+    results.back().origin = Origin::kHost;
   }
 };
 
@@ -157,7 +164,8 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     std::vector<Result> kept;
   };
   const auto shared = std::make_shared<Shared>();
-  bool no_memory = false, left = false;
+  std::string lack;
+  bool left = false;
   const bool begun = interrupted() == 0;
   try {
     if (interrupted() == 0 && !leaves_) {
@@ -171,9 +179,9 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     }
   } catch (const Interrupted&) {
   } catch (const std::bad_alloc&) {
-    no_memory = true;
-  } catch (const HostOutOfMemory&) {
-    no_memory = true;
+    lack = "this program ran out of memory";
+  } catch (const HostLacks& host) {
+    lack = host.text();
   }
   std::vector<Result> results;
   if (left) {
@@ -183,21 +191,23 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
   } else {
     results = std::move(shared->rows);
   }
-  if (no_memory) {
+  if (!lack.empty()) {
     cache_.clear();
-    out_of_memory_ = true;
+    lack_ = lack;
   }
   // Witnesses on a sample name the faces of the whole mesh, also in rows of an audit that was interrupted.
   if (mesh.sample)
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
-  if (interrupted() != 0 || no_memory) add_missing(audited, mesh, begun, no_memory, results);
+  if (interrupted() != 0 || !lack.empty()) add_missing(audited, mesh, begun, lack, results);
   for (Result& r : results) {
     r.depth = depth_of(mesh);
     r.depths = mesh.depths;
     r.scheme = mesh.scheme();
     r.triangulated = mesh.triangulated;
     if (mesh.sample) r.sample = mesh.sample->text();
+    if (r.status == Status::kTimeout) r.origin = Origin::kLimit;
+    if ((r.status == Status::kCrash || r.status == Status::kError) && !r.origin) r.origin = Origin::kSubject;
   }
   return results;
 }
@@ -211,17 +221,20 @@ std::vector<std::string> Auditor::row_names(const AuditSubject& audited, const A
   return rows;
 }
 
-void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool begun, bool no_memory,
-                          std::vector<Result>& results) {
+void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bool begun,
+                          const std::string& lack, std::vector<Result>& results) {
   std::vector<std::string> missing{"tessellates"};
   if (begun && !is_oracle(audited)) missing = row_names(audited, mesh);
   std::erase_if(missing, [&](const std::string& check) {
     return std::any_of(results.begin(), results.end(), [&](const Result& r) { return r.check == check; });
   });
-  if (!no_memory && !missing.empty()) gave_up_ = true;
+  if (lack.empty() && !missing.empty()) gave_up_ = true;
   const Rows rows{audited.label(), mesh.name, results};
   for (const std::string& check : missing)
-    rows.add(check, Status::kNotRun, no_memory ? "this program ran out of memory" : "interrupted");
+    if (lack.empty())
+      rows.add(check, Status::kNotRun, "interrupted");
+    else
+      rows.add_lack(check, lack);
 }
 
 void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vector<Result>& results) {
@@ -290,11 +303,15 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
 }
 
 void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference) {
+  const auto give_up = [&](const Check& check, const std::string& why) {
+    for (const std::string_view row : check.rows) rows.add_lack(row, why);
+    lack_ = why;
+  };
   for (const Check& check : checks()) {
     if (interrupted() != 0) break;
     step(rows.subject, rows.mesh, check.name);
     if (check.needs_reference && !no_reference.empty()) {
-      rows.add(check, Status::kError, no_reference);
+      give_up(check, no_reference);
       continue;
     }
     const Clock clock;
@@ -306,7 +323,7 @@ void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::
     } catch (const std::bad_alloc&) {
       throw;  // no memory of this program's
     } catch (const std::exception& error) {
-      rows.add(check, Status::kError, fmt::format("the check itself failed: {}", error.what()));
+      give_up(check, fmt::format("the check itself failed: {}", error.what()));
     }
   }
 }
@@ -325,7 +342,7 @@ std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
       if (journal != nullptr && !journal->plan().has(unit)) continue;
       const nlohmann::json* known = journal != nullptr ? journal->recall(unit) : nullptr;
       std::vector<Result> results = known != nullptr ? rows_of(*known) : run(subjects[s], meshes[m]);
-      if (journal != nullptr && known == nullptr && !gave_up_ && !out_of_memory_)
+      if (journal != nullptr && known == nullptr && !gave_up_ && lack_.empty())
         journal->keep(unit, rows_json(results));
       for (Result& r : results) of_subject[s].push_back(std::move(r));
       ++done_;

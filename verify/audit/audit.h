@@ -42,8 +42,8 @@ class Auditor {
   ~Auditor();
 
   /// One subject on one mesh: a row for each check, in the order of the table, the first being `tessellates`.
-  /// A subject that refuses or fails makes no exception, nor does an interrupt (interrupt.h) or a lack of
-  /// memory: what could not be looked at has rows that say so. `mesh` is valid (data/validate.h).
+  /// A subject that refuses or fails makes no exception, nor does an interrupt (interrupt.h) or what
+  /// the host lacks: what could not be looked at has rows that say so. `mesh` is valid (data/validate.h).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
 
   /// Whether an interrupt left something out.
@@ -54,8 +54,8 @@ class Auditor {
   /// Whether that has happened: then neither this nor the subjects and meshes that it was given may be
   /// destroyed before the process ends.
   bool abandoned() const { return abandoned_; }
-  /// Whether a lack of memory, of this program and not of a subject, left something out.
-  bool out_of_memory() const { return out_of_memory_; }
+  /// What this program or its system lacked, and no subject, so that something was left out; empty: nothing.
+  const std::string& lack() const { return lack_; }
 
   /// Every subject on every mesh; results are ordered by subject, then by mesh. Unit m * subjects + s of the
   /// journal's plan is subject s on mesh m: those that its shard has not are left out, those that it knows are
@@ -74,7 +74,7 @@ class Auditor {
   void run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference);
   // Adds each row that is still missing, and why: out of memory, or interrupted. If nothing was begun it is one
   // row: at a signal there may be thousands of such pairs, and a second to write a report.
-  void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool begun, bool no_memory,
+  void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool begun, const std::string& lack,
                    std::vector<Result>& results);
   // Whether the relations belong to the audit of a mesh, of which this is judged.
   bool related(const AuditMesh& mesh, const data::ControlMesh& judged) const;
@@ -90,7 +90,8 @@ class Auditor {
   std::function<void(const AuditStep&)> on_step_;
   Level level_;
   std::size_t done_ = 0, total_ = 1;
-  bool gave_up_ = false, out_of_memory_ = false, leaves_ = false, abandoned_ = false;
+  std::string lack_;
+  bool gave_up_ = false, leaves_ = false, abandoned_ = false;
   std::function<void()> keep_rows_;  // called between two checks
   std::map<std::pair<std::string, data::Scheme>, std::vector<Refusal>> refusals_;  // of each subject, once
   std::string cached_mesh_;

@@ -155,7 +155,7 @@ Job job_of(AuditArguments a) {
 std::string incomplete(const verify::Auditor& auditor, const std::vector<verify::AuditMesh>& meshes,
                        const verify::Report& report, int signal, bool whole) {
   if (signal != 0) return fmt::format("interrupted by {}", verify::signal_name(signal));
-  if (auditor.out_of_memory()) return "this program ran out of memory";
+  if (!auditor.lack().empty()) return auditor.lack();
   if (report.looked() || !whole) return "";
   return nothing_looked_at(std::any_of(meshes.begin(), meshes.end(), [](const verify::AuditMesh& m) {
     return !m.mesh.faces.are_triangles();
@@ -269,7 +269,7 @@ int audit(const Job& job) {
     report.incomplete = incomplete(auditor, meshes, report, signal, whole);
     if (whole) verify::add_coverage(report, coverage);
     const bool judged = settle(a.output, report);
-    const bool done = signal == 0 && !auditor.out_of_memory();
+    const bool done = signal == 0 && auditor.lack().empty();
     const std::string json =
         reports && whole ? attested(verify::to_json(report, a.output.level), plan.what) : "";
     const auto not_written =
@@ -281,7 +281,7 @@ int audit(const Job& job) {
       say(stderr, "limitcheck: interrupted by {}: not all witnesses are written\n",
           verify::signal_name(later));
     if (later != 0) return kSignalled + later;
-    if (auditor.out_of_memory()) return int{kBadInput};
+    if (!auditor.lack().empty()) return int{kBadInput};
     if (!whole && !report.looked()) return int{kHeld};
     return exit_code_of(report, judged);
   };

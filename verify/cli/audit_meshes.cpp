@@ -228,7 +228,7 @@ verify::Plan audit_plan(const verify::Auditor& auditor, const std::vector<verify
   std::map<std::vector<std::string>, std::size_t> lists;
   for (const auto& m : meshes) {
     what["meshes"].push_back({m.name, content(m.mesh), m.depth, m.depths, name_of(m.scheme()),
-                              verify::digest(bytes(m.face_depth))});
+                              verify::digest(bytes(m.face_depth)), m.sample ? m.sample->text() : ""});
     polygons = polygons || !m.mesh.faces.are_triangles();
     for (const auto& s : subjects) {
       const auto [list, is_new] = lists.try_emplace(auditor.row_names(s, m), lists.size());
@@ -253,9 +253,10 @@ void require_units(const nlohmann::json& plan, const std::map<std::size_t, nlohm
         missing = plan.at("rows").at(plan.at("rows_of_units").at(unit).get<std::size_t>());
     for (const verify::Result& row : verify::rows_of(result)) {
       if (row.subject != subject || row.mesh != mesh.at(0) || (mesh.at(2) >= 0 && row.depth != mesh.at(2)) ||
-          row.depths != mesh.at(3) || name_of(row.scheme) != mesh.at(4).get<std::string>())
-        refuse(fmt::format("the row {} is of {} on {}, depth {} {}", row.check, row.subject, row.mesh,
-                           row.depth, row.depths));
+          row.depths != mesh.at(3) || row.sample != mesh.at(6) ||
+          name_of(row.scheme) != mesh.at(4).get<std::string>())
+        refuse(fmt::format("the row {} is of {} on {}, depth {} {} {}", row.check, row.subject, row.mesh,
+                           row.depth, row.depths, row.sample));
       if (verify::verdict_of(row) != row.status)
         refuse(fmt::format("{} says {}, and its numbers say {}", row.check, word(row.status),
                            word(verify::verdict_of(row))));

@@ -217,6 +217,9 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fputs("limitcheck: out of memory\n", stderr);
     return kBadInput;
+  } catch (const verify::HostLacks& lack) {
+    complain(lack.text());
+    return kBadInput;
   } catch (const std::exception& error) {
     complain(error.what());
     return kBadInput;

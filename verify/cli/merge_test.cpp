@@ -149,7 +149,7 @@ TEST_F(Merge, WrongPartsAreRefused) {
 }
 
 // A unit's result in a part: its rows, each a list of subject, mesh, check, depth, ...
-constexpr std::size_t kCheck = 8, kDepth = 2, kWorst = 12;
+constexpr std::size_t kCheck = 8, kDepth = 2, kSample = 4, kWorst = 12;
 json::iterator find_row(json& rows, const std::string& check) {
   return std::find_if(rows.begin(), rows.end(), [&](const json& row) { return row[kCheck] == check; });
 }
@@ -175,6 +175,8 @@ TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
        [](json& rows) { rows.push_back(row_of(rows, "finite")); }},
       {"the row finite is of naive on octahedron, depth 3",
        [](json& rows) { row_of(rows, "finite")[kDepth] = 3; }},
+      {"the row finite is of naive on octahedron, depth 1 uniform 7:1",
+       [](json& rows) { row_of(rows, "finite")[kSample] = "7:1"; }},
       {"there is no row", [](json& rows) { rows = json::array(); }},
   };
   for (const auto& [sentence, edit, code] : wrong) {
@@ -193,6 +195,28 @@ TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
   write("edited.json", verify::sealed(part));
   EXPECT_TRUE(says(run("merge edited.json part2.json -o x.json").err,
                    "unit 2, naive on cube: the row tessellates is of naive on octahedron"));
+}
+
+TEST_F(Merge, AMutantsResultIsOfThatMutant) {
+  for (const char* shard : {"1/2", "2/2"}) {  // nothing is audited: results are as easily written as read
+    json part{{"program", "limitcheck mutants"},
+              {"plan", json::object()},
+              {"units", 4000},
+              {"together", 4000},
+              {"shard", shard},
+              {"seconds", 0},
+              {"containment", ""},
+              {"printed", ""},
+              {"incomplete", ""}};
+    part["results"] = json::array();
+    for (int unit = 0; unit < 4000 && shard[0] == '1'; ++unit)
+      part["results"].push_back(
+          {unit, {{"mutant", "another"}, {"killed_by", {"positions"}}, {"on", "cube"}}});
+    write(std::string("m") + shard[0] + ".json", verify::sealed(part));
+  }
+  const Outcome o = run("merge m1.json m2.json -o x.json");
+  EXPECT_EQ(o.code, 2) << o.out;
+  EXPECT_TRUE(says(o.err, "and its result is of"));
 }
 
 TEST_F(Merge, AJournalInWhichAllUnitsAreTheFirstIsRefused) {

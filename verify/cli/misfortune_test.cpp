@@ -256,6 +256,68 @@ TEST_F(Misfortune, TheHostsOwnLackOfMemoryIsNotBlamedOnTheSubject) {
 }
 #endif
 
+// Whatever this system does not give a right subject in a process of its own: no row is a breakdown of it.
+#ifndef LIMITCHECK_SANITIZED
+TEST_F(Misfortune, WhatTheSystemLacksIsNotJudgedAndNoFaultOfTheSubject) {
+  for (const std::string limit :
+       {"-n 16", "-n 20", "-v 600000", "-v 250000", "-v 100000", "-d 60000", "-u 3"}) {
+    std::filesystem::remove(folder_ / "r.json");
+    const Outcome o =
+        shell("rm -f r.jsonl; ulimit " + limit +
+              "; limitcheck audit naive tetrahedron --isolate --depth 1 --level quick --json r.json");
+    // Root may start as many processes as it likes.
+    EXPECT_TRUE(o.code == 2 || (o.code == 0 && !says(o.out, "FINDING")))
+        << limit << ": " << o.code << o.out << o.err;
+    EXPECT_FALSE(says(o.out + o.err, "high") || o.code == 1) << limit;
+    if (o.code != 2 || !std::filesystem::exists(folder_ / "r.json")) continue;
+    const auto report = json_in("r.json");
+    EXPECT_FALSE(report["incomplete"].is_null()) << limit;
+    for (const auto& row : report["results"]) {
+      EXPECT_EQ(row["status"], "not-run") << limit << row;
+      EXPECT_EQ(row["origin"], "host") << limit << row;
+    }
+  }
+}
+
+TEST_F(Misfortune, ASystemWithoutNamespacesHoldsProcessesByASubreaper) {
+  const Outcome o = shell(
+      "unshare -Ur bash -c 'echo 0 > /proc/sys/user/max_pid_namespaces && "
+      "\"$0\" audit naive tetrahedron --isolate --depth 1 --level quick --json r.json' \"" LIMITCHECK_PROGRAM
+      "\" || { code=$?; test -e r.json || exit 77; exit $code; }");
+  if (o.code == 77) GTEST_SKIP() << o.err;
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_TRUE(says(json_in("r.json")["containment"].get<std::string>(), "subreaper"));
+}
+#endif
+
+TEST_F(Misfortune, RowsSayWhoseDoingABreakdownIs) {
+  write("dies.sh", kTellsWhatItCan + "kill -SEGV $$\n");
+  write("mute.sh", kTellsWhatItCan + "sleep 1000\n");
+  for (const auto& [script, origin] : {std::pair{"dies.sh", "subject"}, {"mute.sh", "limit"}}) {
+    const auto report = json_of(std::string("audit --program 'bash ") + script +
+                                    "' tetrahedron --depth 1 --level quick --timeout 1 --json",
+                                1);
+    EXPECT_EQ(report["results"][0]["origin"], origin) << report["results"][0];
+    EXPECT_TRUE(report["results"][1]["origin"].is_null());
+  }
+}
+
+TEST_F(Misfortune, AnExistingFileKeepsItsMode) {
+  for (const std::string& command : {std::string("generate cube -o"), std::string("repair broken.obj -o"),
+                                     std::string("tessellate cube -o")}) {
+    const Outcome o =
+        shell("limitcheck generate cube -o broken.obj; touch out.obj; chmod 640 out.obj; limitcheck " +
+              command + " out.obj > log && stat -c %a out.obj");
+    EXPECT_EQ(o.out, "640\n") << command << o.err;
+  }
+}
+
+// Twenty moments; verify/kills.sh has more.
+TEST_F(Misfortune, WhatIsKilledAtAnyMomentEndsInTheSameReport) {
+  const Outcome o = command("bash '" LIMITCHECK_SOURCE "/verify/kills.sh' '" LIMITCHECK_PROGRAM "' 4");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+}
+
 TEST_F(Misfortune, NamesMayHaveSpacesQuotesAndOtherAlphabets) {
   const Outcome o = shell(
       "mkdir 'Größe \"ñ\" 网格'; cd 'Größe \"ñ\" 网格'; limitcheck generate icosahedron -o \"a b'ü.obj\" && "

@@ -28,6 +28,7 @@
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
 #include "verify/shard/seal.h"
+#include "verify/subject/subject_error.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -58,6 +59,8 @@ std::unique_ptr<JobCounters, Unmap> shared_counters() {
   int code = kBadInput;
   try {
     code = work(job, counters);
+  } catch (const verify::HostLacks& lack) {
+    say(stderr, "limitcheck: {}\n", lack.text());
   } catch (const std::exception& error) {
     say(stderr, "limitcheck: {}\n", error.what());
   }

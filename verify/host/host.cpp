@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -198,6 +200,23 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   if (const LentMesh before(mesh_, lent_.scheme); !(before == lent_))
     result.defects_.push_back({Defect::Kind::kMeshModified, "mesh", 1, -1, changes(before, lent_)});
   return result;
+}
+
+std::string host_shortage() {
+  struct Need {
+    __rlimit_resource resource;
+    rlim_t least;
+    const char* of;
+  };
+  constexpr rlim_t kMemory = rlim_t{4} << 30;
+  for (const Need& need : {Need{RLIMIT_AS, kMemory, "bytes of addresses"},
+                           {RLIMIT_DATA, kMemory, "bytes of data"},
+                           {RLIMIT_NOFILE, 64, "open files"},
+                           {RLIMIT_NPROC, 64, "processes"}})
+    if (rlimit limit{}; getrlimit(need.resource, &limit) == 0 && limit.rlim_cur < need.least)
+      return fmt::format("not judged: the system allows {} {}, and a subject may take {}", limit.rlim_cur,
+                         need.of, need.least);
+  return {};
 }
 
 std::string out_of_range(const data::ControlMesh& mesh, bool double_precision) {

@@ -145,7 +145,7 @@ class Tessellation {
   std::vector<Overrun> overruns_;
 };
 
-/// The capabilities of a subject under these options for one scheme. Throws SubjectError; SubjectDied
+/// The capabilities of a subject under these options for one scheme. Throws SubjectError; HostLacks; SubjectDied
 /// (kProtocol) if it declares what means nothing.
 lc_capabilities capabilities(const lc_subject& subject, const std::string& options = {},
                              data::Scheme scheme = data::Scheme::kLoop);
@@ -197,6 +197,10 @@ class Session {
   void* instance_ = nullptr;
   bool closed_ = false;
 };
+
+/// What the system allows this program and those it starts less of than a subject may take (ulimit -v, -d, -n, -u),
+/// in a sentence; empty: enough of everything. 4 GiB of addresses, 64 open files, 64 processes.
+std::string host_shortage();
 
 /// Empty if the largest coordinate is 0 or within 2^-100 and 2^100, 2^-240 and 2^240 with double_precision;
 /// else a sentence that says so. Beyond, fourth powers of lengths (the square of a cross product of tangents)

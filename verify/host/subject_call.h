@@ -5,17 +5,20 @@
 #include <fmt/core.h>
 
 #include <exception>
+#include <string>
 
+#include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify::detail {
 
 /// Calls a function of the subject and turns every way of failing into a SubjectError. C++ subjects may throw
-/// although the interface is C: that is a failure of theirs, not the end of the run.
+/// although the interface is C: that is a failure of theirs, not the end of the run. A crash or failure where the
+/// system allows less than a subject may take is nobody's fault: HostLacks.
 ///   function_call   (const char** message) -> lc_status
 template <class Call>
-void call(const lc_subject& subject, const char* function, Call&& function_call) {
+void call(const lc_subject& subject, const char* function, Call&& function_call) try {
   const char* message = nullptr;
   lc_status status = LC_FAILED;
   try {
@@ -24,7 +27,7 @@ void call(const lc_subject& subject, const char* function, Call&& function_call)
     throw;
   } catch (const Interrupted&) {
     throw;
-  } catch (const HostOutOfMemory&) {
+  } catch (const HostLacks&) {
     throw;
   } catch (const std::exception& error) {
     throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw: {}", subject.name, function, error.what()));
@@ -35,6 +38,13 @@ void call(const lc_subject& subject, const char* function, Call&& function_call)
   if (status != LC_NOT_SUPPORTED && status != LC_INVALID_INPUT) status = LC_FAILED;
   throw SubjectError(
       status, fmt::format("{}: {}", subject.name, message != nullptr ? message : "no reason was given"));
+} catch (const SubjectError& error) {
+  const auto* died = dynamic_cast<const SubjectDied*>(&error);
+  const bool broke =
+      died != nullptr ? died->kind() == SubjectDied::Kind::kCrash : error.status() == LC_FAILED;
+  if (const std::string shortage = broke ? host_shortage() : ""; !shortage.empty())
+    throw HostLacks{error.what(), shortage};
+  throw;
 }
 
 }  // namespace limitcheck::verify::detail

@@ -13,8 +13,8 @@
 #include <limits>
 
 #include "data/error.h"
+#include "data/io/atomic_file.h"
 #include "fast/plan/depth.h"
-#include "verify/mesh_output/atomic_file.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -51,7 +51,7 @@ std::vector<std::vector<std::uint32_t>> triangles_by_class(const Mesh& mesh, con
 
 void write_ply(const Path& file, const Mesh& mesh, const Colouring& colouring) {
   const bool coloured = !colouring.classes.empty();
-  AtomicFile output(file);
+  data::AtomicFile output(file);
   std::ostream& out = output.stream();
   out << fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment limitcheck\nelement vertex {}\nproperty float "
@@ -75,7 +75,7 @@ void write_ply(const Path& file, const Mesh& mesh, const Colouring& colouring) {
 }
 
 void write_materials(const Path& file, const Colouring& colouring) {
-  AtomicFile output(file);
+  data::AtomicFile output(file);
   for (const ColourClass& c : colouring.classes) {
     output.stream() << fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", c.name, c.rgb[0] / 255.,
                                    c.rgb[1] / 255., c.rgb[2] / 255.);
@@ -85,7 +85,7 @@ void write_materials(const Path& file, const Colouring& colouring) {
 
 void write_obj(const Path& file, const Mesh& mesh, const Colouring& colouring) {
   const bool coloured = !colouring.classes.empty();
-  AtomicFile output(file);
+  data::AtomicFile output(file);
   fmt::memory_buffer text;
   const auto add = [&](auto format, const auto&... values) {
     fmt::format_to(std::back_inserter(text), format, values...);
@@ -215,7 +215,7 @@ void write_glb(const Path& file, const Mesh& mesh, const Colouring& colouring) {
     model.defaultScene = 0;
   }
 
-  AtomicFile output(file);
+  data::AtomicFile output(file);
   tinygltf::TinyGLTF writer;
   writer.WriteGltfSceneToStream(&model, output.stream(), false, true);
   output.commit();

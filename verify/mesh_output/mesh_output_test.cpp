@@ -18,10 +18,10 @@
 #include <tuple>
 
 #include "data/error.h"
+#include "data/io/atomic_file.h"
 #include "data/io/read.h"
 #include "data/shapes.h"
 #include "data/validate.h"
-#include "verify/mesh_output/atomic_file.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -207,13 +207,13 @@ TEST(AtomicFile, WithoutCommitLeavesTheOldFileAndNothingElse) {
   const Directory directory;
   const fs::path file = directory.path / "kept.txt";
   std::ofstream(file) << "old";
-  { AtomicFile(file).stream() << "new"; }
+  { data::AtomicFile(file).stream() << "new"; }
   std::string content;
   std::ifstream(file) >> content;
   EXPECT_EQ(content, "old");
   EXPECT_EQ(directory.files(), 1u);
   {
-    AtomicFile output(file);
+    data::AtomicFile output(file);
     output.stream() << "new";
     output.commit();
   }
@@ -227,7 +227,7 @@ TEST(AtomicFile, ASignalInTheMiddleRemovesTheTemporaryAndEndsTheProcessByThatSig
     const Directory directory;
     const pid_t child = fork();
     if (child == 0) {
-      AtomicFile output(directory.path / "half.txt");
+      data::AtomicFile output(directory.path / "half.txt");
       output.stream() << "half" << std::flush;
       raise(signal);
       _exit(77);  // not reached

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "data/error.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
 #include "verify/checks/checks.h"
@@ -152,7 +153,7 @@ void run_mutants(Journal& journal,
   for (std::size_t k = 0; k < mutants().size(); ++k)
     if (to_do(cases + k)) open.push_back({cases + k, {&mutants()[k], {}, ""}});
   const auto close = [&](const Open& at) {
-    keep(at.unit, {{"killed_by", at.kill.killed_by}, {"on", at.kill.on}});
+    keep(at.unit, {{"mutant", at.kill.mutant->name}, {"killed_by", at.kill.killed_by}, {"on", at.kill.on}});
   };
   std::stable_sort(plan.begin(), plan.end(),
                    [](const AuditMesh& a, const AuditMesh& b) { return cost(a) < cost(b); });
@@ -188,8 +189,12 @@ KillTable kill_table(const std::map<std::size_t, nlohmann::json>& results) {
       for (const nlohmann::json& red : result) table.red_on_correct.push_back(red.get<std::string>());
       continue;
     }
-    table.kills.push_back({&mutants().at(unit - cases), result.at("killed_by").get<std::set<std::string>>(),
-                           result.at("on").get<std::string>()});
+    const Mutant& mutant = mutants().at(unit - cases);
+    if (result.at("mutant") != mutant.name)
+      throw data::ArgumentError(fmt::format("unit {} is {}, and its result is of {}", unit, mutant.name,
+                                            result.at("mutant").dump()));
+    table.kills.push_back(
+        {&mutant, result.at("killed_by").get<std::set<std::string>>(), result.at("on").get<std::string>()});
   }
   std::set<std::string> rows{"tessellates", "refined-positions", "recognised"}, useful;
   for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());

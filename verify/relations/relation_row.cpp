@@ -195,6 +195,13 @@ Status status_of(const std::exception& error) {
   return refusal->status() == LC_NOT_SUPPORTED ? Status::kNotSupported : Status::kFinding;
 }
 
+Origin origin_of(const std::exception& error) {
+  const auto* died = dynamic_cast<const SubjectDied*>(&error);
+  const bool limit = died != nullptr && (died->kind() == SubjectDied::Kind::kTimeout ||
+                                         died->kind() == SubjectDied::Kind::kMemory);
+  return limit ? Origin::kLimit : Origin::kSubject;
+}
+
 RelationRow::RelationRow(const AuditSubject& subject, const Evidence& e, std::string_view name,
                          const char* unit, double bound)
     : subject_(subject), e_(e), r_(e.result(name, unit, bound)) {}
@@ -215,6 +222,7 @@ void RelationRow::ask(const AuditSubject& subject, const std::string& what, cons
   } catch (const std::exception& error) {
     const Status status = status_of(error);
     if (status != Status::kNotSupported) ++r_.bad;
+    if (gravity(status) > gravity(r_.status)) r_.origin = origin_of(error);
     note(status, fmt::format("{}: {}", what, error.what()));
   }
 }

@@ -66,6 +66,8 @@ class Compared {
 /// for LC_INVALID_INPUT (the mesh was valid) and for an answer that breaks the protocol, kCrash or kTimeout
 /// for a process that ended or hung, otherwise kError.
 Status status_of(const std::exception& error);
+/// kLimit of what took too long or too much, otherwise kSubject.
+Origin origin_of(const std::exception& error);
 
 /// All requests are made, also after one has failed. The row has the worst status of them all, and its
 /// message says what went wrong in each.

@@ -10,8 +10,8 @@
 #include <type_traits>
 
 #include "data/error.h"
+#include "data/io/atomic_file.h"
 #include "verify/causes/causes.h"
-#include "verify/mesh_output/atomic_file.h"
 #include "verify/report/exhaustive.h"
 #include "verify/report/overview.h"
 #include "verify/row/commands.h"
@@ -37,6 +37,8 @@ template <class E>
 constexpr E kLast{};
 template <>
 constexpr Status kLast<Status> = Status::kError;
+template <>
+constexpr Origin kLast<Origin> = Origin::kHost;
 template <>
 constexpr PlaceKind kLast<PlaceKind> = PlaceKind::kCorner;
 template <>
@@ -303,7 +305,7 @@ Report header_of(const Json& json) {
 
 void write_text(const std::filesystem::path& file, const std::string& content) {
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  AtomicFile out(file);
+  data::AtomicFile out(file);
   out.stream() << content;
   out.commit();
 }

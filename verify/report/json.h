@@ -35,7 +35,7 @@ nlohmann::ordered_json number(double x);
 /// An array, null for an empty list.
 nlohmann::ordered_json numbers(const std::vector<double>& list);
 
-/// Writes a text whole or not at all (mesh_output/atomic_file.h); makes the folder. Throws
+/// Writes a text whole or not at all (data/io/atomic_file.h); makes the folder. Throws
 /// std::filesystem::filesystem_error or data::InputError FILE_CANNOT_WRITE.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -55,14 +55,15 @@ template <class Visit>
 void visit_fields(Is<Result> auto& row, Visit&& visit) {
   auto& [subject, mesh, check, depth, depths, sample, precision, scheme, cut, weights, status, bad, of, worst,
          bound, rms, p99, unit, absolute, ulps, ill, witness, message, accepted, not_finite, waiver, places,
-         decades, seconds, recognised] = row;
-  visit_each(visit, {"subject", "mesh",         "depth",          "depths",     "sample",
-                     "scheme",  "triangulated", "precision",      "check",      "status",
-                     "count",   "of",           "worst",          "bound",      "unit",
-                     "rms",     "p99",          "worst_absolute", "worst_ulps", "ill_conditioned",
-                     "places",  "recognised",   "seconds",        "message",    "witness"},
-             subject, mesh, depth, depths, sample, scheme, cut, precision, check, status, bad, of, worst,
-             bound, unit, rms, p99, absolute, ulps, ill, places, recognised, seconds, message, witness);
+         decades, seconds, recognised, origin] = row;
+  visit_each(
+      visit,
+      {"subject",    "mesh",    "depth",   "depths",         "sample",     "scheme",          "triangulated",
+       "precision",  "check",   "status",  "count",          "of",         "worst",           "bound",
+       "unit",       "rms",     "p99",     "worst_absolute", "worst_ulps", "ill_conditioned", "places",
+       "recognised", "seconds", "message", "witness",        "origin"},
+      subject, mesh, depth, depths, sample, scheme, cut, precision, check, status, bad, of, worst, bound,
+      unit, rms, p99, absolute, ulps, ill, places, recognised, seconds, message, witness, origin);
   visit_each(visit, {"", "", "", "", ""}, weights, decades, accepted, not_finite, waiver);
 }
 

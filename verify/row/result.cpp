@@ -54,6 +54,11 @@ std::string faces_in_words(const std::vector<PlaceCount>& counts, PlaceKind kind
 
 }  // namespace
 
+std::string_view word(Origin origin) {
+  constexpr std::string_view kWords[] = {"subject", "limit", "host"};
+  return kWords[static_cast<std::size_t>(origin)];
+}
+
 std::string_view word(Status status) {
   constexpr std::string_view kWords[] = {
       "held",          "finding", "quality-warning", "waived",  "unexpected-pass",

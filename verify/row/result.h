@@ -31,6 +31,16 @@ enum class Status {
   kError            // subject or check broke down otherwise
 };
 
+/// Whose doing it is that a row crashed, timed out, broke down or was not judged.
+enum class Origin : std::uint8_t {
+  kSubject,
+  kLimit,  // the subject took longer, or more memory or processes, than it was allowed
+  kHost    // this program or its system lacks something: no fault of the subject, which is not judged
+};
+
+/// "subject", "limit", "host": stable.
+std::string_view word(Origin origin);
+
 /// "held", "finding", "quality-warning", "waived", "unexpected-pass", "not-supported", "not-run", "crash",
 /// "timeout", "error": stable.
 std::string_view word(Status status);
@@ -144,6 +154,7 @@ struct Result {
   std::vector<std::int64_t> decades;
   double seconds = 0;                    // that it took to look
   std::optional<Recognised> recognised;  // positions, and the row of what is not that
+  std::optional<Origin> origin;          // of breakdowns, and of what the host could not judge
 };
 
 /// A finding, or a breakdown.

@@ -46,8 +46,13 @@ class SubjectDied : public SubjectError {
   Kind kind_;
 };
 
-/// This program has no memory left for what a subject delivered: no fault of the subject. Not a
-/// std::exception, for the reason that Interrupted (interrupt.h) is none.
-struct HostOutOfMemory {};
+/// This program, or the system it runs on, lacks what it takes to judge a subject: memory, files, processes. No fault
+/// of the subject. Not a std::exception, for the reason that Interrupted (interrupt.h) is none.
+///   what     "cannot make a pipe: Too many open files"
+///   because  where the subject broke down for it: host_shortage() (host.h)
+struct HostLacks {
+  std::string what, because = {};
+  std::string text() const { return because.empty() ? what : what + "; " + because; }
+};
 
 }  // namespace limitcheck::verify

@@ -131,7 +131,12 @@ class Behaviours : public testing::TestWithParam<bool> {
 
 TEST_P(Behaviours, OfLibrariesAreContainedAndToldForWhatTheyAre) {
   EXPECT_GE(library_behaviours().size(), 100U);
-  expect_all(RemoteSubject::Kind::kLibrary, LIMITCHECK_TEST_SUBJECTS "/behaviours.so", library_behaviours());
+  for (const char* interface : {"1", "2"}) {
+    SCOPED_TRACE(interface);
+    expect_all(RemoteSubject::Kind::kLibrary,
+               std::string(LIMITCHECK_TEST_SUBJECTS "/behaviours_") + interface + ".so",
+               library_behaviours());
+  }
 }
 
 TEST_P(Behaviours, OfProgramsAreContainedAndToldForWhatTheyAre) {

@@ -28,7 +28,7 @@ constexpr auto kToBury = 10s;  // for the kernel to end what was killed, on a ma
 constexpr std::size_t kErrorTail = 2000;
 
 [[noreturn]] void refuse(const char* what) {
-  throw SubjectError(LC_FAILED, fmt::format("{}: {}", what, std::strerror(errno)));
+  throw HostLacks{fmt::format("{}: {}", what, std::strerror(errno))};
 }
 
 // write(), without the SIGPIPE that would end this program if the reader is gone.
@@ -241,7 +241,7 @@ void ChildProcess::watch_limits() {
     fail(SubjectDied::Kind::kTimeout, fmt::format("no complete answer within {} s", limits_.seconds));
   if (now < next_look_) return;
   const std::vector<pid_t> all = descendants(keeper_);
-  const std::uint64_t bytes = resident_bytes(all, limits_.memory_bytes());
+  const std::uint64_t bytes = held_bytes(all, limits_.memory_bytes());
   // With thousands of processes a look takes long; at most a tenth of the time is spent on looking.
   const auto after = Clock::now();
   next_look_ = after + std::max<Clock::duration>(kTick, 9 * (after - now));

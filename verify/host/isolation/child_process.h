@@ -20,7 +20,7 @@ namespace limitcheck::verify {
 
 struct ProcessLimits {
   double seconds = 60;             // for each answer; the child's own time and its waiting count alike
-  std::int64_t memory_mib = 4096;  // resident, of the child and its children together
+  std::int64_t memory_mib = 4096;  // of the child and its children together
   std::int64_t processes = 1000;   // of the child's children together
   bool namespaces = true;          // false: the keeper is a subreaper, though the system allow namespaces
   std::uint64_t memory_bytes() const { return static_cast<std::uint64_t>(memory_mib) << 20; }
@@ -37,7 +37,7 @@ struct ProcessLimits {
 /// that made it must not end before). Needs Linux: prctl, /proc.
 class ChildProcess : public protocol::Source {
  public:
-  /// Throws SubjectError(LC_FAILED) if the system cannot start another process. A program that does not exist
+  /// Throws HostLacks if the system cannot start another process, as all others do if it does not let them go on. A program that does not exist
   /// is found out with the first answer.
   ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits);
   ~ChildProcess() override;

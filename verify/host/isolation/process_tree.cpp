@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verify/host/isolation/process_tree.h"
 
+#include <linux/magic.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace limitcheck::verify {
 namespace {
@@ -72,11 +76,37 @@ std::vector<pid_t> searched_descendants(pid_t process, const fs::path& proc) {
   }
 }
 
-std::uint64_t resident_bytes(pid_t process, const fs::path& proc) {
+// Of these, `shared`: those of files and shared memory.
+std::uint64_t resident_bytes(pid_t process, const fs::path& proc, std::uint64_t* shared = nullptr) {
   static const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  std::uint64_t size = 0, resident = 0;
-  std::ifstream(proc / std::to_string(process) / "statm") >> size >> resident;
+  std::uint64_t size = 0, resident = 0, of_files = 0;
+  std::ifstream(proc / std::to_string(process) / "statm") >> size >> resident >> of_files;
+  if (shared != nullptr) *shared += of_files * page;
   return resident * page;
+}
+
+// The bytes of shared memory without a name by device and number: what several have counts once.
+using Unnamed = std::map<std::pair<dev_t, ino_t>, std::uint64_t>;
+
+void add_unnamed(const std::string& file, Unnamed& found) {
+  struct stat is {};
+  struct statfs system {};
+  if (stat(file.c_str(), &is) == 0 && S_ISREG(is.st_mode) && is.st_nlink == 0 &&
+      statfs(file.c_str(), &system) == 0 && system.f_type == TMPFS_MAGIC)
+    found[{is.st_dev, is.st_ino}] = static_cast<std::uint64_t>(is.st_blocks) * 512;
+}
+
+void add_unnamed(pid_t process, const fs::path& proc, Unnamed& found) {
+  const fs::path folder = proc / std::to_string(process);
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / "fd", error), end; !error && entry != end;
+       entry.increment(error))
+    add_unnamed(entry->path(), found);
+  // 7f0000000000-7f0000001000 rw-s 00000000 00:01 1    /memfd:name (deleted)
+  std::ifstream maps(folder / "maps");
+  for (std::string line; std::getline(maps, line);)
+    if (line.ends_with(" (deleted)"))
+      add_unnamed(folder / "map_files" / line.substr(0, line.find(' ')), found);
 }
 
 // Each page divided by the number of those who have it, if the system tells.
@@ -101,6 +131,16 @@ std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t 
   sum = 0;
   for (const pid_t p : processes) sum += proportional_bytes(p, proc);
   return sum;
+}
+
+std::uint64_t held_bytes(const std::vector<pid_t>& processes, std::uint64_t enough, const fs::path& proc) {
+  Unnamed found;
+  std::uint64_t unnamed = 0, shared = 0;
+  for (const pid_t p : processes) add_unnamed(p, proc, found), resident_bytes(p, proc, &shared);
+  for (const auto& [file, bytes] : found) unnamed += bytes;
+  // Some of it may be resident, too: that counts once.
+  const std::uint64_t resident = resident_bytes(processes, enough, proc);
+  return std::max(resident, resident - std::min(resident, shared) + unnamed);
 }
 
 }  // namespace limitcheck::verify

@@ -21,4 +21,9 @@ std::vector<pid_t> descendants(pid_t process, const std::filesystem::path& proc 
 std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,
                              const std::filesystem::path& proc = "/proc");
 
+/// Bytes that these processes hold: what they have resident, and all of the shared memory without a name (memfd,
+/// unlinked files of a tmpfs) that they have open or mapped, whether or not they look at it.
+std::uint64_t held_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,
+                         const std::filesystem::path& proc = "/proc");
+
 }  // namespace limitcheck::verify

@@ -54,7 +54,7 @@ struct RemoteCalls {
         child.fail(SubjectDied::Kind::kProtocol, fmt::format("broke the protocol: {}", error.what()));
       }
     } catch (const std::bad_alloc&) {
-      throw HostOutOfMemory();
+      throw HostLacks{"this program ran out of memory"};
     } catch (const SubjectDied& error) {
       // A program that has answered once can be started: a later failure is the program's own.
       if (!child.not_started() || s.has_answered_) died(error);

@@ -254,6 +254,8 @@ int serve(const std::function<const lc_subject&()>& load) {
       try {
         if (subject == nullptr) subject = &load();
         answer(*subject, loaded, header, host);
+      } catch (const HostLacks& lack) {  // the host finds the same shortage, and says so
+        host.write({{"limitcheck", protocol::kVersion}, {"status", "failed"}, {"message", lack.what}});
       } catch (const SubjectError& error) {
         // In the order of lc_status.
         static constexpr std::array<const char*, 4> kWords{"ok", "not-supported", "invalid-input", "failed"};

@@ -53,6 +53,16 @@ void take_memory(std::size_t mib) {
   }
 }
 
+// Shared memory that no process has resident.
+void fill_memfd(std::size_t mib, bool map) {
+  const int fd = memfd_create("filled", 0);
+  const std::string chunk(1 << 20, 'x');
+  for (std::size_t k = 0; k < mib; ++k) (void)!write(fd, chunk.data(), chunk.size());
+  if (!map) return;
+  (void)mmap(nullptr, 4096, PROT_READ, MAP_SHARED, fd, 0);
+  close(fd);
+}
+
 // Does this in a process of its own that does not end, and goes on.
 template <class Work>
 void in_a_child(Work work) {
@@ -100,6 +110,9 @@ void kill_all_with_my_name() {  // what a script with killall does; inside a nam
 const std::map<std::string, void (*)()>& things() {
   static const std::map<std::string, void (*)()> all{
       {"nothing", [] {}},
+      {"memfd_written", [] { fill_memfd(600, false), sleep_for_ever(); }},
+      {"memfd_mapped", [] { fill_memfd(600, true), sleep_for_ever(); }},
+      {"memfd_small", [] { fill_memfd(100, false); }},
       // Ends.
       {"segfault", [] { *nowhere = 1; }},
       {"abort", [] { std::abort(); }},
@@ -356,8 +369,10 @@ struct Last {
 
 }  // namespace
 
+// As libraries do that never look at the interface asked for; INTERFACE: the one that this was built for.
 extern "C" const lc_subject* lc_subject_get(std::uint32_t) {
   static lc_subject subject = good();
+  subject.abi = INTERFACE;
   subject.name = "behaviours";
   subject.options = "behaviour=THING@PLACE";
   subject.capabilities = [](const char* options, lc_capabilities* out, const char** message) {

@@ -6,6 +6,9 @@ namespace limitcheck::verify {
 const std::vector<Behaviour>& library_behaviours() {
   static const std::vector<Behaviour> all{
       {"nothing@create", "right"},
+      {"memfd_small@tessellate", "right"},
+      {"memfd_written@tessellate", "memory", "300 MiB are allowed"},
+      {"memfd_mapped@create", "memory", "300 MiB are allowed"},
       // Ends, in each function.
       {"segfault@capabilities", "crash", "SIGSEGV"},
       {"segfault@create", "crash", "SIGSEGV"},

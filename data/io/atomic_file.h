@@ -7,7 +7,7 @@
 #include <ostream>
 #include <vector>
 
-namespace limitcheck::verify {
+namespace limitcheck::data {
 
 /// Written under `FILE.partial-PID` beside the final name and renamed by commit(). Without commit() the
 /// temporary is removed: by the destructor, or, if the process is ended by SIGINT, SIGTERM or SIGHUP, by a
@@ -16,14 +16,14 @@ namespace limitcheck::verify {
 /// directly. One such file at a time per process; not thread-safe.
 class AtomicFile {
  public:
-  /// Throws data::InputError FILE_CANNOT_WRITE with the system's reason.
+  /// Throws InputError FILE_CANNOT_WRITE with the system's reason.
   explicit AtomicFile(std::filesystem::path file);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ostream& stream() { return stream_; }
-  /// Throws data::InputError FILE_CANNOT_WRITE: the disk is full, the name is taken by a directory ...
+  /// Throws InputError FILE_CANNOT_WRITE: the disk is full, the name is taken by a directory ...
   void commit();
 
  private:
@@ -34,4 +34,4 @@ class AtomicFile {
   std::ofstream stream_;
 };
 
-}  // namespace limitcheck::verify
+}  // namespace limitcheck::data

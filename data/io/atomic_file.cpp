@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/mesh_output/atomic_file.h"
+#include "data/io/atomic_file.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 
 #include "data/error.h"
 
-namespace limitcheck::verify {
+namespace limitcheck::data {
 
 namespace {
 
@@ -98,7 +98,7 @@ void AtomicFile::refuse() {
   std::error_code ignored;
   if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
   disarm();
-  throw data::InputError("FILE_CANNOT_WRITE", file_.string(), 0, why);
+  throw InputError("FILE_CANNOT_WRITE", file_.string(), 0, why);
 }
 
-}  // namespace limitcheck::verify
+}  // namespace limitcheck::data

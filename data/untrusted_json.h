@@ -13,6 +13,8 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "data/error.h"
@@ -59,6 +61,26 @@ inline nlohmann::json parse_untrusted(std::string_view text, std::size_t deepest
     return true;
   };
   return Json::parse(text, look, /*allow_exceptions=*/false);
+}
+
+/// json -> value, as nlohmann's get_to does; a whole number is one, and fits: of 1e76 or 1.5 there would be something
+/// else left. Throws ArgumentError; nlohmann's exceptions.
+template <class T>
+void read_value(const nlohmann::json& json, T& value) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    const bool fits = json.is_number_unsigned()
+                          ? std::in_range<T>(json.get<std::uint64_t>())
+                          : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
+    if (!fits) throw ArgumentError(fmt::format("{} is no whole number that fits its place", json.dump()));
+  }
+  json.get_to(value);
+}
+
+template <class T>
+T value_of(const nlohmann::json& json) {
+  T value{};
+  read_value(json, value);
+  return value;
 }
 
 /// Hands each of the "cases" of a file to `read`. Throws InputError: FILE_CANNOT_OPEN; FILE_SYNTAX, also if `read` throws.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target, one for each format: any bytes are either refused by an InputError or give a mesh that
 // the writers and readers carry unchanged.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -26,6 +27,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     return 0;
   }
   if (!validate(mesh).empty()) std::abort();
+  // 10 and more are one sharpness, and written as 10.
+  for (SharpEdge& e : mesh.sharpness.edges) e.sharpness = std::min(e.sharpness, 10.F);
+  for (SharpVertex& v : mesh.sharpness.vertices) v.sharpness = std::min(v.sharpness, 10.F);
   for (const FileFormat format : {FileFormat::kObj, FileFormat::kOff, FileFormat::kPly}) {
     std::string written;
     try {

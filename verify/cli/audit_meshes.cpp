@@ -18,6 +18,7 @@
 #include "data/generators/every_neighbourhood.h"
 #include "data/generators/named_mesh.h"
 #include "data/io/whole_content.h"
+#include "data/untrusted_json.h"
 #include "data/worst_cases.h"
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
@@ -250,7 +251,7 @@ void require_units(const nlohmann::json& plan, const std::map<std::size_t, nlohm
           fmt::format("unit {}, {} on {}: {}", unit, subject, mesh.at(0).get<std::string>(), why));
     };
     std::set<std::string> there,
-        missing = plan.at("rows").at(plan.at("rows_of_units").at(unit).get<std::size_t>());
+        missing = plan.at("rows").at(data::value_of<std::size_t>(plan.at("rows_of_units").at(unit)));
     for (const verify::Result& row : verify::rows_of(result)) {
       if (row.subject != subject || row.mesh != mesh.at(0) || (mesh.at(2) >= 0 && row.depth != mesh.at(2)) ||
           row.depths != mesh.at(3) || row.sample != mesh.at(6) ||

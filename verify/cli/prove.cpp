@@ -14,6 +14,7 @@
 
 #include "data/error.h"
 #include "data/scheme.h"
+#include "data/untrusted_json.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
@@ -126,7 +127,7 @@ int report_proofs(const verify::PartReport& done, const std::string& json, bool 
   const nlohmann::json& plan = done.plan.what;
   Request request;
   plan.at("scheme").get_to(request.scheme), plan.at("valences").get_to(request.valences);
-  plan.at("depth").get_to(request.depth), plan.at("kernel").get_to(request.kernel);
+  data::read_value(plan.at("depth"), request.depth), plan.at("kernel").get_to(request.kernel);
   plan.at("set").get_to(request.set);
   const verify::ProofSet set = verify::proof_set(as_request(request));
   if (plan_of(request, set).what != plan)

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "data/error.h"
+#include "data/untrusted_json.h"
 #include "verify/report/junit.h"
 #include "verify/shard/seal.h"
 
@@ -52,7 +53,7 @@ struct Read {
   const nlohmann::json& json;
   template <class Value>
   void operator()(const char* key, Value& value) const {
-    json.at(key).get_to(value);
+    data::read_value(json.at(key), value);
   }
   void operator()(const char* key, std::optional<double>& x) const {
     if (json.at(key).is_number()) x = json.at(key).get<double>();
@@ -166,7 +167,8 @@ void HuntReport::add_again(const nlohmann::json& added) try {
     seconds += added.value("seconds", 0.0);
     return;
   }
-  cases += added.at("cases").get<std::uint64_t>(), judged += added.at("judged").get<std::int64_t>();
+  cases += data::value_of<std::uint64_t>(added.at("cases")),
+      judged += data::value_of<std::int64_t>(added.at("judged"));
   seconds += added.at("seconds").get<double>();
   for (const std::uint64_t kind : added.at("kinds")) kinds.insert(kind);
   for (const auto& f : added.at("findings")) {
@@ -209,10 +211,13 @@ HuntReport read_hunt_report(const std::string& text) try {
   if (json.at("program") != "limitcheck hunt") throw data::ArgumentError("this is no report of a hunt");
   HuntReport r;
   json.at("version").get_to(r.version), json.at("subject").get_to(r.subject);
-  json.at("seed").get_to(r.seed), json.at("asked").get_to(r.asked), json.at("schemes").get_to(r.schemes);
+  data::read_value(json.at("seed"), r.seed), data::read_value(json.at("asked"), r.asked),
+      json.at("schemes").get_to(r.schemes);
   json.at("varied").get_to(r.varied);
-  json.at("shard").at("index").get_to(r.shard.index), json.at("shard").at("count").get_to(r.shard.count);
-  json.at("cases").get_to(r.cases), json.at("next").get_to(r.next), json.at("judged").get_to(r.judged);
+  data::read_value(json.at("shard").at("index"), r.shard.index);
+  data::read_value(json.at("shard").at("count"), r.shard.count);
+  data::read_value(json.at("cases"), r.cases), data::read_value(json.at("next"), r.next),
+      data::read_value(json.at("judged"), r.judged);
   if (json.at("edge_kinds").is_array()) json.at("edge_kinds").get_to(r.kinds);
   if (!json.at("findings").is_array()) throw data::ArgumentError("its findings are no list");
   for (const auto& f : json.at("findings")) take(r.findings, finding_of(f));

@@ -55,7 +55,10 @@ class Repair {
          "which is a face like any other now");
     note("dropped", static_cast<std::int64_t>(soup.hides_boundary), "tag",
          "that hides the faces beside the boundary, which are faces like any other now");
-    const auto no_edge = std::erase_if(tags_, [](const Tag& t) { return t.a < 0; });
+    // First of all: cutting makes vertices of these numbers.
+    const auto vertices = static_cast<std::int64_t>(points_.size());
+    const auto no_edge =
+        std::erase_if(tags_, [&](const Tag& t) { return t.a < 0 || t.a >= vertices || t.b >= vertices; });
     note("dropped", static_cast<std::int64_t>(no_edge), "sharpness", kNoPlace);
     note("dropped", no_vertex, "face", "that named a vertex which does not exist");
     drop("with fewer than three corners", [](const Polygon& p) { return p.size() < 3; });

@@ -198,6 +198,11 @@ TEST(Repair, EndsInAMeshThatItLeavesAsItIs) {
   half.sharp = {{-1, 2, 8, 1}, {2, -1, 4, 2}};
   EXPECT_EQ(broken_property(half, {}), "");
   EXPECT_EQ(repair(half, {}).soup.sharp.size(), 1U);
+  // A tag of a vertex that does not exist is not one of the vertex that gets its number where the mesh is cut.
+  auto fin = soup(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  fin.sharp = {{2, 0, 2, 1}, {2, 5, 9, 2}, {2, 6, 9, 3}, {4, 5, 9, 4}, {4, 6, 9, 5}};
+  EXPECT_EQ(broken_property(fin, {}), "");
+  for (const auto& tag : repair(fin, {}).soup.sharp) EXPECT_EQ(tag.sharpness, 2);
   for (std::uint32_t seed = 0; seed < 4000; ++seed)
     for (const bool weld : {false, true})
       ASSERT_EQ(broken_property(random_soup(seed), {.weld = weld}), "") << seed << (weld ? " welded" : "");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/report/coverage.h"
+#include "data/untrusted_json.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -65,11 +66,12 @@ Json coverage_json(const CoverageQuestion& question) {
 CoverageQuestion coverage_question(const Json& json) {
   CoverageQuestion question;
   for (const Json& c : json.at("cases")) {
-    const auto scheme = static_cast<data::Scheme>(c.at(4).get<int>());
+    const auto scheme = static_cast<data::Scheme>(data::value_of<int>(c.at(4)));
     question.cases.push_back({Case(c.at(0), c.at(3), c.at(1), c.at(2)), scheme, cell_set(c.at(5), scheme)});
   }
   for (const Json& d : json.at("declared"))
-    question.declared.push_back({d.at(0), static_cast<data::Scheme>(d.at(1).get<int>()), d.at(2), d.at(3)});
+    question.declared.push_back(
+        {d.at(0), static_cast<data::Scheme>(data::value_of<int>(d.at(1))), d.at(2), d.at(3)});
   return question;
 }
 

@@ -11,6 +11,7 @@
 
 #include "data/error.h"
 #include "data/io/atomic_file.h"
+#include "data/untrusted_json.h"
 #include "verify/causes/causes.h"
 #include "verify/report/exhaustive.h"
 #include "verify/report/overview.h"
@@ -154,7 +155,7 @@ void read(const Json& json, T& x) {
         read(*field, member);
     });
   } else {
-    json.get_to(x);
+    data::read_value(json, x);
   }
 }
 
@@ -295,9 +296,9 @@ Json header_json(const Report& report) {
 
 Report header_of(const Json& json) {
   Report report;
-  json.at("version").get_to(report.version), json.at("depth").get_to(report.depth);
-  json.at("depths").get_to(report.depths), json.at("sample").get_to(report.sample);
-  if (!json.at("seed").is_null()) report.seed = json.at("seed").get<std::uint64_t>();
+  json.at("version").get_to(report.version), data::read_value(json.at("depth"), report.depth);
+  json.at("depths").get_to(report.depths), data::read_value(json.at("sample"), report.sample);
+  if (!json.at("seed").is_null()) report.seed = data::value_of<std::uint64_t>(json.at("seed"));
   read(json.at("meshes"), report.meshes);
   json.at("subjects").get_to(report.subjects), json.at("descriptions").get_to(report.descriptions);
   return report;

@@ -81,13 +81,14 @@ PartReport read_part(const std::string& text) try {
   PartReport part;
   json.at("program").get_to(part.plan.program);
   part.plan.what = std::move(json.at("plan"));
-  json.at("units").get_to(part.plan.units), json.at("together").get_to(part.plan.together);
+  data::read_value(json.at("units"), part.plan.units),
+      data::read_value(json.at("together"), part.plan.together);
   part.plan.shard = parse_shard(json.at("shard").get<std::string>());
   json.at("seconds").get_to(part.seconds), json.at("containment").get_to(part.containment);
   json.at("printed").get_to(part.printed), json.at("incomplete").get_to(part.incomplete);
   if (part.plan.together == 0) throw data::ArgumentError("this is no part that --shard has made");
   for (Json& pair : json.at("results"))
-    if (!part.results.emplace(pair.at(0).get<std::size_t>(), std::move(pair.at(1))).second)
+    if (!part.results.emplace(data::value_of<std::size_t>(pair.at(0)), std::move(pair.at(1))).second)
       throw data::ArgumentError("it has a unit twice");
   return part;
 } catch (const Json::exception& error) {
@@ -187,7 +188,7 @@ void Journal::read() {
   std::size_t begin = first.size(), line = 2;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++line) try {
       Json json = unsealed(std::string_view(text).substr(begin, end - begin));
-      const auto unit = json.at("unit").get<std::size_t>();
+      const auto unit = data::value_of<std::size_t>(json.at("unit"));
       if (unit >= plan_.units || !plan_.has(unit))
         refuse(fmt::format(":{}: unit {} is not of this plan", line, unit));
       if (!results_.emplace(unit, std::move(json.at("result"))).second)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/error.h"
+#include "data/untrusted_json.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -202,6 +203,14 @@ TEST_F(JournalTest, WithoutAFileIsInMemoryOnly) {
   EXPECT_EQ(*journal.recall(2), Json(7));
   journal.remove();
   EXPECT_EQ(text(), "");
+}
+
+// Of 1e76 a conversion would make anything, of 1.5 one.
+TEST(Part, AWholeNumberThatIsNoneOrDoesNotFitIsRefused) {
+  for (const char* text : {"1.5", "1e76", "-1", "18446744073709551616", "\"1\"", "true"})
+    EXPECT_THROW(data::value_of<std::size_t>(nlohmann::json::parse(text)), data::ArgumentError) << text;
+  EXPECT_THROW(data::value_of<std::int32_t>(nlohmann::json::parse("2147483648")), data::ArgumentError);
+  EXPECT_EQ(data::value_of<std::int32_t>(nlohmann::json::parse("-2147483648")), INT32_MIN);
 }
 
 }  // namespace

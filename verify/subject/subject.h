@@ -135,8 +135,8 @@ typedef struct lc_capabilities {
 
 /* A control mesh: an oriented 2-manifold, boundaries allowed, with tags on edges and vertices that exist, or
  * what a subject that validates has to refuse: also, if it declares sharp edges or vertices, a sharpness that
- * is no number or below 0, and one of an edge or vertex that the mesh does not have. This structure and the
- * arrays are the host's. */
+ * is no number or below 0, and one of an edge or vertex that the mesh does not have. Each vertex of a valid
+ * mesh is a corner of a face: the host leaves out others. This structure and the arrays are the host's. */
 typedef struct lc_mesh {
   const double* positions; /* 3 * vertex_count, representable in the subject's precision */
   int64_t vertex_count;
@@ -169,8 +169,9 @@ typedef struct lc_request {
                                 triangles, in whichever way they tile it. */
   int32_t threads;           /* at most so many; results must not depend on it */
   void* host;
-  void* (*allocate)(void* host,
-                    size_t bytes); /* NULL if refused; aligned to 64 bytes; never freed by the subject */
+  /* NULL if refused; aligned to 64 bytes; never freed by the subject. Of 0 bytes an address, at which nothing may
+   * be written. */
+  void* (*allocate)(void* host, size_t bytes);
 
   /* Interface 2. */
   uint32_t size; /* of this structure, as the host knows it */

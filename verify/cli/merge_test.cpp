@@ -197,7 +197,7 @@ TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
                    "unit 2, naive on cube: the row tessellates is of naive on octahedron"));
 }
 
-TEST_F(Merge, AMutantsResultIsOfThatMutant) {
+TEST_F(Merge, AResultOfAMutantIsNoneOfRightSubjects) {
   for (const char* shard : {"1/2", "2/2"}) {  // nothing is audited: results are as easily written as read
     json part{{"program", "limitcheck mutants"},
               {"plan", json::object()},
@@ -216,7 +216,7 @@ TEST_F(Merge, AMutantsResultIsOfThatMutant) {
   }
   const Outcome o = run("merge m1.json m2.json -o x.json");
   EXPECT_EQ(o.code, 2) << o.out;
-  EXPECT_TRUE(says(o.err, "and its result is of"));
+  EXPECT_TRUE(says(o.err, "unit 0 is a case of right subjects, and its result is of another kind"));
 }
 
 TEST_F(Merge, AJournalInWhichAllUnitsAreTheFirstIsRefused) {

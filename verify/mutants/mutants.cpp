@@ -183,8 +183,13 @@ void run_mutants(Journal& journal,
 
 KillTable kill_table(const std::map<std::size_t, nlohmann::json>& results) {
   KillTable table;
+  if (results.size() < mutants().size())
+    throw data::ArgumentError(fmt::format("{} results, and {} mutants", results.size(), mutants().size()));
   const std::size_t cases = results.size() - mutants().size();
   for (const auto& [unit, result] : results) {
+    if (result.is_array() != (unit < cases))
+      throw data::ArgumentError(fmt::format("unit {} is {}, and its result is of another kind", unit,
+                                            unit < cases ? "a case of right subjects" : "a mutant"));
     if (unit < cases) {
       for (const nlohmann::json& red : result) table.red_on_correct.push_back(red.get<std::string>());
       continue;

@@ -6,11 +6,27 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
+
+#include "data/error.h"
 
 namespace limitcheck::verify {
 namespace {
+
+// Of a journal or a part in which results have changed places.
+TEST(Mutants, AResultIsThatOfTheMutantItNames) {
+  std::map<std::size_t, nlohmann::json> results;
+  for (std::size_t k = 0; k < mutants().size(); ++k)
+    results[k] = {{"mutant", mutants()[k].name}, {"killed_by", nlohmann::json::array()}, {"on", "cube"}};
+  EXPECT_EQ(kill_table(results).kills.size(), mutants().size());
+  std::swap(results.at(3), results.at(4));
+  EXPECT_THROW(kill_table(results), data::ArgumentError);
+  results.erase(3);
+  EXPECT_THROW(kill_table(results), data::ArgumentError);
+}
 
 TEST(Mutants, AreAtLeastAHundredAndSixtyEachWithAnotherNameAndACheckMeantForIt) {
   std::set<std::string> names;

@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "data/error.h"
@@ -167,7 +169,13 @@ Journal::Journal(Plan plan, std::filesystem::path file, bool resume, bool rememb
                            : fmt::format("--resume: {}: {}", name, std::strerror(errno)));
   if (descriptor < 0) return;  // the work goes on without it
   out_.reset(fdopen(descriptor, "r+"));
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) refuse(name + ": another run is writing it");
+  // The jobs of a run that was killed end a moment after it, and hold its journals until then.
+  const auto start = std::chrono::steady_clock::now();
+  while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (!resume || std::chrono::steady_clock::now() - start > std::chrono::seconds(10))
+      refuse(name + ": another run is writing it");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   if (resume)
     read();
   else

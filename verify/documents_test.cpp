@@ -84,5 +84,14 @@ TEST(Documents, CountTheMutantsTheHabitsAndTheClaimsThatThereAre) {
   expect_said("verify/METHOD.md", fmt::format("**{} of the paper's claims**", claims.size() - tested));
 }
 
+// The plan says what has written it.
+TEST(Documents, SayHowThePlanIsMade) {
+  static const std::regex written("Written by `(limitcheck_make_plan \\d+)`");
+  const std::string plan = page("data/generators/planned_stars.inc");
+  std::smatch m;
+  ASSERT_TRUE(std::regex_search(plan, m, written));
+  expect_said("verify/METHOD.md", m[1].str() + " > data/generators/planned_stars.inc");
+}
+
 }  // namespace
 }  // namespace limitcheck::verify

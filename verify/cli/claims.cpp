@@ -140,8 +140,8 @@ int claims(const Arguments& a) {
   if (programs.empty())
     say(stderr,
         "limitcheck: the tests behind the claims are not here: they are no part of an installation, but of a "
-        "build "
-        "of the sources, as `bash verify/run.sh claims` makes it. What follows is the register alone.\n");
+        "build of the sources, as `bash verify/run.sh claims` makes it. What follows is the register "
+        "alone.\n");
   Progress progress;
   const verify::InterruptGuard guard;
   std::vector<ClaimResult> results;

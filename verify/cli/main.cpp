@@ -131,8 +131,7 @@ void add_external(CLI::App& app, int& exit_code, const std::string& name, const 
     if (path.empty()) {
       say(stderr,
           "limitcheck: '{0}' is not here: it is no part of an installation, but of a build of the sources "
-          "with "
-          "-DLIMITCHECK_BENCH=ON, as `bash verify/run.sh {0}` makes it\n",
+          "with -DLIMITCHECK_BENCH=ON, as `bash verify/run.sh {0}` makes it\n",
           name);
     } else {
       become(path, command->remaining());

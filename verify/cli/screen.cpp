@@ -66,10 +66,11 @@ void Progress::show(std::size_t done, std::size_t total, const std::string& text
   }
   shown_ = true;
   const std::size_t filled = total == 0 ? 0 : std::min(kBar, kBar * done / total);
-  std::string line = fmt::format("[{}{}] {}/{}{} {}", std::string(filled, '#'),
-                                 std::string(kBar - filled, '.'), done, total, left, text);
+  std::string line =
+      verify::visible_text(fmt::format("[{}{}] {}/{}{} {}", std::string(filled, '#'),
+                                       std::string(kBar - filled, '.'), done, total, left, text));
   line.resize(std::min(line.size(), terminal_width(stream_) - 1));
-  fmt::print(stream_, "\r\033[K{}", verify::visible_text(line));
+  fmt::print(stream_, "\r\033[K{}", line);
   std::fflush(stream_);
 }
 

@@ -37,8 +37,8 @@ struct ProcessLimits {
 /// that made it must not end before). Needs Linux: prctl, /proc.
 class ChildProcess : public protocol::Source {
  public:
-  /// Throws HostLacks if the system cannot start another process, as all others do if it does not let them go on. A program that does not exist
-  /// is found out with the first answer.
+  /// Throws HostLacks if the system cannot start another process, as all others do if it does not let them go
+  /// on. A program that does not exist is found out with the first answer.
   ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits);
   ~ChildProcess() override;
 

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Vertices of many faces: their evaluators take steps in place of closed forms, to the same surface.
+// What a face costs does not grow with the faces around its vertex.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "reference/catmull_clark/stam.h"
+#include "reference/catmull_clark/stam_impl.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/loop/refine_impl.h"
 #include "reference/loop/stam.h"
+#include "reference/loop/stam_impl.h"
 #include "reference/loop/subdivision_evaluator.h"
 #include "reference/number/number_exact.h"
 #include "reference/surface/test_many_faces.h"
@@ -135,6 +140,23 @@ TEST(ManyFaces, LoseNoDigitsTowardsTheVertex) {
           compare(rounded.evaluate(f, 0, near, near / 3), exact.evaluate(f, 0, near, near / 3), s.name);
     }
   }
+}
+
+TEST(ManyFacesOfLoop, CostNoMoreEachThanFewer) {
+  test::expect_linear(test::triangles(250), test::triangles(1000), [](const data::ControlMesh& mesh) {
+    return [e = std::make_shared<StamEvaluator<Counted>>(mesh)](int f, double a, double b) {
+      (void)e->evaluate(f, a, b);
+    };
+  });
+}
+
+TEST(ManyFacesOfCatmullClark, CostNoMoreEachThanFewer) {
+  test::expect_linear(test::quads(250), test::quads(1000), [](const data::ControlMesh& mesh) {
+    return [e = std::make_shared<catmull_clark::StamEvaluator<Counted>>(
+                mesh.faces, test::positions<Counted>(mesh), mesh.sharpness)](int f, double a, double b) {
+      (void)e->evaluate(f, 0, a, b);
+    };
+  });
 }
 
 }  // namespace

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The bounds of pieces against the surface itself, densely sampled.
+// Evaluation near vertices of very many faces against Stam's method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "data/generators/named_mesh.h"
+#include "data/shapes.h"
+#include "data/splitmix64.h"
 #include "reference/catmull_clark/refined_mesh.h"
+#include "verify/evidence/vector.h"
+#include "verify/projection/domain.h"
+#include "verify/projection/limit_surface.h"
 #include "verify/projection/surface_lattice.h"
 #include "verify/projection/test_meshes.h"
 
@@ -157,6 +164,152 @@ TEST(Bounds, FallWithEveryDepth) {
   EXPECT_LT(falls(data::icosahedron()), .5);
   EXPECT_LT(falls(data::quad_torus(5, 4)), .3) << "regular: to a quarter";
   EXPECT_LT(falls(data::quad_cube()), .6);
+}
+
+// Two triangles (0 1 2), (1 3 2): the edge 1-2 inside, the rest boundary.
+const data::ControlMesh kTwo{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
+
+TEST(Domain, KnowsTheFaceAcrossAnEdgeAndTheBoundary) {
+  const Domain d(kTwo);
+  EXPECT_EQ(d.across(0, 0), 1);
+  EXPECT_EQ(d.across(1, 1), 0);
+  EXPECT_EQ(d.across(0, 1), -1);
+  EXPECT_EQ(d.faces_at(1).size(), 2U);
+  EXPECT_EQ(d.faces_at(3).size(), 1U);
+}
+
+// In the plane with 0 = (0, 0), 1 = (1, 0), 2 = (0, 1), 3 = (1, 1): (x, y) = l1 (1, 0) + l2 (0, 1) + l3 (1,
+// 1).
+TEST(Domain, AStraightWalkIsStraightInTheUnfoldedPlane) {
+  const Domain d(kTwo);
+  const FacePoint end = d.walk({0, {.5, .25, .25}}, {-.7, .5, .2});  // to (.75, .45)
+  ASSERT_EQ(end.face, 1);                                            // 1 = (1,0), 3 = (1,1), 2 = (0,1)
+  EXPECT_NEAR(end.l[0] + end.l[1], .75, 1e-15);
+  EXPECT_NEAR(end.l[1] + end.l[2], .45, 1e-15);
+}
+
+TEST(Domain, AWalkEndsAtTheBoundary) {
+  const Domain d(kTwo);
+  const FacePoint end = d.walk({0, {.5, .25, .25}}, {.5, 0, -.5});  // straight down from (.25, .25)
+  EXPECT_EQ(end.face, 0);
+  EXPECT_EQ(end.l[2], 0);
+  EXPECT_NEAR(end.l[1], .25, 1e-15);
+}
+
+TEST(Domain, ExpressesAPointOfACommonEdgeInTheOtherFaceOnly) {
+  const Domain d(kTwo);
+  FacePoint there;
+  ASSERT_TRUE(d.express({0, {0, .25, .75}}, 1, there));
+  EXPECT_EQ(there.l, (std::array<double, 3>{.25, 0, .75}));
+  EXPECT_FALSE(d.express({0, {.1, .2, .7}}, 1, there));
+}
+
+// Two unit squares side by side in the plane, (0, 0) to (2, 1). Either may begin at any of its corners.
+constexpr std::array<std::array<std::int32_t, 4>, 2> kSquares{{{0, 1, 4, 3}, {1, 2, 5, 4}}};
+data::ControlMesh two_squares(int first, int second) {
+  data::ControlMesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}, {}};
+  const std::array turn{first, second};
+  for (std::size_t f = 0; f < 2; ++f) {
+    std::array<std::int32_t, 4> face{};
+    for (int k = 0; k < 4; ++k) face[k] = kSquares[f][(k + turn[f]) % 4];
+    mesh.faces.push_back(face);
+  }
+  return mesh;
+}
+
+// Where a point lies in that plane.
+Vector in_the_plane(const data::ControlMesh& mesh, const FacePoint& p) {
+  const auto face = mesh.faces[p.face];
+  const Vector o = mesh.positions[face[0]], x = mesh.positions[face[1]], y = mesh.positions[face[3]];
+  return o + p.l[1] * (x - o) + p.l[2] * (y - o);
+}
+FacePoint from_the_plane(const data::ControlMesh& mesh, std::int32_t f, const Vector& p) {
+  const auto face = mesh.faces[f];
+  const Vector o = mesh.positions[face[0]];
+  return {f, Chart::at(dot(p - o, Vector(mesh.positions[face[1]]) - o),
+                       dot(p - o, Vector(mesh.positions[face[3]]) - o))};
+}
+
+TEST(Domain, ASquareIsLeftAcrossAnySideIntoASquareThatBeginsAnywhere) {
+  for (int first = 0; first < 4; ++first)
+    for (int second = 0; second < 4; ++second) {
+      const data::ControlMesh mesh = two_squares(first, second);
+      const Domain d(mesh);
+      const int side = (1 - first + 4) % 4;  // x = 1
+      ASSERT_EQ(d.across(0, side), 1);
+      EXPECT_EQ(d.across(1, d.side_across(0, side)), 0);
+      const FacePoint start = from_the_plane(mesh, 0, {.5, .25, 0});
+      const FacePoint far = from_the_plane(mesh, 0, {1.75, .875, 0});
+      const FacePoint end =
+          d.walk(start, {far.l[0] - start.l[0], far.l[1] - start.l[1], far.l[2] - start.l[2]});
+      EXPECT_EQ(end.face, 1) << first << second;
+      EXPECT_LE(norm(in_the_plane(mesh, end) - Vector{1.75, .875, 0}), 1e-15) << first << second;
+      EXPECT_LE(norm(in_the_plane(mesh, {1, d.unfolded(0, side, far.l)}) - Vector{1.75, .875, 0}), 1e-15);
+      const FacePoint away = from_the_plane(mesh, 0, {.5, -3, 0});
+      const FacePoint stopped =
+          d.walk(start, {away.l[0] - start.l[0], away.l[1] - start.l[1], away.l[2] - start.l[2]});
+      EXPECT_EQ(in_the_plane(mesh, stopped), (Vector{.5, 0, 0})) << first << second;
+    }
+}
+
+TEST(Domain, APointOfACommonSideOrCornerOfSquaresHasANameInBoth) {
+  for (int first = 0; first < 4; ++first)
+    for (int second = 0; second < 4; ++second) {
+      const data::ControlMesh mesh = two_squares(first, second);
+      const Domain d(mesh);
+      FacePoint there;
+      for (const Vector& p : {Vector{1, .25, 0}, Vector{1, 0, 0}, Vector{1, 1, 0}}) {
+        ASSERT_TRUE(d.express(from_the_plane(mesh, 0, p), 1, there));
+        EXPECT_EQ(in_the_plane(mesh, there), p) << first << second;
+      }
+      for (const Vector& p : {Vector{.75, .25, 0}, Vector{0, 1, 0}, Vector{.5, 1, 0}})
+        EXPECT_FALSE(d.express(from_the_plane(mesh, 0, p), 1, there)) << first << second;
+    }
+}
+
+TEST(HighValenceVertex, GivesThePointsAndDerivativesOfStamsMethod) {
+  double worst = 0, worst_first = 0, worst_second = 0;
+  int near = 0;
+  for (const char* name :
+       {"bipyramid:50", "wheel:60", "fan:50", "quad-wheel:50", "quad-fan:45", "prism:60"}) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    const data::Scheme scheme = data::natural_scheme(mesh);
+    const LimitSurface surface(mesh, scheme);
+    const reference::Surface stam(mesh, scheme);
+    data::SplitMix64 random(1);
+    for (int n = 0; n < 3000; ++n) {
+      const auto face = static_cast<std::int32_t>(random.next() % surface.domain().face_count());
+      const Chart chart = surface.domain().chart();
+      double u = random.unit(), v = random.unit();
+      if (!chart.is_square() && u + v > 1) u = 1 - u, v = 1 - v;
+      Chart::Affine at = Chart::at(u, v);
+      const auto k = static_cast<int>(random.next() % static_cast<std::uint64_t>(chart.corners()));
+      const double shrink = std::ldexp(1.0, -static_cast<int>(random.next() % 18));
+      for (int i = 0; i < 3; ++i) at[i] = chart.corner(k)[i] + shrink * (at[i] - chart.corner(k)[i]);
+      at = chart.clamp(at);
+      const auto named = surface.control_point({face, at});
+      const double half = named.corner < 0 && !surface.has_control_faces() ? .5 : 1;
+      const auto is = surface.evaluate({face, at}, reference::Order::kSecond);
+      const auto want = stam.evaluate(named.face, std::max(named.corner, 0), named.first, named.second);
+      const auto apart = [](const auto& a, const auto& b) {
+        return norm(vector_of(a) - vector_of(b)) / std::max(1e-3, norm(vector_of(b)));
+      };
+      near += shrink < .1;
+      worst = std::max(worst, norm(vector_of(is.position) - vector_of(want.position)));
+      worst_first = std::max({worst_first, apart(is.d1, want.d1 * half), apart(is.d2, want.d2 * half)});
+      if (shrink > .01)  // they grow like 4^steps, and their rounding too
+        worst_second =
+            std::max({worst_second, apart(is.d11, want.d11 * (half * half)),
+                      apart(is.d12, want.d12 * (half * half)), apart(is.d22, want.d22 * (half * half))});
+    }
+  }
+  EXPECT_GT(near, 1000);
+  RecordProperty("worst_position", std::to_string(worst * 1e16) + "e-16");
+  RecordProperty("worst_first_derivative", std::to_string(worst_first * 1e12) + "e-12");
+  RecordProperty("worst_second_derivative", std::to_string(worst_second * 1e12) + "e-12");
+  EXPECT_LE(worst, 1e-13);
+  EXPECT_LE(worst_first, 1e-8);
+  EXPECT_LE(worst_second, 1e-6);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "fast/frame/patch_mesh.h"
-
+// Patches from frame to frame, and patches that the kernel writes to their place itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
@@ -17,6 +17,8 @@
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
+#include "data/generators/polygon_meshes.h"
+#include "fast/frame/patch_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/patch_frames.h"
@@ -102,8 +104,7 @@ void expect_fresh_frames_on_a_walk() {
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       SCOPED_TRACE(model.name);
       Engine engine(model.mesh, options_of(model, repair));
-      PatchOptions with;
-      with.incremental = true;
+      const PatchOptions with{.incremental = true};
       PatchMesh<float> patches(with);
       data::SplitMix64 random(11);
       auto depth = random_depths(model.mesh.faces.size(), 0, 3, random);
@@ -174,8 +175,7 @@ TEST(PatchMesh, KeepsPairsAndClosesCracksIfSticky) {
 TEST(PatchMesh, StaysInItsMemory) {
   const data::ControlMesh mesh = shaken(grid_torus(24, 30), .02, 2);
   StreamTessellator engine(mesh);
-  PatchOptions with;
-  with.incremental = true;
+  const PatchOptions with{.incremental = true};
   PatchMesh<float> patches(with);
   const std::size_t faces = mesh.faces.size();
   std::int64_t most = 0;
@@ -200,8 +200,7 @@ TEST(PatchMesh, BeginsAnewForAnotherEngine) {
   TessellatorOptions catmull_clark;
   catmull_clark.scheme = data::Scheme::kCatmullClark;
   StreamTessellator first(one), second(two), third(quads, catmull_clark);
-  PatchOptions with;
-  with.incremental = true;
+  const PatchOptions with{.incremental = true};
   PatchMesh<float> patches(with);
   const auto check = [&](StreamTessellator& engine) {
     const std::vector<std::int32_t> depth(static_cast<std::size_t>(engine.face_count()), 2);
@@ -221,8 +220,7 @@ TEST(PatchMesh, BeginsAnewForAnotherEngine) {
 TEST(PatchMesh, ForgetsPairsWhenCleared) {
   const auto mesh = shaken(grid_torus(4, 5), .2, 2);
   StreamTessellator engine(mesh);
-  PatchOptions with;
-  with.incremental = with.sticky = true;
+  const PatchOptions with{.incremental = true, .sticky = true};
   PatchMesh<float> patches(with), fresh(with);
   data::SplitMix64 random(3);
   engine.frame(random_depths(mesh.faces.size(), 1, 2, random), patches);
@@ -239,8 +237,7 @@ TEST(PatchMesh, ForgetsPairsWhenCleared) {
 TEST(PatchMesh, FollowsPointsThatMove) {
   for (const Model& model : models()) {
     SCOPED_TRACE(model.name);
-    PatchOptions with;
-    with.incremental = true;
+    const PatchOptions with{.incremental = true};
     const auto options = options_of(model, Repair::kFan);
     StreamTessellator stream(model.mesh, options);
     Tessellator<float> window(model.mesh, options);
@@ -298,8 +295,7 @@ TEST(PatchMesh, GoesIntoTheCallersMemory) {
   const auto mesh = shaken(grid_torus(4, 5), .2, 2);
   StreamTessellator engine(mesh);
   FailingMemory memory;
-  PatchOptions with;
-  with.incremental = true;
+  const PatchOptions with{.incremental = true};
   PatchMesh<float> patches(with, &memory);
   data::SplitMix64 random(2);
   auto depth = random_depths(mesh.faces.size(), 0, 3, random);
@@ -353,8 +349,7 @@ void expect_compacted_vertices() {
 TEST(PatchMesh, PacksVerticesIntoSixteenBytes) {
   expect_compacted_vertices<StreamTessellator>();
   expect_compacted_vertices<Tessellator<float>>();
-  PatchOptions with;
-  with.compact = true;
+  const PatchOptions with{.compact = true};
   Tessellator<double> doubles(tetrahedron());
   PatchMesh<double> patches(with);
   EXPECT_THROW(doubles.frame(std::vector<std::int32_t>(4, 1), patches), data::ArgumentError);
@@ -362,11 +357,48 @@ TEST(PatchMesh, PacksVerticesIntoSixteenBytes) {
 
 TEST(PatchMesh, RefusesPatchesThatNarrowIndicesDoNotReach) {
   StreamTessellator engine(tetrahedron());
-  PatchOptions with;
-  with.narrow = true;
+  const PatchOptions with{.narrow = true};
   PatchMesh<float> patches(with);
   EXPECT_NO_THROW(engine.frame(std::vector<std::int32_t>(4, 7), patches));
   EXPECT_THROW(engine.frame(std::vector<std::int32_t>(4, 8), patches), data::ArgumentError);
+}
+
+// Whole batches go straight to their place, past the caches where there is much; with provenance they go row by
+// row. From frame to frame too, where some stay.
+TEST(PlacedPatches, HaveTheSameBytesStraightFromTheKernelAsRowByRow) {
+  const std::vector<Model> large{
+      {"torus", shaken(grid_torus(6, 7), .2, 7), data::Scheme::kLoop},
+      {"cut", data::named_mesh("creased:3:80"), data::Scheme::kLoop},
+      {"quads", shaken(data::quad_torus(7, 6), .1, 8), data::Scheme::kCatmullClark},
+      {"polygons", data::named_mesh("mixed:2"), data::Scheme::kCatmullClark}};
+  for (const Model& model : large) {
+    for (const Kernel& kernel : kernels()) {
+      if (!kernel.fused && kernel.lanes > 1) continue;  // slow, and the same code
+      TessellatorOptions options = options_of(model, Repair::kFan);
+      options.threads = 3;
+      StreamTessellator straight(model.mesh, options, kernel);
+      options.provenance = true;
+      StreamTessellator by_rows(model.mesh, options, kernel);
+      const PatchOptions kept{.incremental = true};
+      PatchMesh<float> got(kept), want(kept);
+      std::vector<std::int32_t> depth(model.mesh.faces.size(), 0);
+      for (const int next : {2, 7, 1, 5, 0}) {
+        for (std::size_t f = 0; f < depth.size(); ++f)
+          if (next != 5 || f % 3 != 0) depth[f] = next;
+        straight.frame(depth, got), by_rows.frame(depth, want);
+        ASSERT_EQ(got.vertices().size(), want.vertices().size());
+        if (next == 7) {
+          EXPECT_GT(got.vertices().size_bytes(), std::size_t{4} << 20);
+        }
+        for (const PatchDraw& draw : got.draws()) {  // not what nobody looks at between them
+          const auto first = static_cast<std::size_t>(draw.base_vertex);
+          const auto size = static_cast<std::size_t>(draw.vertex_count) * sizeof(SurfaceVertex<float>);
+          ASSERT_EQ(std::memcmp(&got.vertices()[first], &want.vertices()[first], size), 0)
+              << model.name << " to depth " << next << " with " << kernel.name;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

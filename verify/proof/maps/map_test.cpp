@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The shipped kernels are the reference's linear maps: samples of what `limitcheck prove` proves.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+// The shipped kernels are the reference's linear maps: samples of what `limitcheck prove` proves. [C21]
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <set>
@@ -12,26 +12,31 @@
 #include <vector>
 
 #include "data/error.h"
+#include "verify/proof/maps/prove_map.h"
 #include "verify/proof/maps/reference_map.h"
 #include "verify/proof/numbers/residue.h"
 #include "verify/proof/proof_set.h"
+#include "verify/proof/topologies/neighbourhood.h"
 
 namespace limitcheck::verify {
 namespace {
 
+/// The kernels of a quad that is not regular.
+constexpr std::size_t kOfQuads = 4;
+
 /// Digits of the worst weight. Every kernel must have a row with points.
-double expect_equal(const Neighbourhood& pair, const MapOptions& options) {
+double expect_equal(const Neighbourhood& pair, const MapOptions& options, std::size_t kernels = 5) {
   double digits = 1e9;
   const std::vector<ProofRow> rows = prove_map(pair, options);
-  EXPECT_EQ(rows.size(), 5U) << pair.name;
+  EXPECT_EQ(rows.size(), kernels) << pair.name;
   for (const ProofRow& row : rows) {
     digits = std::min(digits, row.map.digits);
     EXPECT_TRUE(row.map.equal) << row.topology << ' ' << row.kernel;
     EXPECT_GT(row.points, 0);
     if (!row.map.witness) continue;
     const MapWitness& w = *row.map.witness;
-    ADD_FAILURE() << w.point << ": " << w.quantity << " of control point " << w.control_point << " is "
-                  << w.found << ", not " << w.expected;
+    ADD_FAILURE() << row.topology << ' ' << row.kernel << ' ' << w.point << ": " << w.quantity
+                  << " of control point " << w.control_point << " is " << w.found << ", not " << w.expected;
   }
   return digits;
 }
@@ -119,6 +124,49 @@ TEST(Proof_Set, HoldsEveryTripleOfItsValencesOrSaysThatThereIsNone) {
   constexpr std::size_t kTriples = 220;  // of 10 valences, in any order, repeated or not
   EXPECT_EQ(set.impossible.size(), 9U);  // 3 3 n with n > 3
   for (const char* group : {"triples", "deep", "digits"}) EXPECT_EQ(triples(group) + 9, kTriples) << group;
+}
+
+TEST(Proof_QuadMap, IsExactAtEveryValence) {
+  RecordProperty("claim", "C21");
+  for (const auto& valences : {std::array{3, 4, 5, 6}, std::array{7, 3, 8, 3}, std::array{12, 5, 3, 4},
+                               std::array{3, 3, 3, 3}, std::array{20, 4, 4, 4}})
+    expect_equal(interior_quad(valences), {Arithmetic::kExact, 0, 2}, kOfQuads);
+  expect_equal(interior_quad({4, 4, 4, 4}), {Arithmetic::kExact, 0, 3});
+}
+
+TEST(Proof_QuadMap, IsEqualModuloTwoPrimesToDepthSix) {
+  expect_equal(interior_quad({5, 3, 7, 4}), {Arithmetic::kResidues, 0, 6}, kOfQuads);
+  expect_equal(interior_quad({4, 4, 4, 4}), {Arithmetic::kResidues, 0, 6});
+}
+
+TEST(Proof_QuadMap, EqualsTheRecursionAndStamToFortyFiveDigitsWithAllTangents) {
+  for (const auto& valences : {std::array{5, 7, 3, 12}, std::array{4, 6, 4, 8}})
+    EXPECT_GE(expect_equal(interior_quad(valences), {Arithmetic::kDigits, 0, 2}, kOfQuads), 45);
+}
+
+TEST(Proof_QuadMap, AtBoundariesIsEqual) {
+  const auto quads = boundary_quads({4, 5, 3, 6});
+  EXPECT_GT(quads.size(), 50U);
+  for (const Neighbourhood& quad : quads) expect_equal(quad, {Arithmetic::kExact, 0, 2}, kOfQuads);
+  for (std::size_t k = 0; k < quads.size(); k += 10)
+    expect_equal(quads[k], {Arithmetic::kDigits, 0, 1}, kOfQuads);
+}
+
+TEST(Proof_QuadMap, BesideCutsAndDartsIsEqual) {
+  std::size_t darts = 0;
+  for (const Neighbourhood& quad : creased_quads({4, 5, 3, 6})) {
+    if (has_dart(quad.mesh)) {
+      if (++darts % 10 == 0) expect_equal(quad, {Arithmetic::kDigits, 0, 1}, kOfQuads);
+    } else {
+      expect_equal(quad, {Arithmetic::kExact, 0, 2}, kOfQuads);
+    }
+  }
+  EXPECT_GT(darts, 20U);
+}
+
+TEST(Proof_QuadMap, OfTheWindowBesideSemiSharpEdgesIsEqual) {
+  for (const Neighbourhood& quad : semi_sharp_quads({4, 5, 3, 6}))
+    if (!has_dart(quad.mesh)) expect_equal(quad, {Arithmetic::kExact, 0, 2}, 2);
 }
 
 }  // namespace

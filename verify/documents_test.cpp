@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <string>
 
+#include "data/test_support/assertions.h"
 #include "verify/claims/register.h"
 #include "verify/host/host.h"
 #include "verify/mutants/faulty_subjects.h"
@@ -23,14 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string page(const std::string& name) {
-  std::ifstream in(fs::path(LIMITCHECK_SOURCE_DIR) / name);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return contents_of(fs::path(LIMITCHECK_SOURCE_DIR) / name);
 }
 
 // A line's end in a sentence is a space.
 void expect_said(const std::string& name, const std::string& words) {
-  EXPECT_NE(std::regex_replace(page(name), std::regex("\\n *"), " ").find(words), std::string::npos)
-      << name << " should say: " << words;
+  EXPECT_TRUE(says(std::regex_replace(page(name), std::regex("\\n *"), " "), words)) << name;
 }
 
 TEST(Documents, LinkOnlyToWhatIsThere) {
@@ -38,8 +35,7 @@ TEST(Documents, LinkOnlyToWhatIsThere) {
   const fs::path root = LIMITCHECK_SOURCE_DIR;
   int links = 0;
   const auto look = [&](const fs::path& page) {
-    std::ifstream in(page);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = contents_of(page);
     for (std::sregex_iterator m(text.begin(), text.end(), link), end; m != end; ++m, ++links)
       EXPECT_TRUE(fs::exists(page.parent_path() / (*m)[1].str()))
           << page.lexically_relative(root) << " links to " << (*m)[1];

@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "bench/render/renderer.h"
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Every file of malformed/ and wellformed/ does what its name says.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -14,10 +17,12 @@
 
 #include "data/error.h"
 #include "data/generators/polygon_meshes.h"
+#include "data/io/atomic_file.h"
 #include "data/io/read.h"
 #include "data/io/write.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
+#include "data/test_support/assertions.h"
 
 namespace limitcheck::data {
 namespace {
@@ -28,12 +33,7 @@ std::string wellformed(const std::string& name) {
 
 std::string error_of(const std::string& content, FileFormat format = FileFormat::kObj,
                      ReadOptions options = {}) {
-  try {
-    read_mesh(content, format, "cage.obj", options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of<InputError>([&] { read_mesh(content, format, "cage.obj", options); });
 }
 
 TEST(Read, ErrorsNameFileLineCodeAndElements) {
@@ -156,13 +156,8 @@ TEST(Read, WhatIsValidAsPolygonsIsValidatedAgainWhenItIsCut) {
 }
 
 TEST(Read, AFileThatIsNotOneCannotBeOpened) {
-  const auto code = [](const std::string& file) -> std::string {
-    try {
-      read_mesh(file);
-    } catch (const InputError& error) {
-      return error.code();
-    }
-    return "accepted";
+  const auto code = [](const std::string& file) {
+    return thrown<InputError>([&] { read_mesh(file); }).value().code();
   };
   EXPECT_EQ(code("/nowhere/cage.obj"), "FILE_CANNOT_OPEN");
   EXPECT_EQ(code(LIMITCHECK_SOURCE_DIR "/data/known_answers.json"), "FILE_UNKNOWN_FORMAT");
@@ -174,22 +169,9 @@ TEST(Read, AFileThatIsNotOneCannotBeOpened) {
 
 namespace fs = std::filesystem;
 
-// An empty folder of its own for each test.
-fs::path folder() {
-  const fs::path path =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::remove_all(path);
-  fs::create_directories(path);
-  return path;
-}
-
 std::string code_of(const fs::path& file) {
-  try {
-    write_mesh(file, tetrahedron());
-  } catch (const InputError& error) {
-    return error.code();
-  }
-  return "written";
+  const auto refused = thrown<InputError>([&] { write_mesh(file, tetrahedron()); });
+  return refused ? refused->code() : "written";
 }
 
 // Doubles of every magnitude, subnormal ones and both zeros included.
@@ -220,11 +202,12 @@ void expect_same_bits(const ControlMesh& a, const ControlMesh& b) {
 
 TEST(Write, WhatIsReadBackIsTheSameBitForBit) {
   const ControlMesh mesh = mesh_of_any_doubles();
+  const TestFolder folder;
   for (const char* name : {"mesh.obj", "mesh.off", "mesh.ply", "MESH.PLY"}) {
-    const fs::path file = folder() / name;
+    const fs::path file = folder / name;
     write_mesh(file, mesh);
     expect_same_bits(read_mesh(file), mesh);
-    const fs::path text = folder() / name;
+    const fs::path text = folder / name;
     write_mesh(text, mesh, {.ascii_ply = true});
     expect_same_bits(read_mesh(text), mesh);
   }
@@ -241,28 +224,28 @@ TEST(Write, PolygonsAreReadBackAsTheyWere) {
 }
 
 TEST(Write, AFileAppearsUnderItsNameOnly) {
-  const fs::path place = folder();
-  write_mesh(place / "a.obj", tetrahedron());
-  write_mesh(place / "a.obj", octahedron());  // over the old one
-  EXPECT_EQ(read_mesh(place / "a.obj").faces.size(), 8u);
-  EXPECT_EQ(std::distance(fs::directory_iterator(place), {}), 1);
+  const TestFolder folder;
+  write_mesh(folder / "a.obj", tetrahedron());
+  write_mesh(folder / "a.obj", octahedron());  // over the old one
+  EXPECT_EQ(read_mesh(folder / "a.obj").faces.size(), 8u);
+  EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(Write, AFullDiskIsAnError) {
   // What cannot be renamed into place is written to directly: a link to the device that is always full.
-  const fs::path file = folder() / "full.obj";
-  fs::create_symlink("/dev/full", file);
-  EXPECT_EQ(code_of(file), "FILE_CANNOT_WRITE");
+  const TestFolder folder;
+  fs::create_symlink("/dev/full", folder / "full.obj");
+  EXPECT_EQ(code_of(folder / "full.obj"), "FILE_CANNOT_WRITE");
 }
 
 TEST(Write, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(code_of("/nowhere/at/all.obj"), "FILE_CANNOT_WRITE");
-  EXPECT_EQ(code_of(folder() / "a.stl"), "FILE_UNSUPPORTED");
-  EXPECT_EQ(code_of(folder() / "a.txt"), "FILE_UNKNOWN_FORMAT");
-  const fs::path place = folder();
-  fs::create_directories(place / "folder.obj");
-  EXPECT_EQ(code_of(place / "folder.obj"), "FILE_CANNOT_WRITE");
-  EXPECT_EQ(std::distance(fs::directory_iterator(place), {}), 1);
+  const TestFolder folder;
+  EXPECT_EQ(code_of(folder / "a.stl"), "FILE_UNSUPPORTED");
+  EXPECT_EQ(code_of(folder / "a.txt"), "FILE_UNKNOWN_FORMAT");
+  fs::create_directories(folder / "folder.obj");
+  EXPECT_EQ(code_of(folder / "folder.obj"), "FILE_CANNOT_WRITE");
+  EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(Write, ThePlyHeaderIsTheOneOfTheFormat) {
@@ -274,7 +257,39 @@ TEST(Write, ThePlyHeaderIsTheOneOfTheFormat) {
   EXPECT_EQ(content.size(), header.size() + 4 * 24 + 4 * 13);
 }
 
-namespace fs = std::filesystem;
+TEST(AtomicFile, WithoutCommitLeavesTheOldFileAndNothingElse) {
+  const TestFolder directory;
+  const fs::path file = directory / "kept.txt";
+  std::ofstream(file) << "old";
+  { AtomicFile(file).stream() << "new"; }
+  EXPECT_EQ(contents_of(file), "old");
+  EXPECT_EQ(directory.files(), 1u);
+  {
+    AtomicFile output(file);
+    output.stream() << "new";
+    output.commit();
+  }
+  EXPECT_EQ(contents_of(file), "new");
+  EXPECT_EQ(directory.files(), 1u);
+}
+
+TEST(AtomicFile, ASignalInTheMiddleRemovesTheTemporaryAndEndsTheProcessByThatSignal) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TestFolder directory;
+    const pid_t child = fork();
+    if (child == 0) {
+      AtomicFile output(directory / "half.txt");
+      output.stream() << "half" << std::flush;
+      raise(signal);
+      _exit(77);  // not reached
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << signal;
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(directory.files(), 0u) << signal;
+  }
+}
 
 std::vector<fs::path> files_of(const std::string& folder) {
   std::vector<fs::path> files;
@@ -299,18 +314,15 @@ TEST_P(MalformedFile, IsRefusedWithTheCodeAndTheLineOfItsName) {
   const std::string name = file.filename().string();
   const std::size_t dot = name.find('.');
   ASSERT_EQ(name.substr(dot, 5), ".line");
-  try {
-    const ControlMesh mesh = read_mesh(file);
-    FAIL() << "accepted with " << mesh.positions.size() << " vertices, " << mesh.faces.size() << " faces";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.code(), name.substr(0, dot)) << error.what();
-    EXPECT_EQ(error.line(), std::stoll(name.substr(dot + 5))) << error.what();
-    EXPECT_EQ(error.file(), file.string());
-    const std::string place =
-        error.line() > 0 ? file.string() + ":" + std::to_string(error.line()) : file.string();
-    EXPECT_EQ(std::string(error.what()).rfind(place + ": " + error.code() + ": ", 0), 0u) << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-  }
+  const auto error = thrown<InputError>([&] { read_mesh(file); });
+  ASSERT_TRUE(error) << "accepted";
+  const std::string what = error->what();
+  EXPECT_EQ(error->code(), name.substr(0, dot)) << what;
+  EXPECT_EQ(error->line(), std::stoll(name.substr(dot + 5))) << what;
+  EXPECT_EQ(error->file(), file.string());
+  const std::string line = error->line() > 0 ? ":" + std::to_string(error->line()) : "";
+  EXPECT_TRUE(what.starts_with(file.string() + line + ": " + error->code() + ": ")) << what;
+  EXPECT_FALSE(says(what, "\n"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, MalformedFile, testing::ValuesIn(files_of("malformed")), test_name);

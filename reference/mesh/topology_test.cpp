@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/error.h"
+#include "data/test_support/assertions.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -95,12 +96,10 @@ TEST(Topology, OfPolygonsHasClosedSectorsInsideAndOpenOnesOnTheBoundary) {
 }
 
 TEST(Topology, NamesTheFaceThatRepeatsAVertex) {
-  try {
-    Topology(9, polygons({{0, 1, 2}, {3, 4, 5, 4}}));
-    ADD_FAILURE() << "vertex 4 is named twice";
-  } catch (const data::ArgumentError& error) {
-    EXPECT_STREQ(error.what(), "control mesh: face 1 repeats a vertex");
-  }
+  EXPECT_EQ(refusal_of<data::ArgumentError>([] {
+              Topology(9, polygons({{0, 1, 2}, {3, 4, 5, 4}}));
+            }),
+            "control mesh: face 1 repeats a vertex");
 }
 
 TEST(Topology, OfPolygonsRefusesFacesThatAreNone) {

@@ -2,11 +2,11 @@
 // A subject is held to what it declares, its family of weights too, and a report says what was not judged.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstring>
 #include <string>
 
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/host/host.h"
 #include "verify/report/overview.h"
@@ -65,8 +65,7 @@ TEST(Declared, ARefusalOfWhatIsDeclaredIsAFinding) {
   refuses = "culled";
   EXPECT_EQ(tessellates(subject, mesh("tetrahedron", {-1, 1, 1, 2})).status, Status::kFinding);
   EXPECT_EQ(tessellates(subject, mesh("tetrahedron", {-1, -1, -1, -1})).status, Status::kFinding);
-  EXPECT_NE(tessellates(subject, mesh("tetrahedron", {-1, 1, 1, 2})).message.find("not today"),
-            std::string::npos);
+  EXPECT_TRUE(says(tessellates(subject, mesh("tetrahedron", {-1, 1, 1, 2})).message, "not today"));
 }
 
 TEST(Declared, ARefusalOfWhatIsNotDeclaredIsNone) {
@@ -89,7 +88,7 @@ TEST(Declared, CapabilitiesThatMeanNothingAreAFinding) {
   const auto finding = [&](const char* what) {
     const Result r = tessellates(subject, mesh("tetrahedron"));
     EXPECT_EQ(r.status, Status::kFinding) << what << ": " << r.message;
-    EXPECT_NE(r.message.find(what), std::string::npos) << r.message;
+    EXPECT_TRUE(says(r.message, what));
     declared = capabilities(good());
   };
   const auto set = [](auto& value, int number) { std::memcpy(&value, &number, sizeof number); };
@@ -146,7 +145,7 @@ TEST(Unjudged, IsSaidOfNormalsThatASubjectDoesNotDeliver) {
   const auto missing = unjudged(cgal);
   ASSERT_EQ(missing.size(), 1U) << "its refined points are judged";
   EXPECT_EQ(missing[0].check, "normals");
-  EXPECT_NE(to_table(cgal, false).find("normals of cgal were never judged"), std::string::npos);
+  EXPECT_TRUE(says(to_table(cgal, false), "normals of cgal were never judged"));
   EXPECT_TRUE(unjudged(report_of("naive")).empty());
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"

@@ -13,6 +13,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/io/read.h"
+#include "data/test_support/assertions.h"
 #include "data/validate.h"
 #include "reference/mesh/topology.h"
 #include "reference/surface/certified.h"
@@ -109,7 +110,6 @@ TEST(WitnessFiles, KeepSharpEdgesAndHoles) {
       found = found || written == mesh.mesh;
     }
   EXPECT_TRUE(found);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Shrink, TheDepthsOfTheFacesThatStayAreKept) {
@@ -174,11 +174,10 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
   const Result again = positions(Auditor(small.depth, 1).run(subject, small.mesh));
   EXPECT_TRUE(is_bad(again));
 
-  const auto folder = std::filesystem::temp_directory_path() / "limitcheck-shrink-test";
-  std::filesystem::remove_all(folder);
+  const TestFolder folder;
   Report report;
   report.depth = small.depth;
-  const auto place = write_witness(folder, report, again, small.mesh, "quick");
+  const auto place = write_witness(folder.path(), report, again, small.mesh, "quick");
   EXPECT_EQ(data::read_mesh(place / "control.obj").positions, small.mesh.mesh.positions);
   const auto json = nlohmann::json::parse(std::ifstream(place / "witness.json"));
   EXPECT_EQ(json["check"], "positions");
@@ -187,10 +186,8 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
     EXPECT_GE(digits.size(), 38U);
     EXPECT_NEAR(std::stod(digits), json["expected"][axis].get<double>(), 1e-14);
   }
-  EXPECT_NE(json["audit"].get<std::string>().find("control.obj --depth " + std::to_string(small.depth) +
-                                                  " --level quick"),
-            std::string::npos);
-  std::filesystem::remove_all(folder);
+  EXPECT_TRUE(says(json["audit"].get<std::string>(),
+                   "control.obj --depth " + std::to_string(small.depth) + " --level quick"));
 }
 
 // What a finding on a pentagon is written as: the mesh with its polygons, and the exact point in the quad at
@@ -204,21 +201,19 @@ TEST(WitnessFiles, KeepPolygonsAndNameTheCorner) {
   finding.witness->l2 = "1";
   finding.witness->expected = finding.witness->got = {0, 0, 0};
 
-  const auto folder = std::filesystem::temp_directory_path() / "limitcheck-witness-of-polygons";
-  std::filesystem::remove_all(folder);
-  const auto place = write_witness(folder, {}, finding, mesh, "standard");
+  const TestFolder folder;
+  const auto place = write_witness(folder.path(), {}, finding, mesh, "standard");
   EXPECT_EQ(data::read_mesh(place / "control.obj"), mesh.mesh);
   const auto json = nlohmann::json::parse(std::ifstream(place / "witness.json"));
   EXPECT_EQ(json["scheme"], "catmull-clark");
   EXPECT_EQ(json["corner"], 2);
   const std::string eval = json["eval"];
-  EXPECT_NE(eval.find("control.obj 0:2 1/2 1 --scheme catmull-clark"), std::string::npos) << eval;
+  EXPECT_TRUE(says(eval, "control.obj 0:2 1/2 1 --scheme catmull-clark"));
   const auto exact =
       reference::CertifiedEvaluator(mesh.mesh, data::Scheme::kCatmullClark)
           .evaluate(0, 2, reference::Parameter::parse("1/2"), reference::Parameter::parse("1"), 40);
   for (std::size_t axis = 0; axis < 3; ++axis)
     EXPECT_EQ(json["limit_position"][axis], exact.position[axis].value);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

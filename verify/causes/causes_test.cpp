@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/evidence/cells.h"
 #include "verify/report/json.h"
@@ -131,7 +132,7 @@ TEST(Causes, AreComparedOnlyInPlacesThatAMeshHas) {
   vertices.places = {{PlaceKind::kExtraordinaryVertex, 4, 6, 6}};
   const std::vector<Cause> one = causes(report_of({regular, irregular, vertices}));
   ASSERT_EQ(one.size(), 1U) << one[0].title << " and " << one[1].title;
-  EXPECT_NE(one[0].title.find("everywhere, in regular faces, too"), std::string::npos) << one[0].title;
+  EXPECT_TRUE(says(one[0].title, "everywhere, in regular faces, too"));
 
   const std::vector<Cause> alone = causes(report_of({irregular}));
   ASSERT_EQ(alone.size(), 1U);

@@ -2,7 +2,6 @@
 // No finding by the reference in double alone, and a bound that knows how well a normal can be known. Where the
 // tangents of the surface vanish but for rounding no subject has a finding, and row streaming takes the same
 // side as the sliding window.
-#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,6 +15,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/numeral.h"
 #include "data/shapes.h"
+#include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/checks/checks.h"
 #include "verify/evidence/test_script.h"
@@ -202,7 +202,7 @@ TEST(Findings, OnNeedlesTheRowSaysHowWellNormalsCanBeKnown) {
     ASSERT_TRUE(r.ill_conditioned.has_value());
     EXPECT_GT(r.ill_conditioned->count, 0);
     EXPECT_LE(r.ill_conditioned->worst, r.ill_conditioned->bound);
-    EXPECT_NE(r.message.find("ill-conditioned: "), std::string::npos);
+    EXPECT_TRUE(says(r.message, "ill-conditioned: "));
   }
   const Result flipped =
       row(Auditor(2, 1).run({lc_subject_faulty(), faulty_options("flipped_normals", "sliding-window")}, mesh),

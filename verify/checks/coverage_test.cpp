@@ -2,10 +2,10 @@
 // Tilings that are not the regular one: those of repaired cracks, and those of mistakes.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <vector>
 
 #include "data/shapes.h"
+#include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/checks/checks.h"
 #include "verify/evidence/test_script.h"
@@ -181,9 +181,7 @@ TEST(Coverage, AFaceDisplayedDeeperThanAnyNeighbourIsFoundOut) {
                          }(),
                          s))
           .at(0);
-  EXPECT_NE(r.message.find("1 faces with corners between the lattice points of their depth"),
-            std::string::npos)
-      << r.message;
+  EXPECT_TRUE(says(r.message, "1 faces with corners between the lattice points of their depth"));
 }
 
 // Asked for depth 2, beside a face of depth 3: a fan leaves out the points inside, all of them if it is the

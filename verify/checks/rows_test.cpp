@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What rows say, number by number, against values found by hand; and a point that is NaN or infinite is one
 // finding of one check, which all others leave out.
-#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <set>
 
 #include "data/shapes.h"
+#include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/checks/checks.h"
 #include "verify/evidence/test_script.h"
@@ -197,7 +197,7 @@ TEST(Rows, WrittenCountsEveryFaceOfATriangleThatWasLeftOut) {
   Script s = exact_script(mesh(), 1);
   s.faces[2] = s.faces[5] = -1;
   const Result r = row(look(s), "written");
-  EXPECT_NE(r.message.find("2 control faces of triangles unwritten"), std::string::npos) << r.message;
+  EXPECT_TRUE(says(r.message, "2 control faces of triangles unwritten"));
   EXPECT_EQ(r.bad, 4) << "two unwritten, and the same two out of range: " << r.message;
 }
 
@@ -248,10 +248,9 @@ TEST(NotFinite, AConstantNaNOrInfinityIsTheFindingOfOneRow) {
       EXPECT_EQ(red(results), expected) << base << " " << fault;
       // Checks that leave it out say so.
       const bool normal = std::string(fault) == "nan_normal";
-      EXPECT_NE(row(results, normal ? "normals" : "positions")
-                    .message.find(normal ? "1 normals that are not finite are left out"
-                                         : "1 positions that are not finite are left out"),
-                std::string::npos);
+      EXPECT_TRUE(says(row(results, normal ? "normals" : "positions").message,
+                       normal ? "1 normals that are not finite are left out"
+                              : "1 positions that are not finite are left out"));
     }
   }
 }

@@ -17,7 +17,6 @@
 #include <ctime>
 #include <memory>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"

@@ -7,13 +7,13 @@
 #include <fmt/core.h>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <string>
 
+#include "data/test_support/assertions.h"
 #include "verify/claims/register.h"
 
 namespace limitcheck::verify {
@@ -21,18 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::set<std::string> tests_in_the_sources() {
   std::set<std::string> names;
   const std::regex pattern(R"(TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\))");
   for (const char* folder : {"data", "reference", "fast", "verify"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(LIMITCHECK_SOURCE_DIR) / folder)) {
       if (entry.path().extension() != ".cpp") continue;
-      const std::string text = contents(entry.path());
+      const std::string text = contents_of(entry.path());
       for (std::sregex_iterator m(text.begin(), text.end(), pattern), end; m != end; ++m)
         names.insert((*m)[1].str() + "." + (*m)[2].str());
     }
@@ -42,7 +37,7 @@ std::set<std::string> tests_in_the_sources() {
 
 TEST(ClaimRegister, HasEightyFiveClaimsEachWithAKnownVerdict) {
   const auto json = nlohmann::json::parse(
-      contents(fs::path(LIMITCHECK_SOURCE_DIR) / "papers/mueller-havemann-2000/claims.json"));
+      contents_of(fs::path(LIMITCHECK_SOURCE_DIR) / "papers/mueller-havemann-2000/claims.json"));
   ASSERT_EQ(json["claims"].size(), 86U);
   std::set<std::string> ids;
   for (const auto& claim : json["claims"]) {
@@ -53,7 +48,7 @@ TEST(ClaimRegister, HasEightyFiveClaimsEachWithAKnownVerdict) {
 
 TEST(ClaimRegister, NamesOnlyTestsThatExist) {
   const auto json = nlohmann::json::parse(
-      contents(fs::path(LIMITCHECK_SOURCE_DIR) / "papers/mueller-havemann-2000/claims.json"));
+      contents_of(fs::path(LIMITCHECK_SOURCE_DIR) / "papers/mueller-havemann-2000/claims.json"));
   const std::set<std::string> tests = tests_in_the_sources();
   int checked = 0;
   for (const auto& claim : json["claims"]) {
@@ -70,8 +65,8 @@ TEST(ClaimRegister, NamesOnlyTestsThatExist) {
 // confirmed".
 TEST(ClaimRegister, AndTheReadmeHaveTheSameNumbers) {
   const fs::path root = LIMITCHECK_SOURCE_DIR;
-  const auto json = nlohmann::json::parse(contents(root / "papers/mueller-havemann-2000/claims.json"));
-  const std::string readme = contents(root / "README.md");
+  const auto json = nlohmann::json::parse(contents_of(root / "papers/mueller-havemann-2000/claims.json"));
+  const std::string readme = contents_of(root / "README.md");
   const auto all_equal = [&](const std::string& pattern, std::size_t number) {
     const std::regex words(pattern);
     for (std::sregex_iterator m(readme.begin(), readme.end(), words), end; m != end; ++m)
@@ -93,14 +88,6 @@ TEST(ClaimRegister, AndTheReadmeHaveTheSameNumbers) {
 
 class RunClaims : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              (std::string("limitcheck-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // A program with the test Suite.Name (as `listed`), which does `body` when run; $report is where to write.
   fs::path program(const std::string& name, const std::string& listed, const std::string& body) {
     const fs::path path = folder_ / name;
@@ -122,7 +109,7 @@ class RunClaims : public testing::Test {
   }
 
   const Claim claim_{"C00", "", "", "confirmed", "", "", "", {"Suite.Name"}};
-  fs::path folder_;
+  const TestFolder folder_;
 };
 
 TEST_F(RunClaims, HeldOnlyIfEveryTestRanAndPassed) {
@@ -146,7 +133,7 @@ TEST_F(RunClaims, TellsTheFindingWithTheFiguresOfToday) {
   const auto one = program("one", "Suite.\\n  Name\\n", reports("Suite", "Name", R"(,"most":"3.2")"));
   const ClaimResult r = judge(claim, {one});
   EXPECT_EQ(r.outcome, ClaimOutcome::kNotHeld) << "a figure that no test records";
-  EXPECT_NE(r.message.find("'least'"), std::string::npos) << r.message;
+  EXPECT_TRUE(says(r.message, "'least'"));
 }
 
 TEST_F(RunClaims, NotHeldIfOneFails) {
@@ -154,7 +141,7 @@ TEST_F(RunClaims, NotHeldIfOneFails) {
                             reports("Suite", "Name", R"(,"failures":[{"failure":"two is three"}])"));
   const ClaimResult r = judge(claim_, {fail});
   EXPECT_EQ(r.outcome, ClaimOutcome::kNotHeld);
-  EXPECT_NE(r.message.find("two is three"), std::string::npos);
+  EXPECT_TRUE(says(r.message, "two is three"));
 }
 
 TEST_F(RunClaims, NotRunIfAbsentOrBrokenDownOrNothingWritten) {
@@ -203,7 +190,7 @@ TEST(Register, IsWrittenForReaders) {
     const std::string words = c.statement + " " + c.note + " " + c.finding + " " + c.why;
     for (const char* shorthand : {"MEAS", "N/C", "AMB", "iid", "section D", "section E", "sqrt", "^{", "^2",
                                   "sum_", "2pi", "<=", ">=", "alpha", "gamma"})
-      EXPECT_EQ(words.find(shorthand), std::string::npos) << c.id << " says " << shorthand;
+      EXPECT_FALSE(says(words, shorthand)) << c.id << " says " << shorthand;
     if (c.verdict == "depends") {
       EXPECT_FALSE(c.finding.empty()) << c.id << ": on what, and by how much?";
     }

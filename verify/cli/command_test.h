@@ -8,10 +8,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "data/test_support/assertions.h"
 
 namespace limitcheck::cli {
 
@@ -19,12 +20,6 @@ struct Outcome {
   int code = -1;  // exit code; -1: killed by a signal
   std::string out, err;
 };
-
-/// Whether `text` has `part`; the text is printed where that is not as expected.
-inline testing::AssertionResult says(const std::string& text, const std::string& part) {
-  const bool has = text.find(part) != std::string::npos;
-  return (has ? testing::AssertionSuccess() : testing::AssertionFailure()) << '"' << part << "\": " << text;
-}
 
 /// Lines of a subject in bash: it says what it can do, and has read what it is then asked for.
 inline const std::string kTellsWhatItCan =
@@ -36,15 +31,6 @@ inline const std::string kTellsWhatItCan =
 
 class CommandTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("limitcheck-" + std::string(test.test_suite_name()) + "-" + test.name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// `limitcheck ARGUMENTS` (quoted for the shell).
   Outcome run(const std::string& arguments) const { return command("'" LIMITCHECK_PROGRAM "' " + arguments); }
   /// Bash on a script of these lines, in which `limitcheck` is the program.
@@ -87,15 +73,13 @@ class CommandTest : public testing::Test {
       EXPECT_EQ(o.out, "") << command << " " << arguments;
     }
   }
-  std::string read(const std::filesystem::path& name) const {
-    std::ifstream in(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string read(const std::filesystem::path& name) const { return contents_of(folder_ / name); }
   void write(const std::filesystem::path& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
 
-  std::filesystem::path folder_;
+  const TestFolder test_folder_;
+  const std::filesystem::path folder_ = test_folder_.path();
 };
 
 }  // namespace limitcheck::cli

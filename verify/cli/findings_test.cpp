@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "data/test_support/assertions.h"
 #include "verify/cli/command_test.h"
 
 namespace limitcheck::cli {
@@ -30,11 +31,6 @@ const std::vector<std::set<std::string>> kColumns{
      "state"},
     {"scaling"},
     {"rejected-inputs"}};
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // How a subject came out in a column, over the cases (a mesh at its depths).
 std::string cell(const json& report, const std::string& subject, std::size_t column) {
@@ -93,7 +89,7 @@ class Findings : public CommandTest {};
 TEST_F(Findings, OfThePapersEngineAreThoseOfTheReadme) {
   ASSERT_EQ(run("audit sliding-window --json report.json").code, 1);
   const json report = json_in("report.json");
-  const std::vector<Row> all = rows(text_of(kReadme), report);
+  const std::vector<Row> all = rows(contents_of(kReadme), report);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].is, all[0].should_be) << "bash verify/findings.sh writes the table anew";
   // It sums in the paper's order: where tangents are nearly parallel, its normals and what depends on the order of
@@ -108,8 +104,8 @@ TEST_F(Findings, OfThePapersEngineAreThoseOfTheReadme) {
 TEST_F(Findings, AreWrittenToTheReadmeIfAReportIsNamed) {
   const char* file = std::getenv("LIMITCHECK_FINDINGS");
   if (file == nullptr) GTEST_SKIP() << "LIMITCHECK_FINDINGS is not set";
-  const json report = json::parse(text_of(file));
-  std::string text = text_of(kReadme);
+  const json report = json::parse(contents_of(file));
+  std::string text = contents_of(kReadme);
   for (std::size_t k = 0; k < rows(text, report).size(); ++k) {  // each moves those behind it
     const Row row = rows(text, report)[k];
     text.replace(row.begin, row.end - row.begin, row.should_be);

@@ -70,15 +70,13 @@ TEST_F(Merge, OfExhaustiveAuditsNamesTheNeighbourhoodThatIsWrong) {
   const json wrong = json::parse(read("merged.json"))["exhaustive"].at(0);
   EXPECT_FALSE(wrong["right"].get<bool>());
   EXPECT_EQ(wrong["looked_at"], wrong["neighbourhoods"]);
-  for (const json& star : wrong["examples"])
-    EXPECT_NE(star.get<std::string>().find("w=.JJ"), std::string::npos) << star;
+  for (const json& star : wrong["examples"]) EXPECT_TRUE(says(star.get<std::string>(), "w=.JJ")) << star;
   const Outcome right = run("audit row-stream --exhaustive 3 --json right.json");
   EXPECT_EQ(right.code, 0);
   for (const json& scheme : json::parse(read("right.json"))["exhaustive"]) {
     EXPECT_TRUE(scheme["right"].get<bool>());
-    EXPECT_NE(right.out.find("right on every neighbourhood up to valence 3: " +
-                             std::to_string(scheme["neighbourhoods"].get<int>())),
-              std::string::npos);
+    EXPECT_TRUE(says(right.out, "right on every neighbourhood up to valence 3: " +
+                                    std::to_string(scheme["neighbourhoods"].get<int>())));
   }
   EXPECT_EQ(run("audit row-stream octahedron --exhaustive 3").code, 2);
   EXPECT_EQ(run("audit row-stream --depth 1 --exhaustive 3").code, 2);

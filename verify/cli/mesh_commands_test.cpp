@@ -5,7 +5,6 @@
 // unless it is told to.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "data/test_support/assertions.h"
+
 namespace limitcheck::cli {
 namespace {
 
@@ -29,9 +31,9 @@ std::string log_of(std::chrono::milliseconds between) {
 TEST(Progress, IsALineNowAndThenWhereThereIsNoTerminalWithoutForeignControlCharacters) {
   EXPECT_EQ(log_of(1h), "") << "too early for a line";
   const std::string text = log_of(0ms);
-  EXPECT_EQ(text.find('\033'), std::string::npos) << text;
+  EXPECT_FALSE(says(text, "\033"));
   EXPECT_EQ(text.find("limitcheck: 0/2: a"), 0U) << text;
-  EXPECT_NE(text.find("limitcheck: 1/2, 0 s left: a"), std::string::npos) << text;
+  EXPECT_TRUE(says(text, "limitcheck: 1/2, 0 s left: a"));
   EXPECT_EQ(text.back(), '\n');
 }
 

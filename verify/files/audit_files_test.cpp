@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <string>
 
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "reference/loop/refine.h"
 #include "verify/files/audit_files.h"
 #include "verify/files/checks/diagnosis.h"
@@ -81,8 +81,8 @@ TEST(AuditFiles, EveryCheckSeesTheFaultItIsThereFor) {
   EXPECT_EQ(with([](auto& t) { crack<float>(t, 40, 0); }), "file-watertight");
   const std::string across =
       with([](auto& t) { t.triangles[40][0] = t.triangles[2000][0]; });  // to another place
-  EXPECT_NE(across.find("file-hausdorff"), std::string::npos) << across;
-  EXPECT_NE(across.find("file-watertight"), std::string::npos) << across;
+  EXPECT_TRUE(says(across, "file-hausdorff"));
+  EXPECT_TRUE(says(across, "file-watertight"));
 }
 
 // Found by fuzzing: a row said "5 of 3 edges".
@@ -125,7 +125,7 @@ TEST(AuditFiles, ProvenanceIsHeldAgainstTheExactEvaluationThere) {
   // On the surface still, but elsewhere: only the provenance can tell.
   auto wrong = rows;
   std::swap(wrong[60].at, wrong[61].at);
-  EXPECT_NE(findings(audit(mesh, t, {}, wrong)).find("file-positions"), std::string::npos);
+  EXPECT_TRUE(says(findings(audit(mesh, t, {}, wrong)), "file-positions"));
   rows.pop_back();
   EXPECT_EQ(findings(audit(mesh, t, {}, rows)), "file-positions") << "a vertex without a row";
 }
@@ -256,12 +256,10 @@ TEST(AuditFiles, TrianglesThatTheControlMeshLeavesNoAreaAreNoFault) {
 TEST(AuditFiles, SaysWhatACoarseFileDoesNotShow) {
   const auto mesh = data::named_mesh("icosahedron");
   const auto said = [&](int depth) { return row(audit(mesh, exact(mesh, depth)), "file-distance").message; };
-  EXPECT_NE(said(0).find("along the edges and inside of faces was not looked at"), std::string::npos)
-      << said(0);
-  EXPECT_NE(said(1).find("inside of faces was not looked at"), std::string::npos) << said(1);
+  EXPECT_TRUE(says(said(0), "along the edges and inside of faces was not looked at"));
+  EXPECT_TRUE(says(said(1), "inside of faces was not looked at"));
   EXPECT_EQ(said(2), "");
-  EXPECT_NE(row(audit(mesh, exact(mesh, 0)), "file-hausdorff").message.find("only --max-deviation"),
-            std::string::npos);
+  EXPECT_TRUE(says(row(audit(mesh, exact(mesh, 0)), "file-hausdorff").message, "only --max-deviation"));
 
   // The figure for the weights: all vertices are alike, so that the limits of weights off by x are at
   // v + (1 + x) (limit - v). Half of the figure is held, twice is a finding.
@@ -289,16 +287,14 @@ TEST(AuditFiles, SaysWhatItLooksLike) {
   };
   FileTessellation refined = exact(mesh, 2, false);
   const std::string message = row(audit(mesh, refined), "file-distance").message;
-  EXPECT_NE(message.find("refined by Loop's rule (2 steps)"), std::string::npos) << message;
-  EXPECT_NE(message.find("the limit mask"), std::string::npos) << message;
+  EXPECT_TRUE(says(message, "refined by Loop's rule (2 steps)"));
+  EXPECT_TRUE(says(message, "the limit mask"));
   const std::string warren = said(scheme_points(mesh, GuessedRule::kWarren, 2, true));
-  EXPECT_NE(warren.find("limit points of Loop's rule with Warren's simplified weights (2 steps)"),
-            std::string::npos)
-      << warren;
+  EXPECT_TRUE(says(warren, "limit points of Loop's rule with Warren's simplified weights (2 steps)"));
   const std::string flat = said(scheme_points(mesh, GuessedRule::kLinear, 2, false));
-  EXPECT_NE(flat.find("nothing was subdivided"), std::string::npos) << flat;
+  EXPECT_TRUE(says(flat, "nothing was subdivided"));
   const std::string other = said(scheme_points(mesh, GuessedRule::kCatmullClark, 2, true));
-  EXPECT_NE(other.find("not Loop subdivision at all"), std::string::npos) << other;
+  EXPECT_TRUE(says(other, "not Loop subdivision at all"));
 }
 
 // As programs write coordinates: floats, with six decimals, with six digits, and as they are.
@@ -401,7 +397,7 @@ TEST(AuditFiles, AScaleAnOffsetAndATurnAreFittedAway) {
   for (Vector& p : t.positions)
     p = {2.5 * p[0] + 1, 2.5 * p[2] - 3, -2.5 * p[1] + .25};  // y up instead of z up
   for (auto& n : t.normals) n.direction = {n.direction[0], n.direction[2], -n.direction[1]};
-  EXPECT_NE(findings(audit(mesh, t)).find("file-distance"), std::string::npos);
+  EXPECT_TRUE(says(findings(audit(mesh, t)), "file-distance"));
   FilesOptions options;
   options.fit = Fit::kSimilarity;
   const FilesAudit a = audit(mesh, t, options);

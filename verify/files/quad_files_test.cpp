@@ -3,10 +3,10 @@
 // each.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "verify/files/read/test_quad_files.h"
 #include "verify/files/test_files.h"
 #include "verify/projection/test_meshes.h"
@@ -49,9 +49,8 @@ TEST(QuadFiles, RefinedPointsAreNamedAndTheirBoundaryIsNoCrack) {
       EXPECT_NE(distance.message.find(fmt::format("refined by Catmull and Clark's rule ({} step", depth)),
                 std::string::npos)
           << m.name << " at depth " << depth << ": " << distance.message;
-      EXPECT_NE(distance.message.find("Catmull and Clark's limit surface"), std::string::npos)
-          << distance.message;
-      EXPECT_NE(distance.message.find("the limit mask"), std::string::npos) << distance.message;
+      EXPECT_TRUE(says(distance.message, "Catmull and Clark's limit surface"));
+      EXPECT_TRUE(says(distance.message, "the limit mask"));
       EXPECT_EQ(row(a, "file-watertight").status, Status::kHeld)
           << m.name << ": " << row(a, "file-watertight").message;
     }
@@ -66,10 +65,8 @@ TEST(QuadFiles, LoopsPointsOfTheTriangulatedMeshAreNamed) {
         cut.faces.push_back({mesh.faces[f][0], mesh.faces[f][k], mesh.faces[f][k + 1]});
     for (const bool limit : {true, false}) {
       const std::string said = row(audit_quads(mesh, exact(cut, 2, limit)), "file-distance").message;
-      EXPECT_NE(said.find(limit ? "limit points of Loop's rule" : "refined by Loop's rule"),
-                std::string::npos)
-          << said;
-      EXPECT_NE(said.find("not Catmull-Clark subdivision"), std::string::npos) << said;
+      EXPECT_TRUE(says(said, limit ? "limit points of Loop's rule" : "refined by Loop's rule"));
+      EXPECT_TRUE(says(said, "not Catmull-Clark subdivision"));
     }
     const std::string flat =
         row(audit_quads(mesh, read_obj([&] {
@@ -80,7 +77,7 @@ TEST(QuadFiles, LoopsPointsOfTheTriangulatedMeshAreNamed) {
                         }())),
             "file-distance")
             .message;
-    EXPECT_NE(flat.find("nothing was subdivided"), std::string::npos) << flat;
+    EXPECT_TRUE(says(flat, "nothing was subdivided"));
   }
 }
 
@@ -129,7 +126,7 @@ TEST(QuadFiles, ProvenanceIsHeldAgainstTheExactEvaluationThere) {
     EXPECT_LE(*row(good, "file-positions").worst, 1e-14);
     std::swap(rows[60].at, rows[61].at);
     std::swap(rows[60].corner, rows[61].corner);
-    EXPECT_NE(findings(audit(mesh, t, {}, rows)).find("file-positions"), std::string::npos);
+    EXPECT_TRUE(says(findings(audit(mesh, t, {}, rows)), "file-positions"));
   }
 }
 
@@ -154,13 +151,12 @@ TEST(QuadFiles, SaysWhatACoarseFileDoesNotShow) {
     return row(audit_quads(mesh, quad_file(mesh, depth)), "file-distance").message;
   };
   for (const auto& mesh : {data::quad_cube(), data::polygon_prism(5)}) {
-    EXPECT_NE(said(mesh, 0).find("along the edges and inside of faces was not looked at"), std::string::npos)
-        << said(mesh, 0);
+    EXPECT_TRUE(says(said(mesh, 0), "along the edges and inside of faces was not looked at"));
     EXPECT_EQ(said(mesh, 1), "") << "the middle of every face";
   }
   const auto cube = data::quad_cube();
-  EXPECT_NE(row(audit_quads(cube, quad_file(cube, 0)), "file-hausdorff").message.find("only --max-deviation"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(row(audit_quads(cube, quad_file(cube, 0)), "file-hausdorff").message, "only --max-deviation"));
 }
 
 // A control mesh of triangles is Loop's unless the other scheme is asked for.

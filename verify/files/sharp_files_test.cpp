@@ -8,6 +8,7 @@
 #include "data/generators/mixed_mesh.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/test_support/assertions.h"
 #include "verify/files/read/test_sharp_files.h"
 #include "verify/files/test_files.h"
 #include "verify/projection/test_meshes.h"
@@ -45,7 +46,7 @@ TEST(SharpFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
     EXPECT_EQ(findings(a), "") << m.name << ": " << said(a);
     worst = std::max(worst, *row(a, "file-distance").worst);
     EXPECT_LE(*row(a, "file-distance").worst, 1e-14) << m.name;
-    EXPECT_EQ(row(a, "file-normals").message.find("both sides"), std::string::npos)
+    EXPECT_FALSE(says(row(a, "file-normals").message, "both sides"))
         << m.name << ": every corner has the normal of its side";
   }
   RecordProperty("worst_distance_in_diagonals", std::to_string(worst * 1e16) + "e-16");
@@ -57,13 +58,11 @@ TEST(SharpFiles, OneNormalForBothSidesOfACreaseIsCountedAndNotJudged) {
     const TestMesh m = named(name);
     const FilesAudit a = audit_sharp(m, with_one_normal_each(sharp_file(m.mesh, m.scheme, 2)));
     EXPECT_EQ(findings(a), "") << m.name << ": " << said(a);
-    EXPECT_NE(row(a, "file-normals").message.find("stand for both sides"), std::string::npos)
-        << m.name << ": " << row(a, "file-normals").message;
+    EXPECT_TRUE(says(row(a, "file-normals").message, "stand for both sides")) << m.name;
   }
   const TestMesh smooth = named("cube 2");
   const FilesAudit a = audit_sharp(smooth, with_one_normal_each(sharp_file(smooth.mesh, smooth.scheme, 2)));
-  EXPECT_EQ(row(a, "file-normals").message.find("both sides"), std::string::npos)
-      << "a semi-sharp edge has one normal";
+  EXPECT_FALSE(says(row(a, "file-normals").message, "both sides")) << "a semi-sharp edge has one normal";
 }
 
 // Files of the wrong surface; the control mesh is right.
@@ -117,10 +116,8 @@ TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
     data::ControlMesh smooth = m.mesh;
     smooth.sharpness = {};
     const FilesAudit ignored = audit_sharp(m, sharp_file(smooth, m.scheme, 2));
-    EXPECT_NE(row(ignored, "file-distance").message.find("limit points of"), std::string::npos)
-        << name << ": " << row(ignored, "file-distance").message;
-    EXPECT_NE(row(ignored, "file-distance").message.find("not taken as sharp"), std::string::npos)
-        << name << ": " << row(ignored, "file-distance").message;
+    EXPECT_TRUE(says(row(ignored, "file-distance").message, "limit points of")) << name;
+    EXPECT_TRUE(says(row(ignored, "file-distance").message, "not taken as sharp")) << name;
 
     if (m.name == "cube 10") continue;  // flat between its edges: refined points are on the surface
     FileTessellation refined = sharp_file(m.mesh, m.scheme, 2);
@@ -137,9 +134,7 @@ TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
       put(mesh.positions());
     }
     const FilesAudit unmoved = audit_sharp(m, refined);
-    EXPECT_NE(row(unmoved, "file-distance").message.find("what is missing is the last step"),
-              std::string::npos)
-        << name << ": " << row(unmoved, "file-distance").message;
+    EXPECT_TRUE(says(row(unmoved, "file-distance").message, "what is missing is the last step")) << name;
   }
 }
 
@@ -201,7 +196,7 @@ TEST(SharpFiles, AHoleIsToBeLeftOpen) {
     covered.holes.clear();
     const FilesAudit filled = audit_sharp(m, sharp_file(covered, m.scheme, 2));
     EXPECT_TRUE(findings(filled).starts_with("file-coverage")) << m.name << ": " << findings(filled);
-    EXPECT_NE(row(filled, "file-coverage").message.find("holes"), std::string::npos);
+    EXPECT_TRUE(says(row(filled, "file-coverage").message, "holes"));
     data::ControlMesh more = m.mesh;
     more.holes.insert(more.holes.begin(), {m.mesh.holes[0] == 0 ? 1 : 0});
     std::sort(more.holes.begin(), more.holes.end());

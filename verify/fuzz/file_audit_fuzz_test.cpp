@@ -6,7 +6,6 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <string>

@@ -3,7 +3,6 @@
 // and read as it is; and a repair ends in a mesh without faults that a second one leaves as it is.
 #include <fuzzer/FuzzedDataProvider.h>
 
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: any bytes are either refused as waivers, or can be applied to a report.
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 #include "data/error.h"

@@ -2,43 +2,26 @@
 // What is written is read back by readers that are not ours (Assimp), and by the project's own.
 #include "verify/mesh_output/mesh_output.h"
 
-#include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <assimp/scene.h>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include "data/error.h"
-#include "data/io/atomic_file.h"
 #include "data/io/read.h"
 #include "data/shapes.h"
+#include "data/test_support/assertions.h"
 #include "data/validate.h"
 
 namespace limitcheck::verify {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Directory {
-  Directory() {
-    std::string name = (fs::temp_directory_path() / "limitcheck-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Directory() { fs::remove_all(path); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator{}));
-  }
-  fs::path path;
-};
 
 /// An icosahedron as a tessellation would be: numbers that need all their digits, faces of different kinds
 /// and depths.
@@ -86,10 +69,10 @@ std::set<std::array<Point, 3>> triangles_of(const fast::IndexedMesh<float>& mesh
 }
 
 TEST(MeshOutput, IsReadBackBitForBitAndWatertightByTheMeshReader) {
-  const Directory directory;
+  const TestFolder directory;
   const auto mesh = sample();
   for (const char* extension : {"ply", "obj"}) {
-    const fs::path file = directory.path / (std::string("plain.") + extension);
+    const fs::path file = directory / (std::string("plain.") + extension);
     write_tessellation(file, mesh);
     const data::ControlMesh back = data::read_mesh(file);  // validated: closed, manifold, oriented
     ASSERT_EQ(back.positions.size(), mesh.vertices.size());
@@ -109,11 +92,11 @@ TEST(MeshOutput, IsReadBackBitForBitAndWatertightByTheMeshReader) {
 }
 
 TEST(MeshOutput, IsReadByAssimpWithItsNormalsAndOneMaterialPerClass) {
-  const Directory directory;
+  const TestFolder directory;
   const auto mesh = sample();
   for (const char* extension : {"ply", "obj", "glb"}) {
     for (const bool coloured : {false, true}) {
-      const fs::path file = directory.path / (std::string("assimp.") + extension);
+      const fs::path file = directory / (std::string("assimp.") + extension);
       write_tessellation(file, mesh, coloured ? colour_by_depth(mesh, sample_depths()) : Colouring{});
       Assimp::Importer importer;
       const aiScene* scene = importer.ReadFile(file.string(), 0);
@@ -154,13 +137,12 @@ TEST(MeshOutput, IsReadByAssimpWithItsNormalsAndOneMaterialPerClass) {
 }
 
 TEST(MeshOutput, OfPlyCarriesTheColoursOfTheFaces) {
-  const Directory directory;
+  const TestFolder directory;
   const auto mesh = sample();
   const Colouring colouring = colour_by_kind(mesh);
-  const fs::path file = directory.path / "colours.ply";
+  const fs::path file = directory / "colours.ply";
   write_tessellation(file, mesh, colouring);
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = contents_of(file);
   const std::size_t start = text.find("end_header\n") + 11 + 24 * mesh.vertices.size();
   ASSERT_EQ(text.size(), start + 16 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -172,9 +154,9 @@ TEST(MeshOutput, OfPlyCarriesTheColoursOfTheFaces) {
 }
 
 TEST(MeshOutput, OfNothingIsAValidFileOfNothing) {
-  const Directory directory;
+  const TestFolder directory;
   for (const char* extension : {"ply", "obj", "glb"}) {
-    const fs::path file = directory.path / (std::string("nothing.") + extension);
+    const fs::path file = directory / (std::string("nothing.") + extension);
     write_tessellation(file, {});
     EXPECT_TRUE(fs::exists(file));
   }
@@ -183,61 +165,19 @@ TEST(MeshOutput, OfNothingIsAValidFileOfNothing) {
 
 TEST(MeshOutput, RefusesUnknownExtensionsAndPlacesItCannotWriteTo) {
   const auto code = [](const fs::path& file) {
-    try {
-      write_tessellation(file, sample());
-    } catch (const data::InputError& error) {
-      return error.code();
-    }
-    return std::string("written");
+    return thrown<data::InputError>([&] { write_tessellation(file, sample()); }).value().code();
   };
-  const Directory directory;
-  EXPECT_EQ(code(directory.path / "mesh.stl"), "FILE_UNKNOWN_FORMAT");
-  EXPECT_EQ(code(directory.path / "mesh"), "FILE_UNKNOWN_FORMAT");
-  EXPECT_EQ(code(directory.path / "absent" / "mesh.ply"), "FILE_CANNOT_WRITE");
-  fs::create_directory(directory.path / "directory.ply");
-  EXPECT_EQ(code(directory.path / "directory.ply"), "FILE_CANNOT_WRITE");
+  const TestFolder directory;
+  EXPECT_EQ(code(directory / "mesh.stl"), "FILE_UNKNOWN_FORMAT");
+  EXPECT_EQ(code(directory / "mesh"), "FILE_UNKNOWN_FORMAT");
+  EXPECT_EQ(code(directory / "absent" / "mesh.ply"), "FILE_CANNOT_WRITE");
+  fs::create_directory(directory / "directory.ply");
+  EXPECT_EQ(code(directory / "directory.ply"), "FILE_CANNOT_WRITE");
   for (const char* name : {"full.ply", "full.obj", "full.glb"}) {  // a full disk
-    fs::create_symlink("/dev/full", directory.path / name);
-    EXPECT_EQ(code(directory.path / name), "FILE_CANNOT_WRITE") << name;
+    fs::create_symlink("/dev/full", directory / name);
+    EXPECT_EQ(code(directory / name), "FILE_CANNOT_WRITE") << name;
   }
   EXPECT_EQ(directory.files(), 4u) << "nothing but what was there before";
-}
-
-TEST(AtomicFile, WithoutCommitLeavesTheOldFileAndNothingElse) {
-  const Directory directory;
-  const fs::path file = directory.path / "kept.txt";
-  std::ofstream(file) << "old";
-  { data::AtomicFile(file).stream() << "new"; }
-  std::string content;
-  std::ifstream(file) >> content;
-  EXPECT_EQ(content, "old");
-  EXPECT_EQ(directory.files(), 1u);
-  {
-    data::AtomicFile output(file);
-    output.stream() << "new";
-    output.commit();
-  }
-  std::ifstream(file) >> content;
-  EXPECT_EQ(content, "new");
-  EXPECT_EQ(directory.files(), 1u);
-}
-
-TEST(AtomicFile, ASignalInTheMiddleRemovesTheTemporaryAndEndsTheProcessByThatSignal) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const Directory directory;
-    const pid_t child = fork();
-    if (child == 0) {
-      data::AtomicFile output(directory.path / "half.txt");
-      output.stream() << "half" << std::flush;
-      raise(signal);
-      _exit(77);  // not reached
-    }
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFSIGNALED(status)) << signal;
-    EXPECT_EQ(WTERMSIG(status), signal);
-    EXPECT_EQ(directory.files(), 0u) << signal;
-  }
 }
 
 }  // namespace

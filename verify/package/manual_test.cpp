@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "data/test_support/assertions.h"
 #include "verify/package/installed_test.h"
 
 namespace limitcheck::cli {
@@ -18,8 +19,7 @@ class Manual : public InstalledTest {};
 
 // The page is made of --help's own tables; this is how they are written for man.
 TEST_F(Manual, SaysWhatHelpSays) {
-  std::ifstream in(LIMITCHECK_BINARY_DIR "/limitcheck.1");
-  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  const std::string page = contents_of(LIMITCHECK_BINARY_DIR "/limitcheck.1");
   for (const char* text :
        {".B limitcheck eval\n[\\fIoptions\\fR] \\fIMESH\\fR \\fIFACE\\fR \\fIU\\fR \\fIV\\fR\n",
         ".B limitcheck repair\n[\\fIoptions\\fR] \\fB\\-o\\fR \\fIFILE\\fR \\fIMESH\\fR\n",
@@ -27,12 +27,12 @@ TEST_F(Manual, SaysWhatHelpSays) {
         ".TP\n\\fB\\-\\-precision\\fR \\fIfloat\\fR|\\fIdouble\\fR\nRound the control mesh",
         "(1 to 10000, default 16).\n", "\\fB\\-\\-colour\\fR, \\fB\\-\\-color\\fR", ".SS limitcheck bench\n",
         ".SH EXIT STATUS\n"})
-    EXPECT_NE(page.find(text), std::string::npos) << text;
+    EXPECT_TRUE(says(page, text)) << text;
   for (const char* absent : {"worker", "@", "REQUIRED", "\n.SS limitcheck manual"})
-    EXPECT_EQ(page.find(absent), std::string::npos) << absent;
+    EXPECT_FALSE(says(page, absent)) << absent;
   // A line that begins with a dot is a request.
   for (std::size_t k = page.find("\n."); k != std::string::npos; k = page.find("\n.", k + 1))
-    EXPECT_NE(std::string("\\TSBPnbf").find(page[k + 2]), std::string::npos) << page.substr(k, 80);
+    EXPECT_TRUE(says("\\TSBPnbf", page.substr(k + 2, 1))) << page.substr(k, 80);
   const Outcome rendered = shell("groff -ww -z -man '" LIMITCHECK_BINARY_DIR "/limitcheck.1'");
   if (rendered.code != 127) {
     EXPECT_EQ(rendered.code, 0) << rendered.err;

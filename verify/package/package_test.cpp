@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "verify/package/installed_test.h"
@@ -34,8 +33,7 @@ TEST_F(Package, FastNeedsNoCgalNoOpenSubdivNoOpenMeshNoFlint) {
   // 24/55 of the way out (valence 4: 3 / (3 + 8 a(4)), a(4) = 31/64).
   const Outcome o = shell("build/tessellate");
   ASSERT_EQ(o.code, 0) << o.err;
-  EXPECT_NE(o.out.find("uniform: 8 faces, 512 triangles, 258 vertices, 0 fans\n"), std::string::npos)
-      << o.out;
+  EXPECT_TRUE(says(o.out, "uniform: 8 faces, 512 triangles, 258 vertices, 0 fans\n"));
   const std::size_t corner = o.out.find("corner: ");
   ASSERT_NE(corner, std::string::npos) << o.out;
   double x = 0, y = 0, z = 0;
@@ -43,9 +41,9 @@ TEST_F(Package, FastNeedsNoCgalNoOpenSubdivNoOpenMeshNoFlint) {
   EXPECT_NEAR(std::abs(x) + std::abs(y) + std::abs(z), 24.0 / 55, 1e-7) << o.out;
 
   const std::string libraries = shell("ldd build/tessellate").out;
-  EXPECT_NE(libraries.find("libtbb"), std::string::npos) << libraries;
+  EXPECT_TRUE(says(libraries, "libtbb"));
   for (const char* foreign : {"CGAL", "osd", "OpenMesh", "flint", "mpfr", "gmp", "tinygltf"})
-    EXPECT_EQ(libraries.find(foreign), std::string::npos) << libraries;
+    EXPECT_FALSE(says(libraries, foreign));
   EXPECT_EQ(shell("build/tessellate absent.obj").code, 2);
 }
 
@@ -74,11 +72,10 @@ TEST_F(Package, ReferenceGivesTheKnownAnswer) {
         "-DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON");
   const Outcome o = shell("build/true_point");
   ASSERT_EQ(o.code, 0) << o.err;
-  EXPECT_NE(o.out.find("certified: 0.149691358024691358024691358025 0.149691358024691358024691358025 "
-                       "-0.149691358024691358024691358025 "),
-            std::string::npos)
-      << o.out;
-  EXPECT_NE(o.out.find("leaves at depth 3: 64\n"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out,
+                   "certified: 0.149691358024691358024691358025 0.149691358024691358024691358025 "
+                   "-0.149691358024691358024691358025 "));
+  EXPECT_TRUE(says(o.out, "leaves at depth 3: 64\n"));
 }
 
 TEST_F(Package, EveryHeaderCompilesByItself) {
@@ -98,7 +95,7 @@ TEST_F(Package, EveryHeaderCompilesByItself) {
     EXPECT_TRUE(name.starts_with("limitcheck/")) << name;
     const std::string text = read(entry.path());
     for (const char* folder : {"data/", "reference/", "fast/", "verify/"})
-      EXPECT_EQ(text.find("#include \"" + std::string(folder)), std::string::npos) << name;
+      EXPECT_FALSE(says(text, "#include \"" + std::string(folder))) << name;
   }
   EXPECT_GT(headers, 30);
 }
@@ -120,10 +117,10 @@ TEST_F(Components, ThatCannotBeHadAreRefusedWithWhatTheyLack) {
   install();
   Outcome o = find("REQUIRED COMPONENTS fast", "hwy");
   EXPECT_NE(o.code, 0);
-  EXPECT_NE(o.err.find("component fast needs hwy"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "component fast needs hwy"));
   o = find("REQUIRED COMPONENTS faster", "hwy");
   EXPECT_NE(o.code, 0);
-  EXPECT_NE(o.err.find("there is no component 'faster'"), std::string::npos) << o.err;
+  EXPECT_TRUE(says(o.err, "there is no component 'faster'"));
   // The others do not miss it.
   o = find("REQUIRED COMPONENTS subject reference", "hwy",
            "if(NOT TARGET limitcheck::reference OR TARGET limitcheck::fast)\nmessage(FATAL_ERROR "
@@ -146,8 +143,8 @@ TEST_F(DebianPackage, HoldsAProgramThatRunsAndSaysItsLicence) {
   ASSERT_EQ(made.code, 0) << made.out << made.err;
   const std::string depends = shell("dpkg-deb -f limitcheck_0.1.0_*.deb Depends").out;
   for (const char* needed : {"libtbb12", "libosdcpu3.5.0", "libflint-arb2", "libc6"})
-    EXPECT_NE(depends.find(needed), std::string::npos) << depends;
-  EXPECT_EQ(depends.find("-dev"), std::string::npos) << depends;
+    EXPECT_TRUE(says(depends, needed));
+  EXPECT_FALSE(says(depends, "-dev"));
 
   ASSERT_EQ(shell("dpkg-deb -x limitcheck_0.1.0_*.deb root").code, 0);
   EXPECT_EQ(shell("root/usr/bin/limitcheck --version").out, "limitcheck 0.1.0\n");
@@ -156,9 +153,8 @@ TEST_F(DebianPackage, HoldsAProgramThatRunsAndSaysItsLicence) {
         "share/bash-completion/completions/limitcheck", "share/doc/limitcheck/changelog.gz"})
     EXPECT_TRUE(fs::exists(folder_ / "root/usr" / file)) << file;
   const std::string copyright = read("root/usr/share/doc/limitcheck/copyright");
-  const std::size_t program = copyright.find("Files: usr/bin/limitcheck\n");
-  ASSERT_NE(program, std::string::npos) << copyright;
-  EXPECT_NE(copyright.find("License: GPL-3+\n", program), std::string::npos) << copyright;
+  ASSERT_TRUE(says(copyright, "Files: usr/bin/limitcheck\n"));
+  EXPECT_TRUE(says(copyright.substr(copyright.find("Files: usr/bin/limitcheck\n")), "License: GPL-3+\n"));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
-#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>

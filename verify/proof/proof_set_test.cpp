@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
+#include "data/test_support/assertions.h"
 #include "verify/proof/proof_report.h"
 #include "verify/proof/proof_set.h"
 
@@ -183,7 +184,7 @@ TEST(Proof_Set, IsReportedAsStoppedWhereItWas) {
   const ProofReport report(set, rows);
   EXPECT_TRUE(report.held());
   EXPECT_FALSE(report.complete());
-  EXPECT_NE(report.table(false).find("STOPPED"), std::string::npos);
+  EXPECT_TRUE(says(report.table(false), "STOPPED"));
   EXPECT_FALSE(nlohmann::json::parse(report.json())["complete"].get<bool>());
 }
 
@@ -240,7 +241,7 @@ TEST(Proof_Report, IsRefutedByEachOfItsFigures) {
     faults[k](proof);
     EXPECT_FALSE(proof.report().held()) << k;
     EXPECT_FALSE(nlohmann::json::parse(proof.report().json())["held"].get<bool>()) << k;
-    EXPECT_NE(proof.report().table(false).find("FAILED"), std::string::npos) << k;
+    EXPECT_TRUE(says(proof.report().table(false), "FAILED")) << k;
   }
 }
 
@@ -252,7 +253,7 @@ TEST(Proof_Report, WithoutCertifiedLinesIsNotComplete) {
     Proof proof;
     omissions[k](proof);
     EXPECT_FALSE(proof.report().complete()) << k;
-    EXPECT_NE(proof.report().table(false).find("STOPPED"), std::string::npos) << k;
+    EXPECT_TRUE(says(proof.report().table(false), "STOPPED")) << k;
   }
 }
 

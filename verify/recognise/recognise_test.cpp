@@ -10,6 +10,7 @@
 
 #include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "reference/loop/refine.h"
 #include "verify/audit/audit.h"
 #include "verify/causes/causes.h"
@@ -132,7 +133,7 @@ std::vector<Result> audit(const lc_subject& subject, const std::string& options,
 
 void expect_said(const Result& r, const std::string& sentence) {
   EXPECT_EQ(r.status, Status::kFinding) << r.subject << " " << r.check;
-  EXPECT_NE(r.message.find(sentence), std::string::npos) << r.subject << " " << r.check << ": " << r.message;
+  EXPECT_TRUE(says(r.message, sentence)) << r.subject << " " << r.check;
 }
 
 // `cgal`, whose points are refined and not limit points, or another subject, under another claim.
@@ -334,9 +335,7 @@ TEST(Recognise, NothingWhereNothingIsToBeRecognised) {
   for (const auto& rows :
        {audit(*lc_subject_faulty(), options, "bumpy:20", 2), audit(*lc_subject_naive(), "", "bumpy:20", 2),
         audit(*lc_subject_model(), "mutation=boundary_vertex_5_8", "holes", 2)})
-    for (const Result& r : rows)
-      EXPECT_EQ(r.message.find("look"), std::string::npos)
-          << r.subject << " " << r.check << ": " << r.message;
+    for (const Result& r : rows) EXPECT_FALSE(says(r.message, "look")) << r.subject << " " << r.check;
 }
 
 }  // namespace

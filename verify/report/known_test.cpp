@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "verify/audit/default_plan.h"
 #include "verify/checks/checks.h"
 #include "verify/relations/relations.h"
@@ -54,7 +54,7 @@ TEST(Waivers, CoverASubjectACheckAndAShapeAndNothingElse) {
   apply_waivers(r, {waiver()}, {}, "2026-11-21");
   ASSERT_EQ(r.results.size(), 4U);
   EXPECT_EQ(r.results[0].status, Status::kWaived);
-  EXPECT_NE(r.results[0].message.find("known"), std::string::npos);
+  EXPECT_TRUE(says(r.results[0].message, "known"));
   for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(r.results[k].status, Status::kFinding);
   EXPECT_FALSE(r.held());
 }
@@ -65,7 +65,7 @@ TEST(Waivers, AreGoodUpToTheirOwnBoundOnly) {
   w.bound = 1e-4;
   apply_waivers(r, {w}, {}, "2026-11-21");
   EXPECT_EQ(r.results[0].status, Status::kFinding);
-  EXPECT_NE(r.results[0].message.find("beyond the waiver"), std::string::npos);
+  EXPECT_TRUE(says(r.results[0].message, "beyond the waiver"));
   r = report();
   r.results[0].worst.reset();  // not finite
   w.bound = 1;
@@ -82,7 +82,7 @@ TEST(Waivers, EndWithTheirLastDay) {
   EXPECT_EQ(r.results[0].status, Status::kFinding);
   ASSERT_EQ(r.results.size(), 5U);
   EXPECT_EQ(r.results[4].status, Status::kQualityWarning);
-  EXPECT_NE(r.results[4].message.find("expired"), std::string::npos);
+  EXPECT_TRUE(says(r.results[4].message, "expired"));
 }
 
 TEST(Waivers, HoldForARangeOfVersions) {
@@ -109,7 +109,7 @@ TEST(Waivers, WithoutAnythingToCoverAreReported) {
   w.shape = "torus";
   apply_waivers(r, {w}, {}, "2026-11-21");
   ASSERT_EQ(r.results.size(), 5U);
-  EXPECT_NE(r.results[4].message.find("covers nothing"), std::string::npos);
+  EXPECT_TRUE(says(r.results[4].message, "covers nothing"));
   r = report();
   r.results[0].status = Status::kHeld;
   apply_waivers(r, {waiver()}, {}, "2026-11-21");
@@ -161,11 +161,9 @@ TEST(JUnit, EscapesAndCounts) {
   r.results[0].message = "a < b & \"c\"\x01";
   r.results[1].status = Status::kNotSupported;
   const std::string xml = to_junit(r);
-  EXPECT_NE(xml.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos) << xml;
-  EXPECT_EQ(xml.find('\x01'), std::string::npos);
-  EXPECT_NE(xml.find("<testsuite name=\"mine\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"1\""),
-            std::string::npos)
-      << xml;
+  EXPECT_TRUE(says(xml, "a &lt; b &amp; &quot;c&quot;"));
+  EXPECT_FALSE(says(xml, "\x01"));
+  EXPECT_TRUE(says(xml, "<testsuite name=\"mine\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"1\""));
 }
 
 AuditMesh named(const std::string& name, int depth) {
@@ -222,11 +220,11 @@ TEST(Coverage, OfThePlanIsWholeAndMissesWhatADeletedMeshAloneHad) {
   };
   const Report whole = never();
   for (const Coverage& c : whole.coverage) EXPECT_TRUE(c.never.empty()) << c.never.front();
-  EXPECT_EQ(coverage_lines(whole).find("never"), std::string::npos);
+  EXPECT_FALSE(says(coverage_lines(whole), "never"));
   std::erase_if(plan, [](const AuditMesh& m) { return m.name.find("stars:") != std::string::npos; });
   const Report part = never();
   for (const Coverage& c : part.coverage) EXPECT_FALSE(c.never.empty());
-  EXPECT_NE(coverage_lines(part).find("; never: "), std::string::npos);
+  EXPECT_TRUE(says(coverage_lines(part), "; never: "));
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "data/test_support/assertions.h"
 #include "verify/report/json.h"
 #include "verify/report/table.h"
 #include "verify/row/commands.h"
@@ -54,18 +54,18 @@ Report example() {
 
 TEST(Table, ShowsTheWorstMeshAndTheCommandThatRecomputesTheExpectedValue) {
   const std::string table = to_table(example(), false);
-  EXPECT_NE(table.find("FINDING            1/2"), std::string::npos) << table;
-  EXPECT_NE(table.find("limitcheck eval 'my cage.obj' 2 3/8 1/4\n"), std::string::npos) << table;
-  EXPECT_NE(table.find("got       0.1  nan  1\n"), std::string::npos) << "floats as floats:\n" << table;
-  EXPECT_EQ(table.find('\033'), std::string::npos) << "no colour unless asked for";
-  EXPECT_NE(to_table(example(), true).find("\033[31mFINDING"), std::string::npos);
+  EXPECT_TRUE(says(table, "FINDING            1/2"));
+  EXPECT_TRUE(says(table, "limitcheck eval 'my cage.obj' 2 3/8 1/4\n"));
+  EXPECT_TRUE(says(table, "got       0.1  nan  1\n")) << "floats as floats";
+  EXPECT_FALSE(says(table, "\033")) << "no colour unless asked for";
+  EXPECT_TRUE(says(to_table(example(), true), "\033[31mFINDING"));
 }
 
 TEST(Table, AMeshThatWasNotRunIsNeverCountedAsHeld) {
   Report report = example();
   report.results[0].status = Status::kNotRun;
   const std::string table = to_table(report, false);
-  EXPECT_NE(table.find("held               1/2"), std::string::npos) << table;
+  EXPECT_TRUE(says(table, "held               1/2"));
 }
 
 TEST(Commands, RepeatAResultAtTheDepthsItHad) {
@@ -99,10 +99,10 @@ TEST(Table, OfAPlanSaysWhichDepthsWereLookedAt) {
     report.results.push_back(r);
   }
   const std::string table = to_table(report, false);
-  EXPECT_NE(table.find("limitcheck 1.2.3: depths 0 to 7 on 2 meshes"), std::string::npos) << table;
-  EXPECT_NE(table.find(" 0-2 7*    "), std::string::npos) << "in the row:\n" << table;
-  EXPECT_NE(table.find("depths looked at: 0 1 2 7; *: view\n"), std::string::npos) << table;
-  EXPECT_NE(table.find("on wheel:7 (view)"), std::string::npos) << table;
+  EXPECT_TRUE(says(table, "limitcheck 1.2.3: depths 0 to 7 on 2 meshes"));
+  EXPECT_TRUE(says(table, " 0-2 7*    ")) << "in the row";
+  EXPECT_TRUE(says(table, "depths looked at: 0 1 2 7; *: view\n"));
+  EXPECT_TRUE(says(table, "on wheel:7 (view)"));
 }
 
 TEST(Json, SaysOfEachResultHowDeepItLooked) {
@@ -167,17 +167,12 @@ TEST(Json, RowsAreReadAsTheyWereWritten) {
 }
 
 TEST(Json, IsWrittenWholeOrNotAtAll) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("limitcheck-json-" + std::to_string(::getpid()));
+  const TestFolder folder;
   write_text(folder / "deep" / "report.json", "{}\n");
-  std::ifstream in(folder / "deep" / "report.json");
-  std::string text;
-  std::getline(in, text);
-  EXPECT_EQ(text, "{}");
+  EXPECT_EQ(contents_of(folder / "deep" / "report.json"), "{}\n");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "deep"), {}), 1)
       << "no temporary file stays";
   EXPECT_THROW(write_text("/proc/no/such.json", "x"), std::exception);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Status, WordsAreStable) {
@@ -204,13 +199,12 @@ TEST(Table, ShowsSeveralSubjectsSideBySide) {
   add("two-with-a-long-name", "a", "positions", Status::kHeld);
   add("two-with-a-long-name", "a", "normals", Status::kCrash);
   const std::string table = to_table(r, false);
-  EXPECT_NE(table.find("  check                     one            two-with-a-long-name\n"
-                       "  positions                 FINDING        held                \n"
-                       "  normals                                  CRASH               \n"),
-            std::string::npos)
-      << table;
+  EXPECT_TRUE(says(table,
+                   "  check                     one            two-with-a-long-name\n"
+                   "  positions                 FINDING        held                \n"
+                   "  normals                                  CRASH               \n"));
   r.subjects.pop_back();
-  EXPECT_EQ(to_table(r, false).find("  check                     one "), std::string::npos);
+  EXPECT_FALSE(says(to_table(r, false), "  check                     one "));
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "data/error.h"
+#include "data/test_support/assertions.h"
 #include "data/untrusted_json.h"
 
 namespace limitcheck::verify {
@@ -49,12 +49,7 @@ TEST(Part, AllOfThemAreTheWhole) {
 }
 
 std::string why_not(const std::vector<PartReport>& parts) {
-  try {
-    (void)joined(parts);
-  } catch (const data::ArgumentError& error) {
-    return error.what();
-  }
-  return "joined";
+  return refusal_of<data::ArgumentError>([&] { (void)joined(parts); });
 }
 
 TEST(Part, HasAsManyUnitsAsThePlanDealsToIt) {
@@ -100,15 +95,10 @@ TEST(Part, IsRefusedWhereTheWholeWouldBeWrong) {
 
 class JournalTest : public testing::Test {
  protected:
-  JournalTest() : file_(std::filesystem::path(testing::TempDir()) / "limitcheck-journal.jsonl") {
-    std::filesystem::remove(file_);
-  }
-  ~JournalTest() override { std::filesystem::remove(file_); }
-  std::string text() const {
-    std::ifstream in(file_);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  std::filesystem::path file_;
+  std::string text() const { return contents_of(file_); }
+
+  const TestFolder folder_;
+  const std::filesystem::path file_ = folder_ / "journal.jsonl";
 };
 
 TEST_F(JournalTest, KnowsWhatWasDoneBeforeTheProgramEnded) {

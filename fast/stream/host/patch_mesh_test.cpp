@@ -10,8 +10,6 @@
 #include <cstring>
 #include <iterator>
 #include <numeric>
-#include <span>
-#include <string>
 #include <tuple>
 #include <vector>
 

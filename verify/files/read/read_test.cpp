@@ -10,11 +10,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "data/error.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
+#include "data/test_support/assertions.h"
 #include "verify/files/read/provenance.h"
 #include "verify/files/read/tessellation_file.h"
 
@@ -27,10 +27,6 @@ namespace fs = std::filesystem;
 class Gltf : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("limitcheck-gltf-") +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     model_.asset.version = "2.0";
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},
                 normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -74,7 +70,6 @@ class Gltf : public testing::Test {
     model_.scenes = {scene};
     model_.defaultScene = 0;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   FileTessellation read(const std::string& name = "t.glb") {
     model_.buffers = {buffer_};
@@ -84,18 +79,11 @@ class Gltf : public testing::Test {
     return read_tessellation(file);
   }
   std::string code() {
-    try {
-      read();
-    } catch (const data::InputError& error) {
-      const std::string what = error.what();
-      return what.find("FILE_SYNTAX") != std::string::npos        ? "FILE_SYNTAX"
-             : what.find("FILE_UNSUPPORTED") != std::string::npos ? "FILE_UNSUPPORTED"
-                                                                  : what;
-    }
-    return "none";
+    const auto error = thrown<data::InputError>([&] { read(); });
+    return error ? error->code() : "none";
   }
 
-  fs::path folder_;
+  TestFolder folder_;
   tinygltf::Model model_;
   tinygltf::Buffer buffer_;
 };
@@ -174,19 +162,13 @@ TEST_F(Gltf, BrokenFilesAreRefused) {
 // none, or modulo 2^32.
 TEST_F(Gltf, WholeNumbersThatAreNegativeOrBrokenOrTooLargeAreRefused) {
   (void)read("t.gltf");
-  std::ifstream in(folder_ / "t.gltf");
-  const std::string good{std::istreambuf_iterator<char>(in), {}};
+  const std::string good = contents_of(folder_ / "t.gltf");
   const auto said = [&](const std::string& field, const std::string& number, const std::string& instead) {
     const std::string old = "\"" + field + "\":" + number;
     const std::size_t at = good.find(old);
     if (at == std::string::npos) return "no " + old + " in " + good;
     std::ofstream(folder_ / "wrong.gltf") << std::string(good).replace(at, old.size(), instead);
-    try {
-      (void)read_tessellation(folder_ / "wrong.gltf");
-    } catch (const data::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return refusal_of<data::InputError>([&] { (void)read_tessellation(folder_ / "wrong.gltf"); });
   };
   struct Field {
     std::string name, number, most;
@@ -205,15 +187,15 @@ TEST_F(Gltf, WholeNumbersThatAreNegativeOrBrokenOrTooLargeAreRefused) {
     EXPECT_EQ(said(f.name, f.number, name + f.number), "accepted");
     for (const std::string& wrong : {f.most, "-" + f.most, std::string("-1"), f.number + ".5",
                                      "\"" + f.number + "\"", std::string("null"), "[" + f.number + "]"})
-      EXPECT_NE(said(f.name, f.number, name + wrong).find("not a whole number from"), std::string::npos)
-          << f.name << " " << wrong << ": " << said(f.name, f.number, name + wrong);
+      EXPECT_TRUE(says(said(f.name, f.number, name + wrong), "not a whole number from"))
+          << f.name << " " << wrong;
   }
   for (const std::string wrong : {"-12", "256", "12.5", "4294967308"})
-    EXPECT_NE(said("byteLength", "48", "\"byteLength\":48,\"byteStride\":" + wrong).find("byteStride\" is"),
-              std::string::npos)
+    EXPECT_TRUE(
+        says(said("byteLength", "48", "\"byteLength\":48,\"byteStride\":" + wrong), "byteStride\" is"))
         << wrong;
   EXPECT_EQ(said("byteLength", "48", "\"byteLength\":48,\"byteStride\":12"), "accepted");
-  EXPECT_NE(said("mode", "4", "\"mode\":4,\"mode\":1").find("stands twice"), std::string::npos);
+  EXPECT_TRUE(says(said("mode", "4", "\"mode\":4,\"mode\":1"), "stands twice"));
 }
 
 // Sixty nodes that each hold the next one twice are 2^60 paths to the last.
@@ -234,24 +216,17 @@ TEST_F(Gltf, JsonThatNestsTooDeepIsRefused) {
         std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
     const fs::path file = folder_ / "deep.gltf";
     std::ofstream(file) << R"({"asset": {"version": "2.0", "extras": )" << deep << "}}";
-    try {
-      (void)read_tessellation(file);
-      ADD_FAILURE() << "accepted";
-    } catch (const data::InputError& error) {
-      const std::string what = error.what();
-      EXPECT_EQ(what.find("FILE_UNSUPPORTED: its JSON nests") != std::string::npos, depth > 100) << what;
-    }
+    const std::string said = refusal_of<data::InputError>([&] { (void)read_tessellation(file); });
+    EXPECT_NE(said, "accepted");
+    EXPECT_EQ(bool(says(said, "FILE_UNSUPPORTED: its JSON nests")), depth > 100) << said;
   }
   // Brackets in texts do not nest.
   const fs::path file = folder_ / "texts.gltf";
   std::ofstream(file) << R"({"asset": {"version": "2.0", "generator": ")" << std::string(1000, '[')
                       << R"(\"{[", "copyright": "\\"}})";
-  EXPECT_THROW(
-      try { (void)read_tessellation(file); } catch (const data::InputError& error) {
-        EXPECT_EQ(std::string(error.what()).find("nests"), std::string::npos) << error.what();
-        throw;
-      },
-      data::InputError);
+  const std::string said = refusal_of<data::InputError>([&] { (void)read_tessellation(file); });
+  EXPECT_NE(said, "accepted");
+  EXPECT_FALSE(says(said, "nests"));
 }
 
 TEST_F(Gltf, WhatItRequiresAndIsNotReadIsRefused) {
@@ -311,12 +286,8 @@ TEST(Provenance, OfCatmullClarksSchemeNamesTheCornerOfAFaceThatIsNoQuad) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse(text, "map.csv");
-  } catch (const data::InputError& error) {
-    return std::string(error.what()).substr(0, std::string(error.what()).find(": ", 12));
-  }
-  return "none";
+  const std::string said = refusal_of<data::InputError>([&] { parse(text, "map.csv"); });
+  return said.substr(0, said.find(": ", 12));
 }
 
 TEST(Provenance, RefusesWhatItCannotMeanWithTheLine) {

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "reference/surface/certified.h"
 #include "verify/audit/audit.h"
 #include "verify/relations/refusal.h"
@@ -80,8 +81,7 @@ TEST(Peers, EveryFindingOfTheRegisterIsStillThere) {
           << id;
     }
     if (f.contains("message")) {
-      EXPECT_NE(row->message.find(f.at("message").get<std::string>()), std::string::npos)
-          << id << ": " << row->message;
+      EXPECT_TRUE(says(row->message, f.at("message").get<std::string>())) << id;
     }
     ++seen;
   }
@@ -114,11 +114,6 @@ TEST(Peers, CgalHasNoFindingOnCatmullClark) {
 namespace fs = std::filesystem;
 
 const std::string kHere = "verify/peers/findings/";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string in_one_line(const std::string& text) {
   return std::regex_replace(text, std::regex("\\s+"), " ");
@@ -164,7 +159,7 @@ TEST(Pages, ExpectCertifiedValues) {
   int values = 0;
   for (const auto& entry : fs::directory_iterator(root() / kHere)) {
     if (entry.path().extension() != ".md") continue;
-    const std::string page = text_of(entry.path());
+    const std::string page = contents_of(entry.path());
     const auto all = expected_in(page);
     static const std::regex row("\\| expected \\|");
     EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), row), {}), std::ssize(all))
@@ -192,7 +187,7 @@ TEST(Pages, HaveTheCommandsAndTheMeshesOfTheRegister) {
   const Json text = Json::parse(std::ifstream(root() / kHere / "findings.json"));
   std::map<std::string, std::string> pages;
   std::set<std::string> meshes;
-  const std::string list = text_of(root() / kHere / "README.md");
+  const std::string list = contents_of(root() / kHere / "README.md");
   for (const Json& f : text.at("findings")) {
     const auto mesh = f.at("mesh").get<std::string>(), id = f.at("id").get<std::string>();
     if (mesh.ends_with(".obj")) {
@@ -202,13 +197,12 @@ TEST(Pages, HaveTheCommandsAndTheMeshesOfTheRegister) {
     }
     if (!f.contains("page")) continue;
     const auto name = f.at("page").get<std::string>();
-    const auto page = pages.try_emplace(name, text_of(root() / kHere / name)).first->second;
-    EXPECT_NE(page.find(command(f)), std::string::npos) << id << ": " << name << " has no " << command(f);
-    EXPECT_NE(in_one_line(page).find(f.at("statement").get<std::string>()), std::string::npos) << id;
-    EXPECT_NE(list.find("(" + name + ")"), std::string::npos) << "README.md does not list " << name;
+    const auto page = pages.try_emplace(name, contents_of(root() / kHere / name)).first->second;
+    EXPECT_TRUE(says(page, command(f))) << id << ": " << name << " has no " << command(f);
+    EXPECT_TRUE(says(in_one_line(page), f.at("statement").get<std::string>())) << id;
+    EXPECT_TRUE(says(list, "(" + name + ")")) << "README.md does not list " << name;
     if (mesh.ends_with(".obj")) {
-      EXPECT_NE(page.find(text_of(root() / path_of(mesh))), std::string::npos)
-          << name << " does not show " << mesh;
+      EXPECT_TRUE(says(page, contents_of(root() / path_of(mesh)))) << name << " does not show " << mesh;
     }
   }
   for (const auto& entry : fs::directory_iterator(root() / kHere))

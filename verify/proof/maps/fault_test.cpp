@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A proof that cannot fail proves nothing: wrong operations, wrong control points, wrong places in the kernels of both
 // schemes.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 

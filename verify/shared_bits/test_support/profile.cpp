@@ -14,7 +14,6 @@
 #include <ctime>
 #include <iterator>
 #include <memory>
-#include <vector>
 
 namespace limitcheck::verify {
 

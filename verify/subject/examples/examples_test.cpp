@@ -2,11 +2,9 @@
 // The way of a new user: install to a prefix, build the examples outside the tree against it, audit them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "verify/package/installed_test.h"
@@ -76,8 +74,7 @@ TEST_F(Examples, InCWithOneWeightChangedIsCaughtWithTheRightWitness) {
   fs::create_directories(folder_ / "wrong");
   for (const char* file : {"CMakeLists.txt", "loop.h", "quads.c", "subject.c"})
     fs::copy(kExamples / "c" / file, folder_ / "wrong");
-  std::ifstream in(kExamples / "c/loop.c");
-  std::string code{std::istreambuf_iterator<char>(in), {}};
+  std::string code = contents_of(kExamples / "c/loop.c");
   const std::size_t place = code.find("5.0 / 8");
   ASSERT_NE(place, std::string::npos);
   write("wrong/loop.c", code.replace(place, 7, "0.626"));
@@ -144,7 +141,7 @@ TEST_F(Examples, OfMatricesPassesTheAuditAndIsNotHandedBrokenMeshes) {
   build(kExamples / "matrices", "matrices");
   const Outcome o = shell("prefix/bin/limitcheck audit matrices" + audit);
   expect_refined_points_held(o, 4U);
-  EXPECT_NE(o.out.find("not asked: does not validate"), std::string::npos) << o.out;
+  EXPECT_TRUE(says(o.out, "not asked: does not validate"));
 
   fs::create_directories(folder_ / "silent");
   for (const char* file : {"CMakeLists.txt", "loop.h"})
@@ -157,7 +154,7 @@ TEST_F(Examples, OfMatricesPassesTheAuditAndIsNotHandedBrokenMeshes) {
   build(folder_ / "silent", "silent/build");
   const Outcome crash = shell("prefix/bin/limitcheck audit silent/build" + audit);
   EXPECT_EQ(crash.code, 1) << crash.err;
-  EXPECT_NE(crash.out.find("\"status\": \"crash\""), std::string::npos) << crash.out;
+  EXPECT_TRUE(says(crash.out, "\"status\": \"crash\""));
 }
 
 TEST_F(Examples, InJavaScriptPassesTheAudit) {

@@ -102,19 +102,20 @@ class StamData {
  public:
   StamData(data::Faces faces, std::vector<Vec3<N>> positions, const SharpTags& tags, const Valences& valences)
       : StamData(QuadMesh<N>(std::move(faces), std::move(positions), tags, valences), {}, valences) {}
-  /// `wanted` quads are those of which anybody will ask, all if it is empty.
-  explicit StamData(TaggedMesh<N> mesh, const std::vector<bool>& wanted)
-      : StamData(QuadMesh<N>(std::move(mesh)), wanted) {}
-  explicit StamData(QuadMesh<N> mesh, const std::vector<bool>& wanted = {}, const Valences& valences = {})
-      : mesh_(std::move(mesh)),
-        next_(mesh_.needs_a_step, wanted),
-        points_(points_after_step(mesh_.topology, mesh_.positions, mesh_.states, valences)) {
+  /// `asked` says where anybody will ask of each quad, everywhere if it is empty.
+  explicit StamData(TaggedMesh<N> mesh, const std::vector<int>& asked)
+      : StamData(QuadMesh<N>(std::move(mesh)), asked) {}
+  explicit StamData(QuadMesh<N> mesh, const std::vector<int>& asked = {}, const Valences& valences = {})
+      : mesh_(std::move(mesh)), next_(mesh_.needs_a_step, asked) {
+    if (!mesh_.answers_any(asked)) return;
+    points_ = points_after_step(mesh_.topology, mesh_.positions, mesh_.states, valences);
     const Topology finer(points_.size(), refined_faces(mesh_.topology));
     make_two_rings(finer, valences);
-    make_patches(finer);
+    make_patches(finer, asked);
   }
 
   std::size_t face_count() const { return mesh_.face_count(); }
+  static int corner_of_child(int k) { return k; }
 
   template <class P>
   SurfacePoint<N> evaluate(int face, int corner, const P& u, const P& v, Derivatives order) const {
@@ -163,12 +164,12 @@ class StamData {
       for (; !level->mesh_.is_settled(at.quad); ++steps) {
         const P half = P(1) / P(2);
         const bool right = at.u > half, up = at.v > half;
+        const bool at_corner = (at.u == 0 || at.u == 1) && (at.v == 0 || at.v == 1);
         at.u = 2 * at.u - (right ? 1 : 0);
         at.v = 2 * at.v - (up ? 1 : 0);
-        at.quad = level->next_.child(at.quad, up ? (right ? 2 : 3) : (right ? 1 : 0));
-        level = &level->next_.data(*level->mesh_.tagged, [](const TaggedMesh<N>& mesh) {
-          return refine_once(mesh, data::TriangleRule::kCatmark);
-        });
+        level = &level->next_.descend(
+            at.quad, up ? (right ? 2 : 3) : (right ? 1 : 0), at_corner, *level->mesh_.tagged,
+            [](const TaggedMesh<N>& mesh) { return refine_once(mesh, data::TriangleRule::kCatmark); });
       }
       result = level->evaluate(at, order);
     } else {  // whoever wants many digits asks for few points
@@ -259,9 +260,10 @@ class StamData {
     }
   }
 
-  void make_patches(const Topology& finer) {
+  void make_patches(const Topology& finer, const std::vector<int>& asked) {
     patches_.resize(finer.faces().size());
     for (std::size_t child = 0; child < patches_.size(); ++child) {
+      if (!mesh_.is_answered(child / 4, asked)) continue;
       if (two_ring_of_[static_cast<std::size_t>(mesh_.topology.faces()[child / 4][child % 4])] >= 0) continue;
       const auto quad = gather<std::int32_t>(
           finer, child, [](std::int32_t v) { return v; }, mesh_.states);

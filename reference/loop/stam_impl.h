@@ -21,24 +21,27 @@ namespace detail {
 template <class N>
 class StamData {
  public:
-  /// `wanted` faces are those of which anybody will ask, all if it is empty.
-  StamData(TaggedMesh<N> mesh, const std::vector<bool>& wanted, Weights weights)
-      : StamData(CutMesh<N>(std::move(mesh)), weights, wanted) {}
-  StamData(CutMesh<N> mesh, Weights weights, const std::vector<bool>& wanted = {}, Valences valences = {})
+  /// `asked` says where anybody will ask of each face, everywhere if it is empty.
+  StamData(TaggedMesh<N> mesh, const std::vector<int>& asked, Weights weights)
+      : StamData(CutMesh<N>(std::move(mesh)), weights, asked) {}
+  StamData(CutMesh<N> mesh, Weights weights, const std::vector<int>& asked = {}, Valences valences = {})
       : weights_(weights),
         valences_(std::move(valences)),
         mesh_(std::move(mesh)),
-        next_(mesh_.needs_a_step, wanted),
+        next_(mesh_.needs_a_step, asked),
         topology_(mesh_.topology),
-        control_(mesh_.positions),
-        points_(refine_once(topology_, control_, weights, mesh_.states, valences_)) {
+        control_(mesh_.positions) {
+    if (!mesh_.answers_any(asked)) return;
+    points_ = refine_once(topology_, control_, weights, mesh_.states, valences_);
     make_two_rings();
-    make_patches();
+    make_patches(asked);
   }
   StamData(const StamData&) = delete;  // its members refer to each other
   StamData& operator=(const StamData&) = delete;
 
   int face_count() const { return static_cast<int>(topology_.faces().size()); }
+  /// A sub-face at a corner begins there.
+  static int corner_of_child(int k) { return k < 3 ? 0 : kNowhere; }
 
   template <class P>
   SurfacePoint<N> evaluate(int face, const P& l1, const P& l2, Derivatives order) const {
@@ -114,10 +117,11 @@ class StamData {
     }
   }
 
-  void make_patches() {
+  void make_patches(const std::vector<int>& asked) {
     const Topology finer(points_.size(), refined_triangles(topology_));
     patches_.resize(finer.faces().size());
     for (std::size_t child = 0; child < patches_.size(); ++child) {
+      if (!mesh_.is_answered(child / 4, asked)) continue;
       const std::size_t k = child % 4;
       const std::int32_t v = k == 3 ? -1 : topology_.faces()[child / 4][k];
       if (v >= 0 && (two_ring_of_[v] >= 0 || stepped_ring_of_[v] >= 0)) continue;
@@ -178,10 +182,11 @@ class StamData {
           p = level->evaluate(static_cast<int>(face), path.w[1], path.w[2], order);
           break;
         }
-        face = level->next_.child(face, path.descend());
-        level = &level->next_.data(
-            *level->mesh_.tagged, [&](const TaggedMesh<N>& mesh) { return refine_once(mesh, weights_); },
-            weights_);
+        const bool at_corner = path.at_corner();
+        const int k = path.descend();
+        level = &level->next_.descend(
+            face, k, at_corner, *level->mesh_.tagged,
+            [&](const TaggedMesh<N>& mesh) { return refine_once(mesh, weights_); }, weights_);
       }
     } else {  // whoever wants many digits asks for few points
       const StamData piece(settled_around(*mesh_.tagged, f, weights_, path), weights_);
@@ -338,7 +343,7 @@ template <class N>
 StamEvaluator<N>::StamEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                                 Weights weights, const SharpTags& tags, Valences valences)
     : data_(std::make_shared<const detail::StamData<N>>(
-          CutMesh<N>(std::move(positions), data::Faces(triangles), tags), weights, std::vector<bool>{},
+          CutMesh<N>(std::move(positions), data::Faces(triangles), tags), weights, std::vector<int>{},
           std::move(valences))) {}
 
 template <class N>

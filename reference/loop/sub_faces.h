@@ -49,6 +49,7 @@ struct SubFacePath {
 
   SubFacePath(const P& l1, const P& l2) : w{1 - l1 - l2, l1, l2} {}
 
+  bool at_corner() const { return w[0] == 1 || w[1] == 1 || w[2] == 1; }
   /// Goes on into the sub-face that holds the point, and says which: 0 .. 2 at a corner, 3 in the middle.
   int descend() {
     const P half = P(1) / P(2);

@@ -73,6 +73,12 @@ struct TaggedMesh {
   }
 };
 
+/// Where anybody will ask for the surface of a face: nowhere, everywhere, or at that corner.
+constexpr int kNowhere = -2, kEverywhere = -1;
+inline int asked_of(const std::vector<int>& asked, std::size_t face) {
+  return asked.empty() ? kEverywhere : asked[face];
+}
+
 /// A mesh that is cut along its sharp edges. It has the surface of all faces but those near semi-sharp tags.
 template <class N>
 struct CutMesh {
@@ -93,6 +99,15 @@ struct CutMesh {
   explicit CutMesh(TaggedMesh<N> mesh) : topology(mesh.topology) { settle(std::move(mesh)); }
 
   bool is_settled(std::size_t face) const { return !tagged || !needs_a_step[face]; }
+  /// Whether anybody will ask for the surface of a face that has one here.
+  bool is_answered(std::size_t face, const std::vector<int>& asked) const {
+    return asked_of(asked, face) != kNowhere && is_settled(face);
+  }
+  bool answers_any(const std::vector<int>& asked) const {
+    for (std::size_t f = 0; f < topology.faces().size(); ++f)
+      if (is_answered(f, asked)) return true;
+    return false;
+  }
 
  protected:
   void settle(TaggedMesh<N> mesh) {
@@ -111,42 +126,61 @@ struct CutMesh {
 ///
 /// Near semi-sharp tags a face has no evaluator before so many steps. Faces that need one are refined
 /// together, and what is settled then has an evaluator of its own: the levels of a mesh with a crease of
-/// sharpness s grow twofold from step to step, s times. Made when a point there is first asked for.
-///   Data   the evaluator of a mesh: Data(TaggedMesh<N>, wanted faces)
+/// sharpness s grow twofold from step to step, s times. But a point at a corner stays at one corner of one
+/// sub-face: for these there are steps apart, that do not grow. Made when a point there is first asked for.
+///   Data   the evaluator of a mesh: Data(TaggedMesh<N>, where its faces are asked); corner_of_child(k) is the
+///          corner of sub-face k that is corner k of its face
 template <class N, class Data>
 class NextStep {
  public:
-  /// `needs_a_step` of the faces; `wanted` are those of which anybody will ask, all if it is empty.
-  NextStep(const std::vector<bool>& needs_a_step, const std::vector<bool>& wanted)
-      : part_of_(needs_a_step.size(), -1) {
+  /// `needs_a_step` of the faces; `asked` of each, everywhere if it is empty.
+  NextStep(const std::vector<bool>& needs_a_step, const std::vector<int>& asked) {
     for (std::size_t f = 0; f < needs_a_step.size(); ++f) {
-      if (!needs_a_step[f] || (!wanted.empty() && !wanted[f])) continue;
-      part_of_[f] = static_cast<std::int32_t>(faces_.size());
-      faces_.push_back(static_cast<std::int32_t>(f));
+      const int where = asked_of(asked, f);
+      if (!needs_a_step[f] || where == kNowhere) continue;
+      corners_.add(f, where);
+      if (where == kEverywhere) all_.add(f, where);
     }
   }
 
-  /// Child k of a face that needs the step, as face of data().
-  std::size_t child(std::size_t face, int k) const {
-    return 4 * static_cast<std::size_t>(part_of_[face]) + static_cast<std::size_t>(k);
-  }
-  /// Any number of threads may ask.
-  ///   refine   of a TaggedMesh<N>, one step
+  /// Goes on to sub-face k of a face that needs the step: its number among the faces of what is returned. Any
+  /// number of threads may ask.
+  ///   at_corner   whether the point is at corner k of the face
+  ///   refine      of a TaggedMesh<N>, one step
   template <class Refine, class... More>
-  const Data& data(const TaggedMesh<N>& mesh, Refine refine, const More&... more) const {
-    std::call_once(once_, [&] {
-      std::vector<bool> wanted(4 * faces_.size(), true);
-      TaggedMesh<N> finer = refine(mesh.around(faces_));
-      wanted.resize(finer.topology.faces().size(), false);
-      data_ = std::make_unique<const Data>(std::move(finer), std::move(wanted), more...);
+  const Data& descend(std::size_t& face, int k, bool at_corner, const TaggedMesh<N>& mesh, Refine refine,
+                      const More&... more) const {
+    const Step& step = at_corner ? corners_ : all_;
+    std::call_once(step.once, [&] {
+      TaggedMesh<N> finer = refine(mesh.around(step.faces));
+      std::vector<int> asked(finer.topology.faces().size(), kNowhere);
+      for (std::size_t child = 0; child < 4 * step.faces.size(); ++child) {
+        const int from = step.asked[child / 4], number = static_cast<int>(child % 4);
+        if (!at_corner)
+          asked[child] = kEverywhere;
+        else if (from == kEverywhere || from == number)
+          asked[child] = Data::corner_of_child(number);
+      }
+      step.data = std::make_unique<const Data>(std::move(finer), asked, more...);
     });
-    return *data_;
+    const auto part = std::lower_bound(step.faces.begin(), step.faces.end(), static_cast<std::int32_t>(face));
+    face = 4 * static_cast<std::size_t>(part - step.faces.begin()) + static_cast<std::size_t>(k);
+    return *step.data;
   }
 
  private:
-  std::vector<std::int32_t> faces_, part_of_;
-  mutable std::once_flag once_;
-  mutable std::unique_ptr<const Data> data_;
+  struct Step {
+    std::vector<std::int32_t> faces;  ///< that need it, rising
+    std::vector<int> asked;           ///< of each of these
+    mutable std::once_flag once;
+    mutable std::unique_ptr<const Data> data;
+
+    void add(std::size_t face, int where) {
+      faces.push_back(static_cast<std::int32_t>(face));
+      asked.push_back(where);
+    }
+  };
+  Step all_, corners_;
 };
 
 }  // namespace limitcheck::reference

@@ -52,6 +52,9 @@ const std::vector<PlannedCase>& small_cases() {
       {"quad-star:1:rJ300", 1},
       {"star:2:rJ120", 1},
       {"quad-star:2:rJ120", 1},
+      // Hundreds of unlike tags at edges between vertices far apart in number: keys of two vertices that meet.
+      {"sharp:7:2000", 1},
+      {"mixed-sharp:9:2500", 1},
       // Geometry.
       {"flat", 3},
       {"needles", 3},

@@ -50,6 +50,9 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
 }
 /// Where this program lies. Throws data::ArgumentError: there is no /proc to tell.
 std::filesystem::path program_folder();
+
+/// limitcheck-NAME beside this program, in bench/ of a build tree, or where it is installed. Empty: not built.
+std::filesystem::path find_program(const std::string& name);
 /// A JSON document, whatever bytes its strings have.
 std::string dumped(const nlohmann::ordered_json& json, int indent);
 

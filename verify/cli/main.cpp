@@ -99,16 +99,6 @@ std::string what_was_meant(const std::string& word) {
       word);
 }
 
-// limitcheck-NAME beside this program, in bench/ of a build tree, or where it is installed. Empty: not built.
-fs::path find_program(const std::string& name) {
-  const fs::path here = program_folder();
-  for (const char* folder : {".", "bench", "../libexec/limitcheck"}) {
-    fs::path path = here / folder / ("limitcheck-" + name);
-    if (access(path.c_str(), X_OK) == 0) return path;
-  }
-  return {};
-}
-
 // Returns only if it fails.
 void become(const fs::path& path, const std::vector<std::string>& arguments) {
   std::string program = path.string();
@@ -153,14 +143,12 @@ void add_worker(CLI::App& app, int& exit_code) {
   command->add_option("WHAT", a->what, "A shared library, or the name of a built-in subject")->required();
   command->add_flag("--in-turns", a->in_turns, "Ask it for other things in between");
   command->callback([a, &exit_code] {
-    std::optional<verify::InTurns> turns;
-    exit_code = verify::serve([&]() -> const lc_subject& {
-      const lc_subject* subject =
-          a->kind == "library" ? &verify::load_subject(a->what) : verify::find_subject(a->what);
-      if (subject == nullptr)
-        throw verify::SubjectError(LC_INVALID_INPUT, "there is no such built-in subject");
-      return a->in_turns ? turns.emplace(*subject).subject() : *subject;
-    });
+    const auto load = [&]() -> const lc_subject& {
+      if (a->kind == "library") return verify::load_subject(a->what);
+      if (const lc_subject* subject = verify::find_subject(a->what)) return *subject;
+      throw verify::SubjectError(LC_INVALID_INPUT, "there is no such built-in subject");
+    };
+    exit_code = verify::serve(load, a->in_turns);
   });
 }
 
@@ -242,6 +230,15 @@ fs::path program_folder() {
   if (error)
     throw data::ArgumentError("where this program lies cannot be found out: there is no /proc/self/exe");
   return program.parent_path();
+}
+
+fs::path find_program(const std::string& name) {
+  const fs::path here = program_folder();
+  for (const char* folder : {".", "bench", "../libexec/limitcheck"}) {
+    fs::path path = here / folder / ("limitcheck-" + name);
+    if (access(path.c_str(), X_OK) == 0) return path;
+  }
+  return {};
 }
 
 std::string dumped(const nlohmann::ordered_json& json, int indent) {

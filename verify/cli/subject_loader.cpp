@@ -134,9 +134,10 @@ void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std:
 }
 
 const lc_subject* SubjectLoader::remote(Kind kind, const std::string& what, bool in_turns) {
-  remote_.push_back(std::make_unique<verify::RemoteSubject>(
-      kind, what,
-      verify::IsolationSettings{arguments_.limits, "/proc/self/exe", arguments_.witness_folder, in_turns}));
+  verify::IsolationSettings settings{arguments_.limits, {}, arguments_.witness_folder, in_turns};
+  if (kind == Kind::kLibrary) settings.worker = find_program("worker");
+  if (settings.worker.empty()) settings.worker = "/proc/self/exe";
+  remote_.push_back(std::make_unique<verify::RemoteSubject>(kind, what, settings));
   return &remote_.back()->subject();
 }
 

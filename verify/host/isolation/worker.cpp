@@ -19,6 +19,7 @@
 
 #include "verify/host/host.h"
 #include "verify/host/host_memory.h"
+#include "verify/host/in_turns.h"
 #include "verify/host/isolation/header.h"
 #include "verify/host/subject_call.h"
 #include "verify/subject/lent_mesh.h"
@@ -233,7 +234,7 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
 
 }  // namespace
 
-int serve(const std::function<const lc_subject&()>& load) {
+int serve(const std::function<const lc_subject&()>& load, bool in_turns) {
   // The protocol moves away from standard output, which becomes the subject's to print on.
   const int out = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 10), in = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 10);
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -247,12 +248,13 @@ int serve(const std::function<const lc_subject&()>& load) {
 
   Connection host(in, out);
   const lc_subject* subject = nullptr;
+  std::optional<InTurns> turns;
   std::optional<Loaded> loaded;
   for (;;) {
     try {
       const Header header = protocol::read_header(host);
       try {
-        if (subject == nullptr) subject = &load();
+        if (subject == nullptr) subject = in_turns ? &turns.emplace(load()).subject() : &load();
         answer(*subject, loaded, header, host);
       } catch (const HostLacks& lack) {  // the host finds the same shortage, and says so
         host.write({{"limitcheck", protocol::kVersion}, {"status", "failed"}, {"message", lack.what}});

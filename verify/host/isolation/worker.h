@@ -17,8 +17,8 @@ const lc_subject& load_subject(const std::string& file);
 
 /// Serves one host on standard input and output until the input ends; returns the exit status. Asked to end
 /// in good order it calls destroy(), sends the exit status that it will have, and exits. `load` is called at
-/// the first request. From the start, what the subject prints goes to standard error. Crashes with the
+/// the first request; `in_turns` puts in_turns.h in front of the subject. From the start, what the subject prints goes to standard error. Crashes with the
 /// subject: that is its purpose.
-int serve(const std::function<const lc_subject&()>& load);
+int serve(const std::function<const lc_subject&()>& load, bool in_turns = false);
 
 }  // namespace limitcheck::verify

@@ -17,6 +17,7 @@
 #include "verify/checks/check_oracle.h"
 #include "verify/cli/commands.h"
 #include "verify/host/host.h"
+#include "verify/host/isolation/launcher.h"
 #include "verify/host/isolation/remote_subject.h"
 #include "verify/subject/registry.h"
 
@@ -131,6 +132,10 @@ void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std:
   say(stderr, "limitcheck: {} is a mesh: all built-in subjects are audited on it\n", subject);
   meshes.insert(meshes.begin(), subject);
   subject = "all";
+}
+
+SubjectLoader::SubjectLoader(SubjectArguments arguments) : arguments_(std::move(arguments)) {
+  verify::use_launcher();
 }
 
 const lc_subject* SubjectLoader::remote(Kind kind, const std::string& what, bool in_turns) {

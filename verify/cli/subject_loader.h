@@ -34,7 +34,8 @@ void take_mesh(const SubjectArguments& arguments, std::string& subject, std::vec
 /// The subjects of one audit; owns those that run in processes of their own.
 class SubjectLoader {
  public:
-  explicit SubjectLoader(SubjectArguments arguments) : arguments_(std::move(arguments)) {}
+  /// Forks (use_launcher()): make it before there is much in memory.
+  explicit SubjectLoader(SubjectArguments arguments);
 
   /// NAME, FILE.so, an executable, or program:COMMAND; all but the last may be followed by ":key=value,...".
   /// Returns the subject with those options. Throws data::ArgumentError: there is no such subject.

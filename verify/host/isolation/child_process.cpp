@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "verify/host/isolation/launcher.h"
 #include "verify/host/isolation/process_tree.h"
 #include "verify/interrupt/interrupt.h"
 

@@ -265,10 +265,14 @@ void sweep(pid_t child) {
 
 }  // namespace
 
-pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes) {
+pid_t clone_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes, bool as_sibling) {
   const Identity own{geteuid(), getegid()};
+  const auto clone = [&](long flags) {
+    return static_cast<pid_t>(
+        syscall(SYS_clone, flags | SIGCHLD | (as_sibling ? CLONE_PARENT : 0), 0, 0, 0, 0));
+  };
   if (containment == Containment::kSubreaper) {
-    const pid_t keeper = fork();
+    const pid_t keeper = as_sibling ? clone(0) : fork();
     if (keeper == 0) keep(false, nullptr, argv, pipes);
     return keeper;
   }
@@ -276,8 +280,7 @@ pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes
   errno = ENOSYS;
   return -1;
 #else
-  constexpr long kNamespaces = CLONE_NEWPID | CLONE_NEWNS | SIGCHLD;
-  const auto clone = [](long flags) { return static_cast<pid_t>(syscall(SYS_clone, flags, 0, 0, 0, 0)); };
+  constexpr long kNamespaces = CLONE_NEWPID | CLONE_NEWNS;
   pid_t keeper = clone(kNamespaces);
   if (keeper == 0) keep(true, nullptr, argv, pipes);
   if (keeper > 0 || errno != EPERM) return keeper;

@@ -38,7 +38,8 @@ struct KeeperPipes {
 };
 
 /// Starts a keeper that runs argv[0] with these arguments. Returns its process number, or -1 with errno. In a
-/// namespace it ends with the thread that called this, too. It keeps no descriptors but these pipes.
-pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes);
+/// namespace it ends with the thread that is its parent, too. It keeps no descriptors but these pipes.
+///   as_sibling   its parent is that of this process
+pid_t clone_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes, bool as_sibling);
 
 }  // namespace limitcheck::verify

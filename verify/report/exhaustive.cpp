@@ -45,7 +45,8 @@ bool parse(std::string_view text, Name& name) {
 struct Seen {
   std::map<std::size_t, std::set<int>> judged;  // depths of each mesh
   std::set<std::pair<std::size_t, int>> cases, wrong;
-  std::set<std::pair<std::size_t, std::string>> examples;  // by their length
+  std::map<std::string, std::pair<std::size_t, std::string>>
+      examples;  // of each check the shortest, by its length
 };
 
 // The neighbourhood that a finding is at, as it is typed.
@@ -73,9 +74,10 @@ std::vector<Exhaustive> exhaustive_of(const std::vector<Result>& results) {
       seen.judged[name.number].insert(r.depth);
     if (!is_bad(r)) continue;
     seen.wrong.insert(at);
-    const std::string text = example(name, r);
-    seen.examples.insert({text.size(), text});
-    if (seen.examples.size() > kExamples) seen.examples.erase(std::prev(seen.examples.end()));
+    std::string text = example(name, r);
+    const std::pair found{text.size(), std::move(text)};
+    auto& shortest = seen.examples.try_emplace(r.check, found).first->second;
+    shortest = std::min(shortest, found);
   }
   std::vector<Exhaustive> list;
   for (const auto& [key, seen] : all) {
@@ -92,7 +94,8 @@ std::vector<Exhaustive> exhaustive_of(const std::vector<Result>& results) {
     }
     e.cases = static_cast<std::int64_t>(seen.cases.size());
     e.wrong = static_cast<std::int64_t>(seen.wrong.size());
-    for (const auto& [size, text] : seen.examples) e.examples.push_back(text);
+    for (const auto& [check, shortest] : seen.examples)
+      if (e.examples.size() < kExamples) e.examples.push_back(shortest.second);
   }
   return list;
 }

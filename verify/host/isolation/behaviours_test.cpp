@@ -20,6 +20,7 @@
 
 #include "data/shapes.h"
 #include "verify/host/host.h"
+#include "verify/host/isolation/launcher.h"
 #include "verify/host/isolation/remote_subject.h"
 #include "verify/host/isolation/test_subjects/behaviours_table.h"
 
@@ -146,19 +147,22 @@ TEST_P(Behaviours, OfProgramsAreContainedAndToldForWhatTheyAre) {
 
 // Nobody is left to clean up after whom SIGKILL ends.
 TEST_P(Behaviours, EndWithTheHostHoweverItEnds) {
-  const pid_t host = fork();
-  if (host == 0) {
-    ChildProcess child(
-        {"/bin/sh", "-c", "sleep 1000 & setsid sleep 1000 & (setsid sleep 1000 &) ; echo up; wait"},
-        settings_.limits);
-    child.line(100);
-    raise(SIGKILL);
+  for (const bool launched : {false, true}) {
+    const pid_t host = fork();
+    if (host == 0) {
+      if (launched) use_launcher();
+      ChildProcess child(
+          {"/bin/sh", "-c", "sleep 1000 & setsid sleep 1000 & (setsid sleep 1000 &) ; echo up; wait"},
+          settings_.limits);
+      child.line(100);
+      raise(SIGKILL);
+    }
+    waitpid(host, nullptr, 0);
+    std::vector<std::string> left = strays();
+    for (int k = 0; k < 200 && !left.empty(); ++k, left = strays())
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(left, std::vector<std::string>{}) << launched;
   }
-  waitpid(host, nullptr, 0);
-  std::vector<std::string> left = strays();
-  for (int k = 0; k < 200 && !left.empty(); ++k, left = strays())
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  EXPECT_EQ(left, std::vector<std::string>{});
 }
 
 INSTANTIATE_TEST_SUITE_P(Held, Behaviours, testing::Bool(),

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -26,6 +25,7 @@
 namespace {
 
 using namespace limitcheck;
+using benchmark::Counter;
 
 const data::ControlMesh& mesh_of(int faces) {
   static std::map<int, data::ControlMesh> known;
@@ -70,6 +70,11 @@ std::vector<Case> cases() {
           {"project-sphere:10", 4000, adaptive(fast::Strategy::kProjectSphere, 10)}};
 }
 
+void count(benchmark::State& state, double triangles, Counter::Flags flags) {
+  state.counters["frames/s"] = Counter(1, Counter::kIsIterationInvariantRate);
+  state.counters["triangles/s"] = Counter(triangles, flags);
+}
+
 template <class Output>
 void frames(benchmark::State& state, const Case& c, int threads, Output out = {}, double degrees = 1) {
   fast::TessellatorOptions options;
@@ -85,9 +90,7 @@ void frames(benchmark::State& state, const Case& c, int threads, Output out = {}
     triangles += static_cast<double>(stats.triangles);
     benchmark::ClobberMemory();
   }
-  using benchmark::Counter;
-  state.counters["frames/s"] = Counter(1, Counter::kIsIterationInvariantRate);
-  state.counters["triangles/s"] = Counter(triangles, Counter::kIsRate);
+  count(state, triangles, Counter::kIsRate);
 }
 
 // The mesh breathes: its points move along their own directions, by up to a twentieth.
@@ -121,9 +124,7 @@ void deforming(benchmark::State& state, const Case& c, bool moves, bool same_dep
     triangles += static_cast<double>(stats.triangles);
     benchmark::ClobberMemory();
   }
-  using benchmark::Counter;
-  state.counters["frames/s"] = Counter(1, Counter::kIsIterationInvariantRate);
-  state.counters["triangles/s"] = Counter(triangles, Counter::kIsRate);
+  count(state, triangles, Counter::kIsRate);
 }
 
 /// OpenSubdiv's Bfr, a surface for each face made and forgotten: the faces and depths of one of the frames,
@@ -134,10 +135,7 @@ void bfr(benchmark::State& state, const Case& c) {
   const fast::FrameStats stats = tessellator.frame(c.strategy, turned(0, 1), out);
   const auto peer = bench::bfr_frame(mesh_of(c.faces), tessellator.last_pairing().depth);
   for (auto _ : state) peer->run();
-  using benchmark::Counter;
-  state.counters["frames/s"] = Counter(1, Counter::kIsIterationInvariantRate);
-  state.counters["triangles/s"] =
-      Counter(static_cast<double>(stats.triangles), Counter::kIsIterationInvariantRate);
+  count(state, static_cast<double>(stats.triangles), Counter::kIsIterationInvariantRate);
 }
 
 template <class Function>

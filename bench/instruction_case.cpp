@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "bench/build_identity.h"
@@ -29,10 +30,8 @@ namespace {
 
 using namespace limitcheck;
 
-/// What is made ready beforehand, and what is counted.
-struct Case {
-  std::function<void()> counted;
-};
+/// What is counted; whoever makes it makes ready beforehand.
+using Case = std::function<void()>;
 
 /// By a thread, which has a heap of its own: the hull's library draws by the clock, the mesh is the same, but
 /// what lies free where would not be, and with it the instructions of every later allocation.
@@ -93,29 +92,19 @@ std::map<std::string, std::function<Case()>> cases() {
     for (std::size_t f = 0; f < deeper; ++f) ++depth[40 * f];
     return depth;
   };
-  list["frame/row-stream/random-depths"] = [=] {
-    const auto out = std::make_shared<fast::DrawList<float>>();
+  const auto frames = [=](const auto& out) {
     const auto by = engine();
     by->frame(depths(4), *out);
     by->frame(depths(0), *out);
     return Case{[=, depth = depths(4)] { by->frame(depth, *out); }};
   };
-  for (const bool kept : {false, true}) {
-    list[std::string("frame/row-stream/patches") + (kept ? "-kept" : "")] = [=] {
-      const auto out = std::make_shared<fast::PatchMesh<float>>(fast::PatchOptions{.incremental = kept});
-      const auto by = engine();
-      by->frame(depths(4), *out);
-      by->frame(depths(0), *out);
-      return Case{[=, depth = depths(4)] { by->frame(depth, *out); }};
+  list["frame/row-stream/random-depths"] = [=] { return frames(std::make_shared<fast::DrawList<float>>()); };
+  for (const auto& [form, options] : {std::pair{"patches", fast::PatchOptions{}},
+                                      std::pair{"patches-kept", fast::PatchOptions{.incremental = true}},
+                                      std::pair{"patches-compact", fast::PatchOptions{.compact = true}}})
+    list[std::string("frame/row-stream/") + form] = [=, with = options] {
+      return frames(std::make_shared<fast::PatchMesh<float>>(with));
     };
-  }
-  list["frame/row-stream/patches-compact"] = [=] {
-    const auto out = std::make_shared<fast::PatchMesh<float>>(fast::PatchOptions{.compact = true});
-    const auto by = engine();
-    by->frame(depths(4), *out);
-    by->frame(depths(0), *out);
-    return Case{[=, depth = depths(4)] { by->frame(depth, *out); }};
-  };
   // Control points that move before the frame, whose depths do not need cones, or do.
   for (const fast::Strategy strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined}) {
     list["frame/row-stream/deforming-" + std::string(fast::name(strategy))] = [=] {
@@ -148,7 +137,7 @@ int main(int argc, char** argv) {
   }
   const Case work = found->second();
   CALLGRIND_TOGGLE_COLLECT;
-  work.counted();
+  work();
   CALLGRIND_TOGGLE_COLLECT;
   return 0;
 }

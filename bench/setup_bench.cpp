@@ -4,7 +4,6 @@
 // Names: stage/variant/shape/faces:N.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <map>

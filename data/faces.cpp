@@ -3,7 +3,6 @@
 // (triangulate.h).
 #include "data/faces.h"
 
-#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <unordered_map>

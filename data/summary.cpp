@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "data/bounding_box.h"

@@ -153,25 +153,13 @@ class CachedStencils : public BfrContender {
 }  // namespace
 
 Route bfr_streaming() {
-  return {"bfr/streaming",
-          "OpenSubdiv Bfr, surface per face made and forgotten",
-          160,
-          0,
-          true,
-          [](const auto& mesh, int depth, int threads) {
-            return std::make_unique<Streaming>(mesh, depth, threads);
-          }};
+  return {"bfr/streaming",   "OpenSubdiv Bfr, surface per face made and forgotten", 160, 0, true,
+          maker<Streaming>()};
 }
 
 Route bfr_cached_stencils() {
-  return {"bfr/cached-stencils",
-          "OpenSubdiv Bfr, limit stencils of all points kept",
-          400,
-          180,
-          true,
-          [](const auto& mesh, int depth, int threads) {
-            return std::make_unique<CachedStencils>(mesh, depth, threads);
-          }};
+  return {"bfr/cached-stencils",  "OpenSubdiv Bfr, limit stencils of all points kept", 400, 180, true,
+          maker<CachedStencils>()};
 }
 
 std::unique_ptr<Contender> bfr_frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth) {

@@ -60,7 +60,7 @@ Route cgal_refinement() {
           1500,
           600,
           false,
-          [](const auto& mesh, int depth, int) { return std::make_unique<Refinement>(mesh, depth); }};
+          maker<Refinement>()};
 }
 
 }  // namespace limitcheck::bench

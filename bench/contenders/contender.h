@@ -8,6 +8,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,17 @@ struct Route {
   bool threads;  // can use more than one
   std::function<std::unique_ptr<Contender>(const data::ControlMesh&, int depth, int threads)> make;
 };
+
+/// Makes contenders of one class, which takes a mesh, a depth and, if it can use more than one, threads.
+template <class T>
+auto maker() {
+  return [](const data::ControlMesh& mesh, int depth, [[maybe_unused]] int threads) {
+    if constexpr (std::is_constructible_v<T, const data::ControlMesh&, int, int>)
+      return std::make_unique<T>(mesh, depth, threads);
+    else
+      return std::make_unique<T>(mesh, depth);
+  };
+}
 
 /// Ours: row streaming on every target of this machine and in every output form, the sliding window, the
 /// naive subdivider.

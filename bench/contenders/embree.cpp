@@ -112,14 +112,8 @@ class Interpolation final : public Contender {
 }  // namespace
 
 Route embree_interpolation() {
-  return {"embree/interpolate",
-          "Embree 3 rtcInterpolate, float: no accuracy is promised",
-          400,
-          24,
-          true,
-          [](const auto& mesh, int depth, int threads) {
-            return std::make_unique<Interpolation>(mesh, depth, threads);
-          }};
+  return {"embree/interpolate",  "Embree 3 rtcInterpolate, float: no accuracy is promised", 400, 24, true,
+          maker<Interpolation>()};
 }
 
 }  // namespace limitcheck::bench

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -133,19 +132,12 @@ class LimitStencils : public Contender {
 }  // namespace
 
 Route far_uniform() {
-  return {
-      "far/uniform", "OpenSubdiv Far, refined uniformly, limit masks",
-      500,           700,
-      false,         [](const auto& mesh, int depth, int) { return std::make_unique<Uniform>(mesh, depth); }};
+  return {"far/uniform", "OpenSubdiv Far, refined uniformly, limit masks", 500, 700, false, maker<Uniform>()};
 }
 
 Route far_limit_stencils() {
-  return {"far/limit-stencils",
-          "OpenSubdiv Far, table of limit stencils, CpuEvaluator",
-          1200,
-          400,
-          false,
-          [](const auto& mesh, int depth, int) { return std::make_unique<LimitStencils>(mesh, depth); }};
+  return {"far/limit-stencils",  "OpenSubdiv Far, table of limit stencils, CpuEvaluator", 1200, 400, false,
+          maker<LimitStencils>()};
 }
 
 }  // namespace limitcheck::bench

@@ -154,13 +154,9 @@ std::vector<Route> our_routes() {
   add("row-stream/streamed", "row streaming, all vertices kept, written past the caches",
       rs::kernels().front(), RowStreaming::Form::kStreamed);
   routes.push_back({"sliding-window", "the paper's scheme, scalar float, strips overwritten", 35, 0, true,
-                    [](const auto& mesh, int depth, int threads) {
-                      return std::make_unique<Window>(mesh, depth, threads);
-                    }});
+                    maker<Window>()});
   routes.push_back({"naive", "the paper's recursive subdivider, double, triangles forgotten", 1200, 0, true,
-                    [](const auto& mesh, int depth, int threads) {
-                      return std::make_unique<Naive>(mesh, depth, threads);
-                    }});
+                    maker<Naive>()});
   return routes;
 }
 

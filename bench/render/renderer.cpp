@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <stdexcept>
-#include <vector>
 
 #include "data/error.h"
 #include "data/io/atomic_file.h"

@@ -20,6 +20,23 @@ fast::CrackOptions cracks(fast::Repair repair, fast::FanCentre centre = fast::Fa
   return options;
 }
 
+/// The control mesh itself as triangles with normals of their own.
+fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
+  fast::DrawList<float> list;
+  for (const auto& t : triangles_of(mesh)) {
+    std::array<fast::Point3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[t[k]]);
+    fast::Point3 n = cross(p[1] - p[0], p[2] - p[0]);
+    n = (1 / length(n)) * n;
+    for (const auto& q : p)
+      list.vertices.push_back({{static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)},
+                               {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}});
+  }
+  list.draws.push_back(
+      {0, static_cast<std::int32_t>(list.vertices.size()), 0, 0, 0, fast::DrawMode::kTriangles});
+  return list;
+}
+
 }  // namespace
 
 Image cracks_close_up(fast::Repair repair) {
@@ -71,27 +88,6 @@ Image fan_centres() {
   };
   return beside({with(fast::FanCentre::kFlatLimit), with(fast::FanCentre::kLimit)});
 }
-
-namespace {
-
-/// The control mesh itself as triangles with normals of their own.
-fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
-  fast::DrawList<float> list;
-  for (const auto& t : triangles_of(mesh)) {
-    std::array<fast::Point3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[t[k]]);
-    fast::Point3 n = cross(p[1] - p[0], p[2] - p[0]);
-    n = (1 / length(n)) * n;
-    for (const auto& q : p)
-      list.vertices.push_back({{static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)},
-                               {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}});
-  }
-  list.draws.push_back(
-      {0, static_cast<std::int32_t>(list.vertices.size()), 0, 0, 0, fast::DrawMode::kTriangles});
-  return list;
-}
-
-}  // namespace
 
 Image error_beside_control_mesh() {
   Studio studio = bumpy(200);

@@ -2,7 +2,6 @@
 // The paper's pictures from our own data.
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"

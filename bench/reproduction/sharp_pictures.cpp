@@ -53,6 +53,26 @@ fast::DrawList<float> flat_faces(const data::ControlMesh& mesh) {
   return list;
 }
 
+// A pawn that stands upright, its foot and its collar sharp for ever, a ring between them for two steps and a
+// half.
+data::ControlMesh creased_pawn() {
+  data::ControlMesh mesh = data::named_mesh("pawn:4");
+  double top = 0;
+  for (const auto& p : mesh.positions) top = std::max(top, p[2]);
+  for (auto& p : mesh.positions) p = {p[0], p[2] - top / 2, -p[1]};
+  constexpr std::int32_t kAround = 8;
+  struct Crease {
+    std::int32_t ring;
+    float sharpness;
+  };
+  for (const Crease& crease : {Crease{1, data::kInfiniteSharpness}, Crease{3, 2.5F},
+                               Crease{7, data::kInfiniteSharpness}, Crease{8, data::kInfiniteSharpness}})
+    for (std::int32_t k = 0; k < kAround; ++k)
+      mesh.sharpness.edges.push_back(
+          {crease.ring * kAround + k, crease.ring * kAround + (k + 1) % kAround, crease.sharpness});
+  return mesh;
+}
+
 }  // namespace
 
 Image open_crease() {
@@ -93,30 +113,6 @@ Image open_crease() {
   return beside({studio.shot(flat_faces(mesh), camera, control, {crease}), studio.shot(surface, camera, {}),
                  studio.shot(missed, camera, map)});
 }
-
-namespace {
-
-// A pawn that stands upright, its foot and its collar sharp for ever, a ring between them for two steps and a
-// half.
-data::ControlMesh creased_pawn() {
-  data::ControlMesh mesh = data::named_mesh("pawn:4");
-  double top = 0;
-  for (const auto& p : mesh.positions) top = std::max(top, p[2]);
-  for (auto& p : mesh.positions) p = {p[0], p[2] - top / 2, -p[1]};
-  constexpr std::int32_t kAround = 8;
-  struct Crease {
-    std::int32_t ring;
-    float sharpness;
-  };
-  for (const Crease& crease : {Crease{1, data::kInfiniteSharpness}, Crease{3, 2.5F},
-                               Crease{7, data::kInfiniteSharpness}, Crease{8, data::kInfiniteSharpness}})
-    for (std::int32_t k = 0; k < kAround; ++k)
-      mesh.sharpness.edges.push_back(
-          {crease.ring * kAround + k, crease.ring * kAround + (k + 1) % kAround, crease.sharpness});
-  return mesh;
-}
-
-}  // namespace
 
 Image adaptive_creases() {
   Studio studio(creased_pawn());

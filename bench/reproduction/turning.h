@@ -9,7 +9,7 @@
 #include "fast/plan/crack.h"
 #include "fast/plan/depth.h"
 #include "fast/window/tessellator.h"
-#include "verify/picture/difference.h"
+#include "verify/picture/judge.h"
 
 namespace limitcheck::bench {
 

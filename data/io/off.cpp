@@ -3,8 +3,6 @@
 // over.
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "data/io/polygon_soup.h"
 #include "data/io/text_scanner.h"
 

@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <iterator>
-#include <vector>
 
 #include "data/error.h"
 #include "data/io/atomic_file.h"

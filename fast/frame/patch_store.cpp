@@ -2,15 +2,12 @@
 #include "fast/frame/patch_store.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <new>
 #include <string>
-#include <type_traits>
-#include <utility>
 
 #include "data/error.h"
 #include "fast/frame/frame_engine.h"

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "data/error.h"
-#include "fast/mesh/sharpness.h"
 
 namespace limitcheck::fast {
 

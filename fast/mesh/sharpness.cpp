@@ -2,11 +2,7 @@
 #include "fast/mesh/sharpness.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "data/error.h"

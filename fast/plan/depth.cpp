@@ -7,16 +7,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <numbers>
-#include <string>
 #include <utility>
 
-#include "data/error.h"
 #include "data/splitmix64.h"
-#include "fast/mesh/vec3.h"
 #include "fast/plan/quad_depth.h"
 #include "fast/rules/ring.h"
 

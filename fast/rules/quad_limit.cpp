@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include "fast/rules/quad_limit_impl.h"
 

@@ -13,7 +13,7 @@
 #include "reference/catmull_clark/refine.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/stepped_ring_impl.h"
-#include "reference/catmull_clark/two_ring_impl.h"
+#include "reference/catmull_clark/two_ring.h"
 #include "reference/mesh/cut_mesh.h"
 #include "reference/point/parameter_exact.h"
 

@@ -6,7 +6,7 @@
 
 #include "reference/catmull_clark/dart.h"
 #include "reference/catmull_clark/masks.h"
-#include "reference/catmull_clark/two_ring_impl.h"
+#include "reference/catmull_clark/two_ring.h"
 
 namespace limitcheck::reference::catmull_clark {
 

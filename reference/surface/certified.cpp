@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "data/cut_out.h"
@@ -28,99 +27,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // More than the roundings of a few operations in double.
 constexpr double kUpward = 1 + 1e-14;
-
-}  // namespace
-
-Radius::Radius(double digits, long exponent) {
-  if (digits == 0) return;
-  if (!(digits < kInfinity)) {
-    exponent_ = 1L << 40;
-    digits_ = kInfinity;
-    return;
-  }
-  for (; digits >= 10; ++exponent) digits = digits / 10 * kUpward;
-  for (; digits < 1; --exponent) digits = digits * 10 * kUpward;
-  if (digits >= 10) digits /= 10, ++exponent;  // 1 at last, and more by rounding upwards
-  exponent_ = exponent;
-  digits_ = digits;
-}
-
-double Radius::as_double() const {
-  if (digits_ == 0 || digits_ == kInfinity) return digits_;
-  if (exponent_ < -400) return std::numeric_limits<double>::denorm_min();
-  if (exponent_ > 400) return kInfinity;
-  return std::nextafter(std::strtod(to_string(17).c_str(), nullptr), kInfinity);
-}
-
-std::string Radius::to_string(int digits) const {
-  if (digits_ == 0) return "0";
-  if (digits_ == kInfinity) return "inf";
-  const double unit = std::pow(10.0, digits - 1);
-  double shown = digits < 17 ? std::ceil(digits_ * unit) / unit : digits_;
-  long exponent = exponent_;
-  if (shown >= 10) shown /= 10, ++exponent;
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*fe%+03ld", digits - 1, shown, exponent);
-  return text;
-}
-
-struct CertifiedEvaluator::Data {
-  using Position = std::array<Rational, 3>;
-  Topology topology;
-  std::function<Position(std::int32_t)> position;                   // of a vertex
-  std::function<std::array<double, 3>(std::int32_t)> in_doubles{};  // none if they were given as text
-  data::Scheme scheme;
-  Weights weights;
-  std::optional<Sharpness> sharpness{};
-  data::TriangleRule triangles = data::TriangleRule::kCatmark;
-
-  Data(Topology mesh, std::function<Position(std::int32_t)> exact, data::Scheme by, Weights with,
-       const SharpTags& tags)
-      : topology(std::move(mesh)), position(std::move(exact)), scheme(by), weights(with) {
-    if (tags.empty()) return;
-    sharpness.emplace(topology, tags);
-    triangles = tags.triangles;
-  }
-  /// The tags of some faces, `part` of the mesh.
-  SharpTags tags_of(const data::CutOut& part, const std::vector<std::int32_t>& faces) const {
-    if (!sharpness) return {};
-    const Topology local(part.vertices.size(), part.faces);
-    SharpTags tags = sharpness->of_part(topology, local, faces, part.vertices).tags(local);
-    tags.triangles = triangles;
-    return tags;
-  }
-
-  static std::unique_ptr<const Data> of(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights) {
-    for (const auto& p : mesh.positions)
-      for (const double x : p)
-        if (!std::isfinite(x)) throw data::ArgumentError("control mesh: a coordinate is not finite");
-    if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
-    const auto in_doubles = [positions =
-                                 std::make_shared<const std::vector<std::array<double, 3>>>(mesh.positions)](
-                                std::int32_t v) { return (*positions)[static_cast<std::size_t>(v)]; };
-    const auto position = [in_doubles](std::int32_t v) {
-      const auto p = in_doubles(v);
-      return Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
-    };
-    auto data = std::make_unique<Data>(Topology(mesh.positions.size(), mesh.faces), position, scheme, weights,
-                                       mesh.sharpness);
-    data->in_doubles = in_doubles;
-    return data;
-  }
-  static std::unique_ptr<const Data> of(const std::vector<std::array<std::string, 3>>& positions,
-                                        data::Faces faces, data::Scheme scheme, Weights weights,
-                                        const SharpTags& tags = {}) {
-    std::vector<Position> exact;
-    for (const auto& p : positions)
-      exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
-                       exact_value(Parameter::parse(p[2]))});
-    const auto position = [exact = std::move(exact)](std::int32_t v) { return exact[v]; };
-    return std::make_unique<const Data>(Topology(positions.size(), std::move(faces)), position, scheme,
-                                        weights, tags);
-  }
-};
-
-namespace {
 
 /// The point of a mesh of few faces.
 SurfacePoint<Ball> evaluate_in_balls(const data::Faces& faces, std::vector<Vec3<Ball>> positions,
@@ -260,6 +166,95 @@ class Printer {
 };
 
 }  // namespace
+
+Radius::Radius(double digits, long exponent) {
+  if (digits == 0) return;
+  if (!(digits < kInfinity)) {
+    exponent_ = 1L << 40;
+    digits_ = kInfinity;
+    return;
+  }
+  for (; digits >= 10; ++exponent) digits = digits / 10 * kUpward;
+  for (; digits < 1; --exponent) digits = digits * 10 * kUpward;
+  if (digits >= 10) digits /= 10, ++exponent;  // 1 at last, and more by rounding upwards
+  exponent_ = exponent;
+  digits_ = digits;
+}
+
+double Radius::as_double() const {
+  if (digits_ == 0 || digits_ == kInfinity) return digits_;
+  if (exponent_ < -400) return std::numeric_limits<double>::denorm_min();
+  if (exponent_ > 400) return kInfinity;
+  return std::nextafter(std::strtod(to_string(17).c_str(), nullptr), kInfinity);
+}
+
+std::string Radius::to_string(int digits) const {
+  if (digits_ == 0) return "0";
+  if (digits_ == kInfinity) return "inf";
+  const double unit = std::pow(10.0, digits - 1);
+  double shown = digits < 17 ? std::ceil(digits_ * unit) / unit : digits_;
+  long exponent = exponent_;
+  if (shown >= 10) shown /= 10, ++exponent;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*fe%+03ld", digits - 1, shown, exponent);
+  return text;
+}
+
+struct CertifiedEvaluator::Data {
+  using Position = std::array<Rational, 3>;
+  Topology topology;
+  std::function<Position(std::int32_t)> position;                   // of a vertex
+  std::function<std::array<double, 3>(std::int32_t)> in_doubles{};  // none if they were given as text
+  data::Scheme scheme;
+  Weights weights;
+  std::optional<Sharpness> sharpness{};
+  data::TriangleRule triangles = data::TriangleRule::kCatmark;
+
+  Data(Topology mesh, std::function<Position(std::int32_t)> exact, data::Scheme by, Weights with,
+       const SharpTags& tags)
+      : topology(std::move(mesh)), position(std::move(exact)), scheme(by), weights(with) {
+    if (tags.empty()) return;
+    sharpness.emplace(topology, tags);
+    triangles = tags.triangles;
+  }
+  /// The tags of some faces, `part` of the mesh.
+  SharpTags tags_of(const data::CutOut& part, const std::vector<std::int32_t>& faces) const {
+    if (!sharpness) return {};
+    const Topology local(part.vertices.size(), part.faces);
+    SharpTags tags = sharpness->of_part(topology, local, faces, part.vertices).tags(local);
+    tags.triangles = triangles;
+    return tags;
+  }
+
+  static std::unique_ptr<const Data> of(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights) {
+    for (const auto& p : mesh.positions)
+      for (const double x : p)
+        if (!std::isfinite(x)) throw data::ArgumentError("control mesh: a coordinate is not finite");
+    if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
+    const auto in_doubles = [positions =
+                                 std::make_shared<const std::vector<std::array<double, 3>>>(mesh.positions)](
+                                std::int32_t v) { return (*positions)[static_cast<std::size_t>(v)]; };
+    const auto position = [in_doubles](std::int32_t v) {
+      const auto p = in_doubles(v);
+      return Position{Rational(p[0]), Rational(p[1]), Rational(p[2])};
+    };
+    auto data = std::make_unique<Data>(Topology(mesh.positions.size(), mesh.faces), position, scheme, weights,
+                                       mesh.sharpness);
+    data->in_doubles = in_doubles;
+    return data;
+  }
+  static std::unique_ptr<const Data> of(const std::vector<std::array<std::string, 3>>& positions,
+                                        data::Faces faces, data::Scheme scheme, Weights weights,
+                                        const SharpTags& tags = {}) {
+    std::vector<Position> exact;
+    for (const auto& p : positions)
+      exact.push_back({exact_value(Parameter::parse(p[0])), exact_value(Parameter::parse(p[1])),
+                       exact_value(Parameter::parse(p[2]))});
+    const auto position = [exact = std::move(exact)](std::int32_t v) { return exact[v]; };
+    return std::make_unique<const Data>(Topology(positions.size(), std::move(faces)), position, scheme,
+                                        weights, tags);
+  }
+};
 
 CertifiedEvaluator::CertifiedEvaluator(const data::ControlMesh& mesh, Weights weights)
     : data_(Data::of(mesh, data::Scheme::kLoop, weights)) {}

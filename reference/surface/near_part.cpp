@@ -2,10 +2,7 @@
 #include "reference/surface/near_part.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <span>
-#include <utility>
 
 #include "data/cut_out.h"
 #include "reference/number/ball.h"

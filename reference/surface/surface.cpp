@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "reference/surface/surface.h"
 
-#include <utility>
-
 namespace limitcheck::reference {
 
 Surface::Surface(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights)

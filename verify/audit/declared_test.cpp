@@ -9,8 +9,7 @@
 #include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/host/host.h"
-#include "verify/report/overview.h"
-#include "verify/report/table.h"
+#include "verify/report/forms.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
 

@@ -18,7 +18,7 @@
 #include "reference/mesh/topology.h"
 #include "reference/surface/certified.h"
 #include "verify/audit/audit.h"
-#include "verify/report/witness_files.h"
+#include "verify/report/forms.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -44,33 +44,6 @@ Verdict judge(const Evidence& e, std::int64_t triangle) {
   return dot(got_area, exact_area) < 0 ? Verdict::kFacesBack : Verdict::kGood;
 }
 
-}  // namespace
-
-std::vector<Result> check_orientation(const Evidence& e) {
-  Result r = e.result("orientation", "triangles", 0);
-  const std::int64_t count = e.tessellation.triangle_count();
-  std::vector<Verdict> verdict(count);
-  tbb::parallel_for(std::int64_t{0}, count, [&](std::int64_t k) { verdict[k] = judge(e, k); });
-
-  const auto number = [&](Verdict v) { return std::count(verdict.begin(), verdict.end(), v); };
-  const std::int64_t clockwise = number(Verdict::kClockwise), back = number(Verdict::kFacesBack);
-  const std::int64_t not_finite = number(Verdict::kNotFinite);
-  r.of = count - number(Verdict::kNotPlaced) - not_finite;
-  r.bad = clockwise + back;
-  say_left_out(r, not_finite, "triangles with corners");
-  settle(r);
-  if (r.bad == 0) return {r};
-  say(r, fmt::format("{} triangles clockwise on their control face, {} face away from the exact facet",
-                     clockwise, back));
-  const auto bad = std::find_if(verdict.begin(), verdict.end(), [](Verdict v) { return v > Verdict::kGood; });
-  const std::int64_t triangle = bad - verdict.begin();
-  r.witness = e.at_vertex(e.tessellation.triangles()[triangle][0]);
-  r.witness->triangle = triangle;
-  return {r};
-}
-
-namespace {
-
 using Corners = std::array<Lattice::Coordinates, 3>;
 
 // What is wrong with one face, and a place where it is.
@@ -210,6 +183,29 @@ struct OfFaces {
 };
 
 }  // namespace
+
+std::vector<Result> check_orientation(const Evidence& e) {
+  Result r = e.result("orientation", "triangles", 0);
+  const std::int64_t count = e.tessellation.triangle_count();
+  std::vector<Verdict> verdict(count);
+  tbb::parallel_for(std::int64_t{0}, count, [&](std::int64_t k) { verdict[k] = judge(e, k); });
+
+  const auto number = [&](Verdict v) { return std::count(verdict.begin(), verdict.end(), v); };
+  const std::int64_t clockwise = number(Verdict::kClockwise), back = number(Verdict::kFacesBack);
+  const std::int64_t not_finite = number(Verdict::kNotFinite);
+  r.of = count - number(Verdict::kNotPlaced) - not_finite;
+  r.bad = clockwise + back;
+  say_left_out(r, not_finite, "triangles with corners");
+  settle(r);
+  if (r.bad == 0) return {r};
+  say(r, fmt::format("{} triangles clockwise on their control face, {} face away from the exact facet",
+                     clockwise, back));
+  const auto bad = std::find_if(verdict.begin(), verdict.end(), [](Verdict v) { return v > Verdict::kGood; });
+  const std::int64_t triangle = bad - verdict.begin();
+  r.witness = e.at_vertex(e.tessellation.triangles()[triangle][0]);
+  r.witness->triangle = triangle;
+  return {r};
+}
 
 std::vector<Result> check_coverage(const Evidence& e) {
   Result r = e.result("coverage", "faces", 0);

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <set>
 #include <tuple>
-#include <utility>
 
 #include "verify/evidence/vector.h"
 #include "verify/watertight/watertight.h"

@@ -8,26 +8,18 @@
 #include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <utility>
 
 #include "data/bounding_box.h"
 #include "data/error.h"
 #include "data/untrusted_json.h"
-#include "verify/audit/audit.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
-#include "verify/cli/subject_loader.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/refusal.h"
-#include "verify/report/coverage.h"
+#include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/report/junit.h"
-#include "verify/report/overview.h"
-#include "verify/report/table.h"
 #include "verify/row/visible_text.h"
 #include "verify/subject/registry.h"
 
@@ -330,18 +322,12 @@ void add_audit(CLI::App& app, int& exit_code) {
               "or, with visible, 0 to --depth; view, by size on the screen, back faces culled; face0-culled; "
               "all-culled; or file:FILE, one depth for each face, -1 is culled")
           ->capture_default_str();
-  CLI::Option* sample =
-      command
-          ->add_option("--sample", a->sample,
-                       "Judge only about so many faces of each mesh, in patches around random vertices, and "
-                       "cull the others: for meshes of millions of faces")
-          ->type_name("FACES[:SEED]");
-  command
-      ->add_option(
-          "--exhaustive", a->exhaustive,
-          "Audit every tagged neighbourhood up to so many faces around a vertex, of what SUBJECT does, "
-          "at depths 0, 1 and 2; 8 takes about an hour a scheme")
-      ->type_name("VALENCE")
+  CLI::Option* sample = add_value(*command, "--sample", a->sample, "FACES[:SEED]",
+                                  "Judge only about so many faces of each mesh, in patches around random "
+                                  "vertices, and cull the others: for meshes of millions of faces");
+  add_value(*command, "--exhaustive", a->exhaustive, "VALENCE",
+            "Audit every tagged neighbourhood up to so many faces around a vertex, of what SUBJECT does, at "
+            "depths 0, 1 and 2; 8 takes about an hour a scheme")
       ->check(CLI::Range(3, 10));
   add_subject_settings(*command, a->options);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")

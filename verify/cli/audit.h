@@ -122,7 +122,7 @@ struct Audited {
   const verify::Report& report;
   int threads;
 };
-/// Writes each finding of the report as files (verify/report/witness_files.h), if --witnesses or --shrink says
+/// Writes each finding of the report as files (verify/report/forms.h), if --witnesses or --shrink says
 /// so; with --shrink one for each subject and check, on a smaller mesh. Says so on standard error. Throws
 /// std::runtime_error, data::InputError: a file cannot be written.
 void write_witnesses(const OutputArguments& arguments, const Audited& audited);

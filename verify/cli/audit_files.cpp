@@ -15,8 +15,8 @@
 #include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/report/table.h"
 
 namespace limitcheck::cli {
 namespace {

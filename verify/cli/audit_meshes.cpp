@@ -27,7 +27,7 @@
 #include "verify/relations/refusal.h"
 #include "verify/report/json.h"
 #include "verify/row/rows.h"
-#include "verify/shard/seal.h"
+#include "verify/shard/shard.h"
 #include "verify/subject/face_domain.h"
 #include "verify/subject/subject.h"
 

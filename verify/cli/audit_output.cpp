@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
@@ -17,11 +16,9 @@
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/html_report.h"
+#include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/report/known.h"
-#include "verify/report/overview.h"
-#include "verify/report/witness_files.h"
 #include "verify/row/rows.h"
 #include "verify/row/visible_text.h"
 
@@ -42,7 +39,7 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
   command.add_flag("--require-coverage", a.require_coverage,
                    "Each subject must have been judged at every kind of neighbourhood that it declares to "
                    "do; otherwise nothing is confirmed (exit code 2)");
-  command.add_option("--junit", a.junit, "Write the results as JUnit XML to FILE")->type_name("FILE");
+  add_value(command, "--junit", a.junit, "FILE", "Write the results as JUnit XML to FILE");
   command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile)
@@ -64,30 +61,21 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
       ->check(CLI::IsMember({"quick", "standard", "thorough"}))
       ->capture_default_str();
   add_report_options(command, a);
-  command
-      .add_option("--html", a.html,
-                  "Write the report as one page for a browser to FILE: overview, root causes, histogram of "
-                  "errors, and the meshes in three dimensions with their errors")
-      ->type_name("FILE");
-  command
-      .add_option(
-          "--witnesses", a.witnesses,
-          "Write each finding to a folder of its own in DIR: the control mesh, and a JSON file with the "
-          "place, the exact value to 40 digits, the value delivered, and the commands that reproduce both")
-      ->type_name("DIR");
-  command
-      .add_option("--shrink", a.shrink_seconds,
-                  "Search for a small mesh with the same finding, SECONDS (20) for each subject and check, "
-                  "and write it as --witnesses does (default folder: limitcheck-witness)")
-      ->type_name("SECONDS")
+  add_value(command, "--html", a.html, "FILE",
+            "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
+            "and the meshes in three dimensions with their errors");
+  add_value(command, "--witnesses", a.witnesses, "DIR",
+            "Write each finding to a folder of its own in DIR: the control mesh, and a JSON file with the "
+            "place, the exact value to 40 digits, the value delivered, and the commands that reproduce both");
+  add_value(command, "--shrink", a.shrink_seconds, "SECONDS",
+            "Search for a small mesh with the same finding, SECONDS (20) for each subject and check, and "
+            "write it as --witnesses does (default folder: limitcheck-witness)")
       ->check(CLI::Range(0.01, 86400.0))
       ->check(kFinite)
       ->expected(0, 1)
       ->default_str("20");
-  command
-      .add_option("--explain", a.explain,
-                  "Explain a check, or all of them: its meaning, its bound and where the bound comes from")
-      ->type_name("CHECK");
+  add_value(command, "--explain", a.explain, "CHECK",
+            "Explain a check, or all of them: its meaning, its bound and where the bound comes from");
 }
 
 void say_report(const verify::Report& report,

@@ -68,6 +68,13 @@ CLI::Option* add_number(CLI::App& command, const std::string& names, Number& val
   return command.add_option(names, value, text)->check(CLI::Range(least, most))->capture_default_str();
 }
 
+/// An option whose value --help calls `type`.
+template <class Value>
+CLI::Option* add_value(CLI::App& command, const std::string& names, Value& value, const char* type,
+                       const std::string& text) {
+  return command.add_option(names, value, text)->type_name(type);
+}
+
 /// The words of the command line for values of a type.
 template <class Value>
 using Words = std::vector<std::pair<std::string, Value>>;

@@ -7,17 +7,14 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "data/error.h"
-#include "reference/surface/certified.h"
 #include "verify/audit/at_point.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/eval.h"
-#include "verify/cli/mesh_options.h"
 #include "verify/evidence/face_depths.h"
 
 namespace limitcheck::cli {

@@ -24,7 +24,7 @@
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
-#include "verify/shard/seal.h"
+#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -295,10 +295,8 @@ void add_hunt(CLI::App& app, int& exit_code) {
       ->check(kSeed)
       ->capture_default_str();
   add_scheme(*command, a->scheme, "Only meshes of this scheme (default: both, if the subject does both)");
-  command
-      ->add_option("--shard", a->shard,
-                   "Only part K of N of the cases; limitcheck merge joins the reports of all parts")
-      ->type_name("K/N")
+  add_value(*command, "--shard", a->shard, "K/N",
+            "Only part K of N of the cases; limitcheck merge joins the reports of all parts")
       ->capture_default_str();
   command->add_option("--jobs", a->jobs, "Processes at once (default: as many as there are processors)")
       ->check(CLI::Range(1, 1024));
@@ -313,13 +311,10 @@ void add_hunt(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   add_number(*command, "--attempts", a->attempts, 0, 1'000'000,
              "How often a smaller mesh is tried for each finding; 0: none is");
-  command->add_option("--json", a->json, "Write the report to FILE; '-': to standard output")
-      ->type_name("FILE");
-  command->add_option("--junit", a->junit, "Write the findings as JUnit XML")->type_name("FILE");
-  command
-      ->add_option("--baseline", a->baseline,
-                   "Report of an earlier hunt: only findings that it has not are new")
-      ->type_name("FILE")
+  add_value(*command, "--json", a->json, "FILE", "Write the report to FILE; '-': to standard output");
+  add_value(*command, "--junit", a->junit, "FILE", "Write the findings as JUnit XML");
+  add_value(*command, "--baseline", a->baseline, "FILE",
+            "Report of an earlier hunt: only findings that it has not are new")
       ->check(CLI::ExistingFile);
   command->add_flag("--resume", a->resume,
                     "Go on where a hunt with the same arguments was ended; needs --json FILE");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The manual page: the same tables as --help, written for man. The build fills the page's frame
 // (verify/package/limitcheck.1.in) with it.
-#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>

@@ -17,10 +17,9 @@
 #include "verify/cli/units.h"
 #include "verify/hunt/hunt_report.h"
 #include "verify/report/coverage.h"
+#include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/report/junit.h"
-#include "verify/report/overview.h"
-#include "verify/shard/seal.h"
+#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -197,11 +196,8 @@ void add_merge(CLI::App& app, int& exit_code) {
       "Join what --shard has made: the parts of an audit, a hunt, a table of mutants, a set of proofs");
   command->add_option("PART", a->parts, "The files that --shard K/N --json FILE has written, in any order");
   command->add_option("-o,--output", a->output, "The report of the whole, as one process writes it");
-  command
-      ->add_option(
-          "--verify", a->verify,
-          "Say whether this report, or part of one, is whole and as it was written; nothing else is done")
-      ->type_name("REPORT");
+  add_value(*command, "--verify", a->verify, "REPORT",
+            "Say whether this report, or part of one, is whole and as it was written; nothing else is done");
   add_report_options(*command, a->options);
   command->footer(
       "Exit codes: as of the command whose parts they are; 2 if a part is missing, there twice, incomplete "

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "verify/cli/command_test.h"
-#include "verify/shard/seal.h"
+#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 namespace {

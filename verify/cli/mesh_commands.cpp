@@ -242,7 +242,7 @@ void add_generate(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<GenerateArguments>();
   command->add_option("NAME", a->name,
                       "The mesh, with parameters behind colons: wheel:7, bumpy:800, quad-cube (see --list)");
-  command->add_option("-o,--output", a->file, "The file: .obj, .off or .ply")->type_name("FILE");
+  add_value(*command, "-o,--output", a->file, "FILE", "The file: .obj, .off or .ply");
   command->add_option("--seed", a->seed, "Seed of a random mesh, as a last parameter of NAME would be");
   add_mesh_options(*command, a->mesh);
   command->add_flag("--ascii", a->ascii, "PLY as text");

@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -18,7 +16,6 @@
 #include "verify/cli/commands.h"
 #include "verify/host/host.h"
 #include "verify/host/isolation/launcher.h"
-#include "verify/host/isolation/remote_subject.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::cli {
@@ -83,11 +80,9 @@ void add_subject_settings(CLI::App& command, std::vector<std::string>& options) 
 
 void add_subject_options(CLI::App& command, SubjectArguments& a) {
   const std::string group = "Subjects of your own (libraries and programs run in a process of their own)";
-  command
-      .add_option("--program", a.program,
-                  "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the "
-                  "protocol of verify/host/isolation/PROTOCOL.md")
-      ->type_name("COMMAND")
+  add_value(command, "--program", a.program, "COMMAND",
+            "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
+            "of verify/host/isolation/PROTOCOL.md")
       ->group(group);
   command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too")
       ->group(group);
@@ -102,10 +97,8 @@ void add_subject_options(CLI::App& command, SubjectArguments& a) {
             "How a process is held, so that nothing it starts is left behind: auto is a PID namespace of its "
             "own where the system allows that, and elsewhere a subreaper")
       ->group(group);
-  command
-      .add_option("--witness-folder", a.witness_folder,
-                  "Where control mesh and depths are saved when a process breaks down; '' for nowhere")
-      ->type_name("DIR")
+  add_value(command, "--witness-folder", a.witness_folder, "DIR",
+            "Where control mesh and depths are saved when a process breaks down; '' for nowhere")
       ->capture_default_str()
       ->group(group);
 }

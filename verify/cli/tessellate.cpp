@@ -245,9 +245,8 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       ->add_option("MESH", a->mesh, "A file (OBJ, OFF, PLY, STL) or a name (see limitcheck generate --list)")
       ->required();
   add_mesh_options(*command, a->scheme);
-  command
-      ->add_option("-o,--output", a->output, "The file: .ply, .obj or .glb; without it, only the statistics")
-      ->type_name("FILE");
+  add_value(*command, "-o,--output", a->output, "FILE",
+            "The file: .ply, .obj or .glb; without it, only the statistics");
   add_number(*command, "--depth", a->depths.depth, 0, fast::kDeepest,
              "Subdivision depth; the largest one of random");
   add_words(*command, "--strategy", a->strategy, kStrategies,

@@ -27,7 +27,6 @@
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
-#include "verify/shard/seal.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::cli {
@@ -78,10 +77,8 @@ void ShardArguments::check() const {
 }
 
 void add_json_option(CLI::App& command, ShardArguments& a) {
-  command
-      .add_option("--json", a.json,
-                  "Write the results as JSON to FILE; '-' or nothing: standard output, and no table")
-      ->type_name("FILE")
+  add_value(command, "--json", a.json, "FILE",
+            "Write the results as JSON to FILE; '-' or nothing: standard output, and no table")
       ->expected(0, 1)
       ->default_str("-");
 }

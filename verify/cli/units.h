@@ -60,7 +60,7 @@ int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
              const std::function<void(const JobCounters&)>& show);
 
 /// The report, a JSON object, with what it is of in front ("attested": the digests of this program, of the plan and, as
-/// far as the plan has them, of subjects and meshes) and a digest of all of it (verify/shard/seal.h).
+/// far as the plan has them, of subjects and meshes) and a digest of all of it (verify/shard/shard.h).
 std::string attested(std::string report, const nlohmann::json& plan);
 
 /// The reports of these commands; to `json` they go as with --json. Return the exit code.

@@ -3,11 +3,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "data/sharpness_classes.h"
 #include "data/summary.h"

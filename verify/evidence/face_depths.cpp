@@ -4,11 +4,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 
 #include "data/error.h"

@@ -30,42 +30,6 @@ Vector rounded(const reference::Enclosure3& point) {
           data::parse<double>(point[2].value)};
 }
 
-}  // namespace
-
-struct CertifiedSurface::State {
-  std::mutex mutex;
-  std::optional<reference::CertifiedEvaluator> evaluator;
-  std::unordered_map<Sides::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
-};
-
-CertifiedSurface::CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights)
-    : lattice_(lattice), sides_(sides), weights_(weights), state_(std::make_unique<State>()) {}
-CertifiedSurface::~CertifiedSurface() = default;
-
-const ExactPoint* CertifiedSurface::at(Sides::Id side) const {
-  const std::scoped_lock lock(state_->mutex);
-  const auto [place, is_new] = state_->kept.try_emplace(side);
-  std::optional<ExactPoint>& point = place->second;
-  if (is_new) try {
-      if (!state_->evaluator) {
-        if (lattice_.scheme() == data::Scheme::kLoop)
-          state_->evaluator.emplace(lattice_.mesh(), weights_);
-        else
-          state_->evaluator.emplace(lattice_.mesh(), lattice_.scheme());
-      }
-      const Place p = sides_.place(side);
-      const auto exact =
-          state_->evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
-                                      reference::Parameter::fraction(p.j, p.denominator), kDigits);
-      point = {rounded(exact.position), rounded(exact.normal), digits(exact.position), digits(exact.normal),
-               exact.normal_kind == reference::NormalKind::kRegular};
-    } catch (const std::exception&) {  // a neighbourhood that it does not take: the word in double stands
-    }
-  return point ? &*point : nullptr;
-}
-
-namespace {
-
 // See normal_condition(). In units of the larger tangent, so that nothing overflows or vanishes.
 double condition(const reference::SurfacePoint<double>& p) {
   const Vector t1 = vector_of(p.t1), t2 = vector_of(p.t2);
@@ -111,6 +75,38 @@ std::vector<std::int64_t> terms(const data::Faces& faces, std::size_t vertices) 
 }
 
 }  // namespace
+
+struct CertifiedSurface::State {
+  std::mutex mutex;
+  std::optional<reference::CertifiedEvaluator> evaluator;
+  std::unordered_map<Sides::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
+};
+
+CertifiedSurface::CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights)
+    : lattice_(lattice), sides_(sides), weights_(weights), state_(std::make_unique<State>()) {}
+CertifiedSurface::~CertifiedSurface() = default;
+
+const ExactPoint* CertifiedSurface::at(Sides::Id side) const {
+  const std::scoped_lock lock(state_->mutex);
+  const auto [place, is_new] = state_->kept.try_emplace(side);
+  std::optional<ExactPoint>& point = place->second;
+  if (is_new) try {
+      if (!state_->evaluator) {
+        if (lattice_.scheme() == data::Scheme::kLoop)
+          state_->evaluator.emplace(lattice_.mesh(), weights_);
+        else
+          state_->evaluator.emplace(lattice_.mesh(), lattice_.scheme());
+      }
+      const Place p = sides_.place(side);
+      const auto exact =
+          state_->evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                                      reference::Parameter::fraction(p.j, p.denominator), kDigits);
+      point = {rounded(exact.position), rounded(exact.normal), digits(exact.position), digits(exact.normal),
+               exact.normal_kind == reference::NormalKind::kRegular};
+    } catch (const std::exception&) {  // a neighbourhood that it does not take: the word in double stands
+    }
+  return point ? &*point : nullptr;
+}
 
 // The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
 struct ReferenceSurface::Evaluator {

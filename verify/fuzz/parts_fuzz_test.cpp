@@ -12,7 +12,6 @@
 
 #include "data/error.h"
 #include "data/untrusted_json.h"
-#include "verify/shard/seal.h"
 #include "verify/shard/shard.h"
 
 using namespace limitcheck;

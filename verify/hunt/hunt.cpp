@@ -10,7 +10,7 @@
 #include "verify/causes/causes.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/witness_files.h"
+#include "verify/report/forms.h"
 #include "verify/row/commands.h"
 
 namespace limitcheck::verify {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <exception>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -161,6 +160,40 @@ Asked depths_for(std::size_t faces, std::uint64_t turn, data::SplitMix64& random
   }
 }
 
+constexpr std::size_t kPairs = 64;  // that are tried at most; each is a question to the subject
+
+struct Key {
+  std::string name;
+  std::vector<std::string> values;
+};
+
+bool in_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+}
+
+// "key=one|two|...": what stands behind each "=".
+std::vector<Key> keys_in(std::string_view text) {
+  std::vector<Key> keys;
+  for (std::size_t at = text.find('='); at != std::string_view::npos; at = text.find('=', at + 1)) {
+    std::size_t begin = at;
+    while (begin > 0 && in_word(text[begin - 1])) --begin;
+    Key key{std::string(text.substr(begin, at - begin)), {}};
+    for (std::size_t from = at + 1;;) {
+      std::size_t end = from;
+      while (end < text.size() && in_word(text[end])) ++end;
+      if (end > from) key.values.emplace_back(text.substr(from, end - from));
+      if (text.substr(from, 1) == "N") key.values = {"1", "2", "3", "4"};
+      // "avx2/4" is a word that this does not know
+      if (end < text.size() && text[end] == '/' && !key.values.empty()) key.values.pop_back();
+      while (end < text.size() && text[end] != '|' && text[end] != ',' && text[end] != ' ') ++end;
+      if (end >= text.size() || text[end] != '|') break;
+      from = end + 1;
+    }
+    if (!key.name.empty() && !key.values.empty()) keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
 }  // namespace
 
 std::vector<Does> does_of(const AuditSubject& subject, data::Scheme scheme) {
@@ -274,44 +307,6 @@ HuntCase HuntPlan::next() {
   ++number_;
   return best;
 }
-
-namespace {
-
-constexpr std::size_t kPairs = 64;  // that are tried at most; each is a question to the subject
-
-struct Key {
-  std::string name;
-  std::vector<std::string> values;
-};
-
-bool in_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-}
-
-// "key=one|two|...": what stands behind each "=".
-std::vector<Key> keys_in(std::string_view text) {
-  std::vector<Key> keys;
-  for (std::size_t at = text.find('='); at != std::string_view::npos; at = text.find('=', at + 1)) {
-    std::size_t begin = at;
-    while (begin > 0 && in_word(text[begin - 1])) --begin;
-    Key key{std::string(text.substr(begin, at - begin)), {}};
-    for (std::size_t from = at + 1;;) {
-      std::size_t end = from;
-      while (end < text.size() && in_word(text[end])) ++end;
-      if (end > from) key.values.emplace_back(text.substr(from, end - from));
-      if (text.substr(from, 1) == "N") key.values = {"1", "2", "3", "4"};
-      // "avx2/4" is a word that this does not know
-      if (end < text.size() && text[end] == '/' && !key.values.empty()) key.values.pop_back();
-      while (end < text.size() && text[end] != '|' && text[end] != ',' && text[end] != ' ') ++end;
-      if (end >= text.size() || text[end] != '|') break;
-      from = end + 1;
-    }
-    if (!key.name.empty() && !key.values.empty()) keys.push_back(std::move(key));
-  }
-  return keys;
-}
-
-}  // namespace
 
 std::vector<Way> ways_of(const AuditSubject& subject, const std::vector<data::Scheme>& schemes,
                          const std::vector<std::string>& asked) {

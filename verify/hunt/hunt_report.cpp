@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "data/error.h"
 #include "data/untrusted_json.h"
-#include "verify/report/junit.h"
-#include "verify/shard/seal.h"
+#include "verify/report/forms.h"
 
 namespace limitcheck::verify {
 
@@ -82,6 +80,24 @@ void take(std::map<std::string, HuntFinding>& all, const HuntFinding& more) {
   const std::int64_t cases = at->second.cases + more.cases;
   if (more.first < at->second.first) at->second = more;
   at->second.cases = cases;
+}
+
+std::string size_of(const HuntFinding& f) {
+  if (!f.worst) return f.message;
+  return fmt::format("{:.2g}{}{}{}", *f.worst, f.unit.empty() ? "" : " ", f.unit,
+                     f.bound ? fmt::format(" (bound {:.2g})", *f.bound) : "");
+}
+
+std::string mesh_of(const HuntFinding& f) {
+  const std::string before =
+      fmt::format("{} faces at depth {} of case {}", f.faces_before, f.depth_before, f.first);
+  if (f.faces == 0) return before;
+  return fmt::format("{} face{} at depth {}, shrunk from {}", f.faces, f.faces == 1 ? "" : "s", f.depth,
+                     before);
+}
+
+const std::string& command_of(const HuntFinding& f) {
+  return f.command.empty() ? f.found_on : f.command;
 }
 
 }  // namespace
@@ -263,28 +279,6 @@ HuntReport merged(const std::vector<HuntReport>& parts) {
   require_all(shards);
   return combined(parts);
 }
-
-namespace {
-
-std::string size_of(const HuntFinding& f) {
-  if (!f.worst) return f.message;
-  return fmt::format("{:.2g}{}{}{}", *f.worst, f.unit.empty() ? "" : " ", f.unit,
-                     f.bound ? fmt::format(" (bound {:.2g})", *f.bound) : "");
-}
-
-std::string mesh_of(const HuntFinding& f) {
-  const std::string before =
-      fmt::format("{} faces at depth {} of case {}", f.faces_before, f.depth_before, f.first);
-  if (f.faces == 0) return before;
-  return fmt::format("{} face{} at depth {}, shrunk from {}", f.faces, f.faces == 1 ? "" : "s", f.depth,
-                     before);
-}
-
-const std::string& command_of(const HuntFinding& f) {
-  return f.command.empty() ? f.found_on : f.command;
-}
-
-}  // namespace
 
 std::string to_text(const HuntReport& r, const HuntReport* earlier) {
   std::string schemes;

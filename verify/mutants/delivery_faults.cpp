@@ -2,7 +2,6 @@
 // Faults of what any subject of Loop's scheme delivers: a name, what it does, the check meant to find it, and a
 // function that does it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>

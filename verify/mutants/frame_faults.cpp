@@ -2,10 +2,8 @@
 // Faults of the depths, the triangles and the fans of frames, and of what is kept from one to the next.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <stdexcept>
-#include <tuple>
 
 #include "data/cut_out.h"
 #include "reference/loop/refine.h"

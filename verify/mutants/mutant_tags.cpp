@@ -2,7 +2,6 @@
 #include "verify/mutants/mutant_tags.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The faults of rules that the model can be told to have, each of a kind that a real tessellator could have.
-#include <initializer_list>
 #include <vector>
 
 #include "verify/mutants/mutant_rules.h"

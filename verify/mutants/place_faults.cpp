@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include "verify/mutants/change_rows.h"
 
 namespace limitcheck::verify {

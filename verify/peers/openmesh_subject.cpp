@@ -6,11 +6,10 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
-#include <algorithm>
 #include <type_traits>
 #include <vector>
 
-#include "verify/peers/refining_subject.h"
+#include "verify/peers/refinement_tracker.h"
 #include "verify/subject/registry.h"
 
 namespace {

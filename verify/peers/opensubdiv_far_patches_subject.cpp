@@ -13,7 +13,6 @@
 #include <array>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "verify/peers/opensubdiv_faces.h"

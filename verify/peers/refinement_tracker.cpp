@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/peers/refinement_tracker.h"
 
-#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <utility>

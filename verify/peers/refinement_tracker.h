@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Where the vertices of a refined mesh lie on the control mesh, for libraries that keep no record of it.
+// Subjects from libraries that refine a mesh step by step and stop there, with no limit points and no normals; and where
+// the vertices of a refined mesh lie on the control mesh, of which they keep no record.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
+#include "verify/subject/adapter.h"
 #include "verify/subject/face_domain.h"
 #include "verify/subject/subject.h"
 
@@ -52,6 +56,73 @@ class RefinementTracker {
   bool quads_;
   std::int64_t vertex_count_;
   std::vector<Face> faces_;
+};
+
+/// LoopMesh and QuadMesh are the library's mesh behind
+///   T(const lc_mesh&)                               throws SubjectError if the library refuses it
+///   void refine()                                   one step
+///   std::int64_t vertex_count() const
+///   std::array<double, 3> position(std::int64_t) const
+///   std::vector<std::array<std::uint32_t, N>> faces() const    after a step: N is 3 or 4
+/// the one refined by Loop's scheme, the other, void if there is none, by Catmull-Clark's. Real is the
+/// number type the library keeps its points in.
+template <class LoopMesh, class QuadMesh, class Real = double>
+class RefiningSubject {
+  static constexpr bool kQuads = !std::is_void_v<QuadMesh>;
+
+ public:
+  static constexpr std::int32_t kSchemes = LC_DOES_LOOP | (kQuads ? LC_DOES_CATMULL_CLARK : 0);
+
+  static lc_capabilities capabilities(Options&, lc_scheme) {
+    constexpr auto precision = std::is_same_v<Real, float> ? LC_FLOAT32 : LC_FLOAT64;
+    return {precision, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_REFINED, 8, 0, 0, 1};
+  }
+
+  RefiningSubject(const lc_mesh& mesh, Options&) : control_(mesh) {
+    if constexpr (kQuads)
+      if (mesh.scheme == LC_SCHEME_CATMULL_CLARK) {
+        (void)QuadMesh(mesh);
+        return;
+      }
+    (void)LoopMesh(mesh);
+  }
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    refuse_too_many_triangles(control_, uniform_depth(request, control_));
+    if constexpr (kQuads)
+      if (control_.scheme == LC_SCHEME_CATMULL_CLARK) return run<QuadMesh>(request, out);
+    run<LoopMesh>(request, out);
+  }
+
+ private:
+  template <class Mesh>
+  void run(const lc_request& request, lc_tessellation& out) const {
+    Mesh mesh(control_);
+    RefinementTracker tracker(control_);
+    for (int level = 0; level < uniform_depth(request, control_); ++level) {
+      mesh.refine();
+      tracker.step(mesh.vertex_count(), mesh.faces());
+    }
+    const auto triangles = tracker.triangles();
+    const auto triangle_face = tracker.triangle_face();
+    const auto output =
+        allocate_output<Real>(request, out, mesh.vertex_count(), static_cast<std::int64_t>(triangles.size()),
+                              /*normals=*/false, control_.scheme == LC_SCHEME_CATMULL_CLARK);
+    std::int64_t v = 0;
+    for (const Place& p : tracker.places()) {
+      const std::array<double, 3> position = mesh.position(v);
+      for (std::int64_t c = 0; c < 3; ++c)
+        output.positions[3 * v + c] = static_cast<Real>(position[static_cast<std::size_t>(c)]);
+      if (output.corner != nullptr) output.corner[v] = p.corner;
+      output.provenance[v++] = {p.face, p.i, p.j, p.denominator};
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      std::copy(triangles[t].begin(), triangles[t].end(), output.triangles + 3 * t);
+      output.triangle_face[t] = triangle_face[t];
+    }
+  }
+
+  const lc_mesh control_;
 };
 
 }  // namespace limitcheck::verify

@@ -8,7 +8,6 @@
 #include "data/generators/bumpy_sphere.h"
 #include "fast/window/tessellator.h"
 #include "verify/picture/canvas.h"
-#include "verify/picture/difference.h"
 #include "verify/picture/judge.h"
 
 namespace limitcheck::verify {

@@ -2,7 +2,6 @@
 #include "verify/projection/box_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 

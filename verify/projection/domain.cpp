@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/projection/domain.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 

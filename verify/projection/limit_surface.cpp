@@ -6,7 +6,6 @@
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
-#include <utility>
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"

@@ -99,61 +99,6 @@ bool gather(const Topology& topology, std::span<const Point> positions, const Qu
   return true;
 }
 
-}  // namespace
-
-std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
-                                    const Triangle& triangle, std::span<const VertexState> states) {
-  std::array<Ring, 3> rings;
-  for (int k = 0; k < 3; ++k)
-    if (!ring_of(topology, positions, triangle[k], states, rings[k])) return std::nullopt;
-  double largest = 0;
-  const auto look = [&](const Point& before, const Point& centre, const Point& after) {
-    largest = std::max(largest, length((before - centre) + (after - centre)));
-  };
-  for (int k = 0; k < 3;
-       ++k) {  // along the edge a - b: the rows through a and b, through c, and beyond the edge
-    const std::int32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3];
-    const Ring &ra = rings[k], &rb = rings[(k + 1) % 3], &rc = rings[(k + 2) % 3];
-    const int ab = ra.find(b), ba = rb.find(a), ca = rc.find(a);
-    look(ra[ab], positions[a], ra[ab + 3]);
-    look(rb[ba], positions[b], rb[ba + 3]);
-    look(rc[ca + 2], positions[c], rc[ca + 5]);
-    look(ra[ab - 2], ra[ab - 1], rb[ba + 2]);
-  }
-  return largest / 6;
-}
-
-std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
-                                    const Quad& quad, std::span<const VertexState> states) {
-  std::array<std::array<Point, 4>, 4> p;  // [i][j], i along u, the quad's corners at 1 and 2
-  constexpr std::array<std::array<int, 2>, 4> kCorner{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
-  for (int k = 0; k < 4; ++k) {
-    Nine nine;
-    if (!gather(topology, positions, quad, k, states, nine)) return std::nullopt;
-    const auto [i, j] = kCorner[k];
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y) {
-        // The axes of corner k are those of the quad turned by k quarter turns.
-        const int du = k == 0 ? x : k == 1 ? -y : k == 2 ? -x : y;
-        const int dv = k == 0 ? y : k == 1 ? x : k == 2 ? -y : -x;
-        p[i + du][j + dv] = nine[x + 1][y + 1];
-      }
-  }
-  double along_u = 0, along_v = 0, mixed = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      if (i == 1 || i == 2)
-        along_u = std::max(along_u, length((p[i - 1][j] - p[i][j]) + (p[i + 1][j] - p[i][j])));
-      if (j == 1 || j == 2)
-        along_v = std::max(along_v, length((p[i][j - 1] - p[i][j]) + (p[i][j + 1] - p[i][j])));
-      if (i < 3 && j < 3)
-        mixed = std::max(mixed, length((p[i + 1][j + 1] - p[i + 1][j]) - (p[i][j + 1] - p[i][j])));
-    }
-  return (along_u + 2 * mixed + along_v) / 8;
-}
-
-namespace {
-
 // A vertex (number 0) with the faces around it and around all vertices of these, refined again and
 // again on the spot.
 struct Surroundings {
@@ -293,6 +238,57 @@ CornerBounds bounds_around(const Topology& topology, Points positions, std::int3
 }
 
 }  // namespace
+
+std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
+                                    const Triangle& triangle, std::span<const VertexState> states) {
+  std::array<Ring, 3> rings;
+  for (int k = 0; k < 3; ++k)
+    if (!ring_of(topology, positions, triangle[k], states, rings[k])) return std::nullopt;
+  double largest = 0;
+  const auto look = [&](const Point& before, const Point& centre, const Point& after) {
+    largest = std::max(largest, length((before - centre) + (after - centre)));
+  };
+  for (int k = 0; k < 3;
+       ++k) {  // along the edge a - b: the rows through a and b, through c, and beyond the edge
+    const std::int32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3];
+    const Ring &ra = rings[k], &rb = rings[(k + 1) % 3], &rc = rings[(k + 2) % 3];
+    const int ab = ra.find(b), ba = rb.find(a), ca = rc.find(a);
+    look(ra[ab], positions[a], ra[ab + 3]);
+    look(rb[ba], positions[b], rb[ba + 3]);
+    look(rc[ca + 2], positions[c], rc[ca + 5]);
+    look(ra[ab - 2], ra[ab - 1], rb[ba + 2]);
+  }
+  return largest / 6;
+}
+
+std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
+                                    const Quad& quad, std::span<const VertexState> states) {
+  std::array<std::array<Point, 4>, 4> p;  // [i][j], i along u, the quad's corners at 1 and 2
+  constexpr std::array<std::array<int, 2>, 4> kCorner{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
+  for (int k = 0; k < 4; ++k) {
+    Nine nine;
+    if (!gather(topology, positions, quad, k, states, nine)) return std::nullopt;
+    const auto [i, j] = kCorner[k];
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y) {
+        // The axes of corner k are those of the quad turned by k quarter turns.
+        const int du = k == 0 ? x : k == 1 ? -y : k == 2 ? -x : y;
+        const int dv = k == 0 ? y : k == 1 ? x : k == 2 ? -y : -x;
+        p[i + du][j + dv] = nine[x + 1][y + 1];
+      }
+  }
+  double along_u = 0, along_v = 0, mixed = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      if (i == 1 || i == 2)
+        along_u = std::max(along_u, length((p[i - 1][j] - p[i][j]) + (p[i + 1][j] - p[i][j])));
+      if (j == 1 || j == 2)
+        along_v = std::max(along_v, length((p[i][j - 1] - p[i][j]) + (p[i][j + 1] - p[i][j])));
+      if (i < 3 && j < 3)
+        mixed = std::max(mixed, length((p[i + 1][j + 1] - p[i + 1][j]) - (p[i][j + 1] - p[i][j])));
+    }
+  return (along_u + 2 * mixed + along_v) / 8;
+}
 
 CornerBounds corner_bounds(data::Scheme scheme, const Topology& topology, Points positions,
                            std::int32_t vertex, const SharpVertexOf& sharp) {

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <vector>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"

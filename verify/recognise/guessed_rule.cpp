@@ -3,11 +3,8 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
-#include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -10,8 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <new>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include "data/splitmix64.h"
@@ -53,6 +51,28 @@ std::uint64_t digest(const Vector& position, const Vector* normal) {
   add(position);
   if (normal != nullptr) add(*normal);
   return bits;
+}
+
+// From harmless to fatal: the worst of a row is its status.
+int gravity(Status status) {
+  static constexpr Status kOrder[] = {Status::kHeld,    Status::kQualityWarning, Status::kNotSupported,
+                                      Status::kNotRun,  Status::kFinding,        Status::kError,
+                                      Status::kTimeout, Status::kCrash};
+  return static_cast<int>(std::find(std::begin(kOrder), std::end(kOrder), status) - std::begin(kOrder));
+}
+
+template <class T>
+bool same(std::span<const T> a, std::span<const T> b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+// All arrays, byte by byte. Points in another order are still the same answer: then they are compared one by
+// one.
+bool same_arrays(const Tessellation& a, const Tessellation& b) {
+  return same(a.positions_f32(), b.positions_f32()) && same(a.positions_f64(), b.positions_f64()) &&
+         same(a.normals_f32(), b.normals_f32()) && same(a.normals_f64(), b.normals_f64()) &&
+         same(a.provenance(), b.provenance()) && same(a.corners(), b.corners()) &&
+         same(a.triangles(), b.triangles()) && same(a.triangle_face(), b.triangle_face());
 }
 
 }  // namespace
@@ -173,18 +193,6 @@ bool Compared::same(const Tessellation& t, std::int64_t k, const Variant& v, std
           same_bits(v.normal(t.normal(k)), e_.tessellation.normal(mine)));
 }
 
-namespace {
-
-// From harmless to fatal: the worst of a row is its status.
-int gravity(Status status) {
-  static constexpr Status kOrder[] = {Status::kHeld,    Status::kQualityWarning, Status::kNotSupported,
-                                      Status::kNotRun,  Status::kFinding,        Status::kError,
-                                      Status::kTimeout, Status::kCrash};
-  return static_cast<int>(std::find(std::begin(kOrder), std::end(kOrder), status) - std::begin(kOrder));
-}
-
-}  // namespace
-
 Status status_of(const std::exception& error) {
   if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) {
     if (died->kind() == SubjectDied::Kind::kTimeout) return Status::kTimeout;
@@ -264,24 +272,6 @@ Result RelationRow::take() {
   if (r_.worst && !std::isfinite(*r_.worst)) r_.worst.reset();
   return std::move(r_);
 }
-
-namespace {
-
-template <class T>
-bool same(std::span<const T> a, std::span<const T> b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
-
-// All arrays, byte by byte. Points in another order are still the same answer: then they are compared one by
-// one.
-bool same_arrays(const Tessellation& a, const Tessellation& b) {
-  return same(a.positions_f32(), b.positions_f32()) && same(a.positions_f64(), b.positions_f64()) &&
-         same(a.normals_f32(), b.normals_f32()) && same(a.normals_f64(), b.normals_f64()) &&
-         same(a.provenance(), b.provenance()) && same(a.corners(), b.corners()) &&
-         same(a.triangles(), b.triangles()) && same(a.triangle_face(), b.triangle_face());
-}
-
-}  // namespace
 
 void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence& e,
                   const Compared& compared) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "verify/report/html_report.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -17,7 +15,7 @@
 #include <vector>
 
 #include "verify/evidence/evidence.h"
-#include "verify/report/overview.h"
+#include "verify/report/forms.h"
 #include "verify/row/bounds.h"
 #include "verify/row/commands.h"
 #include "verify/row/statistics.h"

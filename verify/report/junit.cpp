@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/report/junit.h"
+#include "verify/report/forms.h"
 
 #include <fmt/core.h>
 

@@ -14,7 +14,7 @@
 #include "verify/checks/checks.h"
 #include "verify/relations/relations.h"
 #include "verify/report/coverage.h"
-#include "verify/report/junit.h"
+#include "verify/report/forms.h"
 #include "verify/report/known.h"
 #include "verify/row/rows.h"
 

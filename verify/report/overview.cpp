@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "verify/report/overview.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -7,12 +6,11 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "verify/report/coverage.h"
 #include "verify/report/exhaustive.h"
-#include "verify/report/table.h"
+#include "verify/report/forms.h"
 #include "verify/row/commands.h"
 #include "verify/row/rows.h"
 

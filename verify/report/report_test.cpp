@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "data/test_support/assertions.h"
+#include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/report/table.h"
 #include "verify/row/commands.h"
 
 namespace limitcheck::verify {

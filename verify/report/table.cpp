@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/report/table.h"
+#include "verify/report/forms.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "verify/report/overview.h"
 #include "verify/row/commands.h"
 
 namespace limitcheck::verify {

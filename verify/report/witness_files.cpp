@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/report/witness_files.h"
+#include "verify/report/forms.h"
 
 #include <cctype>
 #include <nlohmann/json.hpp>

@@ -17,6 +17,33 @@ bool uniform(const Result& r) {
   return r.depths.empty() || r.depths == "uniform";
 }
 
+// A word for the shell.
+std::string quoted(const std::string& text) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said
+// otherwise.
+std::string mesh_options(const Result& result) {
+  std::string text;
+  if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));
+  if (!result.triangulated.empty()) text += fmt::format(" --triangulate {}", result.triangulated);
+  return text;
+}
+
+std::string depth_options(const Result& result) {
+  if (result.depths.empty() || result.depths == "uniform") return "";
+  return fmt::format(" --depths {}", quoted(result.depths));
+}
+
+bool names_a_point(const Result& result) {
+  return result.witness && result.witness->face >= 0 && !result.witness->l1.empty();
+}
+
 }  // namespace
 
 std::string case_name(const Report& report, const Result& r) {
@@ -58,37 +85,6 @@ std::string depths_in_full(const Report& report, const std::string& subject) {
   return fmt::format("{}{}{}", fmt::join(depths, " "),
                      unequal.empty() ? "" : "; *: ", fmt::join(unequal, ", "));
 }
-
-namespace {
-
-// A word for the shell.
-std::string quoted(const std::string& text) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
-  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-// So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said
-// otherwise.
-std::string mesh_options(const Result& result) {
-  std::string text;
-  if (result.scheme != data::Scheme::kLoop) text += fmt::format(" --scheme {}", data::name_of(result.scheme));
-  if (!result.triangulated.empty()) text += fmt::format(" --triangulate {}", result.triangulated);
-  return text;
-}
-
-std::string depth_options(const Result& result) {
-  if (result.depths.empty() || result.depths == "uniform") return "";
-  return fmt::format(" --depths {}", quoted(result.depths));
-}
-
-bool names_a_point(const Result& result) {
-  return result.witness && result.witness->face >= 0 && !result.witness->l1.empty();
-}
-
-}  // namespace
 
 std::string eval_command(const Result& result) {
   static const std::set<std::string_view> kOfLimit{"positions",      "normals",       "finite",

@@ -15,7 +15,7 @@
 #include "verify/audit/audit.h"
 #include "verify/evidence/reference_surface.h"
 #include "verify/evidence/vector.h"
-#include "verify/report/junit.h"
+#include "verify/report/forms.h"
 #include "verify/row/bounds.h"
 #include "verify/row/statistics.h"
 #include "verify/row/test_rows.h"

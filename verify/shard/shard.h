@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace limitcheck::verify {
@@ -50,7 +51,7 @@ struct Plan {
 };
 
 /// The results of units, by number; in a file of JSON lines, too, if there is one. The first line says what
-/// is done, each other line holds one unit: {"unit", "result"}; each line is sealed (seal.h). A line is written
+/// is done, each other line holds one unit: {"unit", "result"}; each line is sealed. A line is written
 /// whole and flushed. If the file cannot be written, the work goes on without it. The file is locked.
 class Journal {
  public:
@@ -106,5 +107,22 @@ PartReport read_part(const std::string& text);
 /// All results, with the seconds of all shards and what they printed. Throws data::ArgumentError: they are
 /// of different plans, or a shard is missing, there twice, or incomplete.
 PartReport joined(const std::vector<PartReport>& parts);
+
+/// SHA-256 of the bytes, 64 hexadecimal digits.
+std::string digest(std::string_view bytes);
+
+/// The text of a JSON object with the key "digest" before its own: the digest of the object without it, its keys in
+/// order and without white space. Ends with a new line.
+///   indent   as nlohmann::json::dump: -1 for one line
+std::string sealed(const std::string& object_text);
+template <class Json>
+std::string sealed(const Json& object, int indent = -1) {
+  return sealed(object.dump(indent, ' ', false, Json::error_handler_t::replace));
+}
+
+/// The object without its digest. Throws data::ArgumentError: it is no JSON object, has no digest (unless that
+/// may lack, in files of before 0.2), or another one than the text has now.
+nlohmann::json unsealed_object(nlohmann::json object, bool digest_may_lack = false);
+nlohmann::json unsealed(std::string_view text, bool digest_may_lack = false);
 
 }  // namespace limitcheck::verify

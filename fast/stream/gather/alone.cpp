@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fast/stream/gather/alone.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "fast/stream/gather/alone_impl.h"

@@ -2,16 +2,12 @@
 #include "fast/stream/gather/rings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <span>
 
 #include "fast/mesh/vec3.h"
 #include "fast/stream/gather/quad_rings_impl.h"
 #include "fast/stream/gather/rings_impl.h"
-#include "fast/stream/kernel/layout.h"
 
 namespace limitcheck::fast::row_stream {
 

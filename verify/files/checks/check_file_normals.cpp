@@ -9,7 +9,7 @@
 #include <set>
 
 #include "verify/files/checks/file_evidence.h"
-#include "verify/recognise/normal_origin.h"
+#include "verify/recognise/recognise.h"
 #include "verify/row/bounds.h"
 #include "verify/row/statistics.h"
 

@@ -14,7 +14,6 @@
 #include "data/triangulate.h"
 #include "data/validate.h"
 #include "verify/recognise/guessed_rule.h"
-#include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
 namespace {

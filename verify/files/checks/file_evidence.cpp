@@ -6,9 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <optional>
 
 #include "verify/interrupt/interrupt.h"
 
@@ -66,6 +64,38 @@ FacePoint snapped(const FileEvidence& e, const Foot& foot, double slack) {
     if (better({foot.at.face, chart.dropped(k, foot.at.l)})) return best;
   }
   return best;
+}
+
+void sort_once(std::vector<std::int32_t>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+// All faces that a point lies in, ascending.
+std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at) {
+  const Chart chart = domain.chart();
+  std::vector<std::int32_t> faces{at.face};
+  for (int k = 0; k < chart.corners(); ++k)
+    if (chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0)
+      faces.push_back(domain.across(at.face, k));
+  if (const int k = chart.corner_at(at.l); k >= 0)
+    for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) faces.push_back(f);
+  sort_once(faces);
+  return faces;
+}
+
+// How many they are, or 2 where the point is no corner.
+std::size_t count_faces(const Domain& domain, const FacePoint& at) {
+  const int k = domain.chart().corner_at(at.l);
+  return k < 0 ? 2 : domain.faces_at(domain.vertex(at.face, k)).size();
+}
+
+void add_neighbours(const Domain& domain, std::vector<std::int32_t>& faces) {
+  const std::size_t known = faces.size();
+  for (std::size_t f = 0; f < known; ++f)
+    for (int k = 0; k < domain.chart().corners(); ++k)
+      if (const std::int32_t next = domain.across(faces[f], k); next >= 0) faces.push_back(next);
+  sort_once(faces);
 }
 
 }  // namespace
@@ -142,42 +172,6 @@ std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const
       feet.push_back(e.surface.at(there, p));
   return feet;
 }
-
-namespace {
-
-void sort_once(std::vector<std::int32_t>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
-// All faces that a point lies in, ascending.
-std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at) {
-  const Chart chart = domain.chart();
-  std::vector<std::int32_t> faces{at.face};
-  for (int k = 0; k < chart.corners(); ++k)
-    if (chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0)
-      faces.push_back(domain.across(at.face, k));
-  if (const int k = chart.corner_at(at.l); k >= 0)
-    for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) faces.push_back(f);
-  sort_once(faces);
-  return faces;
-}
-
-// How many they are, or 2 where the point is no corner.
-std::size_t count_faces(const Domain& domain, const FacePoint& at) {
-  const int k = domain.chart().corner_at(at.l);
-  return k < 0 ? 2 : domain.faces_at(domain.vertex(at.face, k)).size();
-}
-
-void add_neighbours(const Domain& domain, std::vector<std::int32_t>& faces) {
-  const std::size_t known = faces.size();
-  for (std::size_t f = 0; f < known; ++f)
-    for (int k = 0; k < domain.chart().corners(); ++k)
-      if (const std::int32_t next = domain.across(faces[f], k); next >= 0) faces.push_back(next);
-  sort_once(faces);
-}
-
-}  // namespace
 
 PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32_t, 3>& points) {
   PlacedTriangle placed;

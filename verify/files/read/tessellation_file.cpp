@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "data/error.h"
-#include "data/io/polygon_soup.h"
 
 namespace limitcheck::verify {
 

@@ -13,7 +13,7 @@
 
 #include <string>
 
-#include "verify/peers/refining_subject.h"
+#include "verify/peers/refinement_tracker.h"
 
 namespace {
 

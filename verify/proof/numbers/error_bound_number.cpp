@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/proof/numbers/error_bound_number.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

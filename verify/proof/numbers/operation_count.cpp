@@ -2,7 +2,6 @@
 #include "verify/proof/numbers/operation_count.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <compare>
 #include <concepts>

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "data/cut_out.h"
 #include "data/error.h"

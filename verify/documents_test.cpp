@@ -40,13 +40,23 @@ TEST(Documents, LinkOnlyToWhatIsThere) {
       EXPECT_TRUE(fs::exists(page.parent_path() / (*m)[1].str()))
           << page.lexically_relative(root) << " links to " << (*m)[1];
   };
-  look(root / "README.md");
+  for (const char* page : {"README.md", "CHANGELOG.md", "CONTRIBUTING.md"}) look(root / page);
   for (const char* folder : {".github", "bench", "data", "fast", "papers", "reference", "verify"})
     for (auto entry = fs::recursive_directory_iterator(root / folder); entry != fs::end(entry); ++entry) {
       if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
       if (entry->path().extension() == ".md") look(entry->path());
     }
   EXPECT_GT(links, 20);
+}
+
+// The version stands in CMakeLists.txt; what forges read must repeat it.
+TEST(Documents, TheCitationAndTheChangelogAreOfThisVersion) {
+  const std::string citation = page("CITATION.cff"), changelog = page("CHANGELOG.md");
+  EXPECT_TRUE(says(citation, "\nversion: " LIMITCHECK_VERSION "\n"));
+  static const std::regex cut("\n## " LIMITCHECK_VERSION " — ([0-9-]+)\n");
+  std::smatch date;
+  ASSERT_TRUE(std::regex_search(changelog, date, cut));
+  EXPECT_TRUE(says(citation, "date-released: \"" + date[1].str() + "\""));
 }
 
 // Each built-in subject has its place in the table, with the schemes that it says it does.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/audit.h"
 
+#include <malloc.h>
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -237,7 +239,10 @@ void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bo
 }
 
 void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vector<Result>& results) {
-  if (cached_mesh_ != mesh.name) cache_.clear();
+  if (cached_mesh_ != mesh.name) {
+    cache_.clear();
+    malloc_trim(0);  // the heaps of many threads keep what they had, gigabytes in the end
+  }
   cached_mesh_ = mesh.name;
   const Rows rows{audited.label(), mesh.name, results};
   if (is_oracle(audited)) {

@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include "commit.h"
 #include "data/error.h"
 #include "verify/cli/commands.h"
 #include "verify/host/in_turns.h"
@@ -156,7 +157,7 @@ int run(int argc, char** argv) {
   CLI::App app{
       "limitcheck: is a tessellator of subdivision surfaces right, by how much is it not, and how fast is "
       "it?"};
-  app.set_version_flag("--version", "limitcheck " LIMITCHECK_VERSION);
+  app.set_version_flag("--version", "limitcheck " LIMITCHECK_VERSION LIMITCHECK_COMMIT);
   app.require_subcommand(1);
   app.footer(
       "First steps: limitcheck check mesh.obj; limitcheck audit mesh.obj; limitcheck COMMAND --help. "

@@ -142,6 +142,8 @@ void add_manual(CLI::App& app, int& exit_code) {
         for (const CLI::App* c : commands(app)) std::cout << synopsis(*c);
       else if (line == "@COMMANDS@")
         for (const CLI::App* c : commands(app)) std::cout << section(*c, app.get_footer());
+      else if (const std::size_t at = line.find("@VERSION@"); at != std::string::npos)
+        std::cout << line.replace(at, 9, LIMITCHECK_VERSION) << "\n";
       else
         std::cout << line << "\n";
     }

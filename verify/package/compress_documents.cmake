@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: MIT
-# Within cpack: the manual page and the change log, compressed as Debian's policy asks.
-foreach(document share/man/man1/limitcheck.1 share/doc/limitcheck/changelog)
-  execute_process(COMMAND gzip -9nf "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/${document}" COMMAND_ERROR_IS_FATAL ANY)
-endforeach()
+# Within cpack: the manual page and the change logs, compressed as Debian's policy asks.
+file(GLOB_RECURSE documents "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/*/limitcheck.1" "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/*/changelog")
+execute_process(COMMAND gzip -9nf ${documents} COMMAND_ERROR_IS_FATAL ANY)

@@ -4,6 +4,7 @@
 # include and what these include; verify/package installs them.
 include_guard(GLOBAL)
 include(GNUInstallDirs)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)  # but for the program and what belongs to it
 set(LIMITCHECK_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/limitcheck)
 
 function(limitcheck_package component)
@@ -23,6 +24,7 @@ endfunction()
 # Definitions for tests that use installed_test.h.
 set(LIMITCHECK_INSTALLED_TEST
   LIMITCHECK_PROGRAM="$<TARGET_FILE:limitcheck>"
+  LIMITCHECK_VERSION="${PROJECT_VERSION}"
   LIMITCHECK_BINARY_DIR="${PROJECT_BINARY_DIR}"
   LIMITCHECK_CMAKE="${CMAKE_COMMAND}"
   LIMITCHECK_CXX="${CMAKE_CXX_COMPILER}"

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What `cmake --install` gives to other projects: it builds there, with nothing more than it needs.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "verify/package/installed_test.h"
 
@@ -137,24 +139,44 @@ TEST_F(Components, AreAllThatCanBeHadWhereNoneIsNamed) {
   EXPECT_EQ(o.code, 0) << o.err;
 }
 
-// As it comes out of `cpack`; unpacked, not installed, so that the test needs no rights.
-TEST_F(DebianPackage, HoldsAProgramThatRunsAndSaysItsLicence) {
+// As they come out of `cpack`; unpacked, not installed, so that the test needs no rights.
+TEST_F(DebianPackage, OfTheProgramRunsAndSaysItsLicence) {
   const Outcome made = shell("cpack --config '" LIMITCHECK_BINARY_DIR "/CPackConfig.cmake' -B .");
   ASSERT_EQ(made.code, 0) << made.out << made.err;
-  const std::string depends = shell("dpkg-deb -f limitcheck_0.1.0_*.deb Depends").out;
+  const std::string depends = shell("dpkg-deb -f limitcheck_*.deb Depends").out;
   for (const char* needed : {"libtbb12", "libosdcpu3.5.0", "libflint-arb2", "libc6"})
     EXPECT_TRUE(says(depends, needed));
   EXPECT_FALSE(says(depends, "-dev"));
+  EXPECT_FALSE(says(shell("dpkg-deb -f limitcheck_*.deb Maintainer").out, "nobody"));
 
-  ASSERT_EQ(shell("dpkg-deb -x limitcheck_0.1.0_*.deb root").code, 0);
-  EXPECT_EQ(shell("root/usr/bin/limitcheck --version").out, "limitcheck 0.1.0\n");
+  ASSERT_EQ(shell("dpkg-deb -x limitcheck_*.deb root").code, 0);
+  const std::string version = shell("root/usr/bin/limitcheck --version").out;
+  EXPECT_TRUE(version.starts_with("limitcheck " LIMITCHECK_VERSION)) << version;
   for (const char* file :
-       {"include/limitcheck/subject.h", "share/man/man1/limitcheck.1.gz",
+       {"libexec/limitcheck/limitcheck-worker", "share/man/man1/limitcheck.1.gz",
         "share/bash-completion/completions/limitcheck", "share/doc/limitcheck/changelog.gz"})
     EXPECT_TRUE(fs::exists(folder_ / "root/usr" / file)) << file;
+  EXPECT_FALSE(fs::exists(folder_ / "root/usr/include"));
   const std::string copyright = read("root/usr/share/doc/limitcheck/copyright");
   ASSERT_TRUE(says(copyright, "Files: usr/bin/limitcheck\n"));
   EXPECT_TRUE(says(copyright.substr(copyright.find("Files: usr/bin/limitcheck\n")), "License: GPL-3+\n"));
+
+  // The libraries: for CMake, and for whoever has pkg-config alone.
+  ASSERT_EQ(shell("dpkg-deb -x liblimitcheck-dev_*.deb lib").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "lib/usr/bin"));
+  EXPECT_TRUE(fs::exists(folder_ / "lib/usr/share/doc/liblimitcheck-dev/copyright"));
+  EXPECT_TRUE(fs::exists(folder_ / "lib/usr/share/doc/liblimitcheck-dev/changelog.gz"));
+  const std::string flags =
+      "PKG_CONFIG_PATH=$(dirname $(find lib -name limitcheck-fast.pc)) pkg-config "
+      "--define-variable=prefix=$PWD/lib/usr --cflags --libs ";
+  for (const auto& [library, source] :
+       {std::pair{"fast", "fast/tessellate.cpp"}, {"reference", "reference/true_point.cpp"}}) {
+    const Outcome o =
+        shell(fmt::format("flags=$({}limitcheck-{}) && {} -std=c++20 -fPIE '{}' $flags -o {}", flags, library,
+                          LIMITCHECK_CXX, (kConsumers / source).string(), library));
+    EXPECT_EQ(o.code, 0) << o.err;
+  }
+  EXPECT_TRUE(says(shell("./reference").out, "certified: 0.149691358024691358024691358025 "));
 }
 
 }  // namespace
